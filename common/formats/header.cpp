@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/header.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "common/errors.hpp"
+
+namespace fastjoint::formats {
+namespace {
+
+std::string power(const std::string& label, int exponent) {
+  return exponent == 1 ? label : fmt::format("{}^{}", label, exponent);
+}
+
+}  // namespace
+
+std::string unit(const Units& units, int length_power, int force_power) {
+  const std::string length = units.length.empty() ? "length" : units.length;
+  const std::string force = units.force.empty() ? "force" : units.force;
+  std::vector<std::string> above;
+  std::string below;
+  for (const auto& [label, exponent] : {std::pair{force, force_power}, std::pair{length, length_power}}) {
+    if (exponent > 0) above.push_back(power(label, exponent));
+    if (exponent < 0) below += "/" + power(label, std::abs(exponent));
+  }
+  if (above.empty()) return "1" + below;
+  return (above.size() == 2 ? above[0] + " " + above[1] : above[0]) + below;
+}
+
+void write_header(h5::Writer& file, const Header& header) {
+  const nlohmann::json units = {{"length", header.units.length}, {"force", header.units.force}};
+  file.attribute("generator", header.generator);
+  file.attribute("name", header.name);
+  file.attribute("units", units.dump());
+  file.write("input", header.input, {"1", "JSON text that this file came from"});
+}
+
+Header read_header(const h5::Reader& file) {
+  Header header;
+  header.generator = file.attribute("generator", "");
+  header.name = file.attribute("name", "");
+  if (file.has("input")) header.input = file.text("input");
+  const std::string units = file.attribute("units", R"({"length": "", "force": ""})");
+  const auto json = nlohmann::json::parse(units, nullptr, false);
+  const auto label = [&](const char* key) -> std::string {
+    if (!json.is_object() || !json.contains(key) || !json[key].is_string())
+      throw FileError(fmt::format("{}: attribute 'units' is '{}', expected {{\"length\": \"...\", \"force\": \"...\"}}",
+                                  file.path(), units));
+    return json[key];
+  };
+  header.units = {label("length"), label("force")};
+  return header;
+}
+
+}  // namespace fastjoint::formats

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "common/h5/reader.hpp"
+#include "common/h5/writer.hpp"
+
+namespace fastjoint::formats {
+
+/// Labels of the user's consistent set of units; empty where the file has none.
+struct Units {
+  std::string length;
+  std::string force;
+  friend bool operator==(const Units&, const Units&) = default;
+};
+
+/// length^l force^f as a label: "in^2", "lbf/in", "lbf/in^3"; "1" if dimensionless. Every unit attribute comes from here.
+[[nodiscard]] std::string unit(const Units& units, int length_power, int force_power);
+
+/// What every file says of itself.
+struct Header {
+  std::string generator;  ///< program and version
+  std::string name;       ///< of the plate or joint
+  Units units;
+  std::string input;  ///< JSON text that it came from
+};
+
+void write_header(h5::Writer& file, const Header& header);
+[[nodiscard]] Header read_header(const h5::Reader& file);
+
+}  // namespace fastjoint::formats

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/joint_result.hpp"
+
+namespace fastjoint::formats {
+namespace {
+
+constexpr const char* format = "joint-result";
+constexpr int major = 1;
+constexpr int minor = 0;
+
+/// (steps, n) twice as (steps, n, 2).
+std::vector<Eigen::MatrixXd> paired(const Eigen::MatrixXd& first, const Eigen::MatrixXd& second) {
+  std::vector<Eigen::MatrixXd> stack;
+  for (Eigen::Index step = 0; step < first.rows(); ++step) {
+    stack.emplace_back(first.cols(), 2);
+    stack.back() << first.row(step).transpose(), second.row(step).transpose();
+  }
+  return stack;
+}
+
+void write_plate(h5::Writer& file, const PlateHistory& plate, const Units& units) {
+  const std::string group = "plates/" + plate.name + "/";
+  file.write(group + "disc/hole", plate.disc_hole, {"1", "hole of each disc unknown"});
+  file.write(group + "disc/direction", plate.disc_direction, {"1", "direction of each disc unknown"});
+  file.write(group + "external/id", plate.external_id, {"1", "external boundaries that move as one"});
+  file.write(group + "D", plate.D, {unit(units, 1, 0), "disc displacement"});
+  file.write(group + "De", plate.De, {unit(units, 1, 0), "displacement of the external boundary"});
+  file.write(group + "Pe", plate.Pe, {unit(units, 0, 1), "force on the external boundary"});
+}
+
+PlateHistory read_plate(const h5::Reader& file, const std::string& name, Eigen::Index steps, const Units& units) {
+  const std::string group = "plates/" + name + "/";
+  PlateHistory plate;
+  plate.name = name;
+  plate.disc_hole = file.strings(group + "disc/hole", h5::any);
+  const auto m = static_cast<Eigen::Index>(plate.disc_hole.size());
+  plate.disc_direction = file.strings(group + "disc/direction", m);
+  plate.external_id = file.strings(group + "external/id", h5::any);
+  const auto e = static_cast<Eigen::Index>(plate.external_id.size());
+  plate.D = file.matrix(group + "D", steps, m, unit(units, 1, 0));
+  plate.De = file.matrix(group + "De", steps, e, unit(units, 1, 0));
+  plate.Pe = file.matrix(group + "Pe", steps, e, unit(units, 0, 1));
+  return plate;
+}
+
+}  // namespace
+
+void write(const std::string& path, const JointResult& a) {
+  const Units& units = a.header.units;
+  const std::string force = unit(units, 0, 1);
+  h5::Writer file(path, format, major, minor);
+  write_header(file, a.header);
+  file.attribute("complete", a.complete ? 1 : 0);
+  file.write("load_factor", a.load_factor, {"1", "share of the loads that acts at this increment"});
+  file.write("converged", a.converged, {"1", "1 where the increment converged"});
+  file.write("iterations", a.iterations, {"1", "iterations of the nonlinear solver, failed tries included"});
+  file.write("residual", a.residual, {"1", "largest residual, relative to the largest force"});
+  file.write("fastener/id", a.fastener_id, {"1", "fasteners in the order of the input"});
+  file.write("delta", a.delta, {unit(units, 1, 0), "displacement of the first plate's disc relative to the second's"});
+  file.write("F", a.F, {force, "bearing force, argument of the fastener's law"});
+  file.write("transferred", paired(a.transferred_first, a.transferred_second), a.F.cols(), 2,
+             {force, "F + friction resultant on the first and on the second plate"});
+  std::vector<std::string> names;
+  for (const auto& plate : a.plates) names.push_back(plate.name);
+  file.write("plate/name", names, {"1", "plates of the joint; group plates/<name> holds what each did"});
+  for (const auto& plate : a.plates) write_plate(file, plate, units);
+  file.commit();
+}
+
+JointResult read_joint_result(const std::string& path) {
+  const h5::Reader file(path, format, major);
+  JointResult a;
+  a.header = read_header(file);
+  a.complete = file.integer_attribute("complete") == 1;
+  const Units& units = a.header.units;
+  a.load_factor = file.vector("load_factor", h5::any, "1");
+  const auto steps = a.load_factor.size();
+  a.converged = file.integers("converged", steps);
+  a.iterations = file.integers("iterations", steps);
+  a.residual = file.vector("residual", steps, "1");
+  a.fastener_id = file.strings("fastener/id", h5::any);
+  const auto n = static_cast<Eigen::Index>(a.fastener_id.size());
+  a.delta = file.matrix("delta", steps, n, unit(units, 1, 0));
+  a.F = file.matrix("F", steps, n, unit(units, 0, 1));
+  a.transferred_first.resize(steps, n);
+  a.transferred_second.resize(steps, n);
+  Eigen::Index step = 0;
+  for (const auto& pair : file.stack("transferred", steps, n, 2, unit(units, 0, 1))) {
+    a.transferred_first.row(step) = pair.col(0).transpose();
+    a.transferred_second.row(step++) = pair.col(1).transpose();
+  }
+  for (const auto& name : file.strings("plate/name", h5::any)) a.plates.push_back(read_plate(file, name, steps, units));
+  return a;
+}
+
+}  // namespace fastjoint::formats

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/plate_matrices.hpp"
+
+#include <limits>
+
+namespace fastjoint::formats {
+namespace {
+
+constexpr const char* format = "plate-matrices";
+constexpr int major = 1;
+constexpr int minor = 0;
+
+/// A stack that is missing altogether is one of zero-width matrices.
+std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,
+                                          Eigen::Index rows, Eigen::Index cols, const std::string& unit) {
+  if (!file.has(dataset) && rows * cols == 0)
+    return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Zero(rows, cols));
+  return file.stack(dataset, n, rows, cols, unit);
+}
+
+Eigen::MatrixXd error_if_any(const h5::Reader& file, const char* dataset, Eigen::Index rows, Eigen::Index cols,
+                             const std::string& unit) {
+  if (file.has(dataset)) return file.matrix(dataset, rows, cols, unit);
+  return Eigen::MatrixXd::Constant(rows, cols, std::numeric_limits<double>::infinity());
+}
+
+std::vector<std::string> strings_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n) {
+  return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>{};
+}
+
+void write_names(h5::Writer& file, const PlateMatrices& a) {
+  file.write("p", a.p, {"1", "polynomial degree of the trunk space"});
+  file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
+  file.write("disc/hole", a.disc_hole, {"1", "hole of each disc unknown"});
+  file.write("disc/direction", a.disc_direction, {"1", "direction of each disc unknown, x or y"});
+  file.write("external/id", a.external_id, {"1", "external boundaries that move as one"});
+  file.write("traction/id", a.traction_id, {"1", "external boundaries under uniform traction"});
+  file.write("friction/hole", a.friction_hole, {"1", "hole of each friction case"});
+  file.write("friction/bearing", a.friction_bearing, {"1", "side of the rim that bears: +x, -x, +y or -y"});
+}
+
+void write_stiffness(h5::Writer& file, const PlateMatrices& a, const std::string& stiffness) {
+  const auto e = a.n_externals();
+  const auto m = a.n_discs();
+  file.write("S_ee", a.S_ee, e, e, {stiffness, "force on external i per displacement of external j"});
+  file.write("S_ed", a.S_ed, e, m, {stiffness, "force on external i per displacement of disc j"});
+  file.write("S_dd", a.S_dd, m, m, {stiffness, "force on disc i per displacement of disc j"});
+  file.write("S_ee_error", a.S_ee_error, {stiffness, "estimated absolute error of S_ee at the highest p"});
+  file.write("S_ed_error", a.S_ed_error, {stiffness, "estimated absolute error of S_ed at the highest p"});
+  file.write("S_dd_error", a.S_dd_error, {stiffness, "estimated absolute error of S_dd at the highest p"});
+}
+
+}  // namespace
+
+void write(const std::string& path, const PlateMatrices& a) {
+  const Units& units = a.header.units;
+  const std::string area = unit(units, 2, 0);
+  const auto e = a.n_externals();
+  const auto m = a.n_discs();
+  const auto h = a.n_friction_cases();
+  const auto q = a.n_tractions();
+  h5::Writer file(path, format, major, minor);
+  write_header(file, a.header);
+  write_names(file, a);
+  file.write("friction/unit_force", a.friction_unit_force, {area, "bearing force per unit peak contact stress"});
+  file.write("friction/resultant", a.friction_resultant,
+             {area, "resultant along the direction of a unit friction case, signed"});
+  write_stiffness(file, a, unit(units, -1, 1));
+  file.write("R_ef", a.R_ef, e, h, {area, "force that holds external i per unit friction case j"});
+  file.write("R_df", a.R_df, m, h, {area, "force that holds disc i per unit friction case j"});
+  file.write("T_d", a.T_d, m, q, {"1", "force that holds disc i per unit total force on traction boundary j"});
+  file.write("T_e", a.T_e, e, q, {"1", "force that holds external i per unit total force on traction boundary j"});
+  file.write("C_t", a.C_t, q, q,
+             {unit(units, 1, -1), "mean displacement of traction boundary i per unit total force on j, all else held"});
+  file.commit();
+}
+
+PlateMatrices read_plate_matrices(const std::string& path) {
+  const h5::Reader file(path, format, major);
+  PlateMatrices a;
+  a.header = read_header(file);
+  a.p = file.integers("p", h5::any);
+  const auto np = a.p.size();
+  a.ndof = file.has("ndof") ? file.integers("ndof", np) : Eigen::VectorXi::Zero(np);
+  a.disc_hole = file.strings("disc/hole", h5::any);
+  const auto m = a.n_discs();
+  a.disc_direction = file.strings("disc/direction", m);
+  a.external_id = strings_if_any(file, "external/id", h5::any);
+  a.traction_id = strings_if_any(file, "traction/id", h5::any);
+  a.friction_hole = strings_if_any(file, "friction/hole", h5::any);
+  const auto e = a.n_externals();
+  const auto q = a.n_tractions();
+  const auto h = a.n_friction_cases();
+  a.friction_bearing = strings_if_any(file, "friction/bearing", h);
+  const std::string area = unit(a.header.units, 2, 0);
+  a.friction_unit_force = h > 0 ? file.vector("friction/unit_force", h, area) : Eigen::VectorXd();
+  a.friction_resultant = h > 0 ? file.vector("friction/resultant", h, area) : Eigen::VectorXd();
+  const std::string stiffness = unit(a.header.units, -1, 1);
+  a.S_ee = stack_if_any(file, "S_ee", np, e, e, stiffness);
+  a.S_ed = stack_if_any(file, "S_ed", np, e, m, stiffness);
+  a.S_dd = file.stack("S_dd", np, m, m, stiffness);
+  a.S_ee_error = error_if_any(file, "S_ee_error", e, e, stiffness);
+  a.S_ed_error = error_if_any(file, "S_ed_error", e, m, stiffness);
+  a.S_dd_error = error_if_any(file, "S_dd_error", m, m, stiffness);
+  a.R_ef = stack_if_any(file, "R_ef", np, e, h, area);
+  a.R_df = stack_if_any(file, "R_df", np, m, h, area);
+  a.T_d = stack_if_any(file, "T_d", np, m, q, "1");
+  a.T_e = stack_if_any(file, "T_e", np, e, q, "1");
+  a.C_t = stack_if_any(file, "C_t", np, q, q, unit(a.header.units, 1, -1));
+  return a;
+}
+
+}  // namespace fastjoint::formats

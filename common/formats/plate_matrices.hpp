@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/formats/header.hpp"
+
+namespace fastjoint::formats {
+
+/// Everything linear about one sheet, for every degree p (schemas/plate-matrices.md).
+///
+/// np degrees, e rigid externals, m discs (hole x direction), h friction cases (hole, direction, bearing + then -),
+/// q tractions. Forces are those that must act on the sheet from outside:
+///   (P, F) = S (D_e, D) + R Lambda + T f.
+struct PlateMatrices {
+  Header header;
+  Eigen::VectorXi p, ndof;                                  ///< (np)
+  std::vector<std::string> disc_hole, disc_direction;       ///< (m)
+  std::vector<std::string> external_id;                     ///< (e)
+  std::vector<std::string> traction_id;                     ///< (q)
+  std::vector<std::string> friction_hole, friction_bearing;  ///< (h); bearing is "+x", "-x", "+y", "-y"
+  Eigen::VectorXd friction_unit_force;  ///< (h) c: bearing force per unit peak contact stress, length^2
+  Eigen::VectorXd friction_resultant;   ///< (h) resultant along the direction of a unit case, signed, length^2
+  std::vector<Eigen::MatrixXd> S_ee, S_ed, S_dd;  ///< np x (e,e), (e,m), (m,m), force / length
+  std::vector<Eigen::MatrixXd> R_ef, R_df;        ///< np x (e,h), (m,h), length^2
+  std::vector<Eigen::MatrixXd> T_d, T_e;          ///< np x (m,q), (e,q), dimensionless
+  std::vector<Eigen::MatrixXd> C_t;               ///< np x (q,q), length / force
+  /// Estimated absolute error at the highest p; infinite where one p alone says nothing of it.
+  Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
+
+  [[nodiscard]] Eigen::Index n_externals() const { return static_cast<Eigen::Index>(external_id.size()); }
+  [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(disc_hole.size()); }
+  [[nodiscard]] Eigen::Index n_friction_cases() const { return static_cast<Eigen::Index>(friction_hole.size()); }
+  [[nodiscard]] Eigen::Index n_tractions() const { return static_cast<Eigen::Index>(traction_id.size()); }
+};
+
+/// Throws FileError; what was at `path` before survives.
+void write(const std::string& path, const PlateMatrices& matrices);
+
+/// Reads all of it. `p`, `disc/hole`, `disc/direction` and `S_dd` must stand in the file; groups that a hand-made
+/// file leaves out (external, friction, traction, errors) are taken as empty.
+[[nodiscard]] PlateMatrices read_plate_matrices(const std::string& path);
+
+}  // namespace fastjoint::formats

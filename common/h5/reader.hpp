@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace fastjoint::h5 {
+
+/// Any extent will do.
+inline constexpr Eigen::Index any = -1;
+
+/// An HDF5 file opened for reading, whose kind and major version are checked before anything else.
+///
+/// Every read checks type class, rank, shape, unit and digest and throws FileError with the file, the dataset,
+/// what was found and what was expected. A dataset without `unit` or `digest` is taken as it is: files written by
+/// hand (a laboratory's matrices) need not carry them.
+class Reader {
+ public:
+  Reader(std::string path, const std::string& format, int major);
+  ~Reader();
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+
+  [[nodiscard]] const std::string& path() const;
+  [[nodiscard]] bool has(const std::string& dataset) const;
+  /// Root attribute, or `otherwise` if the file has none of that name.
+  [[nodiscard]] std::string attribute(const std::string& name, const std::string& otherwise) const;
+  [[nodiscard]] int integer_attribute(const std::string& name) const;
+
+  [[nodiscard]] Eigen::VectorXd vector(const std::string& dataset, Eigen::Index n, const std::string& unit) const;
+  [[nodiscard]] Eigen::MatrixXd matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols,
+                                       const std::string& unit) const;
+  /// Shape (n, rows, cols) as n matrices.
+  [[nodiscard]] std::vector<Eigen::MatrixXd> stack(const std::string& dataset, Eigen::Index n, Eigen::Index rows,
+                                                   Eigen::Index cols, const std::string& unit) const;
+  /// Inverse of Writer::write_transposed: a dataset of shape (cols, rows) as a matrix of (rows, cols).
+  [[nodiscard]] Eigen::MatrixXd transposed(const std::string& dataset, Eigen::Index cols, Eigen::Index rows,
+                                           const std::string& unit) const;
+  [[nodiscard]] Eigen::VectorXi integers(const std::string& dataset, Eigen::Index n) const;
+  [[nodiscard]] Eigen::MatrixXi integer_matrix(const std::string& dataset, Eigen::Index rows,
+                                               Eigen::Index cols) const;
+  [[nodiscard]] std::vector<std::string> strings(const std::string& dataset, Eigen::Index n) const;
+  [[nodiscard]] std::string text(const std::string& dataset) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace fastjoint::h5

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace fastjoint::h5 {
+
+/// Puts `bytes` at `path` whole or not at all: a temporary file beside it, fsync, rename.
+/// What was at `path` before survives every failure. Throws FileError with the path and the reason.
+void write_whole_file(const std::string& path, std::string_view bytes);
+
+/// Throws FileError unless a file could be put at `path`: asked before the work, not after it.
+void check_can_write(const std::string& path);
+
+}  // namespace fastjoint::h5

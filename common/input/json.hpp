@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+namespace fastjoint::input {
+
+/// A JSON text, parsed. Duplicate keys are refused; // and /* */ comments are allowed.
+struct Document {
+  std::string file;  ///< name for messages
+  std::string text;  ///< as read
+  std::shared_ptr<const nlohmann::json> root;
+};
+
+/// Throws InputError naming the file, line and column of the first mistake.
+[[nodiscard]] Document parse(const std::string& file, const std::string& text);
+
+}  // namespace fastjoint::input

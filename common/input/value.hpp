@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <initializer_list>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/input/json.hpp"
+
+namespace fastjoint::input {
+
+/// Which numbers are allowed; infinite limits are open.
+struct Range {
+  double low = -std::numeric_limits<double>::infinity();
+  double high = std::numeric_limits<double>::infinity();
+  bool low_allowed = true;
+  bool high_allowed = true;
+};
+inline constexpr Range any_number{};
+inline constexpr Range positive{.low = 0, .low_allowed = false};
+inline constexpr Range not_negative{.low = 0};
+
+/// A JSON value and where it stands. Every accessor is strict: what is not allowed throws InputError with
+/// the file, the JSON pointer, what was found and what is allowed.
+class Value {
+ public:
+  explicit Value(const Document& document);
+
+  [[nodiscard]] bool is_object() const;
+  [[nodiscard]] bool is_array() const;
+  [[nodiscard]] bool is_number() const;
+  [[nodiscard]] bool is_string() const;
+
+  /// Checks that this is an object with no other keys than these.
+  const Value& only(std::initializer_list<const char*> allowed) const;
+  [[nodiscard]] Value at(const char* key) const;
+  [[nodiscard]] std::optional<Value> find(const char* key) const;
+  /// Members of an object in the order of their names; keys must not be empty.
+  [[nodiscard]] std::vector<std::pair<std::string, Value>> members() const;
+  /// Elements of an array that holds at least `least` and at most `most`.
+  [[nodiscard]] std::vector<Value> items(std::size_t least = 0,
+                                         std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+
+  [[nodiscard]] double number(const Range& range = any_number) const;
+  [[nodiscard]] std::vector<double> numbers(std::size_t least, std::size_t most, const Range& range) const;
+  [[nodiscard]] int integer(int low, int high) const;
+  [[nodiscard]] bool boolean() const;
+  /// A string that is not empty.
+  [[nodiscard]] std::string text() const;
+  /// One of these strings.
+  [[nodiscard]] std::string choice(const std::vector<std::string>& allowed) const;
+
+  /// "FILE: POINTER: `found`; allowed: `allowed`"
+  [[noreturn]] void fail(const std::string& found, const std::string& allowed) const;
+  /// The same for a value that is itself what was found.
+  [[noreturn]] void not_allowed(const std::string& allowed) const;
+  [[nodiscard]] const std::string& pointer() const { return pointer_; }
+
+ private:
+  Value(const Value& parent, const nlohmann::json& json, const std::string& key);
+  [[nodiscard]] std::string shown() const;
+
+  std::string file_;
+  std::string pointer_;
+  std::shared_ptr<const nlohmann::json> root_;
+  const nlohmann::json* json_;
+};
+
+/// Checks `"format": format, "version": 1` and lets `"$schema"` stand.
+void check_format(const Value& root, const std::string& format);
+
+}  // namespace fastjoint::input

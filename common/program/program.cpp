@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/program/program.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+#include <new>
+#include <optional>
+
+#include "common/errors.hpp"
+#include "common/h5/library.hpp"
+#include "common/h5/whole_file.hpp"
+#include "common/program/version.hpp"
+
+namespace fastjoint::program {
+namespace {
+
+namespace fs = std::filesystem;
+
+enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, numerical_failure = 4 };
+
+/// Nothing if all the user wanted was --help or --version.
+std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
+  Arguments arguments;
+  CLI::App app(command.summary, command.name);
+  app.set_version_flag("--version", generator(command.name));
+  app.add_option("input", arguments.input, command.input)->required()->type_name("")->option_text(command.input);
+  app.add_option("-o,--output", arguments.output, "file to write")->required()->option_text(command.output);
+  for (const auto& option : command.options) {
+    const auto keep = [&arguments, name = option.name](const std::string& text) { arguments.options[name] = text; };
+    app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
+  }
+  app.add_flag("--quiet", arguments.quiet, "print no summary");
+  app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage or input, 3 bad file, 4 numerical failure.");
+  try {
+    app.parse(argc, argv);
+    return arguments;
+  } catch (const CLI::Success& e) {
+    app.exit(e, std::cout);
+    return std::nullopt;
+  } catch (const CLI::ParseError& e) {
+    throw InputError(fmt::format("{}; see --help", e.what()));
+  }
+}
+
+void check_paths(const Arguments& arguments) {
+  std::error_code ignored;
+  if (fs::equivalent(arguments.input, arguments.output, ignored))
+    throw InputError(fmt::format("-o {}: is the input file; choose another name", arguments.output));
+  h5::check_can_write(arguments.output);
+}
+
+int report(const std::string& program, const char* what, Status status) {
+  std::cout.flush();
+  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ") << what << "\n";
+  return status;
+}
+
+}  // namespace
+
+int Arguments::integer(const std::string& name, int low, int high, int otherwise) const {
+  const std::string given = text(name);
+  if (given.empty()) return otherwise;
+  int value = 0;
+  const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
+  if (error != std::errc() || end != given.data() + given.size() || value < low || value > high)
+    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: an integer from {} to {}", name, given, low, high));
+  return value;
+}
+
+std::string Arguments::text(const std::string& name) const {
+  const auto found = options.find(name);
+  return found == options.end() ? "" : found->second;
+}
+
+std::string generator(const std::string& program) { return fmt::format("{} {}", program, program_version); }
+
+int run(const Command& command, int argc, char** argv, const std::function<void(const Arguments&)>& body) {
+  h5::take_over_error_reporting();
+  try {
+    if (const auto arguments = parse(command, argc, argv)) {
+      check_paths(*arguments);
+      body(*arguments);
+    }
+    return done;
+  } catch (const InputError& e) {
+    return report(command.name, e.what(), invalid_input);
+  } catch (const FileError& e) {
+    return report(command.name, e.what(), bad_file);
+  } catch (const NumericalError& e) {
+    return report(command.name, e.what(), numerical_failure);
+  } catch (const std::bad_alloc&) {
+    return report(command.name, "out of memory: the model is too large for this machine", numerical_failure);
+  } catch (const std::exception& e) {
+    return report(command.name, e.what(), internal_error);
+  }
+}
+
+}  // namespace fastjoint::program

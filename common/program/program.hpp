@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace fastjoint::program {
+
+/// One row of a program's options: used for parsing, for --help and by the test of the README's table.
+struct Option {
+  std::string name;     ///< with its dashes, "--p"
+  std::string value;    ///< what stands for the value in --help, empty for a flag
+  std::string help;     ///< one line
+};
+
+/// What the three programs differ in; `INPUT -o OUTPUT --quiet --help --version` all have.
+struct Command {
+  std::string name;
+  std::string summary;
+  std::string input;   ///< "PLATE.json"
+  std::string output;  ///< "PLATE.h5"
+  std::vector<Option> options;
+};
+
+/// The user's words, parsed.
+struct Arguments {
+  std::string input;
+  std::string output;
+  bool quiet = false;
+  std::map<std::string, std::string> options;  ///< only those that were given
+
+  /// Value of an integer option within [low, high], or `otherwise`. Throws InputError.
+  [[nodiscard]] int integer(const std::string& name, int low, int high, int otherwise) const;
+  /// Value of an option or "".
+  [[nodiscard]] std::string text(const std::string& name) const;
+};
+
+/// Whole life of a program: parses, checks that the output can be written, runs `body`, and turns what it throws
+/// into one line on stderr and the exit status of the contract (0 done, 1 internal error, 2 wrong usage or input,
+/// 3 file, 4 numerical failure).
+int run(const Command& command, int argc, char** argv, const std::function<void(const Arguments&)>& body);
+
+/// Name and version that every file carries: "stage1_plate 1.0.0".
+[[nodiscard]] std::string generator(const std::string& program);
+
+}  // namespace fastjoint::program
