@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "common/pfem/element_map.hpp"
+#include "common/pfem/gauss.hpp"
+#include "common/pfem/trunk_space.hpp"
+
+namespace fastjoint::pfem {
+
+/// Stiffness matrices of elements of one degree p. Shape functions are tabulated once.
+class ElementStiffness {
+ public:
+  /// @param p     Degree of the trunk space.
+  /// @param extra Points added in each direction to those chosen from p and the element's shape (for tests).
+  explicit ElementStiffness(int p, int extra = 0);
+
+  /// int B^T D B t dA, equation (3a), shape (2 n_modes, 2 n_modes), force / length: first the n_modes
+  /// coefficients of u_x, then those of u_y, local signs (no edge orientation).
+  /// @param D Elasticity, (3, 3), stress. @param thickness Length.
+  [[nodiscard]] Eigen::MatrixXd operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness) const;
+
+ private:
+  struct Table {
+    Eigen::VectorXd xi, eta, w;
+    ShapeValues shape;
+  };
+  static Table tabulate(int p, int n_points);
+  Table straight_, curved_;
+};
+
+/// Smallest Jacobian determinant of an element at its integration points and vertices, over its mean.
+/// The map is one to one only if it is positive.
+[[nodiscard]] double jacobian_ratio(const ElementMap& map);
+
+}  // namespace fastjoint::pfem

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/pfem/material.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace fastjoint::pfem {
+namespace {
+
+/// Compliance between the normal stresses and strains along the material axes.
+Eigen::Matrix3d normal_compliance(const OrthotropicConstants& c) {
+  Eigen::Matrix3d s;
+  s << 1 / c.E1, -c.nu12 / c.E1, -c.nu13 / c.E1,  //
+      -c.nu12 / c.E1, 1 / c.E2, -c.nu23 / c.E2,   //
+      -c.nu13 / c.E1, -c.nu23 / c.E2, 1 / c.E3;
+  return s;
+}
+
+/// Compliance block whose inverse relates the in-plane normal stresses to strains.
+Eigen::MatrixXd compliance(const OrthotropicConstants& constants, Analysis analysis) {
+  const Eigen::Matrix3d s = normal_compliance(constants);
+  if (analysis == Analysis::plane_strain) return s;
+  return s.topLeftCorner<2, 2>();
+}
+
+}  // namespace
+
+OrthotropicConstants isotropic(double E, double nu) { return {E, E, E, nu, nu, nu, E / (2 * (1 + nu))}; }
+
+bool is_stable(const OrthotropicConstants& constants, Analysis analysis) {
+  const Eigen::MatrixXd s = compliance(constants, analysis) * constants.E1;
+  constexpr double least_pivot = 1e-9;  // nu = 0.5 in plane strain rounds to a pivot near 1e-17 of either sign
+  const Eigen::LDLT<Eigen::MatrixXd> ldlt(s);
+  return constants.G12 > 0 && ldlt.vectorD().minCoeff() > least_pivot * ldlt.vectorD().maxCoeff();
+}
+
+Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, Analysis analysis) {
+  Eigen::Matrix3d D = Eigen::Matrix3d::Zero();
+  D.topLeftCorner<2, 2>() = compliance(constants, analysis).inverse().topLeftCorner(2, 2);
+  D(2, 2) = constants.G12;
+  const double c = std::cos(angle);
+  const double s = std::sin(angle);
+  Eigen::Matrix3d T;  // engineering strains along the material axes from those along x, y
+  T << c * c, s * s, c * s,  //
+      s * s, c * c, -c * s,  //
+      -2 * c * s, 2 * c * s, c * c - s * s;
+  return T.transpose() * D * T;
+}
+
+}  // namespace fastjoint::pfem

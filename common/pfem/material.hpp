@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+namespace fastjoint::pfem {
+
+enum class Analysis { plane_stress, plane_strain };
+
+/// Material constants (3D, engineering). Isotropic materials have E1 = E2 = E3 and so on.
+struct OrthotropicConstants {
+  double E1, E2, E3;        ///< stress
+  double nu12, nu13, nu23;  ///< nu_ij = -strain_j / strain_i under stress along i
+  double G12;               ///< stress
+};
+
+[[nodiscard]] OrthotropicConstants isotropic(double E, double nu);
+
+/// Whether the strain energy is positive for every strain that the analysis knows.
+[[nodiscard]] bool is_stable(const OrthotropicConstants& constants, Analysis analysis);
+
+/// Stiffness that relates (sigma_x, sigma_y, tau_xy) to (eps_x, eps_y, gamma_xy), for material axes turned by
+/// `angle` (radians, counter-clockwise from x to axis 1). Plane stress ignores E3, nu13, nu23.
+/// Jones, Mechanics of Composite Materials, 2nd ed. 1999, sections 2.4-2.6.
+[[nodiscard]] Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, Analysis analysis);
+
+}  // namespace fastjoint::pfem

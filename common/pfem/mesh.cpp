@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/pfem/mesh.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "common/pfem/trunk_space.hpp"
+
+namespace fastjoint::pfem {
+namespace {
+
+using Ends = std::pair<int, int>;
+
+Ends sorted(int a, int b) { return std::minmax(a, b); }
+
+Ends ends_of(const Mesh& mesh, int element, int local_edge) {
+  const auto [first, second] = natural_ends(local_edge);
+  return sorted(mesh.quads(first, element), mesh.quads(second, element));
+}
+
+}  // namespace
+
+Edges find_edges(const Mesh& mesh) {
+  Edges edges;
+  edges.of_element.resize(n_local_edges, mesh.n_elements());
+  std::map<Ends, int> index;
+  for (int element = 0; element < mesh.n_elements(); ++element)
+    for (int edge = 0; edge < n_local_edges; ++edge) {
+      const auto [found, is_new] = index.try_emplace(ends_of(mesh, element, edge), static_cast<int>(index.size()));
+      if (is_new) edges.n_elements.push_back(0);
+      ++edges.n_elements[static_cast<std::size_t>(found->second)];
+      edges.of_element(edge, element) = found->second;
+    }
+  edges.nodes.resize(2, static_cast<Eigen::Index>(index.size()));
+  for (const auto& [ends, edge] : index) edges.nodes.col(edge) << ends.first, ends.second;
+  edges.arc.assign(index.size(), -1);
+  for (std::size_t i = 0; i < mesh.arcs.size(); ++i) {
+    const auto found = index.find(sorted(mesh.arcs[i].a, mesh.arcs[i].b));
+    if (found == index.end()) {
+      edges.arc_without_edge.push_back(static_cast<int>(i));
+    } else {
+      edges.arc[static_cast<std::size_t>(found->second)] = static_cast<int>(i);
+    }
+  }
+  return edges;
+}
+
+int local_edge_between(const Mesh& mesh, int element, int a, int b) {
+  for (int edge = 0; edge < n_local_edges; ++edge)
+    if (ends_of(mesh, element, edge) == sorted(a, b)) return edge;
+  return -1;
+}
+
+Curve edge_curve(const Mesh& mesh, const Edges& edges, int element, int local_edge) {
+  const auto [first, second] = natural_ends(local_edge);
+  const Eigen::Vector2d a = mesh.nodes.col(mesh.quads(first, element));
+  const Eigen::Vector2d b = mesh.nodes.col(mesh.quads(second, element));
+  const int arc = edges.arc[static_cast<std::size_t>(edges.of_element(local_edge, element))];
+  return arc < 0 ? Curve::line(a, b) : Curve::arc(a, b, mesh.arcs[static_cast<std::size_t>(arc)].center);
+}
+
+}  // namespace fastjoint::pfem

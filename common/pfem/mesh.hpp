@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "common/pfem/curve.hpp"
+
+namespace fastjoint::pfem {
+
+/// An edge between nodes a and b that is an arc about `center`.
+struct Arc {
+  int a, b;
+  Eigen::Vector2d center;
+};
+
+/// Quadrilaterals with straight or circular edges.
+struct Mesh {
+  Eigen::Matrix2Xd nodes;     ///< (2, n_nodes), length
+  Eigen::Matrix4Xi quads;     ///< (4, n_elements) nodes, counter-clockwise
+  std::vector<Arc> arcs;
+  Eigen::VectorXd thickness;  ///< (n_elements), length
+  Eigen::VectorXi material;   ///< (n_elements) index into the caller's list of materials
+
+  [[nodiscard]] int n_nodes() const { return static_cast<int>(nodes.cols()); }
+  [[nodiscard]] int n_elements() const { return static_cast<int>(quads.cols()); }
+};
+
+/// The edges of a mesh, each once, in the order in which the elements meet them.
+struct Edges {
+  Eigen::Matrix2Xi nodes;             ///< (2, n_edges), the lower node first: the edge's global direction
+  Eigen::Matrix4Xi of_element;        ///< (4, n_elements), by local edge
+  std::vector<int> arc;               ///< (n_edges) index into Mesh::arcs, or -1
+  std::vector<int> n_elements;        ///< (n_edges) how many elements share it
+  std::vector<int> arc_without_edge;  ///< arcs whose nodes no edge joins
+
+  [[nodiscard]] int size() const { return static_cast<int>(nodes.cols()); }
+};
+
+[[nodiscard]] Edges find_edges(const Mesh& mesh);
+
+/// Edge of an element by its two nodes, or -1.
+[[nodiscard]] int local_edge_between(const Mesh& mesh, int element, int a, int b);
+
+/// Curve of a local edge in its natural direction.
+[[nodiscard]] Curve edge_curve(const Mesh& mesh, const Edges& edges, int element, int local_edge);
+
+/// One side of one element.
+struct Side {
+  int element, local_edge;
+  friend bool operator==(const Side&, const Side&) = default;
+};
+
+}  // namespace fastjoint::pfem

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/pfem/rim.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include "common/pfem/trunk_space.hpp"
+
+namespace fastjoint::pfem {
+namespace {
+
+// Two points are the same, and a radius is the radius, to this share of the radius.
+constexpr double tolerance = 1e-6;
+
+bool on_circle(const Mesh& mesh, const Arc& arc, const Eigen::Vector2d& center, double radius) {
+  return (arc.center - center).norm() < tolerance * radius &&
+         std::abs((mesh.nodes.col(arc.a) - arc.center).norm() - radius) < tolerance * radius;
+}
+
+}  // namespace
+
+Rim find_rim(const Mesh& mesh, const Edges& edges, const Eigen::Vector2d& center, double radius) {
+  Rim rim{center, radius, {}};
+  for (int element = 0; element < mesh.n_elements(); ++element)
+    for (int edge = 0; edge < n_local_edges; ++edge) {
+      const auto global = static_cast<std::size_t>(edges.of_element(edge, element));
+      const int arc = edges.arc[global];
+      if (arc >= 0 && edges.n_elements[global] == 1 &&
+          on_circle(mesh, mesh.arcs[static_cast<std::size_t>(arc)], center, radius))
+        rim.sides.push_back({element, edge});
+    }
+  return rim;
+}
+
+double covered_angle(const Mesh& mesh, const Edges& edges, const Rim& rim) {
+  double sum = 0;
+  for (const auto& side : rim.sides) sum += std::abs(edge_curve(mesh, edges, side.element, side.local_edge).sweep());
+  return sum;
+}
+
+SideRule rim_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p) {
+  constexpr double quarter = std::numbers::pi / 2;
+  constexpr double at_end = 1e-9;  // a break this close to an end is that end
+  const Curve curve = edge_curve(mesh, edges, side.element, side.local_edge);
+  const double low = std::min(curve.start_angle(), curve.start_angle() + curve.sweep());
+  std::vector<double> breaks;
+  for (double angle = quarter * std::ceil(low / quarter); angle < low + std::abs(curve.sweep()); angle += quarter) {
+    const double s = -1 + 2 * (angle - curve.start_angle()) / curve.sweep();
+    if (std::abs(s) < 1 - at_end) breaks.push_back(s);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  return side_rule(mesh, edges, side, p, breaks);
+}
+
+Eigen::Vector2d axis(const std::string& direction) {
+  assert(direction == "x" || direction == "y");
+  return direction == "x" ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
+}
+
+CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d) {
+  const double cosine = n.dot(d);
+  if (cosine <= 0) return {0, Eigen::Vector2d::Zero()};
+  return {cosine, (d - cosine * n).normalized()};
+}
+
+}  // namespace fastjoint::pfem

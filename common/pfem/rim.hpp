@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/pfem/boundary.hpp"
+#include "common/pfem/mesh.hpp"
+
+namespace fastjoint::pfem {
+
+/// The part of a hole's circle that the model has: all of it, or half or a quarter on lines of symmetry.
+struct Rim {
+  Eigen::Vector2d center;
+  double radius;
+  std::vector<Side> sides;
+};
+
+/// Sides of elements that lie on a circle, in the order of the elements.
+[[nodiscard]] Rim find_rim(const Mesh& mesh, const Edges& edges, const Eigen::Vector2d& center, double radius);
+
+/// Angle that the rim covers, radians.
+[[nodiscard]] double covered_angle(const Mesh& mesh, const Edges& edges, const Rim& rim);
+
+/// Quadrature on one side of a rim. Pieces end where a rim is cut by a line through its centre along x or y: there the
+/// tractions of bearing along +-x and +-y jump, kink or end.
+[[nodiscard]] SideRule rim_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p);
+
+/// Unit vector along "x" or "y".
+[[nodiscard]] Eigen::Vector2d axis(const std::string& direction);
+
+/// Cosine distribution on the half of a rim that bears along the unit vector d (theory of the paper, section 4.3).
+struct CosineBearing {
+  double contact;           ///< contact stress per peak: cos(theta) on the bearing half, else 0
+  Eigen::Vector2d tangent;  ///< unit tangent along which friction drags the plate: its part along d is positive
+};
+/// @param n Unit radial vector from the hole's centre. @param d Unit vector of the bearing direction.
+[[nodiscard]] CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d);
+
+}  // namespace fastjoint::pfem

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "stage1_plate/unknowns.hpp"
+
+namespace fastjoint::stage1 {
+
+/// Rows of a column of loads, or of a disc, in terms of an element's coefficients.
+struct ElementVector {
+  std::vector<int> modes;   ///< (n) local modes
+  Eigen::Matrix2Xd values;  ///< (2, n) for u_x and u_y of each, local signs
+};
+
+/// Collects element matrices and vectors into the blocks of free (f) and controlled (c) unknowns.
+class Assembler {
+ public:
+  Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns);
+
+  /// K, shape (2 n_modes, 2 n_modes), first all of u_x, local signs.
+  void add_stiffness(int element, const Eigen::MatrixXd& K);
+  /// Stiffness between an element's coefficients and a controlled displacement.
+  void add_coupling(int element, const ElementVector& g, int controlled);
+  void add_controlled(int i, int j, double value) { K_cc_(i, j) += value; }
+
+  [[nodiscard]] Eigen::SparseMatrix<double> K_ff() const;
+  [[nodiscard]] Eigen::SparseMatrix<double> K_fc() const;
+  [[nodiscard]] const Eigen::MatrixXd& K_cc() const { return K_cc_; }
+
+ private:
+  const pfem::Numbering& numbering_;
+  const Unknowns& unknowns_;
+  std::vector<Eigen::Triplet<double>> ff_, fc_;
+  Eigen::MatrixXd K_cc_;
+};
+
+/// Collects columns of loads.
+class LoadAssembler {
+ public:
+  LoadAssembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns);
+  void add(int element, const ElementVector& g, int column);
+  [[nodiscard]] Eigen::SparseMatrix<double> free() const;
+  [[nodiscard]] const Eigen::MatrixXd& controlled() const { return controlled_; }
+
+ private:
+  const pfem::Numbering& numbering_;
+  const Unknowns& unknowns_;
+  std::vector<Eigen::Triplet<double>> free_;
+  Eigen::MatrixXd controlled_;
+};
+
+}  // namespace fastjoint::stage1

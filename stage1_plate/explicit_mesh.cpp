@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/explicit_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastjoint::stage1 {
+namespace {
+
+pfem::Mesh to_mesh(const MeshGeometry& geometry) {
+  pfem::Mesh mesh;
+  const auto n = static_cast<Eigen::Index>(geometry.quads.size());
+  mesh.nodes.resize(2, static_cast<Eigen::Index>(geometry.nodes.size()));
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = geometry.nodes[static_cast<std::size_t>(i)];
+  mesh.quads.resize(4, n);
+  for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = geometry.quads[static_cast<std::size_t>(i)];
+  for (const auto& arc : geometry.arcs) mesh.arcs.push_back({arc.a, arc.b, arc.center});
+  mesh.thickness = Eigen::Map<const Eigen::VectorXd>(geometry.thickness.data(), n);
+  mesh.material = Eigen::Map<const Eigen::VectorXi>(geometry.material.data(), n);
+  return mesh;
+}
+
+void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
+  std::vector<bool> used(static_cast<std::size_t>(mesh.n_nodes()), false);
+  for (const int node : mesh.quads.reshaped()) used[static_cast<std::size_t>(node)] = true;
+  const auto unused = std::find(used.begin(), used.end(), false);
+  if (unused != used.end())
+    reject(scene, fmt::format("/geometry/mesh/nodes/{}", unused - used.begin()), "no element uses this node",
+           "nodes of elements only");
+}
+
+void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
+  constexpr double tolerance = 1e-6;  // of the radius: digits that a hand-written file has
+  for (std::size_t i = 0; i < mesh.arcs.size(); ++i) {
+    const auto& arc = mesh.arcs[i];
+    const std::string place = fmt::format("/geometry/mesh/arcs/{}", i);
+    const double from = (mesh.nodes.col(arc.a) - arc.center).norm();
+    const double to = (mesh.nodes.col(arc.b) - arc.center).norm();
+    if (!(std::abs(from - to) < tolerance * from))
+      reject(scene, place, fmt::format("its ends are {:.9g} and {:.9g} from the centre", from, to), "equal distances");
+    const auto curve = pfem::Curve::arc(mesh.nodes.col(arc.a), mesh.nodes.col(arc.b), arc.center);
+    constexpr double longest = 3.0;  // radians; at pi it is no longer clear which way the arc runs
+    if (std::abs(curve.sweep()) > longest)
+      reject(scene, place, fmt::format("an arc of {:.4g} radians", std::abs(curve.sweep())),
+             fmt::format("at most {:g} radians; cut it in two", longest));
+  }
+  if (!edges.arc_without_edge.empty()) {
+    const int i = edges.arc_without_edge.front();
+    const auto& arc = mesh.arcs[static_cast<std::size_t>(i)];
+    reject(scene, fmt::format("/geometry/mesh/arcs/{}/edge", i),
+           fmt::format("nodes {} and {} are not joined by an edge of an element", arc.a, arc.b), "edges of elements");
+  }
+}
+
+void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
+  for (int edge = 0; edge < edges.size(); ++edge)
+    if (const int n = edges.n_elements[static_cast<std::size_t>(edge)]; n > 2)
+      reject(scene, "/geometry/mesh/quads",
+             fmt::format("the edge between nodes {} and {} belongs to {} elements", edges.nodes(0, edge),
+                         edges.nodes(1, edge), n),
+             "at most 2");
+}
+
+/// A node inside the straight edge of a neighbour would make the displacements discontinuous.
+void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
+  constexpr double tolerance = 1e-9;
+  std::vector<int> border;
+  for (int edge = 0; edge < edges.size(); ++edge)
+    if (edges.n_elements[static_cast<std::size_t>(edge)] == 1) border.push_back(edge);
+  for (const int edge : border) {
+    if (edges.arc[static_cast<std::size_t>(edge)] >= 0) continue;
+    const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge));
+    const Eigen::Vector2d ab = mesh.nodes.col(edges.nodes(1, edge)) - a;
+    for (const int other : border) {
+      const int node = edges.nodes(0, other);
+      const Eigen::Vector2d at = mesh.nodes.col(node) - a;
+      const double along = at.dot(ab) / ab.squaredNorm();
+      const double off = (at - along * ab).norm() / ab.norm();
+      if (off < tolerance && along > tolerance && along < 1 - tolerance)
+        reject(scene, fmt::format("/geometry/mesh/nodes/{}", node),
+               fmt::format("it hangs on the edge between nodes {} and {}", edges.nodes(0, edge), edges.nodes(1, edge)),
+               "elements that share whole edges");
+    }
+  }
+}
+
+pfem::Side find_side(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer, int a, int b) {
+  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
+    const int local = pfem::local_edge_between(plate.mesh, element, a, b);
+    if (local < 0) continue;
+    if (plate.edges.n_elements[static_cast<std::size_t>(plate.edges.of_element(local, element))] == 1)
+      return {element, local};
+    reject(scene, pointer, fmt::format("the edge between nodes {} and {} is inside the plate", a, b),
+           "edges of the border");
+  }
+  reject(scene, pointer, fmt::format("nodes {} and {} are not joined by an edge of an element", a, b),
+         "edges of elements");
+}
+
+}  // namespace
+
+PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
+  PlateMesh plate;
+  plate.mesh = to_mesh(geometry);
+  plate.edges = pfem::find_edges(plate.mesh);
+  check_nodes(scene, plate.mesh);
+  check_arcs(scene, plate.mesh, plate.edges);
+  check_shared_edges(scene, plate.edges);
+  check_hanging_nodes(scene, plate.mesh, plate.edges);
+  for (const auto& set : geometry.edges)
+    for (std::size_t i = 0; i < set.edges.size(); ++i)
+      plate.sets[set.name].push_back(find_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", set.name, i),
+                                               set.edges[i].first, set.edges[i].second));
+  return plate;
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/grid_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "stage1_plate/cell_lines.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+/// Collects nodes and elements. Points on cell lines are given with equal digits by both neighbours.
+class Builder {
+ public:
+  int shared_node(const Point& at) {
+    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, static_cast<int>(nodes_.size()));
+    if (is_new) nodes_.push_back(at);
+    return found->second;
+  }
+  int own_node(const Point& at) {
+    nodes_.push_back(at);
+    return static_cast<int>(nodes_.size()) - 1;
+  }
+  void quad(const Eigen::Vector4i& nodes, double thickness, int material) {
+    quads_.push_back(nodes);
+    thickness_.push_back(thickness);
+    material_.push_back(material);
+  }
+  void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
+
+  pfem::Mesh mesh() const {
+    pfem::Mesh mesh;
+    const auto n = static_cast<Eigen::Index>(quads_.size());
+    mesh.nodes.resize(2, static_cast<Eigen::Index>(nodes_.size()));
+    for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = nodes_[static_cast<std::size_t>(i)];
+    mesh.quads.resize(4, n);
+    for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = quads_[static_cast<std::size_t>(i)];
+    mesh.arcs = arcs_;
+    mesh.thickness = Eigen::Map<const Eigen::VectorXd>(thickness_.data(), n);
+    mesh.material = Eigen::Map<const Eigen::VectorXi>(material_.data(), n);
+    return mesh;
+  }
+
+ private:
+  std::map<std::pair<double, double>, int> index_;
+  std::vector<Point> nodes_;
+  std::vector<Eigen::Vector4i> quads_;
+  std::vector<double> thickness_;
+  std::vector<int> material_;
+  std::vector<pfem::Arc> arcs_;
+};
+
+/// A cell of the grid with the nodes that its sides have.
+struct Cell {
+  int column, row;
+  double x_low, x_high, y_low, y_high, thickness;
+  int material;
+};
+
+Cell cell_at(const GridGeometry& grid, int column, int row) {
+  const auto c = static_cast<std::size_t>(column);
+  const auto r = static_cast<std::size_t>(row);
+  return {column, row, grid.x[c], grid.x[c + 1], grid.y[r], grid.y[r + 1], grid.thickness(row, column),
+          grid.material(row, column)};
+}
+
+std::vector<double> with_ends(double low, const std::vector<double>& inner, double high) {
+  std::vector<double> all = {low};
+  all.insert(all.end(), inner.begin(), inner.end());
+  all.push_back(high);
+  return all;
+}
+
+void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell) {
+  const auto x = with_ends(cell.x_low, lines.nodes(cell.column, cell.row, bottom), cell.x_high);
+  const auto y = with_ends(cell.y_low, lines.nodes(cell.column, cell.row, left), cell.y_high);
+  for (std::size_t j = 0; j + 1 < y.size(); ++j)
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+      builder.quad({builder.shared_node({x[i], y[j]}), builder.shared_node({x[i + 1], y[j]}),
+                    builder.shared_node({x[i + 1], y[j + 1]}), builder.shared_node({x[i], y[j + 1]})},
+                   cell.thickness, cell.material);
+}
+
+/// Points of one side in counter-clockwise order, without its last.
+std::vector<Point> side_points(const CellLines& lines, const Cell& cell, CellSide side) {
+  auto inner = lines.nodes(cell.column, cell.row, side);
+  if (side == top || side == left) std::reverse(inner.begin(), inner.end());
+  std::vector<Point> points;
+  switch (side) {
+    case bottom: points = {{cell.x_low, cell.y_low}}; break;
+    case right: points = {{cell.x_high, cell.y_low}}; break;
+    case top: points = {{cell.x_high, cell.y_high}}; break;
+    case left: points = {{cell.x_low, cell.y_high}}; break;
+  }
+  for (const double at : inner)
+    switch (side) {
+      case bottom: points.emplace_back(at, cell.y_low); break;
+      case right: points.emplace_back(cell.x_high, at); break;
+      case top: points.emplace_back(at, cell.y_high); break;
+      case left: points.emplace_back(cell.x_low, at); break;
+    }
+  return points;
+}
+
+/// The cell's outline as seen from the hole, counter-clockwise: closed (first point repeated) for a whole hole, else from
+/// the border to the border.
+std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleCell& hole) {
+  int first = 0;  // the side after a cut that is not cut itself
+  for (int side = 0; side < n_cell_sides; ++side)
+    if (hole.cuts[static_cast<std::size_t>(side)] && !hole.cuts[static_cast<std::size_t>((side + 1) % n_cell_sides)])
+      first = (side + 1) % n_cell_sides;
+  std::vector<Point> points;
+  int last = first;
+  for (int i = 0; i < n_cell_sides; ++i) {
+    const int side = (first + i) % n_cell_sides;
+    if (hole.cuts[static_cast<std::size_t>(side)]) continue;
+    const auto next = side_points(lines, cell, static_cast<CellSide>(side));
+    points.insert(points.end(), next.begin(), next.end());
+    last = side;
+  }
+  points.push_back(side_points(lines, cell, static_cast<CellSide>((last + 1) % n_cell_sides)).front());
+  return points;
+}
+
+/// Radii of the hole and of the extra rings, in geometric progression up to the nearest side of the cell.
+std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double radius, int n_rings) {
+  const std::array<double, n_cell_sides> distance = {hole.center.y() - cell.y_low, cell.x_high - hole.center.x(),
+                                                     cell.y_high - hole.center.y(), hole.center.x() - cell.x_low};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t side = 0; side < distance.size(); ++side)
+    if (!hole.cuts[side]) nearest = std::min(nearest, distance[side]);
+  std::vector<double> radii;
+  for (int k = 0; k <= n_rings; ++k) radii.push_back(radius * std::pow(nearest / radius, double(k) / (n_rings + 1)));
+  return radii;
+}
+
+/// Nodes of one ring, one on the ray to each point of the outline; a closed outline ends with its first node.
+std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center, double radius) {
+  const bool closed = points.front() == points.back();
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    nodes.push_back(closed && i + 1 == points.size()
+                        ? nodes.front()
+                        : builder.own_node(center + radius * (points[i] - center).normalized()));
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) builder.arc(nodes[i], nodes[i + 1], center);
+  return nodes;
+}
+
+void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, const HoleCell& hole_cell,
+                    const Hole& hole) {
+  const auto points = outline(lines, cell, hole_cell);
+  std::vector<std::vector<int>> layers;
+  for (const double radius : ring_radii(cell, hole_cell, hole.radius, hole.rings))
+    layers.push_back(ring_nodes(builder, points, hole_cell.center, radius));
+  layers.emplace_back();
+  for (const auto& point : points) layers.back().push_back(builder.shared_node(point));
+  for (std::size_t k = 0; k + 1 < layers.size(); ++k)
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      builder.quad({layers[k][i], layers[k + 1][i], layers[k + 1][i + 1], layers[k][i + 1]}, cell.thickness,
+                   cell.material);
+}
+
+/// Sides of elements on the four lines of the border.
+void name_border(const GridGeometry& grid, PlateMesh& plate) {
+  const auto on_line = [&](const pfem::Side& side, int axis, double line) {
+    const auto nodes = plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element));
+    return plate.mesh.nodes(axis, nodes[0]) == line && plate.mesh.nodes(axis, nodes[1]) == line;
+  };
+  for (const char* name : {"left", "right", "bottom", "top"}) plate.sets[name];
+  for (int element = 0; element < plate.mesh.n_elements(); ++element)
+    for (int edge = 0; edge < n_cell_sides; ++edge) {
+      const pfem::Side side{element, edge};
+      if (on_line(side, 0, grid.x.front())) plate.sets["left"].push_back(side);
+      if (on_line(side, 0, grid.x.back())) plate.sets["right"].push_back(side);
+      if (on_line(side, 1, grid.y.front())) plate.sets["bottom"].push_back(side);
+      if (on_line(side, 1, grid.y.back())) plate.sets["top"].push_back(side);
+    }
+}
+
+}  // namespace
+
+PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
+  const auto holes = find_hole_cells(scene, grid);
+  const CellLines lines(scene, grid, holes);
+  Builder builder;
+  for (int row = 0; row < grid.thickness.rows(); ++row)
+    for (int column = 0; column < grid.thickness.cols(); ++column) {
+      const Cell cell = cell_at(grid, column, row);
+      const auto hole = std::find_if(holes.begin(), holes.end(),
+                                     [&](const HoleCell& h) { return h.column == column && h.row == row; });
+      if (hole == holes.end()) {
+        mesh_plain_cell(builder, lines, cell);
+      } else {
+        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[static_cast<std::size_t>(hole->hole)]);
+      }
+    }
+  PlateMesh plate;
+  plate.mesh = builder.mesh();
+  plate.edges = pfem::find_edges(plate.mesh);
+  name_border(grid, plate);
+  return plate;
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "stage1_plate/plate_mesh.hpp"
+#include "stage1_plate/unknowns.hpp"
+
+namespace fastjoint::stage1 {
+
+/// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are held;
+/// the message says how. A direct solver does not see this: rounding makes its last pivot a small number of either sign.
+void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
+
+}  // namespace fastjoint::stage1

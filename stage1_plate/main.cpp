@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <iostream>
+
+#include "common/errors.hpp"
+#include "common/formats/plate_solution.hpp"
+#include "common/linalg/cholesky.hpp"
+#include "common/program/program.hpp"
+#include "common/program/text_file.hpp"
+#include "stage1_plate/degree_range.hpp"
+#include "stage1_plate/holding.hpp"
+#include "stage1_plate/solve.hpp"
+
+namespace {
+
+using namespace fastjoint;
+
+const program::Command command = {
+    "stage1_plate",
+    "Solves one sheet of a joint by the p-version of the finite element method: a unit displacement of every fastener\n"
+    "disc and rigid boundary, a unit force on every traction boundary.",
+    "PLATE.json",
+    "PLATE.h5",
+    {{"--p", "N or A..B", "degree 1..8, or a range of degrees; default: \"p\" of the input, else 1..8"},
+     {"--threads", "N", "threads of the dense kernels; default: 1"}}};
+
+void run(const program::Arguments& arguments) {
+  constexpr int most_threads = 256;
+  linalg::set_threads(arguments.integer("--threads", 1, most_threads, 1));
+  stage1::PlateScene scene =
+      stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
+  stage1::set_degrees(scene, arguments.text("--p"));
+  const auto plate = stage1::make_mesh(scene);
+  const auto problem = stage1::assemble(scene, plate);
+  stage1::check_held(scene, plate, problem.unknowns);
+  auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name));
+  for (const int p : solution.p) solution.cases.push_back(stage1::solve_degree(problem, p, solution.friction_probe));
+  formats::write(arguments.output, solution);
+  if (arguments.quiet) return;
+  std::cout << fmt::format("{}: {} elements, {} nodes, {} discs, {} rigid externals, {} tractions\n", arguments.output,
+                           plate.mesh.n_elements(), plate.mesh.n_nodes(), problem.unknowns.n_discs(),
+                           problem.unknowns.n_externals(), problem.unknowns.traction.size());
+  for (Eigen::Index i = 0; i < solution.p.size(); ++i)
+    std::cout << fmt::format("  p = {}: {} unknowns\n", solution.p[i], solution.ndof[i]);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return program::run(command, argc, argv, run); }

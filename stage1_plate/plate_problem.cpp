@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/plate_problem.hpp"
+
+#include "common/pfem/element_stiffness.hpp"
+#include "stage1_plate/assembler.hpp"
+#include "stage1_plate/loads.hpp"
+#include "stage1_plate/springs.hpp"
+
+namespace fastjoint::stage1 {
+
+PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
+  PlateProblem problem;
+  problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.p_high);
+  problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
+  Assembler assembler(problem.numbering, problem.unknowns);
+  const pfem::ElementStiffness stiffness(scene.p_high);
+  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
+    const auto& D = scene.elasticity[static_cast<std::size_t>(plate.mesh.material[element])];
+    assembler.add_stiffness(element, stiffness(pfem::ElementMap(plate.mesh, plate.edges, element), D,
+                                               plate.mesh.thickness[element]));
+  }
+  add_springs(scene, plate, problem.numbering, problem.unknowns, assembler);
+  problem.K_ff = assembler.K_ff();
+  problem.K_fc = assembler.K_fc();
+  problem.K_cc = assembler.K_cc();
+  add_friction_loads(scene, plate, problem);
+  add_traction_loads(scene, plate, problem);
+  return problem;
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/extract.hpp"
+
+#include "stage2_extract/condensed_stiffness.hpp"
+#include "stage2_extract/error_estimate.hpp"
+#include "stage2_extract/friction_constants.hpp"
+#include "stage2_extract/load_reactions.hpp"
+
+namespace fastjoint::stage2 {
+namespace {
+
+formats::PlateMatrices names(const formats::PlateSolution& plate, const std::string& generator) {
+  formats::PlateMatrices a;
+  a.header = plate.header;
+  a.header.generator = generator;
+  a.p = plate.p;
+  a.ndof = plate.ndof;
+  a.disc_hole = plate.disc_hole;
+  a.disc_direction = plate.disc_direction;
+  a.external_id = plate.external_id;
+  a.traction_id = plate.traction_id;
+  a.friction_hole = plate.friction_hole;
+  a.friction_bearing = plate.friction_bearing;
+  const auto constants = friction_constants(plate);
+  a.friction_unit_force = constants.unit_force;
+  a.friction_resultant = constants.resultant;
+  return a;
+}
+
+}  // namespace
+
+Extraction extract(const formats::PlateSolution& plate, const std::string& generator) {
+  Extraction result{names(plate, generator), {}};
+  auto& a = result.matrices;
+  const auto e = a.n_externals();
+  const auto m = a.n_discs();
+  std::vector<Eigen::MatrixXd> S;
+  for (std::size_t level = 0; level < plate.cases.size(); ++level) {
+    S.push_back(condensed_stiffness(plate, level));
+    const Eigen::MatrixXd symmetric = (S.back() + S.back().transpose()) / 2;
+    a.S_ee.push_back(symmetric.topLeftCorner(e, e));
+    a.S_ed.push_back(symmetric.topRightCorner(e, m));
+    a.S_dd.push_back(symmetric.bottomRightCorner(m, m));
+    const Eigen::MatrixXd R = friction_reactions(plate, level);
+    a.R_ef.push_back(R.topRows(e));
+    a.R_df.push_back(R.bottomRows(m));
+    const Eigen::MatrixXd T = traction_reactions(plate, level);
+    a.T_e.push_back(T.topRows(e));
+    a.T_d.push_back(T.bottomRows(m));
+    a.C_t.push_back(traction_compliance(plate, level));
+  }
+  const Eigen::MatrixXd error = estimate_error(S, plate.ndof);
+  a.S_ee_error = error.topLeftCorner(e, e);
+  a.S_ed_error = error.topRightCorner(e, m);
+  a.S_dd_error = error.bottomRightCorner(m, m);
+  result.checks = check(plate, a, S.back());
+  return result;
+}
+
+}  // namespace fastjoint::stage2

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/formats/plate_matrices.hpp"
+#include "common/formats/plate_solution.hpp"
+#include "stage2_extract/checks.hpp"
+
+namespace fastjoint::stage2 {
+
+/// Everything linear about the plate, for every p, and how well it satisfies what must hold.
+struct Extraction {
+  formats::PlateMatrices matrices;
+  Checks checks;
+};
+
+/// @param generator Name and version of the program.
+[[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& generator);
+
+}  // namespace fastjoint::stage2
