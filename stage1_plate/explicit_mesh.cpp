@@ -73,8 +73,7 @@ void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const 
     if (edges.arc[static_cast<std::size_t>(edge)] >= 0) continue;
     const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge));
     const Eigen::Vector2d ab = mesh.nodes.col(edges.nodes(1, edge)) - a;
-    for (const int other : border) {
-      const int node = edges.nodes(0, other);
+    for (const int node : edges.nodes(Eigen::all, border).reshaped()) {
       const Eigen::Vector2d at = mesh.nodes.col(node) - a;
       const double along = at.dot(ab) / ab.squaredNorm();
       const double off = (at - along * ab).norm() / ab.norm();

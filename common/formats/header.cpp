@@ -25,7 +25,7 @@ std::string unit(const Units& units, int length_power, int force_power) {
   std::string below;
   for (const auto& [label, exponent] : {std::pair{force, force_power}, std::pair{length, length_power}}) {
     if (exponent > 0) above.push_back(power(label, exponent));
-    if (exponent < 0) below += "/" + power(label, std::abs(exponent));
+    if (exponent < 0) below += fmt::format("/{}", power(label, std::abs(exponent)));
   }
   if (above.empty()) return "1" + below;
   return (above.size() == 2 ? above[0] + " " + above[1] : above[0]) + below;

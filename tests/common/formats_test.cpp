@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "common/errors.hpp"
+#include "common/formats/joint_result.hpp"
+#include "common/formats/plate_matrices.hpp"
+#include "common/h5/writer.hpp"
+#include "tests/support/files.hpp"
+
+namespace fastjoint::formats {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+TEST(Units, AreWrittenAsEngineersDo) {
+  const Units units{"in", "lbf"};
+  EXPECT_EQ(unit(units, 1, 0), "in");
+  EXPECT_EQ(unit(units, 2, 0), "in^2");
+  EXPECT_EQ(unit(units, -1, 1), "lbf/in");
+  EXPECT_EQ(unit(units, -3, 1), "lbf/in^3");
+  EXPECT_EQ(unit(units, 1, -1), "in/lbf");
+  EXPECT_EQ(unit(units, 1, 1), "lbf in");
+  EXPECT_EQ(unit(units, -1, 0), "1/in");
+  EXPECT_EQ(unit(units, 0, 0), "1");
+  EXPECT_EQ(unit({}, -1, 1), "force/length");
+}
+
+/// Matrices as a laboratory would write them: only what must be there.
+TEST(PlateMatrices, HandMadeFilesMayLeaveOutWhatTheyDoNotHave) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("lab.h5");
+  h5::Writer file(path, "plate-matrices", 1, 0);
+  file.write("p", Eigen::VectorXi(Eigen::VectorXi::Constant(1, 1)), {"1", ""});
+  file.write("disc/hole", std::vector<std::string>{"a", "b"}, {"1", ""});
+  file.write("disc/direction", std::vector<std::string>{"x", "x"}, {"1", ""});
+  file.write("S_dd", {Eigen::MatrixXd::Identity(2, 2)}, 2, 2, {"force/length", ""});
+  file.commit();
+  const PlateMatrices a = read_plate_matrices(path);
+  EXPECT_EQ(a.n_discs(), 2);
+  EXPECT_EQ(a.n_externals() + a.n_friction_cases() + a.n_tractions(), 0);
+  EXPECT_EQ(a.S_dd.at(0), Eigen::MatrixXd::Identity(2, 2));
+  EXPECT_EQ(a.R_df.at(0).rows(), 2);
+  EXPECT_TRUE(std::isinf(a.S_dd_error(0, 0)));
+}
+
+TEST(PlateMatrices, AnExternalNeedsItsStiffness) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("lab.h5");
+  h5::Writer file(path, "plate-matrices", 1, 0);
+  file.write("p", Eigen::VectorXi(Eigen::VectorXi::Constant(1, 1)), {"1", ""});
+  file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
+  file.write("disc/direction", std::vector<std::string>{"x"}, {"1", ""});
+  file.write("external/id", std::vector<std::string>{"P"}, {"1", ""});
+  file.write("S_dd", {Eigen::MatrixXd::Identity(1, 1)}, 1, 1, {"force/length", ""});
+  file.commit();
+  EXPECT_THAT([&] { (void)read_plate_matrices(path); }, ThrowsMessage<FileError>(HasSubstr("lab.h5:S_ee: dataset is missing")));
+}
+
+TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
+  for (const Eigen::Index steps : {0, 2}) {
+    const test::TemporaryFolder folder;
+    JointResult a;
+    a.header = {"test 1", "joint", {"mm", "N"}, "{}"};
+    a.complete = steps > 0;
+    a.load_factor = Eigen::VectorXd::LinSpaced(steps, 0.5, 1);
+    a.converged = a.iterations = Eigen::VectorXi::Ones(steps);
+    a.residual = Eigen::VectorXd::Zero(steps);
+    a.fastener_id = {"1", "2", "3"};
+    a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
+    a.transferred_second = 2 * a.F;
+    a.plates = {{"top", {"1"}, {"x"}, {}, Eigen::MatrixXd::Random(steps, 1), Eigen::MatrixXd(steps, 0), Eigen::MatrixXd(steps, 0)}};
+    write(folder.path("r.h5"), a);
+    const JointResult b = read_joint_result(folder.path("r.h5"));
+    EXPECT_EQ(b.header.units, a.header.units);
+    EXPECT_EQ(b.complete, a.complete);
+    EXPECT_EQ(b.load_factor, a.load_factor);
+    EXPECT_EQ(b.fastener_id, a.fastener_id);
+    EXPECT_EQ(b.F, a.F);
+    EXPECT_EQ(b.transferred_second, a.transferred_second);
+    EXPECT_EQ(b.plates.at(0).D, a.plates[0].D);
+  }
+}
+
+}  // namespace
+}  // namespace fastjoint::formats

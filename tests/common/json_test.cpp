@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/input/json.hpp"
+
+#include <gmock/gmock.h>
+
+#include <functional>
+
+#include "common/errors.hpp"
+#include "common/input/value.hpp"
+
+namespace fastjoint::input {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+std::string message(const std::string& text, const std::function<void(const Value&)>& read) {
+  try {
+    read(Value(parse("f.json", text)));
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "no error";
+}
+const auto nothing = [](const Value&) {};
+
+TEST(Json, SyntaxErrorsNameLineAndColumn) {
+  EXPECT_THAT(message("{\n  \"a\": 1,\n  \"b\" 2\n}", nothing),
+              AllOf(StartsWith("f.json: not valid JSON at line 3, column 7"), HasSubstr("expected ':'")));
+  EXPECT_THAT(message("", nothing), StartsWith("f.json: not valid JSON at line 1, column 1"));
+  EXPECT_THAT(message("{\"a\": 1} x", nothing), StartsWith("f.json: not valid JSON at line 1, column 10"));
+  EXPECT_THAT(message("{\"a\": nan}", nothing), StartsWith("f.json: not valid JSON at line 1"));
+  EXPECT_THAT(message("{\"a\": 1e999}", nothing), StartsWith("f.json: not valid JSON"));
+  EXPECT_THAT(message(std::string("{\"a\": \"\xff\"}"), nothing), StartsWith("f.json: not valid JSON"));
+}
+
+TEST(Json, DuplicateKeysAreRefusedAtEveryDepth) {
+  EXPECT_THAT(message(R"({"a": 1, "a": 2})", nothing), HasSubstr("key \"a\" stands twice"));
+  EXPECT_THAT(message(R"({"a": [{"b": 1, "c": {"d": 1}, "b": 2}]})", nothing), HasSubstr("key \"b\" stands twice"));
+  EXPECT_EQ(message(R"({"a": {"b": 1}, "c": {"b": 1}})", nothing), "no error");
+}
+
+TEST(Json, CommentsAreAllowed) { EXPECT_EQ(message("{ // why\n \"a\": /* what */ 1}", nothing), "no error"); }
+
+TEST(Value, NamesPlaceFoundAndAllowed) {
+  const auto third = [](const Value& v) { (void)v.at("a").items()[2].at("E").number(positive); };
+  EXPECT_EQ(message(R"({"a": [0, 1, {"E": -1}]})", third), "f.json: /a/2/E: -1 is not allowed; allowed: a number > 0");
+  EXPECT_EQ(message(R"({"a": [0, 1, {"E": "x"}]})", third),
+            "f.json: /a/2/E: \"x\" is not allowed; allowed: a number > 0");
+  EXPECT_EQ(message(R"({"a": [0, 1, {}]})", third),
+            "f.json: /a/2: key \"E\" is missing; allowed: an object with \"E\"");
+}
+
+TEST(Value, UnknownKeysAreRefused) {
+  const auto only = [](const Value& v) { v.only({"a", "b"}); };
+  EXPECT_EQ(message(R"({"a": 1, "c~/": 2})", only), "f.json: /c~0~1: unknown key; allowed: a, b");
+  EXPECT_THAT(message("[1]", only), HasSubstr("allowed: an object"));
+}
+
+TEST(Value, RangesAreOpenOrClosed) {
+  const Range range{.low = -1, .high = 0.5, .low_allowed = false};
+  const auto read = [&](const Value& v) { (void)v.number(range); };
+  EXPECT_EQ(message("0.5", read), "no error");
+  EXPECT_THAT(message("-1", read), HasSubstr("a number > -1 and <= 0.5"));
+  EXPECT_THAT(message("0.6", read), HasSubstr("0.6 is not allowed"));
+  EXPECT_THAT(message("true", read), HasSubstr("true is not allowed"));
+}
+
+TEST(Value, IntegersMayBeWrittenAsDecimals) {
+  const auto read = [](const Value& v) { (void)v.integer(1, 8); };
+  EXPECT_EQ(message("8.0", read), "no error");
+  EXPECT_THAT(message("8.5", read), HasSubstr("an integer from 1 to 8"));
+  EXPECT_THAT(message("1e300", read), HasSubstr("an integer from 1 to 8"));
+}
+
+TEST(Value, OtherKinds) {
+  EXPECT_THAT(message("[1,2,3]", [](const Value& v) { (void)v.items(2, 2); }), HasSubstr("array of 3; allowed: exactly 2"));
+  EXPECT_THAT(message("[]", [](const Value& v) { (void)v.items(1); }), HasSubstr("at least 1"));
+  EXPECT_THAT(message("[]", [](const Value& v) { (void)v.items(1, 4); }), HasSubstr("1 to 4"));
+  EXPECT_THAT(message("\"\"", [](const Value& v) { (void)v.text(); }), HasSubstr("not empty"));
+  EXPECT_THAT(message("1", [](const Value& v) { (void)v.boolean(); }), HasSubstr("true or false"));
+  EXPECT_THAT(message("\"z\"", [](const Value& v) { (void)v.choice({"x", "y"}); }), HasSubstr(R"("x", "y")"));
+  EXPECT_THAT(message(R"({"": 1})", [](const Value& v) { (void)v.members(); }), HasSubstr("a key is empty"));
+}
+
+TEST(Value, ChecksFormatAndVersion) {
+  const auto read = [](const Value& v) { check_format(v, "plate"); };
+  EXPECT_EQ(message(R"({"format": "plate", "version": 1, "$schema": "x"})", read), "no error");
+  EXPECT_THAT(message(R"({"format": "joint", "version": 1})", read), StartsWith("f.json: /format:"));
+  EXPECT_THAT(message(R"({"format": "plate", "version": 2})", read), StartsWith("f.json: /version:"));
+}
+
+}  // namespace
+}  // namespace fastjoint::input

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/pfem/numbering.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "common/pfem/element_map.hpp"
+#include "common/pfem/trunk_space.hpp"
+#include "tests/support/meshes.hpp"
+
+namespace fastjoint::pfem {
+namespace {
+
+TEST(Numbering, CountsVerticesEdgesAndInteriors) {
+  const Mesh mesh = test::distorted_mesh();
+  const Edges edges = find_edges(mesh);
+  EXPECT_EQ(edges.size(), 12);
+  const Numbering n = number_by_degree(mesh, edges, 8);
+  EXPECT_EQ(n.n_functions[1], 9);
+  EXPECT_EQ(n.n_functions[8], 9 + 7 * 12 + 15 * 4);
+}
+
+TEST(Numbering, DegreesAreLeadingBlocks) {
+  const Mesh mesh = test::distorted_mesh();
+  const Edges edges = find_edges(mesh);
+  const auto modes = trunk_space(8);
+  const Numbering n = number_by_degree(mesh, edges, 8);
+  std::set<int> all;
+  for (int element = 0; element < mesh.n_elements(); ++element)
+    for (std::size_t m = 0; m < modes.size(); ++m) {
+      const int f = n.function(static_cast<Eigen::Index>(m), element);
+      const auto degree = static_cast<std::size_t>(modes[m].degree);
+      EXPECT_GE(f, n.n_functions[degree - 1]);
+      EXPECT_LT(f, n.n_functions[degree]);
+      all.insert(f);
+    }
+  EXPECT_EQ(all.size(), n.n_functions.back());
+}
+
+TEST(Numbering, ALowerDegreeHasTheSameNumbers) {
+  const Mesh mesh = test::distorted_mesh();
+  const Edges edges = find_edges(mesh);
+  const auto modes = trunk_space(8);
+  const Numbering high = number_by_degree(mesh, edges, 8);
+  for (int p = 1; p < 8; ++p) {
+    const Numbering low = number_by_degree(mesh, edges, p);
+    Eigen::Index local = 0;
+    const auto low_modes = trunk_space(p);
+    for (const auto& mode : low_modes) {
+      const auto same = [&](const Mode& m) { return m.i == mode.i && m.j == mode.j; };
+      const auto at = std::find_if(modes.begin(), modes.end(), same) - modes.begin();
+      EXPECT_EQ(low.function.row(local), high.function.row(at));
+      EXPECT_EQ(low.sign.row(local++), high.sign.row(at));
+    }
+  }
+}
+
+/// Every global function must have one trace on a shared edge: odd modes change sign where an element sees it reversed.
+TEST(Numbering, FunctionsAreContinuousAcrossEdges) {
+  const Mesh mesh = test::curved_mesh();
+  const Edges edges = find_edges(mesh);
+  const Numbering n = number_by_degree(mesh, edges, 8);
+  for (const double s : {-0.7, 0.25}) {
+    // right edge of element 0 against bottom of element 1, which runs the other way
+    const auto a = shape_values(8, Eigen::VectorXd::Constant(1, 1), Eigen::VectorXd::Constant(1, s)).N;
+    const auto b = shape_values(8, Eigen::VectorXd::Constant(1, -s), Eigen::VectorXd::Constant(1, -1)).N;
+    Eigen::VectorXd from_a = Eigen::VectorXd::Zero(n.n_functions.back());
+    Eigen::VectorXd from_b = from_a;
+    for (Eigen::Index m = 0; m < a.rows(); ++m) {
+      from_a[n.function(m, 0)] += n.sign(m, 0) * a(m, 0);
+      from_b[n.function(m, 1)] += n.sign(m, 1) * b(m, 0);
+    }
+    EXPECT_GT(from_a.cwiseAbs().sum(), 1);
+    EXPECT_LT((from_a - from_b).cwiseAbs().maxCoeff(), 1e-14);
+  }
+  EXPECT_EQ(n.sign.minCoeff(), -1);  // the mesh does have reversed edges
+}
+
+}  // namespace
+}  // namespace fastjoint::pfem

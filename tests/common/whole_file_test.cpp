@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/h5/whole_file.hpp"
+
+#include <gmock/gmock.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+
+#include <csignal>
+#include <filesystem>
+
+#include "common/errors.hpp"
+#include "tests/support/files.hpp"
+
+namespace fastjoint::h5 {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+int n_files(const test::TemporaryFolder& folder) {
+  const auto at = std::filesystem::path(folder.path("x")).parent_path();
+  return static_cast<int>(std::distance(std::filesystem::directory_iterator(at), {}));
+}
+
+TEST(WholeFile, ReplacesWhatWasThereAndLeavesNothingElse) {
+  const test::TemporaryFolder folder;
+  write_whole_file(folder.path("a"), "first");
+  write_whole_file(folder.path("a"), "second");
+  EXPECT_EQ(test::read_file(folder.path("a")), "second");
+  EXPECT_EQ(n_files(folder), 1);
+}
+
+/// A limit on the file's size fails the write as a full disk would.
+TEST(WholeFile, AFailedWriteKeepsTheOldFile) {
+  const test::TemporaryFolder folder;
+  write_whole_file(folder.path("a"), "old");
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  setrlimit(RLIMIT_FSIZE, &small);
+  EXPECT_THAT([&] { write_whole_file(folder.path("a"), std::string(100000, 'x')); },
+              ThrowsMessage<FileError>(HasSubstr("cannot be written: File too large")));
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, SIG_DFL);
+  EXPECT_EQ(test::read_file(folder.path("a")), "old");
+  EXPECT_EQ(n_files(folder), 1);
+}
+
+TEST(WholeFile, RefusesWhatIsNoFile) {
+  const test::TemporaryFolder folder;
+  EXPECT_THAT([&] { check_can_write(folder.path("none/a")); },
+              ThrowsMessage<FileError>(HasSubstr("No such file or directory")));
+  EXPECT_THAT([&] { check_can_write(folder.path(".")); }, ThrowsMessage<FileError>(HasSubstr("not a regular file")));
+  ASSERT_EQ(mkfifo(folder.path("fifo").c_str(), 0600), 0);
+  EXPECT_THAT([&] { check_can_write(folder.path("fifo")); }, ThrowsMessage<FileError>(HasSubstr("not a regular file")));
+}
+
+TEST(WholeFile, ASymbolicLinkStaysOne) {
+  const test::TemporaryFolder folder;
+  folder.write("target", "old");
+  std::filesystem::create_symlink(folder.path("target"), folder.path("link"));
+  write_whole_file(folder.path("link"), "new");
+  EXPECT_TRUE(std::filesystem::is_symlink(folder.path("link")));
+  EXPECT_EQ(test::read_file(folder.path("target")), "new");
+}
+
+}  // namespace
+}  // namespace fastjoint::h5

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/plates.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "stage1_plate/solve.hpp"
+
+namespace fastjoint::test {
+
+Plate make_plate(const std::string& json) {
+  Plate plate{stage1::read_scene(input::parse("plate.json", json)), {}, {}};
+  plate.mesh = stage1::make_mesh(plate.scene);
+  plate.problem = stage1::assemble(plate.scene, plate.mesh);
+  return plate;
+}
+
+formats::PlateSolution solve(const Plate& plate) {
+  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test");
+  for (const int p : solution.p) solution.cases.push_back(stage1::solve_degree(plate.problem, p, solution.friction_probe));
+  return solution;
+}
+
+stage2::Extraction extract(const std::string& json) { return stage2::extract(solve(make_plate(json)), "test"); }
+
+std::string grid_scene(const std::vector<double>& x, const std::vector<double>& y, const std::vector<HoleText>& holes,
+                       const std::string& extra) {
+  std::vector<std::string> list;
+  for (const auto& h : holes)
+    list.push_back(fmt::format(R"({{"id": "{}", "center": [{}, {}], "radius": {}, "rings": {}{}}})", h.id, h.x, h.y,
+                               h.radius, h.rings, h.sprung ? R"(, "spring": {"disk": {"E": 1e7, "nu": 0.3}})" : ""));
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+    "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
+    "geometry": {{"grid": {{"x": [{}], "y": [{}], "thickness": 0.1}}}}, "holes": [{}]{}}})",
+                     fmt::join(x, ","), fmt::join(y, ","), fmt::join(list, ","), extra);
+}
+
+std::string panel(int nx, int ny, int rings) {
+  std::vector<double> x, y;
+  std::vector<HoleText> holes;
+  for (int i = 0; i <= nx; ++i) x.push_back(i);
+  for (int j = 0; j <= ny; ++j) y.push_back(j);
+  for (int j = 0; j < ny; ++j)
+    for (int i = 0; i < nx; ++i) holes.push_back({fmt::format("{},{}", i, j), i + 0.5, j + 0.5, 0.125, rings});
+  return grid_scene(x, y, holes, R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
+}
+
+}  // namespace fastjoint::test

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/formats/plate_solution.hpp"
+#include "stage1_plate/plate_problem.hpp"
+#include "stage2_extract/extract.hpp"
+
+namespace fastjoint::test {
+
+/// A scene with its mesh and matrices, as stage 1 has them before solving.
+struct Plate {
+  stage1::PlateScene scene;
+  stage1::PlateMesh mesh;
+  stage1::PlateProblem problem;
+};
+[[nodiscard]] Plate make_plate(const std::string& json);
+
+/// Stage 1 to the end, and stage 2 behind it.
+[[nodiscard]] formats::PlateSolution solve(const Plate& plate);
+[[nodiscard]] stage2::Extraction extract(const std::string& json);
+
+/// A hole in a grid.
+struct HoleText {
+  std::string id;
+  double x, y, radius;
+  int rings = 0;
+  bool sprung = true;
+};
+
+/// The common parts of a scene in consistent numbers: plane stress, E = 1e7, nu = 0.3, thickness 0.1.
+/// @param extra More members, each with a comma before it.
+[[nodiscard]] std::string grid_scene(const std::vector<double>& x, const std::vector<double>& y,
+                                     const std::vector<HoleText>& holes, const std::string& extra = "");
+
+/// panel(nx, ny): unit squares, each with a hole of diameter 0.25; ux = 0 left, uy = 0 bottom, right edge external.
+[[nodiscard]] std::string panel(int nx, int ny, int rings = 0);
+
+}  // namespace fastjoint::test
