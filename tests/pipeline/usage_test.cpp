@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include "tests/pipeline/programs.hpp"
+
+namespace fastjoint {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+using Program = test::Run (*)(const test::TemporaryFolder&, const std::string&);
+const Program programs[] = {test::stage1, test::stage2, test::stage3};
+
+class Usage : public testing::TestWithParam<int> {
+ protected:
+  test::TemporaryFolder folder_;
+  test::Run call(const std::string& words) const { return programs[GetParam() - 1](folder_, words); }
+};
+
+TEST_P(Usage, HelpAndVersion) {
+  const auto help = call("--help");
+  EXPECT_EQ(help.status, 0);
+  EXPECT_THAT(help.out, AllOf(HasSubstr("--output"), HasSubstr("--quiet"), HasSubstr("--version"), HasSubstr("Exit status")));
+  const auto version = call("--version");
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, testing::MatchesRegex("stage[123]_[a-z]+ [0-9.]+\n"));
+}
+
+TEST_P(Usage, WrongWords) {
+  for (const char* words : {"", "in.json", "in.json -o", "-o out.h5", "in.json -o out.h5 --colour", "in.json extra -o out.h5"}) {
+    const auto run = call(words);
+    EXPECT_EQ(run.status, 2) << words;
+    EXPECT_THAT(run.err, HasSubstr("see --help")) << words;
+  }
+}
+
+TEST_P(Usage, OutputsThatCannotBe) {
+  folder_.write("in.json", "{}");
+  EXPECT_THAT(call("in.json -o in.json").err, HasSubstr("-o in.json: is the input file"));
+  EXPECT_EQ(call("in.json -o in.json").status, 2);
+  EXPECT_THAT(call("in.json -o no/out.h5").err, HasSubstr("no/out.h5: cannot be written: No such file or directory"));
+  EXPECT_EQ(call("in.json -o no/out.h5").status, 3);
+  EXPECT_THAT(call("in.json -o .").err, HasSubstr("not a regular file"));
+}
+
+INSTANTIATE_TEST_SUITE_P(Stage, Usage, testing::Values(1, 2, 3));
+
+TEST(UsageOfOptions, WrongValues) {
+  const test::TemporaryFolder folder;
+  test::make_matrices(folder);
+  EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --p 9").err, HasSubstr("--p: '9' is not allowed; allowed: a degree from 1 to 8"));
+  EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --threads x").err, HasSubstr("--threads: 'x' is not allowed"));
+  ASSERT_EQ(test::stage1(folder, "center.json -o low.h5 --p 2..3").status, 0);
+  ASSERT_EQ(test::stage2(folder, "low.h5 -o center.m.h5").status, 0);
+  folder.write("joint.json", test::three_fastener_joint(1000, 1000));
+  const auto run = test::stage3(folder, "joint.json -o o.h5 --p 7");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("7"), HasSubstr("allowed"), HasSubstr("2, 3")));
+}
+
+TEST(UsageOfOptions, QuietPrintsNothingAndEqualRunsGiveEqualBytes) {
+  const test::TemporaryFolder folder;
+  folder.write("center.json", test::example("center.json"));
+  std::string solution, matrices;
+  for (int i = 0; i < 2; ++i) {
+    const auto one = test::stage1(folder, "center.json -o a.h5 --quiet");
+    const auto two = test::stage2(folder, "a.h5 -o b.h5 --quiet");
+    EXPECT_EQ(one.out + one.err + two.out + two.err, "");
+    if (i == 1) {
+      EXPECT_EQ(test::read_file(folder.path("a.h5")), solution);
+      EXPECT_EQ(test::read_file(folder.path("b.h5")), matrices);
+    }
+    solution = test::read_file(folder.path("a.h5"));
+    matrices = test::read_file(folder.path("b.h5"));
+  }
+}
+
+}  // namespace
+}  // namespace fastjoint

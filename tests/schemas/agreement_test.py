@@ -1,0 +1,204 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The JSON Schemas and the strict readers of the programs give every input the same verdict.
+
+usage: agreement_test.py STAGE1_PLATE STAGE2_EXTRACT STAGE3_NONLINEAR
+"""
+import copy
+import json
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+
+from jsonschema import Draft7Validator, validators
+
+from bad_inputs import BAD_INPUTS, MISSING
+from programs import ROOT, Programs
+
+GOOD = sorted((ROOT / "tests/schemas/good").glob("*.json"))
+SCHEMAS = {kind: json.loads((ROOT / f"schemas/{kind}.schema.json").read_text()) for kind in ("plate", "joint")}
+P = 1  # the lowest degree is enough for a verdict
+
+# Places whose loss is a matter of meaning: something else refers to what stood there.
+REFERRED_TO = re.compile(r"/materials/[^/]+|/geometry/mesh/(arcs|edges(/[^/]+)?)|/laws/[^/]+")
+
+
+def recording(used):
+    """A validator that also notes which properties and which words of which enum it met."""
+    def properties(validator, properties, instance, schema):
+        used.update((id(properties), key) for key in properties if isinstance(instance, dict) and key in instance)
+        yield from Draft7Validator.VALIDATORS["properties"](validator, properties, instance, schema)
+
+    def enum(validator, words, instance, schema):
+        used.update((id(words), word) for word in words if word == instance)
+        yield from Draft7Validator.VALIDATORS["enum"](validator, words, instance, schema)
+    return validators.extend(Draft7Validator, {"properties": properties, "enum": enum})
+
+
+USED = set()
+VALIDATORS = {kind: recording(USED)(schema) for kind, schema in SCHEMAS.items()}
+
+
+def pointer(keys):
+    return "".join("/" + str(key).replace("~", "~0").replace("/", "~1") for key in keys)
+
+
+def related(a, b):
+    return a == b or a.startswith(b + "/") or b.startswith(a + "/")
+
+
+class Judge:
+    """Asks schema and program about documents of one kind in a folder that has what joints refer to."""
+
+    def __init__(self, kind, folder, programs):
+        self.kind, self.folder, self.programs = kind, folder, programs
+
+    def schema(self, document):
+        """Places that the schema refuses."""
+        return [pointer(error.absolute_path) for error in VALIDATORS[self.kind].iter_errors(document)]
+
+    def program(self, document):
+        """Exit status, place that the program refuses or None, and its message."""
+        scene, output = self.folder / "input.json", self.folder / "output.h5"
+        scene.write_text(json.dumps(document))
+        result = self.programs.plate(scene, output, P) if self.kind == "plate" else self.programs.joint(scene, output)
+        named = re.search(f"error: {re.escape(str(scene))}: (/.*?): ", result.stderr)
+        return result.returncode, named and named[1].rstrip("/"), result.stderr
+
+    def good(self, document):
+        refused = self.schema(document)
+        if refused:
+            yield f"the schema refuses {refused}"
+        status, _, message = self.program(document)
+        if status != 0:
+            yield f"the program ends with {status}: {message}"
+
+    def bad(self, document, place):
+        """Both must refuse, and there."""
+        refused = self.schema(document)
+        if not any(related(found, place) for found in refused):
+            yield f"the schema refuses {refused or 'nothing'}, expected '{place}'"
+        status, found, message = self.program(document)
+        if status != 2 or found is None or not related(found, place):
+            yield f"the program ends with {status}, expected 2 and the place '{place}': {message}"
+
+    def same(self, document):
+        refused = self.schema(document)
+        status, _, message = self.program(document)
+        if bool(refused) != (status == 2):
+            yield f"the schema refuses {refused or 'nothing'}, the program ends with {status}: {message}"
+
+
+def patched(document, place, value):
+    """A changed copy, and where the change is to be noticed: a missing or nameless key in the object that it is of."""
+    document = node = {"": copy.deepcopy(document)}
+    *parents, last = [key.replace("~1", "/") for key in place.split("/")]
+    for key in parents:
+        node = node[int(key) if isinstance(node, list) else key]
+    if value is MISSING:
+        del node[last]
+    else:
+        node[int(last) if isinstance(node, list) else last] = value
+    return document[""], place.rpartition("/")[0] if value is MISSING or not last else place
+
+
+def everywhere(node, place=""):
+    """(place, value) of a document and of all that is in it."""
+    yield place, node
+    children = node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else []
+    for key, child in children:
+        yield from everywhere(child, f"{place}/{key}")
+
+
+def mutants(document, seen):
+    """(what is done, place, value) at every place of a kind not seen before."""
+    for place, node in everywhere(document):
+        kind = re.sub(r"/\d+", "/*", place)
+        if (kind, type(node)) in seen:
+            continue
+        seen.add((kind, type(node)))
+        yield "null", place, None
+        if isinstance(node, dict):
+            yield "unknown key", f"{place}/unknown", None
+        if place and not kind.endswith("*") and not REFERRED_TO.fullmatch(kind):
+            yield "missing key", place, MISSING
+
+
+def check_examples(judge, folder, paths):
+    for path in paths:
+        document = json.loads(path.read_text())
+        schema = document.get("$schema")
+        if schema and (path.parent / schema).resolve() != ROOT / f"schemas/{judge.kind}.schema.json":
+            yield f"{path}: $schema does not lead to the schema"
+        if judge.kind == "joint":
+            judge.programs.prepare_joint(folder / path.name, P)
+        yield from (f"{path}: {problem}" for problem in judge.good(document))
+
+
+def check_bad(judge):
+    for name, base, place, value in BAD_INPUTS:
+        if not name.startswith(judge.kind):
+            continue
+        good = json.loads((ROOT / f"tests/schemas/good/{base}.json").read_text())
+        yield from (f"{name}: {problem}" for problem in judge.bad(*patched(good, place, value)))
+
+
+def check_mutants(judge, paths):
+    seen = set()
+    for path in paths:
+        good = json.loads(path.read_text())
+        for what, place, value in mutants(good, seen):
+            document, noticed = patched(good, place, value)
+            problems = judge.same(document) if value is MISSING else judge.bad(document, noticed)
+            yield from (f"{path}: {what} '{place}': {problem}" for problem in problems)
+
+
+def check_schema(schema):
+    """Every property is described; after the good examples, each has been used, and every word of every enum."""
+    Draft7Validator.check_schema(schema)
+    for place, node in everywhere(schema):
+        if not isinstance(node, dict):
+            continue
+        if node.get("additionalProperties") is False:
+            for key, value in node.get("properties", {}).items():
+                target = schema["definitions"][value["$ref"].split("/")[-1]] if "$ref" in value else value
+                if "description" not in target:
+                    yield f"schema: {place}/properties/{key}: has no description"
+                if (id(node["properties"]), key) not in USED:
+                    yield f"schema: {place}/properties/{key}: is in no good example"
+        for word in node.get("enum", []):
+            if (id(node["enum"]), word) not in USED:
+                yield f"schema: {place}/enum: {word} is in no good example"
+
+
+def copied(folder, paths):
+    for path in paths:
+        shutil.copy(path, folder)
+    return folder
+
+
+def main():
+    programs = Programs(*sys.argv[1:])
+    problems = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = copied(pathlib.Path(name), GOOD)
+        for kind, schema in SCHEMAS.items():
+            judge = Judge(kind, folder, programs)
+            paths = [path for path in GOOD if path.name.startswith(kind)]
+            problems += check_examples(judge, folder, paths)
+            problems += check_schema(schema)
+            problems += check_bad(judge)
+            problems += check_mutants(judge, paths)
+    for path in sorted(ROOT.glob("examples/**/*.json")):
+        kind = path.read_text().partition(".schema.json")[0].rpartition("/")[2]
+        if kind in SCHEMAS:
+            with tempfile.TemporaryDirectory() as name:
+                folder = copied(pathlib.Path(name), path.parent.glob("*.json"))
+                problems += check_examples(Judge(kind, folder, programs), folder, [path])
+    print("\n".join(problems) or "schemas and programs agree")
+    return bool(problems)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,177 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The HDF5 files that the programs write are what schemas/*.md say, dataset by dataset, both ways.
+
+usage: pages_test.py STAGE1_PLATE STAGE2_EXTRACT STAGE3_NONLINEAR
+"""
+import json
+import os
+import pathlib
+import re
+import shutil
+import sys
+import tempfile
+
+import h5py
+
+from programs import ROOT, Programs, must
+
+TEMPLATES = {"<k>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:]}
+JOINT = {
+    "format": "joint", "version": 1,
+    "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
+    "laws": {"bolt": {"type": "power", "A": 1000, "n": 0.7}},
+    "fasteners": [{"id": "1", "between": ["center:1", "doubler:1"], "law": "bolt", "clearance": 0.001}],
+    "loads": [{"external": "center:P", "force": 100}],
+    "increments": 5,
+}
+
+
+class Page:
+    def __init__(self, name):
+        self.name = name
+        self.text = (ROOT / f"schemas/{name}.md").read_text()
+        self.attributes = self.table("attribute")
+        self.datasets = self.table("path")
+        self.example = re.search(r"```python\n(.*?)```", self.text, re.DOTALL)[1]
+
+    def table(self, first):
+        """Rows, as {column: cell}, of the table whose first column has that name."""
+        lines = re.search(rf"^\| {first} \|.*\n(\|.*\n?)*", self.text, re.MULTILINE)[0].splitlines()
+        head, _, *rows = [[cell.strip().strip("`") for cell in line.strip("|").split("|")] for line in lines]
+        return [dict(zip(head, row, strict=True)) for row in rows]
+
+    def rows(self, file):
+        """The table of datasets by path, each row that names a <template> once for every value that the file has."""
+        rows = self.datasets
+        for word, values in TEMPLATES.items():
+            rows = [{key: cell.replace(word, str(value)) for key, cell in row.items()}
+                    for row in rows for value in (values(file) if word in row["path"] else [word])]
+        return {row["path"]: row for row in rows}
+
+
+def terms(row):
+    """The symbols and numbers of each extent: "(np, e+m)" is [["np"], ["e", "m"]]."""
+    return [extent.strip().split("+") for extent in row["shape"].strip("()").split(",") if extent]
+
+
+def type_name(dtype):
+    if h5py.check_string_dtype(dtype) == ("utf-8", None):  # of variable length
+        return "string"
+    return {"<f8": "float64", "<i4": "int32"}.get(dtype.str, dtype.str)
+
+
+def measured(rows, items):
+    """Size of each symbol, from the first extent where it stands alone."""
+    sizes = {}
+    for path in sorted(rows.keys() & items.keys()):
+        for symbols, extent in zip(terms(rows[path]), items[path].shape):
+            if len(symbols) == 1:
+                sizes.setdefault(symbols[0], int(symbols[0]) if symbols[0].isdigit() else extent)
+    return sizes
+
+
+def compare(rows, items, version):
+    """What differs between rows and datasets (or attributes) by name, of which each has .dtype and .shape."""
+    yield from (f"{path}: is not on the page" for path in sorted(items.keys() - rows.keys()))
+    yield from (f"{path}: is not in the file" for path in sorted(rows.keys() - items.keys()))
+    sizes = measured(rows, items)
+    for path in sorted(rows.keys() & items.keys()):
+        row, item = rows[path], items[path]
+        if row["type"] != type_name(item.dtype):
+            yield f"{path}: type is {type_name(item.dtype)}, the page says {row['type']}"
+        shape = tuple(sum(int(t) if t.isdigit() else sizes[t] for t in extent) for extent in terms(row))
+        if shape != item.shape:
+            yield f"{path}: shape is {item.shape}, the page says {row['shape']} = {shape}"
+        if not [1, 0] <= [int(part) for part in row["since"].split(".")] <= version:
+            yield f"{path}: is on the page since {row['since']}, the file is of version {version}"
+
+
+def check_units(rows, datasets, labels):
+    for path in sorted(rows.keys() & datasets.keys()):
+        attributes = datasets[path].attrs
+        unit = re.sub("length|force", lambda match: labels.get(match[0], match[0]), rows[path]["unit"])
+        if attributes.get("unit") != unit:
+            yield f"{path}: unit is {attributes.get('unit')}, the page says {unit}"
+        if set(attributes) != {"unit", "description", "digest"} or not attributes["description"]:
+            yield f"{path}: has the attributes {dict(attributes)}"
+
+
+def check(page, path, labels):
+    """Compares one file with its page."""
+    with h5py.File(path) as file:
+        datasets = {}
+        file.visititems(lambda name, item: datasets.update({name: item}) if isinstance(item, h5py.Dataset) else None)
+        rows, version = page.rows(file), list(file.attrs["version"])
+        problems = list(compare(rows, datasets, version))
+        problems += check_units(rows, datasets, labels)
+        attributes = {name: file.attrs.get_id(name) for name in file.attrs}
+        problems += compare({row["attribute"]: row for row in page.attributes}, attributes, version)
+        if file.attrs["format"] != page.name or f"version {version[0]}.{version[1]}" not in page.text:
+            problems.append(f"is a {file.attrs['format']} of version {version}")
+        if json.loads(file.attrs["units"]) != {"length": labels.get("length", ""), "force": labels.get("force", "")}:
+            problems.append(f"attribute units is {file.attrs['units']}")
+    return [f"{page.name}, {path.name}: {problem}" for problem in problems]
+
+
+def check_symbols(page):
+    for row in page.datasets:
+        for symbol in {term for extent in terms(row) for term in extent if not term.isdigit()}:
+            if any(word in symbol and word not in row["path"] for word in TEMPLATES):
+                yield f"{page.name}: {row['path']}: nothing stands for the template in symbol {symbol}"
+            if not re.search(rf"^\|.*`{symbol}`.*\| .*\|$", page.text.split("## Root")[0], re.MULTILINE):
+                yield f"{page.name}: {row['path']}: symbol {symbol} is not defined"
+
+
+def check_notices(page, path, labels):
+    """A file that differs from the page must be noticed."""
+    changes = {
+        "extra dataset": lambda file: file.create_dataset("extra", data=[1.0]),
+        "missing dataset": lambda file: file.pop("input"),
+        "other unit": lambda file: file["input"].attrs.modify("unit", "m"),
+        "no description": lambda file: file["input"].attrs.pop("description"),
+        "extra attribute": lambda file: file.attrs.create("extra", "text"),
+    }
+    for what, change in changes.items():
+        changed = path.with_name("changed.h5")
+        shutil.copy(path, changed)
+        with h5py.File(changed, "r+") as file:
+            change(file)
+        if len(check(page, changed, labels)) != 1:
+            yield f"{page.name}: {what}: expected one complaint, got {check(page, changed, labels)}"
+
+
+def run_plate(programs, source, folder, p):
+    """Files of one plate, and the labels of its units."""
+    solution, matrices = folder / f"{source.stem}.h5", folder / f"{source.stem}.matrices.h5"
+    must(programs.plate(source, solution, p))
+    must(programs.matrices(solution, matrices))
+    return solution, matrices, json.loads(source.read_text()).get("units", {})
+
+
+def main():
+    programs = Programs(*sys.argv[1:])
+    pages = solution_page, matrices_page, result_page = [Page(n) for n in ("plate-solution", "plate-matrices", "joint-result")]
+    problems = [problem for page in pages for problem in check_symbols(page)]
+    examples, good = ROOT / "examples/three_fasteners", ROOT / "tests/schemas/good"
+    with tempfile.TemporaryDirectory() as name:
+        folder = pathlib.Path(name)
+        for source, p in [(good / "plate_plane_strain.json", "1..3"), (good / "plate_tables.json", "2..3"),
+                          (good / "plate_half_holes.json", "2"), (examples / "doubler.json", "1..4"),
+                          (examples / "center.json", "1..4")]:
+            solution, matrices, labels = run_plate(programs, source, folder, p)
+            problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)
+        (folder / "joint.json").write_text(json.dumps(JOINT))
+        result = folder / "joint.h5"
+        must(programs.joint(folder / "joint.json", result))
+        problems += check(result_page, result, labels)
+        os.chdir(folder)
+        for page, path, reader_name in zip(pages, (solution, matrices, result), ("PLATE.h5", "MATRICES.h5", "RESULT.h5")):
+            problems = problems or list(check_notices(page, path, labels))
+            path.rename(reader_name)
+            exec(page.example, {})
+    print("\n".join(problems) or "files and pages agree")
+    return bool(problems)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The three programs, as tests in Python run them."""
+import json
+import os
+import pathlib
+import subprocess
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+
+
+class Programs:
+    """Each method runs one program on one input and returns what it said and how it ended."""
+
+    def __init__(self, stage1, stage2, stage3):
+        self.stage1, self.stage2, self.stage3 = stage1, stage2, stage3
+
+    def plate(self, scene, output, p):
+        return run(self.stage1, scene, "-o", output, "--p", p)
+
+    def matrices(self, solution, output):
+        return run(self.stage2, solution, "-o", output)
+
+    def joint(self, scene, output):
+        return run(self.stage3, scene, "-o", output)
+
+    def prepare_joint(self, scene, p):
+        """Makes the matrices that a joint names, [FOLDER/]NAME.*.h5, each from the NAME.json beside the joint."""
+        for plate in json.loads(scene.read_text())["plates"].values():
+            output = scene.parent / plate
+            source = scene.parent / f"{output.name.split('.')[0]}.json"
+            solution = output.with_suffix(".solution")
+            output.parent.mkdir(exist_ok=True)
+            if not output.exists():
+                must(self.plate(source, solution, p))
+                must(self.matrices(solution, output))
+
+
+def run(*command):
+    return subprocess.run([str(word) for word in command], env=ONE_THREAD, capture_output=True, text=True)
+
+
+def must(result):
+    if result.returncode != 0:
+        raise SystemExit(f"{' '.join(result.args)}: exit {result.returncode}\n{result.stderr}")
+    return result
