@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/loads.hpp"
 
+#include <fmt/format.h>
+
 #include "stage1_plate/assembler.hpp"
 
 namespace fastjoint::stage1 {
@@ -56,6 +58,12 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   }
   problem.T_f = loads.free();
   problem.T_c = loads.controlled();
+  for (std::size_t column = 0; column < list.size(); ++column) {
+    const auto c = static_cast<Eigen::Index>(column);
+    if (Eigen::VectorXd(problem.T_f.col(c)).isZero(0) && problem.T_c.col(c).isZero(0))
+      reject(scene, fmt::format("/external/{}", list[column]), "supports hold the whole edge against this traction",
+             "a traction along a direction in which the edge can move");
+  }
 }
 
 }  // namespace fastjoint::stage1

@@ -52,8 +52,8 @@ Materials read_materials(const Value& root) {
   const Value list = root.at("materials");
   for (const auto& [name, value] : list.members()) {
     materials.name.push_back(name);
-    materials.elasticity.push_back(value.find("E") ? read_isotropic(value, analysis)
-                                                   : read_orthotropic(value, analysis));
+    materials.elasticity.push_back(value.find("E") || value.find("nu") ? read_isotropic(value, analysis)
+                                                                          : read_orthotropic(value, analysis));
   }
   if (materials.name.empty()) list.fail("no material", "at least one");
   return materials;

@@ -18,7 +18,9 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   a.disc_hole = plate.disc_hole;
   a.disc_direction = plate.disc_direction;
   a.external_id = plate.external_id;
+  a.external_direction = plate.external_direction;
   a.traction_id = plate.traction_id;
+  a.traction_direction = plate.traction_direction;
   a.friction_hole = plate.friction_hole;
   a.friction_bearing = plate.friction_bearing;
   const auto constants = friction_constants(plate);

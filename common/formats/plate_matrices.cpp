@@ -28,13 +28,19 @@ std::vector<std::string> strings_if_any(const h5::Reader& file, const char* data
   return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>{};
 }
 
+std::vector<std::string> directions(const h5::Reader& file, const char* dataset, Eigen::Index n) {
+  return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>(static_cast<std::size_t>(n), "x");
+}
+
 void write_names(h5::Writer& file, const PlateMatrices& a) {
   file.write("p", a.p, {"1", "polynomial degree of the trunk space"});
   file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
   file.write("disc/hole", a.disc_hole, {"1", "hole of each disc unknown"});
   file.write("disc/direction", a.disc_direction, {"1", "direction of each disc unknown, x or y"});
   file.write("external/id", a.external_id, {"1", "external boundaries that move as one"});
+  file.write("external/direction", a.external_direction, {"1", "their directions, x or y"});
   file.write("traction/id", a.traction_id, {"1", "external boundaries under uniform traction"});
+  file.write("traction/direction", a.traction_direction, {"1", "their directions, x or y"});
   file.write("friction/hole", a.friction_hole, {"1", "hole of each friction case"});
   file.write("friction/bearing", a.friction_bearing, {"1", "side of the rim that bears: +x, -x, +y or -y"});
 }
@@ -91,6 +97,8 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   const auto e = a.n_externals();
   const auto q = a.n_tractions();
   const auto h = a.n_friction_cases();
+  a.external_direction = directions(file, "external/direction", e);
+  a.traction_direction = directions(file, "traction/direction", q);
   a.friction_bearing = strings_if_any(file, "friction/bearing", h);
   const std::string area = unit(a.header.units, 2, 0);
   a.friction_unit_force = h > 0 ? file.vector("friction/unit_force", h, area) : Eigen::VectorXd();

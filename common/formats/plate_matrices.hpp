@@ -18,8 +18,8 @@ struct PlateMatrices {
   Header header;
   Eigen::VectorXi p, ndof;                                  ///< (np)
   std::vector<std::string> disc_hole, disc_direction;       ///< (m)
-  std::vector<std::string> external_id;                     ///< (e)
-  std::vector<std::string> traction_id;                     ///< (q)
+  std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"
+  std::vector<std::string> traction_id, traction_direction;  ///< (q)
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h); bearing is "+x", "-x", "+y", "-y"
   Eigen::VectorXd friction_unit_force;  ///< (h) c: bearing force per unit peak contact stress, length^2
   Eigen::VectorXd friction_resultant;   ///< (h) resultant along the direction of a unit case, signed, length^2
@@ -40,7 +40,7 @@ struct PlateMatrices {
 void write(const std::string& path, const PlateMatrices& matrices);
 
 /// Reads all of it. `p`, `disc/hole`, `disc/direction` and `S_dd` must stand in the file; groups that a hand-made
-/// file leaves out (external, friction, traction, errors) are taken as empty.
+/// file leaves out (external, friction, traction, errors) are taken as empty, directions of externals as x.
 [[nodiscard]] PlateMatrices read_plate_matrices(const std::string& path);
 
 }  // namespace fastjoint::formats

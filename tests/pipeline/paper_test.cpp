@@ -46,7 +46,7 @@ TEST_F(Paper, LoadAtContact) {
     const std::string gap = fmt::format(R"(, "clearance": {})", clearance);
     const auto open = solve(test::three_fastener_joint(1000, 100, gap));
     EXPECT_EQ(open.F(0, 0), 0);
-    EXPECT_NEAR(100 * clearance / open.delta(0, 0), expected, 0.05);
+    EXPECT_NEAR(100 * clearance / open.delta(0, 0), expected, 0.05);  // 1961.749 with a ring, 1961.773 without
     EXPECT_EQ(solve(test::three_fastener_joint(1000, expected - 0.1, gap)).F(0, 0), 0);
     EXPECT_GT(solve(test::three_fastener_joint(1000, expected + 0.1, gap)).F(0, 0), 0);
   }
@@ -60,21 +60,22 @@ TEST_F(Paper, FrictionRaisesTheTransferredLoad) {
   }
 }
 
+/// To 1e-5 on the bare grid, to 2e-7 with one more ring (as the example has it); and it knows its error.
 TEST_F(Paper, StiffnessOfTheCentreSheet) {
   constexpr double published = 18473.0316;
-  const auto S_ee = [&](const std::string& name) {
+  const auto expect = [](const std::string& name, double tolerance) {
     const auto m = formats::read_plate_matrices(folder_->path(name));
-    EXPECT_LT(std::abs(m.S_ee.back()(0, 0) - published), 1.5 * m.S_ee_error(0, 0) + 1e-3);  // it knows its error
-    return m.S_ee.back()(0, 0);
+    const double error = std::abs(m.S_ee.back()(0, 0) - published);
+    EXPECT_LT(error, tolerance * published) << name;
+    EXPECT_LT(error, 1.5 * m.S_ee_error(0, 0)) << name;
   };
-  EXPECT_LT(std::abs(S_ee("center.m.h5") / published - 1), 1e-5);
-  std::string ringed = test::example("center.json");
-  for (const char* x : {"2.3", "1.3", "0.3"})
-    ringed = test::replaced(ringed, fmt::format("\"center\": [{}, 0],", x), fmt::format("\"center\": [{}, 0], \"rings\": 1,", x));
-  folder_->write("ringed.json", ringed);
-  ASSERT_EQ(test::stage1(*folder_, "ringed.json -o ringed.h5").status, 0);
-  ASSERT_EQ(test::stage2(*folder_, "ringed.h5 -o ringed.m.h5").status, 0);
-  EXPECT_LT(std::abs(S_ee("ringed.m.h5") / published - 1), 2e-7);
+  std::string bare = test::example("center.json");
+  for (int hole = 0; hole < 3; ++hole) bare = test::replaced(bare, ", \"rings\": 1", "");
+  folder_->write("bare.json", bare);
+  ASSERT_EQ(test::stage1(*folder_, "bare.json -o bare.h5").status, 0);
+  ASSERT_EQ(test::stage2(*folder_, "bare.h5 -o bare.m.h5").status, 0);
+  expect("bare.m.h5", 1e-5);
+  expect("center.m.h5", 2e-7);
 }
 
 /// Three equal increments with a clearance: a piecewise linear path between the two linear bounds (Figure 25).

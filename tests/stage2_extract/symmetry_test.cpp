@@ -54,7 +54,7 @@ std::string turned(double degrees) {
   };
   std::string nodes, quads, arcs;
   const auto& mesh = plate.mesh.mesh;
-  for (int i = 0; i < mesh.n_nodes(); ++i) nodes += (i ? "," : "") + point(mesh.nodes.col(i));
+  for (int i = 0; i < mesh.n_nodes(); ++i) nodes += fmt::format("{}{}", i ? "," : "", point(mesh.nodes.col(i)));
   for (int i = 0; i < mesh.n_elements(); ++i)
     quads += fmt::format("{}[{},{},{},{}]", i ? "," : "", mesh.quads(0, i), mesh.quads(1, i), mesh.quads(2, i), mesh.quads(3, i));
   for (const auto& arc : mesh.arcs)

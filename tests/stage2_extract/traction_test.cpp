@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <Eigen/LU>
 
+#include "common/errors.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -42,6 +43,13 @@ TEST(Traction, ActsOnFarDiscsAsARigidBoundaryDoes) {
   const auto rigid = strip("rigid");
   const double by_rigid = rigid.S_ed.back()(0, 0) / rigid.S_ee.back()(0, 0);  // force on the held disc per unit load
   EXPECT_NEAR(strip("traction").T_d.back()(0, 0) / by_rigid, 1, 1e-3);
+}
+
+TEST(Traction, OnAnEdgeThatSupportsHoldIsRefused) {
+  EXPECT_THAT([] {
+    (void)test::make_plate(test::grid_scene({0, 1}, {0, 1}, {}, supports +
+                           R"(, "external": [{"id": "T", "on": "left", "direction": "x", "kind": "traction"}])"));
+  }, testing::ThrowsMessage<InputError>(testing::HasSubstr("/external/0: supports hold the whole edge against this traction")));
 }
 
 }  // namespace

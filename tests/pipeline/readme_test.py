@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The README says what the programs do: readme_test.py BIN_FOLDER. Options against --help, tables against their script."""
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PROGRAMS = ("stage1_plate", "stage2_extract", "stage3_nonlinear")
+COMMON = {"-h", "--help", "--version", "-o", "--output", "--quiet"}
+
+
+def output(*words):
+    return subprocess.run(words, check=True, capture_output=True, text=True).stdout
+
+
+def options_in_readme(readme, program):
+    rows = re.findall(rf"^\| {program} \| (.*?) \|", readme, re.M)
+    return {option for row in rows for option in re.findall(r"`(-+[a-z]+)`", row)}
+
+
+def check_options(readme):
+    for program in PROGRAMS:
+        helped = set(re.findall(r"(?<!\w)-{1,2}[a-z]+", output(program, "--help").split("Options:")[1])) - COMMON
+        assert options_in_readme(readme, program) == helped, (program, helped)
+    assert options_in_readme(readme, "all") == COMMON - {"-h"}
+
+
+def check_tables(readme):
+    shown = readme.split("<!-- accuracy -->\n")[1].split("<!-- /accuracy -->")[0]
+    printed = output(str(ROOT / "scripts/accuracy_table"))
+    assert shown == printed, f"README.md is not what scripts/accuracy_table prints:\n{printed}"
+
+
+def check_links(readme):
+    for target in re.findall(r"\]\((?!http)([^)]+)\)", readme):
+        assert (ROOT / target).exists(), f"README.md links to {target}"
+
+
+def main(folder):
+    os.environ["PATH"] = folder + os.pathsep + os.environ["PATH"]
+    readme = (ROOT / "README.md").read_text()
+    check_links(readme)
+    check_options(readme)
+    check_tables(readme)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
