@@ -2,8 +2,10 @@
 """The README says what the programs do: readme_test.py BIN_FOLDER. Options against --help, tables against their script."""
 import os
 import re
+import shutil
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -27,6 +29,19 @@ def check_options(readme):
     assert options_in_readme(readme, "all") == COMMON - {"-h"}
 
 
+def check_joint(readme):
+    """The sheet and joint that the README shows are those of the example; its commands run on them."""
+    example = ROOT / "examples/lap_joint"
+    shown = re.findall(r"```json\n(.*?)```", readme, re.S)
+    assert shown == [(example / name).read_text() for name in ("upper.json", "joint.json")]
+    commands = re.search(r"```\n(stage1_plate.*?)```", readme, re.S)[1].splitlines()
+    with tempfile.TemporaryDirectory() as folder:
+        for path in example.glob("*.json"):
+            shutil.copy(path, folder)
+        for command in commands:
+            subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
+
+
 def check_tables(readme):
     shown = readme.split("<!-- accuracy -->\n")[1].split("<!-- /accuracy -->")[0]
     printed = output(str(ROOT / "scripts/accuracy_table"))
@@ -43,6 +58,7 @@ def main(folder):
     readme = (ROOT / "README.md").read_text()
     check_links(readme)
     check_options(readme)
+    check_joint(readme)
     check_tables(readme)
 
 
