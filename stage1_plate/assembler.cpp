@@ -51,8 +51,7 @@ void Assembler::add_coupling(int element, const ElementVector& g, int controlled
   for (std::size_t i = 0; i < g.modes.size(); ++i)
     for (int component = 0; component < 2; ++component) {
       const int row = target(numbering_, unknowns_, element, g.modes[i], component);
-      const double value =
-          numbering_.sign(g.modes[i], element) * g.values(component, static_cast<Eigen::Index>(i));
+      const double value = numbering_.sign(g.modes[i], element) * g.values(component, static_cast<Eigen::Index>(i));
       if (row == Unknowns::fixed) continue;
       if (Unknowns::is_free(row)) {
         fc_.emplace_back(row, controlled, value);
@@ -80,8 +79,7 @@ void LoadAssembler::add(int element, const ElementVector& g, int column) {
   for (std::size_t i = 0; i < g.modes.size(); ++i)
     for (int component = 0; component < 2; ++component) {
       const int row = target(numbering_, unknowns_, element, g.modes[i], component);
-      const double value =
-          numbering_.sign(g.modes[i], element) * g.values(component, static_cast<Eigen::Index>(i));
+      const double value = numbering_.sign(g.modes[i], element) * g.values(component, static_cast<Eigen::Index>(i));
       if (Unknowns::is_free(row)) {
         free_.emplace_back(row, column, value);
       } else if (row != Unknowns::fixed) {

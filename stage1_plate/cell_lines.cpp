@@ -32,7 +32,7 @@ std::vector<double> agreed(const std::optional<Wish>& first, const std::optional
   return {low, high};
 }
 
-/// Nodes on the sides between the cells of a strip: those of a run of cells without a hole, from side to side, are equal.
+/// Nodes on the sides between the cells of a strip: the same on all sides of a run of cells without a hole.
 std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip) {
   const std::size_t n = strip.size();
   std::vector<std::vector<double>> nodes(n + 1);
@@ -71,10 +71,14 @@ const std::vector<double>& CellLines::nodes(int column, int row, CellSide side) 
   const auto c = static_cast<std::size_t>(column);
   const auto r = static_cast<std::size_t>(row);
   switch (side) {
-    case bottom: return horizontal_[c][r];
-    case top: return horizontal_[c][r + 1];
-    case left: return vertical_[r][c];
-    default: return vertical_[r][c + 1];
+    case bottom:
+      return horizontal_[c][r];
+    case top:
+      return horizontal_[c][r + 1];
+    case left:
+      return vertical_[r][c];
+    default:
+      return vertical_[r][c + 1];
   }
 }
 

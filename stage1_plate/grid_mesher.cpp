@@ -64,7 +64,13 @@ struct Cell {
 Cell cell_at(const GridGeometry& grid, int column, int row) {
   const auto c = static_cast<std::size_t>(column);
   const auto r = static_cast<std::size_t>(row);
-  return {column, row, grid.x[c], grid.x[c + 1], grid.y[r], grid.y[r + 1], grid.thickness(row, column),
+  return {column,
+          row,
+          grid.x[c],
+          grid.x[c + 1],
+          grid.y[r],
+          grid.y[r + 1],
+          grid.thickness(row, column),
           grid.material(row, column)};
 }
 
@@ -91,23 +97,38 @@ std::vector<Point> side_points(const CellLines& lines, const Cell& cell, CellSid
   if (side == top || side == left) std::reverse(inner.begin(), inner.end());
   std::vector<Point> points;
   switch (side) {
-    case bottom: points = {{cell.x_low, cell.y_low}}; break;
-    case right: points = {{cell.x_high, cell.y_low}}; break;
-    case top: points = {{cell.x_high, cell.y_high}}; break;
-    case left: points = {{cell.x_low, cell.y_high}}; break;
+    case bottom:
+      points = {{cell.x_low, cell.y_low}};
+      break;
+    case right:
+      points = {{cell.x_high, cell.y_low}};
+      break;
+    case top:
+      points = {{cell.x_high, cell.y_high}};
+      break;
+    case left:
+      points = {{cell.x_low, cell.y_high}};
+      break;
   }
-  for (const double at : inner)
-    switch (side) {
-      case bottom: points.emplace_back(at, cell.y_low); break;
-      case right: points.emplace_back(cell.x_high, at); break;
-      case top: points.emplace_back(at, cell.y_high); break;
-      case left: points.emplace_back(cell.x_low, at); break;
+  for (const double at : inner) switch (side) {
+      case bottom:
+        points.emplace_back(at, cell.y_low);
+        break;
+      case right:
+        points.emplace_back(cell.x_high, at);
+        break;
+      case top:
+        points.emplace_back(at, cell.y_high);
+        break;
+      case left:
+        points.emplace_back(cell.x_low, at);
+        break;
     }
   return points;
 }
 
-/// The cell's outline as seen from the hole, counter-clockwise: closed (first point repeated) for a whole hole, else from
-/// the border to the border.
+/// The cell's outline as seen from the hole, counter-clockwise: closed (first point repeated) for a whole hole, else
+/// from the border to the border.
 std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleCell& hole) {
   int first = 0;  // the side after a cut that is not cut itself
   for (int side = 0; side < n_cell_sides; ++side)

@@ -14,7 +14,8 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Rigid motions of one connected part: along x, along y, turning about its middle (scaled to displacements of order 1).
+/// Rigid motions of one connected part: along x, along y, turning about its middle (scaled to displacements of order
+/// 1).
 struct Part {
   Eigen::Vector2d middle;
   double size;
@@ -42,7 +43,8 @@ std::vector<int> connected_parts(const pfem::Mesh& mesh) {
     return node;
   };
   for (int element = 0; element < mesh.n_elements(); ++element)
-    for (int v = 1; v < 4; ++v) root[static_cast<std::size_t>(find(mesh.quads(v, element)))] = find(mesh.quads(0, element));
+    for (int v = 1; v < 4; ++v)
+      root[static_cast<std::size_t>(find(mesh.quads(v, element)))] = find(mesh.quads(0, element));
   std::vector<int> part(root.size(), -1);
   int n_parts = 0;
   for (int node = 0; node < mesh.n_nodes(); ++node)

@@ -6,8 +6,9 @@
 
 namespace fastjoint::stage1 {
 
-/// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are held;
-/// the message says how. A direct solver does not see this: rounding makes its last pivot a small number of either sign.
+/// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are
+/// held; the message says how. A direct solver does not see this: rounding makes its last pivot a small number of
+/// either sign.
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

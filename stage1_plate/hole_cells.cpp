@@ -55,7 +55,8 @@ class Locator {
            "a hole inside a cell, or centred on the plate's border (half) or corner (quarter)");
   }
   [[noreturn]] void over_line(int axis, double line) const {
-    reject(scene_, pointer_, fmt::format("{} reaches over the cell line {} = {:g}", circle(), axis == 0 ? "x" : "y", line),
+    reject(scene_, pointer_,
+           fmt::format("{} reaches over the cell line {} = {:g}", circle(), axis == 0 ? "x" : "y", line),
            "a hole inside one cell; move the cell line");
   }
 
@@ -78,7 +79,10 @@ std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometr
                fmt::format("holes \"{}\" and \"{}\" are in one cell",
                            scene.holes[static_cast<std::size_t>(other.hole)].id, scene.holes[i].id),
                "one hole in a cell; draw a cell line between them");
-    cells.push_back({static_cast<int>(i), x.index, y.index, {x.center, y.center},
+    cells.push_back({static_cast<int>(i),
+                     x.index,
+                     y.index,
+                     {x.center, y.center},
                      {y.at_low_border, x.at_high_border, y.at_high_border, x.at_low_border}});
   }
   return cells;

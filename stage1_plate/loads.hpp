@@ -5,8 +5,9 @@
 
 namespace fastjoint::stage1 {
 
-/// Unit friction cases of every disc, direction inner, bearing side + then -: tangential traction cos(theta) on the bearing
-/// half of the rim, dragging the plate along the bearing direction. Sets friction_hole, friction_bearing, L_f, L_c.
+/// Unit friction cases of every disc, direction inner, bearing side + then -: tangential traction cos(theta) on the
+/// bearing half of the rim, dragging the plate along the bearing direction. Sets friction_hole, friction_bearing, L_f,
+/// L_c.
 void add_friction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
 
 /// Uniform traction of unit total force on every external of that kind. Sets T_f, T_c.

@@ -16,8 +16,8 @@ PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
   const pfem::ElementStiffness stiffness(scene.p_high);
   for (int element = 0; element < plate.mesh.n_elements(); ++element) {
     const auto& D = scene.elasticity[static_cast<std::size_t>(plate.mesh.material[element])];
-    assembler.add_stiffness(element, stiffness(pfem::ElementMap(plate.mesh, plate.edges, element), D,
-                                               plate.mesh.thickness[element]));
+    assembler.add_stiffness(
+        element, stiffness(pfem::ElementMap(plate.mesh, plate.edges, element), D, plate.mesh.thickness[element]));
   }
   add_springs(scene, plate, problem.numbering, problem.unknowns, assembler);
   problem.K_ff = assembler.K_ff();

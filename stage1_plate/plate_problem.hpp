@@ -18,10 +18,10 @@ struct PlateProblem {
   Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc)
   Eigen::MatrixXd K_cc;              ///< (nc, nc)
   std::vector<std::string> friction_hole, friction_bearing;
-  Eigen::SparseMatrix<double> L_f;   ///< (n_f, h) loads of the unit friction cases on the plate, length^2
-  Eigen::MatrixXd L_c;               ///< (nc, h)
-  Eigen::SparseMatrix<double> T_f;   ///< (n_f, q) loads of a unit total force, uniformly spread
-  Eigen::MatrixXd T_c;               ///< (nc, q)
+  Eigen::SparseMatrix<double> L_f;  ///< (n_f, h) loads of the unit friction cases on the plate, length^2
+  Eigen::MatrixXd L_c;              ///< (nc, h)
+  Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of a unit total force, uniformly spread
+  Eigen::MatrixXd T_c;              ///< (nc, q)
 };
 
 /// Integrates elements, springs and loads once, at the scene's highest p.

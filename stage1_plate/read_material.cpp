@@ -13,10 +13,10 @@ using pfem::Analysis;
 
 Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
   value.only({"E", "nu"});
-  const auto constants =
-      pfem::isotropic(value.at("E").number(input::positive), value.at("nu").number(poisson_range));
+  const auto constants = pfem::isotropic(value.at("E").number(input::positive), value.at("nu").number(poisson_range));
   if (!pfem::is_stable(constants, analysis))
-    value.at("nu").not_allowed("a number > -1 and < 0.5 in plane strain (0.5 is incompressible: its stiffness is infinite)");
+    value.at("nu").not_allowed(
+        "a number > -1 and < 0.5 in plane strain (0.5 is incompressible: its stiffness is infinite)");
   return pfem::elasticity(constants, 0, analysis);
 }
 
@@ -53,7 +53,7 @@ Materials read_materials(const Value& root) {
   for (const auto& [name, value] : list.members()) {
     materials.name.push_back(name);
     materials.elasticity.push_back(value.find("E") || value.find("nu") ? read_isotropic(value, analysis)
-                                                                          : read_orthotropic(value, analysis));
+                                                                       : read_orthotropic(value, analysis));
   }
   if (materials.name.empty()) list.fail("no material", "at least one");
   return materials;

@@ -35,7 +35,8 @@ std::vector<std::string> read_directions(const Value& value) {
   std::vector<std::string> result;
   for (const auto& item : value.items(1, 2)) {
     result.push_back(item.choice(directions));
-    if (result.size() == 2 && result[0] == result[1]) item.fail("\"" + result[1] + "\" stands twice", "each direction once");
+    if (result.size() == 2 && result[0] == result[1])
+      item.fail("\"" + result[1] + "\" stands twice", "each direction once");
   }
   return result;
 }

@@ -32,11 +32,11 @@ struct MeshGeometry {
     int a, b;
     Eigen::Vector2d center;
   };
-  std::vector<Eigen::Vector2d> nodes;      ///< length
-  std::vector<Eigen::Vector4i> quads;      ///< nodes, counter-clockwise
+  std::vector<Eigen::Vector2d> nodes;  ///< length
+  std::vector<Eigen::Vector4i> quads;  ///< nodes, counter-clockwise
   std::vector<Arc> arcs;
-  std::vector<double> thickness;           ///< (quads), length
-  std::vector<int> material;               ///< (quads)
+  std::vector<double> thickness;  ///< (quads), length
+  std::vector<int> material;      ///< (quads)
   std::vector<EdgeSet> edges;
 };
 
@@ -60,8 +60,7 @@ struct External {
   ExternalKind kind;
 };
 
-/// PLATE.json as it was meant, complete and consistent in itself; whether the holes fit the geometry is the meshers' to
-/// say.
+/// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
 struct PlateScene {
   std::string file, text;  ///< where it came from
   std::string name;

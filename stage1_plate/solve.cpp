@@ -32,7 +32,8 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.mesh = plate.mesh;
   for (const auto& hole : scene.holes) a.hole_id.push_back(hole.id);
   a.hole_rim = plate.rims;
-  for (const auto& support : scene.supports) a.supported.insert(a.supported.end(), support.fix.begin(), support.fix.end());
+  for (const auto& support : scene.supports)
+    a.supported.insert(a.supported.end(), support.fix.begin(), support.fix.end());
   std::sort(a.supported.begin(), a.supported.end());
   a.supported.erase(std::unique(a.supported.begin(), a.supported.end()), a.supported.end());
   const Unknowns& unknowns = problem.unknowns;

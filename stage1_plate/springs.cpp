@@ -15,7 +15,8 @@ class SideSprings {
     Eigen::MatrixXd K = Eigen::MatrixXd::Zero(2 * n_modes, 2 * n_modes);
     for (int a = 0; a < 2; ++a)
       for (int b = 0; b < 2; ++b) {
-        const Eigen::VectorXd w = weight_.array() * radial_.row(a).array().transpose() * radial_.row(b).array().transpose();
+        const Eigen::VectorXd w =
+            weight_.array() * radial_.row(a).array().transpose() * radial_.row(b).array().transpose();
         const Eigen::MatrixXd block = rule_.N * w.asDiagonal() * rule_.N.transpose();
         for (std::size_t i = 0; i < rule_.modes.size(); ++i)
           for (std::size_t j = 0; j < rule_.modes.size(); ++j)

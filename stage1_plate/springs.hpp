@@ -5,8 +5,8 @@
 
 namespace fastjoint::stage1 {
 
-/// Distributed normal springs between every rim and its rigid disc, equation (6): adds int k t (v.n)(u.n) ds to the plate,
-/// -int k t (u.n)(e.n) ds between plate and disc, int k t (e.n)(e'.n) ds to the disc.
+/// Distributed normal springs between every rim and its rigid disc, equation (6): adds int k t (v.n)(u.n) ds to the
+/// plate, -int k t (u.n)(e.n) ds between plate and disc, int k t (e.n)(e'.n) ds to the disc.
 void add_springs(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
                  const Unknowns& unknowns, Assembler& assembler);
 

@@ -56,7 +56,8 @@ class Classifier {
 
   /// The side's vertices move with the external; its edge modes, which would bend it, are zero.
   void control(int index) {
-    const External& external = scene_.externals[static_cast<std::size_t>(result_.rigid[static_cast<std::size_t>(index)])];
+    const External& external =
+        scene_.externals[static_cast<std::size_t>(result_.rigid[static_cast<std::size_t>(index)])];
     for (const auto& side : sides(external.on)) {
       const auto list = side_coefficients(numbering_, side, component_of(external.direction));
       for (std::size_t i = 0; i < list.size(); ++i) {
@@ -70,10 +71,10 @@ class Classifier {
 
   [[noreturn]] void conflict(const External& external, std::size_t coefficient) const {
     const auto function = static_cast<int>(coefficient / 2);
-    const std::string where = function < plate_.mesh.n_nodes()
-                                  ? fmt::format("at ({:g}, {:g})", plate_.mesh.nodes(0, function),
-                                                plate_.mesh.nodes(1, function))
-                                  : std::string("along an edge");
+    const std::string where =
+        function < plate_.mesh.n_nodes()
+            ? fmt::format("at ({:g}, {:g})", plate_.mesh.nodes(0, function), plate_.mesh.nodes(1, function))
+            : std::string("along an edge");
     reject(scene_, "/external",
            fmt::format("external \"{}\" moves the plate in {} {}, where a support or another external holds it",
                        external.id, external.direction, where),

@@ -17,9 +17,9 @@ struct Unknowns {
   std::vector<int> target;  ///< (2 n_functions), at 2 function + component: see below
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_controlled = 0;
-  std::vector<int> rigid, traction;                        ///< indices into PlateScene::externals
-  std::vector<std::string> disc_hole, disc_direction;      ///< (m)
-  std::vector<int> disc_of_hole;                           ///< (holes) first disc of the hole, or -1 for an open hole
+  std::vector<int> rigid, traction;                    ///< indices into PlateScene::externals
+  std::vector<std::string> disc_hole, disc_direction;  ///< (m)
+  std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
 
   static constexpr int fixed = -1;
   [[nodiscard]] static constexpr int controlled(int index) { return -2 - index; }

@@ -72,10 +72,10 @@ std::optional<double> equilibrium(const PlateSolution& plate, const PlateMatrice
   for (const std::string direction : {"x", "y"}) {
     const bool supported =
         std::find(plate.supported.begin(), plate.supported.end(), direction) != plate.supported.end();
-    const bool discs_follow = plate.disc_direction.empty() || std::find(plate.disc_direction.begin(), plate.disc_direction.end(),
-                                                                         direction) != plate.disc_direction.end();
-    if (!supported && discs_follow)
-      worst = std::max(worst.value_or(0), residual_force(plate, matrices, S, direction));
+    const bool discs_follow =
+        plate.disc_direction.empty() ||
+        std::find(plate.disc_direction.begin(), plate.disc_direction.end(), direction) != plate.disc_direction.end();
+    if (!supported && discs_follow) worst = std::max(worst.value_or(0), residual_force(plate, matrices, S, direction));
   }
   return worst;
 }
@@ -100,9 +100,10 @@ Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Ei
 
 void require_good(const Checks& checks, const std::string& file) {
   const auto fail = [&](const char* what, double value) {
-    throw NumericalError(fmt::format("{}: {} is {:.1e} of the largest entry, allowed {:.0e}; the plate's stiffness is too "
-                                     "badly conditioned (check moduli, thicknesses and element shapes)",
-                                     file, what, value, worst_allowed));
+    throw NumericalError(
+        fmt::format("{}: {} is {:.1e} of the largest entry, allowed {:.0e}; the plate's stiffness is too "
+                    "badly conditioned (check moduli, thicknesses and element shapes)",
+                    file, what, value, worst_allowed));
   };
   if (!(checks.symmetry < worst_allowed)) fail("asymmetry of S", checks.symmetry);
   if (!(checks.smallest_eigenvalue > -worst_allowed)) fail("smallest eigenvalue of S", checks.smallest_eigenvalue);
@@ -111,10 +112,9 @@ void require_good(const Checks& checks, const std::string& file) {
 }
 
 std::string report(const Checks& checks) {
-  return fmt::format(
-      "  symmetry {:.1e}, smallest eigenvalue {:.1e}, reciprocity {}, equilibrium {}\n", checks.symmetry,
-      checks.smallest_eigenvalue, shown(checks.reciprocity, "not applicable (no loads)"),
-      shown(checks.equilibrium, "not applicable (supported)"));
+  return fmt::format("  symmetry {:.1e}, smallest eigenvalue {:.1e}, reciprocity {}, equilibrium {}\n", checks.symmetry,
+                     checks.smallest_eigenvalue, shown(checks.reciprocity, "not applicable (no loads)"),
+                     shown(checks.equilibrium, "not applicable (supported)"));
 }
 
 }  // namespace fastjoint::stage2

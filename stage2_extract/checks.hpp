@@ -13,7 +13,8 @@ namespace fastjoint::stage2 {
 struct Checks {
   double symmetry;             ///< largest |S - S^T|
   double smallest_eigenvalue;  ///< of S, over the largest
-  std::optional<double> reciprocity;  ///< reactions to the probe and to tractions by unit fields against those by solving
+  std::optional<double>
+      reciprocity;  ///< reactions to the probe and to tractions by unit fields against those by solving
   std::optional<double> equilibrium;  ///< force left when all discs and boundaries move together; none if supports hold
 };
 

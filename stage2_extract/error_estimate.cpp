@@ -8,12 +8,14 @@
 namespace fastjoint::stage2 {
 namespace {
 
-/// Remaining error x = S_p - S_inf >= 0 from the last two falls, first > last > 0: the error before them was x + last and
-/// x + last + first, and the logarithms of the three are proportional to those of N. Bisection on log x, where the defect
-/// rises monotonically. Infinite if they fall more slowly than any power of N.
+/// Remaining error x = S_p - S_inf >= 0 from the last two falls, first > last > 0: the error before them was x + last
+/// and x + last + first, and the logarithms of the three are proportional to those of N. Bisection on log x, where the
+/// defect rises monotonically. Infinite if they fall more slowly than any power of N.
 double fit(double first, double last, double n0, double n1, double n2) {
   const double Q = std::log(n2 / n1) / std::log(n1 / n0);
-  const auto defect = [&](double x) { return std::log(x / (x + last)) - Q * std::log((x + last) / (x + last + first)); };
+  const auto defect = [&](double x) {
+    return std::log(x / (x + last)) - Q * std::log((x + last) / (x + last + first));
+  };
   double low = std::log(1e-12 * last);
   double high = std::log(1e6 * first);
   if (defect(std::exp(low)) > 0) return std::exp(low);

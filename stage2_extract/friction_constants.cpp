@@ -11,7 +11,8 @@ FrictionConstants friction_constants(const formats::PlateSolution& plate) {
   const auto edges = pfem::find_edges(plate.mesh);
   FrictionConstants constants{Eigen::VectorXd::Zero(h), Eigen::VectorXd::Zero(h)};
   for (Eigen::Index j = 0; j < h; ++j) {
-    const auto id = std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.friction_hole[static_cast<std::size_t>(j)]);
+    const auto id =
+        std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.friction_hole[static_cast<std::size_t>(j)]);
     const auto& rim = plate.hole_rim[static_cast<std::size_t>(std::distance(plate.hole_id.begin(), id))];
     const std::string& bearing = plate.friction_bearing[static_cast<std::size_t>(j)];
     const Eigen::Vector2d axis = pfem::axis(bearing.substr(1));

@@ -27,9 +27,9 @@ void run(const program::Arguments& arguments) {
   const auto& a = extraction.matrices;
   formats::write(arguments.output, a);
   if (arguments.quiet) return;
-  std::cout << fmt::format("{}: {} discs, {} externals, {} friction cases, {} tractions, p = {}..{}\n", arguments.output,
-                           a.n_discs(), a.n_externals(), a.n_friction_cases(), a.n_tractions(), a.p[0],
-                           a.p[a.p.size() - 1]);
+  std::cout << fmt::format("{}: {} discs, {} externals, {} friction cases, {} tractions, p = {}..{}\n",
+                           arguments.output, a.n_discs(), a.n_externals(), a.n_friction_cases(), a.n_tractions(),
+                           a.p[0], a.p[a.p.size() - 1]);
   const double S = std::max({largest(a.S_ee.back()), largest(a.S_dd.back())});
   const double error = std::max({largest(a.S_ee_error), largest(a.S_dd_error)});
   std::cout << fmt::format("  largest stiffness {:.6g} {}, estimated error {:.1e} of it\n", S,

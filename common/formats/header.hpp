@@ -15,7 +15,7 @@ struct Units {
   friend bool operator==(const Units&, const Units&) = default;
 };
 
-/// length^l force^f as a label: "in^2", "lbf/in", "lbf/in^3"; "1" if dimensionless. Every unit attribute comes from here.
+/// length^l force^f as a label: "in^2", "lbf/in", "1" if dimensionless. Every unit attribute comes from here.
 [[nodiscard]] std::string unit(const Units& units, int length_power, int force_power);
 
 /// What every file says of itself.

@@ -21,14 +21,14 @@ struct PlateHistory {
 /// What a joint did under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
-  bool complete = false;         ///< every increment asked for converged
-  Eigen::VectorXd load_factor;   ///< (steps)
-  Eigen::VectorXi converged;     ///< (steps) 1
-  Eigen::VectorXi iterations;    ///< (steps) of the nonlinear solver, failed tries included
-  Eigen::VectorXd residual;      ///< (steps) largest, relative to the largest force
-  std::vector<std::string> fastener_id;  ///< (n)
-  Eigen::MatrixXd delta;                 ///< (steps, n) relative displacement of the discs, length
-  Eigen::MatrixXd F;                     ///< (steps, n) bearing force, argument of the law
+  bool complete = false;                                  ///< every increment asked for converged
+  Eigen::VectorXd load_factor;                            ///< (steps)
+  Eigen::VectorXi converged;                              ///< (steps) 1
+  Eigen::VectorXi iterations;                             ///< (steps) of the nonlinear solver, failed tries included
+  Eigen::VectorXd residual;                               ///< (steps) largest, relative to the largest force
+  std::vector<std::string> fastener_id;                   ///< (n)
+  Eigen::MatrixXd delta;                                  ///< (steps, n) relative displacement of the discs, length
+  Eigen::MatrixXd F;                                      ///< (steps, n) bearing force, argument of the law
   Eigen::MatrixXd transferred_first, transferred_second;  ///< (steps, n) F + friction resultant on each plate
   std::vector<PlateHistory> plates;
 };

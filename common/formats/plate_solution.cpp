@@ -28,8 +28,8 @@ Sparse read_sparse(const h5::Reader& file, const std::string& group, Eigen::Inde
   const Eigen::VectorXi start = file.integers(group + "/start", cols + 1);
   const Eigen::VectorXi row = file.integers(group + "/row", h5::any);
   const Eigen::VectorXd value = file.vector(group + "/value", row.size(), unit);
-  const bool steps_up = start[0] == 0 && start[cols] == row.size() &&
-                        (start.tail(cols) - start.head(cols)).minCoeff() >= 0;
+  const bool steps_up =
+      start[0] == 0 && start[cols] == row.size() && (start.tail(cols) - start.head(cols)).minCoeff() >= 0;
   if ((cols > 0 && !steps_up) || (row.size() > 0 && (row.minCoeff() < 0 || row.maxCoeff() >= rows)))
     throw FileError(fmt::format("{}:{}: is not a sparse matrix of {} x {}", file.path(), group, rows, cols));
   return Eigen::Map<const Sparse>(rows, cols, row.size(), start.data(), row.data(), value.data());
@@ -72,7 +72,8 @@ void write_holes(h5::Writer& file, const PlateSolution& a, const std::string& le
     const auto& rim = a.hole_rim[static_cast<std::size_t>(hole)];
     center.row(hole) = rim.center.transpose();
     radius[hole] = rim.radius;
-    for (const auto& side : rim.sides) sides.insert(sides.end(), {static_cast<int>(hole), side.element, side.local_edge});
+    for (const auto& side : rim.sides)
+      sides.insert(sides.end(), {static_cast<int>(hole), side.element, side.local_edge});
   }
   file.write("hole/id", a.hole_id, {"1", "holes in the order of the input"});
   file.write("hole/center", center, {length, "x and y of each hole's centre"});

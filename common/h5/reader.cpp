@@ -76,8 +76,7 @@ struct Reader::Impl {
     const Shape found(extents.begin(), extents.end());
     bool fits = found.size() == expected.size();
     for (std::size_t i = 0; fits && i < found.size(); ++i) fits = expected[i] == any || found[i] == expected[i];
-    if (!fits)
-      fail(name, fmt::format("shape is {}, expected {}", shape_text(found), shape_text(expected)));
+    if (!fits) fail(name, fmt::format("shape is {}, expected {}", shape_text(found), shape_text(expected)));
     return found;
   }
 
@@ -94,8 +93,9 @@ struct Reader::Impl {
 
   void check_digest(const Dataset& set, const std::string& name, const std::string& found) const {
     if (has_attribute(set.get(), "digest") && read_text_attribute(set.get(), "digest") != found)
-      fail(name, "data do not match their digest: the file is damaged, or was edited by hand (then delete the "
-                 "attribute 'digest')");
+      fail(name,
+           "data do not match their digest: the file is damaged, or was edited by hand (then delete the "
+           "attribute 'digest')");
   }
 
   template <class Scalar>
@@ -186,8 +186,7 @@ Reader::Reader(std::string path, const std::string& format, int major) : impl_(s
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_file_locking(access.get(), false, true);  // reading from a read-only or network file system
   impl_->file = File(H5Fopen(impl_->path.c_str(), H5F_ACC_RDONLY, access.get()));
-  if (!impl_->file)
-    throw FileError(fmt::format("{}: is damaged or truncated: {}", impl_->path, last_error()));
+  if (!impl_->file) throw FileError(fmt::format("{}: is damaged or truncated: {}", impl_->path, last_error()));
   check_version(*this, impl_->file.get(), format, major);
 }
 
@@ -204,7 +203,7 @@ bool Reader::has(const std::string& dataset) const {
 
 std::string Reader::attribute(const std::string& name, const std::string& otherwise) const {
   return has_attribute(impl_->file.get(), name.c_str()) ? read_text_attribute(impl_->file.get(), name.c_str())
-                                                         : otherwise;
+                                                        : otherwise;
 }
 
 int Reader::integer_attribute(const std::string& name) const {

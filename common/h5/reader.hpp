@@ -39,8 +39,7 @@ class Reader {
   [[nodiscard]] Eigen::MatrixXd transposed(const std::string& dataset, Eigen::Index cols, Eigen::Index rows,
                                            const std::string& unit) const;
   [[nodiscard]] Eigen::VectorXi integers(const std::string& dataset, Eigen::Index n) const;
-  [[nodiscard]] Eigen::MatrixXi integer_matrix(const std::string& dataset, Eigen::Index rows,
-                                               Eigen::Index cols) const;
+  [[nodiscard]] Eigen::MatrixXi integer_matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols) const;
   [[nodiscard]] std::vector<std::string> strings(const std::string& dataset, Eigen::Index n) const;
   [[nodiscard]] std::string text(const std::string& dataset) const;
 

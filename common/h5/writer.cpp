@@ -45,8 +45,7 @@ struct Writer::Impl {
   void text_attribute(hid_t owner, const std::string& name, const std::string& text) const {
     const auto type = utf8_string();
     const Space space(H5Screate(H5S_SCALAR));
-    const Attribute attribute(
-        H5Acreate2(owner, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT));
+    const Attribute attribute(H5Acreate2(owner, name.c_str(), type.get(), space.get(), H5P_DEFAULT, H5P_DEFAULT));
     const char* chars = text.c_str();
     if (!attribute || H5Awrite(attribute.get(), type.get(), &chars) < 0) fail("attribute " + name);
   }
@@ -90,8 +89,7 @@ struct Writer::Impl {
   }
 };
 
-Writer::Writer(std::string path, const std::string& format, int major, int minor)
-    : impl_(std::make_unique<Impl>()) {
+Writer::Writer(std::string path, const std::string& format, int major, int minor) : impl_(std::make_unique<Impl>()) {
   impl_->path = std::move(path);
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
   constexpr std::size_t increment = 1 << 20;

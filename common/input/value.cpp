@@ -64,8 +64,7 @@ std::string Value::shown() const {
 }
 
 void Value::fail(const std::string& found, const std::string& allowed) const {
-  throw InputError(
-      fmt::format("{}: {}: {}; allowed: {}", file_, pointer_.empty() ? "/" : pointer_, found, allowed));
+  throw InputError(fmt::format("{}: {}: {}; allowed: {}", file_, pointer_.empty() ? "/" : pointer_, found, allowed));
 }
 
 void Value::not_allowed(const std::string& allowed) const { fail(shown() + " is not allowed", allowed); }
@@ -103,10 +102,10 @@ std::vector<std::pair<std::string, Value>> Value::members() const {
 std::vector<Value> Value::items(std::size_t least, std::size_t most) const {
   if (!is_array()) not_allowed("an array");
   if (json_->size() < least || json_->size() > most)
-    fail(fmt::format("array of {}", json_->size()),
-         least == most                                             ? fmt::format("exactly {}", least)
-         : most == std::numeric_limits<std::size_t>::max() ? fmt::format("at least {}", least)
-                                                                   : fmt::format("{} to {}", least, most));
+    fail(fmt::format("array of {}", json_->size()), least == most ? fmt::format("exactly {}", least)
+                                                    : most == std::numeric_limits<std::size_t>::max()
+                                                        ? fmt::format("at least {}", least)
+                                                        : fmt::format("{} to {}", least, most));
   std::vector<Value> result;
   for (std::size_t i = 0; i < json_->size(); ++i) result.push_back(Value(*this, (*json_)[i], std::to_string(i)));
   return result;

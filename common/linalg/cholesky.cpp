@@ -90,11 +90,13 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_u
   cholmod_factorize(&A, L, &c);
   check_memory(c.status);
   if (c.status == CHOLMOD_NOT_POSDEF || L->minor < L->n)
-    throw NumericalError(fmt::format("the stiffness matrix is not positive definite: pivot of row {} of {} is not "
-                                     "positive",
-                                     static_cast<const int*>(L->Perm)[L->minor], L->n));
+    throw NumericalError(
+        fmt::format("the stiffness matrix is not positive definite: pivot of row {} of {} is not "
+                    "positive",
+                    static_cast<const int*>(L->Perm)[L->minor], L->n));
   if (const double r = rcond(); !(r > least_rcond))
-    throw NumericalError(fmt::format("the stiffness matrix is singular to working precision (1/condition = {:.1e})", r));
+    throw NumericalError(
+        fmt::format("the stiffness matrix is singular to working precision (1/condition = {:.1e})", r));
 }
 
 Cholesky::~Cholesky() = default;

@@ -33,8 +33,7 @@ ElementStiffness::Table ElementStiffness::tabulate(int p, int n_points) {
   return table;
 }
 
-Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D,
-                                             double thickness) const {
+Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness) const {
   const Table& table = map.is_curved() ? curved_ : straight_;
   const auto n_points = table.w.size();
   const auto n = table.shape.N.rows();

@@ -12,8 +12,7 @@ Values integrated_legendre(int p, const Eigen::VectorXd& x) {
   Eigen::MatrixXd P(p + 1, x.size());  // P(k, q) = P_k(x_q)
   P.row(0).setOnes();
   P.row(1) = t;
-  for (int k = 2; k <= p; ++k)
-    P.row(k) = ((2 * k - 1) * t.cwiseProduct(P.row(k - 1)) - (k - 1) * P.row(k - 2)) / k;
+  for (int k = 2; k <= p; ++k) P.row(k) = ((2 * k - 1) * t.cwiseProduct(P.row(k - 1)) - (k - 1) * P.row(k - 2)) / k;
 
   Values v{Eigen::MatrixXd(p + 1, x.size()), Eigen::MatrixXd(p + 1, x.size())};
   v.N.row(0) = (P.row(0) - t) / 2;

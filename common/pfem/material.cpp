@@ -41,7 +41,7 @@ Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, 
   D(2, 2) = constants.G12;
   const double c = std::cos(angle);
   const double s = std::sin(angle);
-  Eigen::Matrix3d T;  // engineering strains along the material axes from those along x, y
+  Eigen::Matrix3d T;         // engineering strains along the material axes from those along x, y
   T << c * c, s * s, c * s,  //
       s * s, c * c, -c * s,  //
       -2 * c * s, 2 * c * s, c * c - s * s;

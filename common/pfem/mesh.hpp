@@ -17,8 +17,8 @@ struct Arc {
 
 /// Quadrilaterals with straight or circular edges.
 struct Mesh {
-  Eigen::Matrix2Xd nodes;     ///< (2, n_nodes), length
-  Eigen::Matrix4Xi quads;     ///< (4, n_elements) nodes, counter-clockwise
+  Eigen::Matrix2Xd nodes;  ///< (2, n_nodes), length
+  Eigen::Matrix4Xi quads;  ///< (4, n_elements) nodes, counter-clockwise
   std::vector<Arc> arcs;
   Eigen::VectorXd thickness;  ///< (n_elements), length
   Eigen::VectorXi material;   ///< (n_elements) index into the caller's list of materials

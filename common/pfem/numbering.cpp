@@ -43,8 +43,7 @@ Numbering number_by_degree(const Mesh& mesh, const Edges& edges, int p) {
     }
     for (Eigen::Index m = edge_mode(p, n_local_edges, 2); m < n_modes; ++m) {
       const auto [i, j, k] = modes[static_cast<std::size_t>(m)];
-      numbering.function(m, element) =
-          blocks[static_cast<std::size_t>(k)].first_interior + element * (k - 3) + (i - 2);
+      numbering.function(m, element) = blocks[static_cast<std::size_t>(k)].first_interior + element * (k - 3) + (i - 2);
     }
   }
   return numbering;

@@ -14,7 +14,7 @@ struct Numbering {
   int p;
   std::vector<int> n_functions;  ///< (p + 1) how many of degree <= k
   Eigen::MatrixXi function;      ///< (n_modes, n_elements) global function of a local mode
-  Eigen::MatrixXd sign;          ///< (n_modes, n_elements) +1, or -1: an odd edge mode seen against the edge's direction
+  Eigen::MatrixXd sign;  ///< (n_modes, n_elements) +1, or -1: an odd edge mode seen against the edge's direction
 };
 
 /// Vertices first; then for each degree k the edges' modes k (an edge runs from its lower to its higher node) and the

@@ -10,9 +10,9 @@ namespace fastjoint::program {
 
 /// One row of a program's options: used for parsing, for --help and by the test of the README's table.
 struct Option {
-  std::string name;     ///< with its dashes, "--p"
-  std::string value;    ///< what stands for the value in --help, empty for a flag
-  std::string help;     ///< one line
+  std::string name;   ///< with its dashes, "--p"
+  std::string value;  ///< what stands for the value in --help, empty for a flag
+  std::string help;   ///< one line
 };
 
 /// What the three programs differ in; `INPUT -o OUTPUT --quiet --help --version` all have.

@@ -40,8 +40,7 @@ TEST(Cholesky, NamesTheIndefiniteRow) {
 
 TEST(Cholesky, RefusesAMatrixThatIsSingularToWorkingPrecision) {
   const double floats = 1.0 - 1.0 / 50;  // the value at which the chain of 50 is singular
-  for (const double above : {0.0, 1e-15})
-    EXPECT_THROW(Cholesky c(chain(50, floats + above)), NumericalError) << above;
+  for (const double above : {0.0, 1e-15}) EXPECT_THROW(Cholesky c(chain(50, floats + above)), NumericalError) << above;
   EXPECT_THAT([&] { Cholesky c(chain(50, floats + 1e-15)); },
               ThrowsMessage<NumericalError>(HasSubstr("singular to working precision")));
   EXPECT_NO_THROW(Cholesky c(chain(50, floats + 1e-11)));

@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 /// General anisotropy: every entry of D counts.
 const Eigen::Matrix3d D = elasticity({3, 1, 1, 0.25, 0.25, 0.25, 0.6}, 0.5, Analysis::plane_stress);
 
-/// Dense stiffness of a whole mesh without constraints, coefficient 2 f + component, and the loads of a constant stress.
+/// Dense stiffness of a mesh without constraints, coefficient 2 f + component, and the loads of a constant stress.
 struct Body {
   Numbering numbering;
   MatrixXd K;
@@ -41,12 +41,14 @@ Body assemble(const Mesh& mesh, int p, const Eigen::Matrix2d& stress, int extra_
     const auto n_modes = n.function.rows();
     for (Eigen::Index i = 0; i < 2 * n_modes; ++i)
       for (Eigen::Index j = 0; j < 2 * n_modes; ++j)
-        body.K(2 * n.function(i % n_modes, element) + i / n_modes, 2 * n.function(j % n_modes, element) + j / n_modes) +=
+        body.K(2 * n.function(i % n_modes, element) + i / n_modes,
+               2 * n.function(j % n_modes, element) + j / n_modes) +=
             n.sign(i % n_modes, element) * n.sign(j % n_modes, element) * K(i, j);
     for (int edge = 0; edge < n_local_edges; ++edge) {
       if (edges.n_elements[static_cast<std::size_t>(edges.of_element(edge, element))] == 2) continue;
       const SideRule rule = side_rule(mesh, edges, {element, edge}, p);
-      const MatrixXd traction = stress * rule.normal * (mesh.thickness[element] * rule.ds).asDiagonal() * rule.N.transpose();
+      const MatrixXd traction =
+          stress * rule.normal * (mesh.thickness[element] * rule.ds).asDiagonal() * rule.N.transpose();
       for (std::size_t m = 0; m < rule.modes.size(); ++m)
         body.load.segment<2>(2 * n.function(rule.modes[m], element)) +=
             n.sign(rule.modes[m], element) * traction.col(static_cast<Eigen::Index>(m));
@@ -103,8 +105,8 @@ double patch_error(const Mesh& mesh, int p) {
   return (held.head(exact.size()) - exact).norm() / exact.norm();
 }
 
-/// With exact arcs, x and y are no longer in the space that the map carries over (the map is transcendental), so constant
-/// strain is not reproduced but approached exponentially; on straight elements it is exact.
+/// With exact arcs, x and y are no longer in the space that the map carries over (the map is transcendental), so
+/// constant strain is not reproduced but approached exponentially; on straight elements it is exact.
 TEST(Stiffness, PatchTestOnACurvedMeshConvergesExponentially) {
   EXPECT_LT(patch_error(test::distorted_mesh(), 1), 1e-13);
   double previous = patch_error(test::curved_mesh(), 1);

@@ -56,7 +56,8 @@ TEST(PlateMatrices, AnExternalNeedsItsStiffness) {
   file.write("external/id", std::vector<std::string>{"P"}, {"1", ""});
   file.write("S_dd", {Eigen::MatrixXd::Identity(1, 1)}, 1, 1, {"force/length", ""});
   file.commit();
-  EXPECT_THAT([&] { (void)read_plate_matrices(path); }, ThrowsMessage<FileError>(HasSubstr("lab.h5:S_ee: dataset is missing")));
+  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
+              ThrowsMessage<FileError>(HasSubstr("lab.h5:S_ee: dataset is missing")));
 }
 
 TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
@@ -71,7 +72,13 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.fastener_id = {"1", "2", "3"};
     a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
     a.transferred_second = 2 * a.F;
-    a.plates = {{"top", {"1"}, {"x"}, {}, Eigen::MatrixXd::Random(steps, 1), Eigen::MatrixXd(steps, 0), Eigen::MatrixXd(steps, 0)}};
+    a.plates = {{"top",
+                 {"1"},
+                 {"x"},
+                 {},
+                 Eigen::MatrixXd::Random(steps, 1),
+                 Eigen::MatrixXd(steps, 0),
+                 Eigen::MatrixXd(steps, 0)}};
     write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));
     EXPECT_EQ(b.header.units, a.header.units);

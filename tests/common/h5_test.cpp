@@ -75,8 +75,11 @@ TEST(Hdf5, LeaksNoHandle) {
 TEST(Hdf5, ANaNIsNeverWritten) {
   const test::TemporaryFolder folder;
   Writer file(folder.path("a.h5"), "sample", 1, 0);
-  EXPECT_THAT([&] { file.write("x", Eigen::VectorXd(Eigen::Vector2d(1, std::numeric_limits<double>::quiet_NaN())), {"1", ""}); },
-              ThrowsMessage<NumericalError>(HasSubstr("x would hold a NaN")));
+  EXPECT_THAT(
+      [&] {
+        file.write("x", Eigen::VectorXd(Eigen::Vector2d(1, std::numeric_limits<double>::quiet_NaN())), {"1", ""});
+      },
+      ThrowsMessage<NumericalError>(HasSubstr("x would hold a NaN")));
 }
 
 class WrongFile : public testing::Test {
@@ -84,8 +87,9 @@ class WrongFile : public testing::Test {
   test::TemporaryFolder folder_;
   std::string path_ = folder_.path("a.h5");
 
-  std::string message(const std::function<void(const Reader&)>& read = [](const Reader&) {},
-                      const std::string& format = "sample", int major = 1) {
+  std::string message(
+      const std::function<void(const Reader&)>& read = [](const Reader&) {}, const std::string& format = "sample",
+      int major = 1) {
     try {
       read(Reader(path_, format, major));
     } catch (const FileError& e) {
@@ -155,7 +159,8 @@ TEST_F(WrongFile, ShapesUnitsTypes) {
   EXPECT_THAT(message([](const Reader& f) { (void)f.vector("group/deep/i", 2, "1"); }),
               HasSubstr("type is not floating point"));
   EXPECT_THAT(message([](const Reader& f) { (void)f.strings("v", 3); }), HasSubstr("type is not string"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.integer_attribute("nothing"); }), HasSubstr("'nothing' is missing"));
+  EXPECT_THAT(message([](const Reader& f) { (void)f.integer_attribute("nothing"); }),
+              HasSubstr("'nothing' is missing"));
 }
 
 }  // namespace

@@ -75,7 +75,8 @@ TEST(Value, IntegersMayBeWrittenAsDecimals) {
 }
 
 TEST(Value, OtherKinds) {
-  EXPECT_THAT(message("[1,2,3]", [](const Value& v) { (void)v.items(2, 2); }), HasSubstr("array of 3; allowed: exactly 2"));
+  EXPECT_THAT(message("[1,2,3]", [](const Value& v) { (void)v.items(2, 2); }),
+              HasSubstr("array of 3; allowed: exactly 2"));
   EXPECT_THAT(message("[]", [](const Value& v) { (void)v.items(1); }), HasSubstr("at least 1"));
   EXPECT_THAT(message("[]", [](const Value& v) { (void)v.items(1, 4); }), HasSubstr("1 to 4"));
   EXPECT_THAT(message("\"\"", [](const Value& v) { (void)v.text(); }), HasSubstr("not empty"));

@@ -24,7 +24,8 @@ TEST_P(LegendreP, DerivativesAgreeWithDifferences) {
   const int p = GetParam();
   const double h = 1e-6;
   const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(11, -0.99, 0.99);
-  const Eigen::MatrixXd difference = (integrated_legendre(p, x.array() + h).N - integrated_legendre(p, x.array() - h).N) / (2 * h);
+  const Eigen::MatrixXd difference =
+      (integrated_legendre(p, x.array() + h).N - integrated_legendre(p, x.array() - h).N) / (2 * h);
   EXPECT_LT((difference - integrated_legendre(p, x).dN).cwiseAbs().maxCoeff(), 1e-7);  // h^2 p^5, rounding / h
 }
 

@@ -41,7 +41,8 @@ class ExitStatus : public testing::Test {
   }
   static void joint(const std::string& json, int status, const testing::Matcher<std::string>& message) {
     folder_->write("joint.json", json);
-    expect(test::stage3(*folder_, "joint.json -o out.h5"), status, AllOf(StartsWith("stage3_nonlinear: error: "), message));
+    expect(test::stage3(*folder_, "joint.json -o out.h5"), status,
+           AllOf(StartsWith("stage3_nonlinear: error: "), message));
   }
   static std::string center(const std::string& what, const std::string& by) {
     return replaced(test::example("center.json"), what, by);
@@ -65,26 +66,31 @@ TEST_F(ExitStatus, MissingFiles) {
 TEST_F(ExitStatus, MalformedJson) {
   plate("{\n  \"format\": \"plate\",\n  \"version\" 1}", 2, HasSubstr("not valid JSON at line 3, column"));
   joint("{\"format\": ", 2, HasSubstr("joint.json: not valid JSON at line 1, column"));
-  plate(center("\"analysis\"", "\"analysis\": \"plane stress\", \"analysis\""), 2, HasSubstr("key \"analysis\" stands twice"));
+  plate(center("\"analysis\"", "\"analysis\": \"plane stress\", \"analysis\""), 2,
+        HasSubstr("key \"analysis\" stands twice"));
 }
 
 TEST_F(ExitStatus, KeysTypesAndRanges) {
-  plate(center("\"radius\"", "\"raduis\""), 2, AllOf(HasSubstr("/holes/0/raduis: unknown key"), HasSubstr("allowed: ")));
+  plate(center("\"radius\"", "\"raduis\""), 2,
+        AllOf(HasSubstr("/holes/0/raduis: unknown key"), HasSubstr("allowed: ")));
   plate(center("\"nu\": 0.3}}", "\"nu\": \"0.3\"}}"), 2, HasSubstr("/materials/al/nu: \"0.3\" is not allowed"));
-  plate(center("\"radius\": 0.15", "\"radius\": 0"), 2, HasSubstr("/holes/0/radius: 0 is not allowed; allowed: a number > 0"));
+  plate(center("\"radius\": 0.15", "\"radius\": 0"), 2,
+        HasSubstr("/holes/0/radius: 0 is not allowed; allowed: a number > 0"));
   plate(center("\"E\": 1e7", "\"E\": -1e7"), 2, HasSubstr("/materials/al/E: -10000000.0 is not allowed"));
   plate(replaced(center("plane stress", "plane strain"), "\"nu\": 0.3", "\"nu\": 0.5"), 2,
         HasSubstr("/materials/al/nu: 0.5 is not allowed"));
 }
 
 TEST_F(ExitStatus, HolesThatDoNotFit) {
-  plate(center("[2.3, 0]", "[3.9, 0]"), 2, HasSubstr("/holes/0: hole \"1\" of radius 0.15 about (3.9, 0) reaches outside the plate"));
+  plate(center("[2.3, 0]", "[3.9, 0]"), 2,
+        HasSubstr("/holes/0: hole \"1\" of radius 0.15 about (3.9, 0) reaches outside the plate"));
   plate(center("[2.3, 0]", "[1.1, 0.3]"), 2, HasSubstr("are in one cell"));
   plate(center("[2.3, 0]", "[2.7, 0]"), 2, HasSubstr("reaches over the cell line x = 2.8"));
 }
 
 TEST_F(ExitStatus, PlateThatNothingHolds) {
-  const std::string free = R"({"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"al": {"E": 1e7, "nu": 0.3}},
+  const std::string free =
+      R"({"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"al": {"E": 1e7, "nu": 0.3}},
     "geometry": {"grid": {"x": [0, 1], "y": [0, 1], "thickness": 1}}, "supports": [{"on": "bottom", "fix": ["y"]}]})";
   plate(free, 4, HasSubstr("/supports: nothing keeps the plate from moving along x"));
 }
@@ -96,7 +102,8 @@ TEST_F(ExitStatus, DamagedAndForeignFiles) {
   expect(test::stage2(*folder_, "center.json -o out.h5"), 3, HasSubstr("center.json: is not an HDF5 file"));
   expect(test::stage2(*folder_, "center.m.h5 -o out.h5"), 3,
          HasSubstr("center.m.h5: is a 'plate-matrices' file, expected 'plate-solution'"));
-  joint(bolts("doubler.m.h5", "doubler.h5"), 3, HasSubstr("doubler.h5: is a 'plate-solution' file, expected 'plate-matrices'"));
+  joint(bolts("doubler.m.h5", "doubler.h5"), 3,
+        HasSubstr("doubler.h5: is a 'plate-solution' file, expected 'plate-matrices'"));
   h5::Writer newer(folder_->path("newer.h5"), "plate-solution", 2, 0);
   newer.commit();
   expect(test::stage2(*folder_, "newer.h5 -o out.h5"), 3,
@@ -104,12 +111,16 @@ TEST_F(ExitStatus, DamagedAndForeignFiles) {
 }
 
 TEST_F(ExitStatus, Joints) {
-  joint(bolts("center:1", "center:7"), 2, AllOf(HasSubstr("joint.json: /fasteners/0/between/0"), HasSubstr("hole \"7\" does not exist in center.m.h5; allowed: 1, 2, 3")));
+  joint(bolts("center:1", "center:7"), 2,
+        AllOf(HasSubstr("joint.json: /fasteners/0/between/0"),
+              HasSubstr("hole \"7\" does not exist in center.m.h5; allowed: 1, 2, 3")));
   joint(bolts("\"type\": \"linear\", \"k\": 1000", "\"type\": \"power\", \"A\": 1000, \"n\": 1.5"), 2,
         AllOf(HasSubstr("/laws/bolt/n: 1.5 is not allowed"), HasSubstr("allowed")));
-  joint(bolts("\"type\": \"linear\", \"k\": 1000", "\"type\": \"power\", \"A\": 1000, \"n\": 0"), 2, HasSubstr("/laws/bolt/n"));
-  joint(bolts("\"type\": \"linear\", \"k\": 1000", "\"type\": \"cubic\", \"delta\": [0.01, 0.02, 0.02], \"F\": [1, 2, 3]"), 2,
-        HasSubstr("/laws/bolt/delta"));
+  joint(bolts("\"type\": \"linear\", \"k\": 1000", "\"type\": \"power\", \"A\": 1000, \"n\": 0"), 2,
+        HasSubstr("/laws/bolt/n"));
+  joint(bolts("\"type\": \"linear\", \"k\": 1000",
+              "\"type\": \"cubic\", \"delta\": [0.01, 0.02, 0.02], \"F\": [1, 2, 3]"),
+        2, HasSubstr("/laws/bolt/delta"));
 }
 
 }  // namespace
@@ -125,7 +136,9 @@ TEST(ExitStatusNotConverged, KeepsTheConvergedIncrements) {
   folder.write("joint.json", hard);
   const auto run = test::stage3(folder, "joint.json -o out.h5");
   EXPECT_EQ(run.status, 4);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("joint.json"), HasSubstr("increment"), HasSubstr("at fastener \""), HasSubstr("out.h5 holds the 1 increments before"), HasSubstr("Check the law and the clearance")));
+  EXPECT_THAT(run.err,
+              AllOf(HasSubstr("joint.json"), HasSubstr("increment"), HasSubstr("at fastener \""),
+                    HasSubstr("out.h5 holds the 1 increments before"), HasSubstr("Check the law and the clearance")));
   const auto result = formats::read_joint_result(folder.path("out.h5"));
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(result.load_factor, Eigen::VectorXd::Constant(1, 0.05));

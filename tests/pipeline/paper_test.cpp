@@ -96,7 +96,8 @@ TEST_F(Paper, AllFirstGuessesAgree) {
   const std::string joint = test::three_fastener_joint(1000, 3000, R"(, "clearance": 0.06)", R"(, "friction": 0.2)");
   const auto reference = solve(joint);
   for (const char* guess : {"\"rigid\"", "\"equal\"", "{\"linear\": 1000}"}) {
-    const auto other = solve(test::replaced(joint, "\"increments\": 1", fmt::format("\"increments\": 1, \"initial\": {}", guess)));
+    const auto other =
+        solve(test::replaced(joint, "\"increments\": 1", fmt::format("\"increments\": 1, \"initial\": {}", guess)));
     EXPECT_LT((other.F - reference.F).norm(), 1e-8 * reference.F.norm()) << guess;
   }
 }

@@ -14,9 +14,15 @@ Run in_folder(const TemporaryFolder& folder, const char* program, const std::str
 
 }  // namespace
 
-Run stage1(const TemporaryFolder& folder, const std::string& words) { return in_folder(folder, FASTJOINT_STAGE1, words); }
-Run stage2(const TemporaryFolder& folder, const std::string& words) { return in_folder(folder, FASTJOINT_STAGE2, words); }
-Run stage3(const TemporaryFolder& folder, const std::string& words) { return in_folder(folder, FASTJOINT_STAGE3, words); }
+Run stage1(const TemporaryFolder& folder, const std::string& words) {
+  return in_folder(folder, FASTJOINT_STAGE1, words);
+}
+Run stage2(const TemporaryFolder& folder, const std::string& words) {
+  return in_folder(folder, FASTJOINT_STAGE2, words);
+}
+Run stage3(const TemporaryFolder& folder, const std::string& words) {
+  return in_folder(folder, FASTJOINT_STAGE3, words);
+}
 
 std::string example(const std::string& name) {
   const std::string text = read_file(std::string(FASTJOINT_SOURCE) + "/examples/three_fasteners/" + name);

@@ -22,14 +22,16 @@ class Usage : public testing::TestWithParam<int> {
 TEST_P(Usage, HelpAndVersion) {
   const auto help = call("--help");
   EXPECT_EQ(help.status, 0);
-  EXPECT_THAT(help.out, AllOf(HasSubstr("--output"), HasSubstr("--quiet"), HasSubstr("--version"), HasSubstr("Exit status")));
+  EXPECT_THAT(help.out,
+              AllOf(HasSubstr("--output"), HasSubstr("--quiet"), HasSubstr("--version"), HasSubstr("Exit status")));
   const auto version = call("--version");
   EXPECT_EQ(version.status, 0);
   EXPECT_THAT(version.out, testing::MatchesRegex("stage[123]_[a-z]+ [0-9.]+\n"));
 }
 
 TEST_P(Usage, WrongWords) {
-  for (const char* words : {"", "in.json", "in.json -o", "-o out.h5", "in.json -o out.h5 --colour", "in.json extra -o out.h5"}) {
+  for (const char* words :
+       {"", "in.json", "in.json -o", "-o out.h5", "in.json -o out.h5 --colour", "in.json extra -o out.h5"}) {
     const auto run = call(words);
     EXPECT_EQ(run.status, 2) << words;
     EXPECT_THAT(run.err, HasSubstr("see --help")) << words;
@@ -50,7 +52,8 @@ INSTANTIATE_TEST_SUITE_P(Stage, Usage, testing::Values(1, 2, 3));
 TEST(UsageOfOptions, WrongValues) {
   const test::TemporaryFolder folder;
   test::make_matrices(folder);
-  EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --p 9").err, HasSubstr("--p: '9' is not allowed; allowed: a degree from 1 to 8"));
+  EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --p 9").err,
+              HasSubstr("--p: '9' is not allowed; allowed: a degree from 1 to 8"));
   EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --threads x").err, HasSubstr("--threads: 'x' is not allowed"));
   ASSERT_EQ(test::stage1(folder, "center.json -o low.h5 --p 2..3").status, 0);
   ASSERT_EQ(test::stage2(folder, "low.h5 -o center.m.h5").status, 0);

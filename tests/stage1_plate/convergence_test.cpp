@@ -28,8 +28,8 @@ struct Errors {
   std::vector<double> energy, stiffness, by_stress;
 };
 
-/// Errors of the unit external case of panel(1,1): energy norm against a much finer space that contains it, S_ee against
-/// the published value, S_ee by integrated stresses likewise.
+/// Errors of the unit external case of panel(1,1): energy norm against a much finer space that contains it, S_ee
+/// against the published value, S_ee by integrated stresses likewise.
 Errors measure(int p_low, int p_high) {
   const test::Plate plate = test::make_plate(test::panel(1, 1));
   const auto solution = test::solve(plate);

@@ -21,8 +21,9 @@ TEST(DegreeRange, OneDegreeOrARange) {
 TEST(DegreeRange, RefusesAnythingElse) {
   PlateScene scene;
   for (const char* wrong : {"0", "9", "4..2", "x", "1..", "..3", "1..9", "2.5", "1...3", "-1", " 3"})
-    EXPECT_THAT([&] { set_degrees(scene, wrong); },
-                testing::ThrowsMessage<InputError>(testing::HasSubstr("--p: '" + std::string(wrong) + "' is not allowed")));
+    EXPECT_THAT(
+        [&] { set_degrees(scene, wrong); },
+        testing::ThrowsMessage<InputError>(testing::HasSubstr("--p: '" + std::string(wrong) + "' is not allowed")));
 }
 
 }  // namespace

@@ -39,7 +39,8 @@ TEST(ExplicitMesh, MistakesAreNamed) {
   EXPECT_THAT(message(mesh_scene(square, "[0,1,2,2]")), HasSubstr("four different nodes"));
   EXPECT_THAT(message(mesh_scene(square + ",[5,5]", "[0,1,2,3]")),
               HasSubstr("/geometry/mesh/nodes/4: no element uses this node"));
-  EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3],[0,1,2,3],[0,1,2,3]")), HasSubstr("belongs to 3 elements; allowed: at most 2"));
+  EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3],[0,1,2,3],[0,1,2,3]")),
+              HasSubstr("belongs to 3 elements; allowed: at most 2"));
   EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3]", R"(, "edges": {"right": [[0, 2]]})")),
               HasSubstr("/geometry/mesh/edges/right/0: nodes 0 and 2 are not joined"));
   EXPECT_THAT(message(mesh_scene(square + ",[2,0],[2,1]", "[0,1,2,3],[1,4,5,2]", R"(, "edges": {"cut": [[1, 2]]})")),
@@ -61,31 +62,33 @@ TEST(ExplicitMesh, HangingNodesAreFound) {
 }
 
 TEST(ExplicitMesh, HolesMustBeInTheMesh) {
-  EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3]", "", R"(, "holes": [{"id": "a", "center": [0, 0], "radius": 0.2}])")),
-              AllOf(HasSubstr("/holes/0: the mesh has 0 degrees of boundary arcs of radius 0.2 about (0, 0)"),
-                    HasSubstr("allowed: 360 degrees")));
+  EXPECT_THAT(
+      message(mesh_scene(square, "[0,1,2,3]", "", R"(, "holes": [{"id": "a", "center": [0, 0], "radius": 0.2}])")),
+      AllOf(HasSubstr("/holes/0: the mesh has 0 degrees of boundary arcs of radius 0.2 about (0, 0)"),
+            HasSubstr("allowed: 360 degrees")));
 }
 
-/// The paper's half plate: 14 elements, 22 vertices, 35 edges, 4 of them on the line of symmetry. Two of six elements are
-/// replaced by five each (one inside, four around it), which keeps the border.
+/// The paper's half plate: 14 elements, 22 vertices, 35 edges, 4 of them on the line of symmetry. Two of six elements
+/// are replaced by five each (one inside, four around it), which keeps the border.
 std::string paper_half_plate() {
   const double c = 10 / std::sqrt(2.0);
   const std::string nodes = fmt::format(
-      "[10,0],[{0},{0}],[0,10],[-{0},{0}],[-10,0],"            // 0-4 rim
-      "[50,0],[50,100],[0,100],[-50,100],[-50,0],"             // 5-9 outline of the hole's cell
-      "[100,0],[100,100],[-100,100],[-100,0],"                 // 10-13 corners
-      "[65,30],[85,30],[85,70],[65,70],"                       // 14-17 inside the right cell
-      "[-85,30],[-65,30],[-65,70],[-85,70]",                   // 18-21 inside the left cell
+      "[10,0],[{0},{0}],[0,10],[-{0},{0}],[-10,0],"  // 0-4 rim
+      "[50,0],[50,100],[0,100],[-50,100],[-50,0],"   // 5-9 outline of the hole's cell
+      "[100,0],[100,100],[-100,100],[-100,0],"       // 10-13 corners
+      "[65,30],[85,30],[85,70],[65,70],"             // 14-17 inside the right cell
+      "[-85,30],[-65,30],[-65,70],[-85,70]",         // 18-21 inside the left cell
       c);
   const std::string quads =
       "[0,5,6,1],[1,6,7,2],[2,7,8,3],[3,8,9,4],"
       "[14,15,16,17],[5,10,15,14],[10,11,16,15],[11,6,17,16],[6,5,14,17],"
       "[18,19,20,21],[13,9,19,18],[9,8,20,19],[8,12,21,20],[12,13,18,21]";
-  return mesh_scene(nodes, quads,
-                    R"(, "arcs": [{"edge": [0, 1], "center": [0, 0]}, {"edge": [1, 2], "center": [0, 0]},
+  return mesh_scene(
+      nodes, quads,
+      R"(, "arcs": [{"edge": [0, 1], "center": [0, 0]}, {"edge": [1, 2], "center": [0, 0]},
                        {"edge": [2, 3], "center": [0, 0]}, {"edge": [3, 4], "center": [0, 0]}],
                        "edges": {"symmetry": [[0, 5], [5, 10], [4, 9], [9, 13]], "top": [[12, 8], [8, 7], [7, 6], [6, 11]]})",
-                    R"(, "holes": [{"id": "pin", "center": [0, 0], "radius": 10, "spring": {"disk": {"E": 244, "nu": 0.41}}}],
+      R"(, "holes": [{"id": "pin", "center": [0, 0], "radius": 10, "spring": {"disk": {"E": 244, "nu": 0.41}}}],
                        "supports": [{"on": "symmetry", "fix": ["y"]}],
                        "external": [{"id": "T", "on": "top", "direction": "y", "kind": "traction"}])");
 }

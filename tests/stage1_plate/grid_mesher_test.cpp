@@ -83,8 +83,15 @@ TEST(GridMesher, HalfHolesOnEveryBorderAndQuartersInEveryCorner) {
   const std::vector<double> lines = {0, 1, 2, 3};
   const double r = 0.2;
   const auto plate = mesh(test::grid_scene(lines, lines,
-                                           {{"b", 1.4, 0, r}, {"t", 1.5, 3, r}, {"l", 0, 1.6, r}, {"r", 3, 1.5, r},
-                                            {"bl", 0, 0, r}, {"br", 3, 0, r}, {"tl", 0, 3, r}, {"tr", 3, 3, r}, {"c", 1.3, 1.7, r}}));
+                                           {{"b", 1.4, 0, r},
+                                            {"t", 1.5, 3, r},
+                                            {"l", 0, 1.6, r},
+                                            {"r", 3, 1.5, r},
+                                            {"bl", 0, 0, r},
+                                            {"br", 3, 0, r},
+                                            {"tl", 0, 3, r},
+                                            {"tr", 3, 3, r},
+                                            {"c", 1.3, 1.7, r}}));
   expect_conforming(plate, 9 - circle(r, 4 * 0.5 + 4 * 0.25 + 1));
   for (std::size_t i = 0; i < 9; ++i) EXPECT_GE(plate.rims[i].sides.size(), i < 4 ? 4U : i < 8 ? 2U : 8U);
 }
@@ -92,8 +99,12 @@ TEST(GridMesher, HalfHolesOnEveryBorderAndQuartersInEveryCorner) {
 /// A centre line of one hole must not cut through the cell of another: each hole keeps its own fan.
 TEST(GridMesher, StaggeredRowsOfDifferentPitchAndRadiusConform) {
   const auto plate = mesh(test::grid_scene({0, 1, 2, 3}, {0, 1, 2, 3},
-                                           {{"a", 0.3, 0.5, 0.1}, {"b", 1.7, 0.4, 0.2}, {"c", 0.6, 1.5, 0.25},
-                                            {"d", 1.2, 1.6, 0.1, 1}, {"e", 2.5, 2.5, 0.3, 2}, {"f", 0.2, 2.7, 0.12}}));
+                                           {{"a", 0.3, 0.5, 0.1},
+                                            {"b", 1.7, 0.4, 0.2},
+                                            {"c", 0.6, 1.5, 0.25},
+                                            {"d", 1.2, 1.6, 0.1, 1},
+                                            {"e", 2.5, 2.5, 0.3, 2},
+                                            {"f", 0.2, 2.7, 0.12}}));
   expect_conforming(plate, 9 - circle(0.1, 2) - circle(0.2) - circle(0.25) - circle(0.3) - circle(0.12));
 }
 
@@ -132,9 +143,12 @@ TEST(GridMesher, RandomLayoutsConform) {
 }
 
 TEST(GridMesher, HolesThatDoNotFitAreNamed) {
-  const auto one = [](double x, double y, double r) { return message(test::grid_scene({0, 1, 2}, {0, 1}, {{"h7", x, y, r}})); };
+  const auto one = [](double x, double y, double r) {
+    return message(test::grid_scene({0, 1, 2}, {0, 1}, {{"h7", x, y, r}}));
+  };
   EXPECT_EQ(one(0.5, 0.5, 0.2), "no error");
-  EXPECT_THAT(one(3, 0.5, 0.2), HasSubstr("/holes/0: hole \"h7\" of radius 0.2 about (3, 0.5) reaches outside the plate"));
+  EXPECT_THAT(one(3, 0.5, 0.2),
+              HasSubstr("/holes/0: hole \"h7\" of radius 0.2 about (3, 0.5) reaches outside the plate"));
   EXPECT_THAT(one(0.5, 0.9, 0.2), HasSubstr("reaches outside the plate"));
   EXPECT_THAT(one(0.5, -0.1, 0.2), HasSubstr("reaches outside the plate"));
   EXPECT_THAT(one(0.9, 0.5, 0.2), HasSubstr("reaches over the cell line x = 1"));
@@ -144,8 +158,8 @@ TEST(GridMesher, HolesThatDoNotFitAreNamed) {
               HasSubstr("/holes/1: holes \"a\" and \"b\" are in one cell; allowed: one hole in a cell"));
 }
 
-/// Where the method fails: a hole that comes close to a cell line. The mesh stays valid, and S good, until the ligament is
-/// about a thousandth of the radius; there the elements fold and the user is told to move the line.
+/// Where the method fails: a hole that comes close to a cell line. The mesh stays valid, and S good, until the ligament
+/// is about a thousandth of the radius; there the elements fold and the user is told to move the line.
 TEST(GridMesher, CloseToACellLineItWorksUntilItSaysSo) {
   const auto S = [](double line) {
     return test::extract(test::grid_scene({0, line, 4}, {-1, 1}, {{"a", 1, 0.1, 0.25}},

@@ -33,13 +33,15 @@ const test::HoleText open = {"c", 1.5, 0.5, 0.2, 0, false};
 TEST(Holding, SupportsSpringsAndExternalsHold) {
   EXPECT_EQ(message(square({}, R"(, "supports": [{"on": "left", "fix": ["x", "y"]}])")), "held");
   EXPECT_EQ(message(square({first, second}, "")), "held");  // a sheet that only its fasteners hold
-  EXPECT_EQ(message(square({first}, R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])")),
-            "held");
+  EXPECT_EQ(
+      message(square({first}, R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])")),
+      "held");
 }
 
 TEST(Holding, TheFreeMotionIsNamed) {
-  EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "bottom", "fix": ["y"]}])")),
-              AllOf(StartsWith("plate.json: /supports: nothing keeps the plate from moving along x"), HasSubstr("allowed:")));
+  EXPECT_THAT(
+      message(square({}, R"(, "supports": [{"on": "bottom", "fix": ["y"]}])")),
+      AllOf(StartsWith("plate.json: /supports: nothing keeps the plate from moving along x"), HasSubstr("allowed:")));
   EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "left", "fix": ["x"]}])")), HasSubstr("moving along y"));
   EXPECT_THAT(message(square({first, open}, "")), HasSubstr("moving by turning about (0.5, 0.5)"));
 }

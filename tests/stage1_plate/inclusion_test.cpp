@@ -35,7 +35,8 @@ std::string quarter(double modulus, int rings) {
                      rings, spring);
 }
 
-void for_outer_points(const test::Plate& plate, const std::function<void(const pfem::Side&, const pfem::SideRule&)>& use) {
+void for_outer_points(const test::Plate& plate,
+                      const std::function<void(const pfem::Side&, const pfem::SideRule&)>& use) {
   for (const char* name : {"right", "top"})
     for (const auto& side : plate.mesh.sets.at(name))
       use(side, pfem::side_rule(plate.mesh.mesh, plate.mesh.edges, side, 12));
@@ -49,7 +50,8 @@ Eigen::VectorXd exact_load(const test::Plate& plate, const test::SpringInclusion
       const auto rule = pfem::side_rule(plate.mesh.mesh, plate.mesh.edges, side, plate.problem.numbering.p);
       stage1::ElementVector g{rule.modes, Eigen::Matrix2Xd::Zero(2, rule.N.rows())};
       for (Eigen::Index q = 0; q < rule.ds.size(); ++q)
-        g.values += thickness * rule.ds[q] * exact.stress(rule.x.col(q)) * rule.normal.col(q) * rule.N.col(q).transpose();
+        g.values +=
+            thickness * rule.ds[q] * exact.stress(rule.x.col(q)) * rule.normal.col(q) * rule.N.col(q).transpose();
       loads.add(side.element, g, 0);
     }
   return Eigen::MatrixXd(loads.free()).col(0);
@@ -109,8 +111,7 @@ TEST(Kirsch, ConcentrationIsThree) {
   double peak = 0;
   for (int element = 0; element < plate.mesh.mesh.n_elements(); ++element)
     for (const double xi : {-1.0, 1.0})
-      for (const double eta : {-1.0, 1.0})
-        peak = std::max(peak, test::stress_at(plate, u, element, xi, eta)[0]);
+      for (const double eta : {-1.0, 1.0}) peak = std::max(peak, test::stress_at(plate, u, element, xi, eta)[0]);
   EXPECT_NEAR(peak / tension, 3, 2e-3);  // stresses converge at half the rate of S
 }
 
@@ -137,7 +138,8 @@ Harmonics rim_harmonics(const test::Plate& plate, const Eigen::Matrix2Xd& u, dou
   return h;
 }
 
-/// theory.md, section 9: A_b = 4 kappa/(1 + kappa (1+nu)), B_b = 8 kappa/(1 + kappa (5-nu)/3), kappa = beta/(1-nu) by (29).
+/// theory.md, section 9: A_b = 4 kappa/(1 + kappa (1+nu)), B_b = 8 kappa/(1 + kappa (5-nu)/3), kappa = beta/(1-nu) by
+/// (29).
 TEST(Inclusion, SpringsGiveTheHarmonicsOfTheClosedForm) {
   for (const double beta : {0.1, 1.0 / 3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0}) {
     const double kappa = beta / (1 - nu);

@@ -55,7 +55,8 @@ TEST(PlateProblem, MovingEverythingTogetherCostsNothing) {
 TEST(PlateProblem, LoadsHaveTheirResultants) {
   const test::Plate plate = test::make_plate(floating);
   const auto n = plate.problem.K_ff.rows();
-  const auto along = [&](const Eigen::SparseMatrix<double>& f, const Eigen::MatrixXd& c, Eigen::Index column, int component) {
+  const auto along = [&](const Eigen::SparseMatrix<double>& f, const Eigen::MatrixXd& c, Eigen::Index column,
+                         int component) {
     const Eigen::VectorXd u = translation(plate, component);
     return u.head(n).dot(Eigen::VectorXd(f.col(column))) + u.tail(c.rows()).dot(c.col(column));
   };
@@ -89,9 +90,11 @@ TEST(PlateProblem, ALowerDegreeIsALeadingBlock) {
     const auto n = low.K_ff.rows();
     ASSERT_EQ(n, high.problem.unknowns.n_free[static_cast<std::size_t>(p)]);
     // the lower degree is integrated with fewer points; the rim's springs and loads to rounding
-    const Eigen::MatrixXd difference = Eigen::MatrixXd(low.K_ff) - Eigen::MatrixXd(high.problem.K_ff).topLeftCorner(n, n);
+    const Eigen::MatrixXd difference =
+        Eigen::MatrixXd(low.K_ff) - Eigen::MatrixXd(high.problem.K_ff).topLeftCorner(n, n);
     EXPECT_LT(difference.norm(), 1e-6 * low.K_ff.norm());
-    EXPECT_LT((Eigen::MatrixXd(low.K_fc) - Eigen::MatrixXd(high.problem.K_fc.topRows(n))).norm(), 1e-6 * low.K_fc.norm());
+    EXPECT_LT((Eigen::MatrixXd(low.K_fc) - Eigen::MatrixXd(high.problem.K_fc.topRows(n))).norm(),
+              1e-6 * low.K_fc.norm());
     EXPECT_LT((Eigen::MatrixXd(low.L_f) - Eigen::MatrixXd(high.problem.L_f.topRows(n))).norm(), 1e-12 * low.L_f.norm());
   }
 }

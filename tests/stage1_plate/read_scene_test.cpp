@@ -52,23 +52,34 @@ TEST(ReadScene, TakesEveryKey) {
 }
 
 TEST(ReadScene, RefusesWithThePlaceAndWhatIsAllowed) {
-  EXPECT_THAT(message(replaced("\"name\"", "\"nmae\"")), HasSubstr("plate.json: /nmae: unknown key; allowed: $schema, format"));
+  EXPECT_THAT(message(replaced("\"name\"", "\"nmae\"")),
+              HasSubstr("plate.json: /nmae: unknown key; allowed: $schema, format"));
   EXPECT_THAT(message(replaced("\"radius\": 0.2,", "")), HasSubstr("/holes/0: key \"radius\" is missing"));
-  EXPECT_THAT(message(replaced("\"radius\": 0.2", "\"radius\": 0")), HasSubstr("/holes/0/radius: 0 is not allowed; allowed: a number > 0"));
+  EXPECT_THAT(message(replaced("\"radius\": 0.2", "\"radius\": 0")),
+              HasSubstr("/holes/0/radius: 0 is not allowed; allowed: a number > 0"));
   EXPECT_THAT(message(replaced("\"E\": 1e7", "\"E\": -1e7")), HasSubstr("/materials/al/E: -10000000.0 is not allowed"));
   EXPECT_THAT(message(replaced("\"nu\": 0.3", "\"nu\": 0.51")), HasSubstr("/materials/al/nu"));
   EXPECT_THAT(message(replaced("plane stress", "plane")), HasSubstr("allowed: \"plane stress\", \"plane strain\""));
-  EXPECT_THAT(message(replaced("[[0.1, 0.2]]", "[[0.1]]")), HasSubstr("/geometry/grid/thickness/0: array of 1; allowed: exactly 2"));
-  EXPECT_THAT(message(replaced("[[\"al\", \"ply\"]]", "\"steel\"")), HasSubstr("/geometry/grid/material: \"steel\" is not allowed; allowed: \"al\", \"ply\""));
-  EXPECT_THAT(message(replaced(", \"material\": [[\"al\", \"ply\"]]", "")), HasSubstr("/geometry/grid: key \"material\" is missing"));
-  EXPECT_THAT(message(replaced("[0, 1, 2]", "[0, 2, 1]")), HasSubstr("/geometry/grid/x/2: 1 is not allowed; allowed: cell lines in ascending order"));
+  EXPECT_THAT(message(replaced("[[0.1, 0.2]]", "[[0.1]]")),
+              HasSubstr("/geometry/grid/thickness/0: array of 1; allowed: exactly 2"));
+  EXPECT_THAT(message(replaced("[[\"al\", \"ply\"]]", "\"steel\"")),
+              HasSubstr("/geometry/grid/material: \"steel\" is not allowed; allowed: \"al\", \"ply\""));
+  EXPECT_THAT(message(replaced(", \"material\": [[\"al\", \"ply\"]]", "")),
+              HasSubstr("/geometry/grid: key \"material\" is missing"));
+  EXPECT_THAT(message(replaced("[0, 1, 2]", "[0, 2, 1]")),
+              HasSubstr("/geometry/grid/x/2: 1 is not allowed; allowed: cell lines in ascending order"));
   EXPECT_THAT(message(replaced("\"id\": \"2\"", "\"id\": \"1\"")), HasSubstr("/holes/1/id: \"1\" stands twice"));
-  EXPECT_THAT(message(replaced("{\"modulus\": 5}", "{}")), HasSubstr("/holes/1/spring: {} is not allowed; allowed: either \"disk\" or \"modulus\""));
-  EXPECT_THAT(message(replaced("\"on\": \"left\"", "\"on\": \"rigth\"")), HasSubstr("allowed: \"left\", \"right\", \"bottom\", \"top\""));
-  EXPECT_THAT(message(replaced("[\"x\", \"y\"]", "[\"x\", \"x\"]")), HasSubstr("/disc_directions/1: \"x\" stands twice"));
-  EXPECT_THAT(message(replaced("[2, 6]", "[2, 9]")), HasSubstr("/p/1: 9 is not allowed; allowed: an integer from 2 to 8"));
+  EXPECT_THAT(message(replaced("{\"modulus\": 5}", "{}")),
+              HasSubstr("/holes/1/spring: {} is not allowed; allowed: either \"disk\" or \"modulus\""));
+  EXPECT_THAT(message(replaced("\"on\": \"left\"", "\"on\": \"rigth\"")),
+              HasSubstr("allowed: \"left\", \"right\", \"bottom\", \"top\""));
+  EXPECT_THAT(message(replaced("[\"x\", \"y\"]", "[\"x\", \"x\"]")),
+              HasSubstr("/disc_directions/1: \"x\" stands twice"));
+  EXPECT_THAT(message(replaced("[2, 6]", "[2, 9]")),
+              HasSubstr("/p/1: 9 is not allowed; allowed: an integer from 2 to 8"));
   EXPECT_THAT(message(replaced("\"kind\": \"rigid\"", "\"kind\": \"stiff\"")), HasSubstr("/external/0/kind"));
-  EXPECT_THAT(message(replaced("\"nu12\": 0.3", "\"nu12\": 4.6")), HasSubstr("/materials/ply: these constants give a negative strain energy"));
+  EXPECT_THAT(message(replaced("\"nu12\": 0.3", "\"nu12\": 4.6")),
+              HasSubstr("/materials/ply: these constants give a negative strain energy"));
   EXPECT_THAT(message(replaced("\"angle\": 45", "\"E3\": 1")), HasSubstr("/materials/ply/E3: given in plane stress"));
 }
 
@@ -76,7 +87,8 @@ TEST(ReadScene, PlaneStrain) {
   EXPECT_THAT(message(replaced("plane stress", "plane strain")), HasSubstr("/materials/ply: key \"E3\" is missing"));
   const std::string strain = R"({"format": "plate", "version": 1, "analysis": "plane strain",
     "materials": {"m": {"E": 1, "nu": 0.5}}, "geometry": {"grid": {"x": [0, 1], "y": [0, 1], "thickness": 1}}})";
-  EXPECT_THAT(message(strain), HasSubstr("/materials/m/nu: 0.5 is not allowed; allowed: a number > -1 and < 0.5 in plane strain"));
+  EXPECT_THAT(message(strain),
+              HasSubstr("/materials/m/nu: 0.5 is not allowed; allowed: a number > -1 and < 0.5 in plane strain"));
 }
 
 }  // namespace

@@ -16,7 +16,8 @@ TEST(Unknowns, SupportsAndExternalsTakeAwayTheirs) {
     return test::make_plate(test::grid_scene({0, 1}, {0, 1}, {}, extra)).problem.unknowns;
   };
   const auto free = count("");  // one element
-  for (int p = 1; p <= 8; ++p) EXPECT_EQ(free.n_free[static_cast<std::size_t>(p)], 2 * (4 * p + (p < 4 ? 0 : (p - 2) * (p - 3) / 2)));
+  for (int p = 1; p <= 8; ++p)
+    EXPECT_EQ(free.n_free[static_cast<std::size_t>(p)], 2 * (4 * p + (p < 4 ? 0 : (p - 2) * (p - 3) / 2)));
   const auto held = count(R"(, "supports": [{"on": "left", "fix": ["x", "y"]}])");
   EXPECT_EQ(held.n_free[8], free.n_free[8] - 2 * (2 + 7));
   const auto rigid = count(R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
@@ -25,9 +26,10 @@ TEST(Unknowns, SupportsAndExternalsTakeAwayTheirs) {
 }
 
 TEST(Unknowns, OpenHolesHaveNoDisc) {
-  const auto unknowns = test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.5, 0.5, 0.2, 0, false}, {"b", 1.5, 0.5, 0.2}},
-                                                          R"(, "disc_directions": ["x", "y"])"))
-                            .problem.unknowns;
+  const auto unknowns =
+      test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.5, 0.5, 0.2, 0, false}, {"b", 1.5, 0.5, 0.2}},
+                                        R"(, "disc_directions": ["x", "y"])"))
+          .problem.unknowns;
   EXPECT_EQ(unknowns.disc_hole, (std::vector<std::string>{"b", "b"}));
   EXPECT_EQ(unknowns.disc_direction, (std::vector<std::string>{"x", "y"}));
   EXPECT_EQ(unknowns.disc_of_hole, (std::vector<int>{-1, 0}));
@@ -42,9 +44,11 @@ TEST(Unknowns, TwoMastersOfOneDisplacementAreRefused) {
     }
     return "no error";
   };
-  EXPECT_THAT(message(R"(, "supports": [{"on": "top", "fix": ["x"]}],
+  EXPECT_THAT(
+      message(R"(, "supports": [{"on": "top", "fix": ["x"]}],
                         "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])"),
-              HasSubstr("/external: external \"P\" moves the plate in x at (1, 1), where a support or another external holds it"));
+      HasSubstr(
+          "/external: external \"P\" moves the plate in x at (1, 1), where a support or another external holds it"));
   EXPECT_THAT(message(R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
                                         {"id": "Q", "on": "top", "direction": "x", "kind": "rigid"}])"),
               HasSubstr("external \"Q\" moves the plate in x at (1, 1)"));

@@ -38,7 +38,8 @@ TEST(Checks, RigidMotionsAreTheNullSpaceOfS) {
   const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(S).eigenvalues();
   EXPECT_LT(values.head(2).cwiseAbs().maxCoeff(), 1e-12 * values[3]);  // translations: exact
   const Eigen::Vector4d turning(-0.5, 0.4, -0.6, 1.5);
-  EXPECT_LT((S * turning).norm(), 1e-6 * S.norm());  // turning: as exact as the arcs' maps allow, see element_stiffness_test
+  EXPECT_LT((S * turning).norm(),
+            1e-6 * S.norm());  // turning: as exact as the arcs' maps allow, see element_stiffness_test
   EXPECT_GT(values[3], 0.1 * S.norm());
 }
 

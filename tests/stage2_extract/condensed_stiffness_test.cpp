@@ -25,16 +25,17 @@ TEST(CondensedStiffness, IsTheEnergyProductOfUnitFields) {
 
 /// An unperforated strip in tension: S_ee = E t h / l exactly at every degree, and Poisson's contraction free.
 TEST(CondensedStiffness, StripInTension) {
-  const auto m = test::extract(test::grid_scene({0, 1, 5}, {0, 2}, {},
-                                                R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
+  const auto m =
+      test::extract(test::grid_scene({0, 1, 5}, {0, 2}, {},
+                                     R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])"))
-                     .matrices;
+          .matrices;
   for (const auto& S : m.S_ee) EXPECT_NEAR(S(0, 0) / (1e7 * 0.1 * 2 / 5), 1, 1e-13);
   EXPECT_EQ(m.n_discs(), 0);
 }
 
-/// A rigid disc on stiff springs in a wide plate that is fixed all around: springs and plate act in series, so S_dd rises
-/// with the modulus and stays below the springs' own k t pi r.
+/// A rigid disc on stiff springs in a wide plate that is fixed all around: springs and plate act in series, so S_dd
+/// rises with the modulus and stays below the springs' own k t pi r.
 TEST(CondensedStiffness, SpringsAndPlateActInSeries) {
   const auto S = [](double modulus) {
     const std::string scene = R"({"format": "plate", "version": 1, "analysis": "plane stress",

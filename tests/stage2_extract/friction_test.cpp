@@ -15,9 +15,11 @@ constexpr double pi = std::numbers::pi;
 constexpr double t = 0.1, r = 0.2;  // thickness of grid_scene
 
 TEST(Friction, ConstantsOfAWholeHole) {
-  const auto m = test::extract(test::grid_scene({0, 1}, {0, 1}, {{"a", 0.4, 0.55, r}},
-                                                R"(, "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}])"))
-                     .matrices;
+  const auto m =
+      test::extract(
+          test::grid_scene({0, 1}, {0, 1}, {{"a", 0.4, 0.55, r}},
+                           R"(, "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}])"))
+          .matrices;
   EXPECT_EQ(m.friction_bearing, (std::vector<std::string>{"+x", "-x", "+y", "-y"}));
   for (Eigen::Index j = 0; j < 4; ++j) {
     EXPECT_NEAR(m.friction_unit_force[j], t * 2 * r * pi / 4, 1e-14);
@@ -27,9 +29,11 @@ TEST(Friction, ConstantsOfAWholeHole) {
 
 /// A half hole on the line of symmetry y = 0 has half of each; bearing along -y it has nothing to bear on.
 TEST(Friction, ConstantsOfAHalfHole) {
-  const auto m = test::extract(test::grid_scene({0, 1}, {0, 1}, {{"a", 0.4, 0, r}},
-                                                R"(, "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}])"))
-                     .matrices;
+  const auto m =
+      test::extract(
+          test::grid_scene({0, 1}, {0, 1}, {{"a", 0.4, 0, r}},
+                           R"(, "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}])"))
+          .matrices;
   const Eigen::Vector4d c = Eigen::Vector4d(0.5, 0.5, 1, 0) * (t * 2 * r * pi / 4);
   EXPECT_LT((m.friction_unit_force - c).norm(), 1e-14);
   EXPECT_LT((m.friction_resultant - Eigen::Vector4d(t * r / 2, -t * r / 2, t * r, 0)).norm(), 1e-14);

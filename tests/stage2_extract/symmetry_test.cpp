@@ -16,7 +16,9 @@ const std::string support = R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on
 
 /// Half plate with half holes on y = 0 against the whole plate: half of S, R and c.
 TEST(Symmetry, AHoleInAHalfModelEqualsHalfOfTheWholeModel) {
-  const auto half = test::extract(test::grid_scene({0, 1, 2.2}, {0, 0.5}, {{"a", 0.4, 0, 0.2}, {"b", 1.7, 0, 0.15}}, support)).matrices;
+  const auto half =
+      test::extract(test::grid_scene({0, 1, 2.2}, {0, 0.5}, {{"a", 0.4, 0, 0.2}, {"b", 1.7, 0, 0.15}}, support))
+          .matrices;
   const auto whole = test::extract(test::grid_scene({0, 1, 2.2}, {-0.5, 0.5}, {{"a", 0.4, 0, 0.2}, {"b", 1.7, 0, 0.15}},
                                                     R"(, "supports": [{"on": "left", "fix": ["x"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])"))
@@ -44,7 +46,8 @@ TEST(Symmetry, AQuarterHoleEqualsAQuarterOfTheWhole) {
 
 /// The grid's own mesh of two holes, turned by an angle, as an explicit mesh of a material that is turned along.
 std::string turned(double degrees) {
-  const test::Plate plate = test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.45, 0.5, 0.2}, {"b", 1.5, 0.6, 0.25}}));
+  const test::Plate plate =
+      test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.45, 0.5, 0.2}, {"b", 1.5, 0.6, 0.25}}));
   const double angle = degrees * std::numbers::pi / 180;
   Eigen::Matrix2d Q;
   Q << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
@@ -56,11 +59,14 @@ std::string turned(double degrees) {
   const auto& mesh = plate.mesh.mesh;
   for (int i = 0; i < mesh.n_nodes(); ++i) nodes += fmt::format("{}{}", i ? "," : "", point(mesh.nodes.col(i)));
   for (int i = 0; i < mesh.n_elements(); ++i)
-    quads += fmt::format("{}[{},{},{},{}]", i ? "," : "", mesh.quads(0, i), mesh.quads(1, i), mesh.quads(2, i), mesh.quads(3, i));
+    quads += fmt::format("{}[{},{},{},{}]", i ? "," : "", mesh.quads(0, i), mesh.quads(1, i), mesh.quads(2, i),
+                         mesh.quads(3, i));
   for (const auto& arc : mesh.arcs)
-    arcs += fmt::format("{}{{\"edge\": [{}, {}], \"center\": {}}}", arcs.empty() ? "" : ",", arc.a, arc.b, point(arc.center));
+    arcs += fmt::format("{}{{\"edge\": [{}, {}], \"center\": {}}}", arcs.empty() ? "" : ",", arc.a, arc.b,
+                        point(arc.center));
   const auto hole = [&](const char* id, double x, double y, double r) {
-    return fmt::format(R"({{"id": "{}", "center": {}, "radius": {}, "spring": {{"modulus": 1e6}}}})", id, point({x, y}), r);
+    return fmt::format(R"({{"id": "{}", "center": {}, "radius": {}, "spring": {{"modulus": 1e6}}}})", id, point({x, y}),
+                       r);
   };
   return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
     "materials": {{"ply": {{"E1": 2e7, "E2": 1e6, "nu12": 0.3, "G12": 7e5, "angle": {}}}}},
@@ -78,7 +84,8 @@ TEST(Symmetry, ATurnedOrthotropicPlateEqualsThePlateWithTurnedMaterial) {
   Q.topLeftCorner<2, 2>() << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
   Q.bottomRightCorner<2, 2>() = Q.topLeftCorner<2, 2>();
   for (std::size_t level = 0; level < 8; ++level)
-    EXPECT_LT((rotated.S_dd[level] - Q * original.S_dd[level] * Q.transpose()).norm(), 1e-10 * original.S_dd[level].norm())
+    EXPECT_LT((rotated.S_dd[level] - Q * original.S_dd[level] * Q.transpose()).norm(),
+              1e-10 * original.S_dd[level].norm())
         << level;
 }
 

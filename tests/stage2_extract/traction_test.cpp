@@ -13,16 +13,20 @@ const std::string supports = R"(, "supports": [{"on": "left", "fix": ["x"]}, {"o
 
 /// Uniform tension of a strip without holes is exact at every degree: mean displacement l / (E t h) per unit force.
 TEST(Traction, StripInTension) {
-  const auto m = test::extract(test::grid_scene({0, 1, 5}, {0, 2}, {}, supports +
-                                                R"(, "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])"))
-                     .matrices;
+  const auto m =
+      test::extract(
+          test::grid_scene(
+              {0, 1, 5}, {0, 2}, {},
+              supports + R"(, "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])"))
+          .matrices;
   for (const auto& C : m.C_t) EXPECT_NEAR(C(0, 0) * 1e7 * 0.1 * 2 / 5, 1, 1e-13);
 }
 
 /// Two tractions are reciprocal, and discs and supports together carry each of them.
 TEST(Traction, IsReciprocalAndInEquilibrium) {
-  const auto result = test::extract(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.4, 0.5, 0.2}, {"b", 1.5, 0.6, 0.25}},
-                                                     R"(, "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"},
+  const auto result =
+      test::extract(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.4, 0.5, 0.2}, {"b", 1.5, 0.6, 0.25}},
+                                     R"(, "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"},
                                                           {"id": "V", "on": "top", "direction": "x", "kind": "traction"}])"));
   const auto& C = result.matrices.C_t.back();
   EXPECT_NEAR(C(0, 1) / C(1, 0), 1, 1e-10);
@@ -36,8 +40,10 @@ TEST(Traction, IsReciprocalAndInEquilibrium) {
 /// A rigid boundary and a traction on the same far edge of a long strip act alike on the disc (Saint-Venant).
 TEST(Traction, ActsOnFarDiscsAsARigidBoundaryDoes) {
   const auto strip = [](const std::string& kind) {
-    return test::extract(test::grid_scene({0, 1, 4}, {0, 1}, {{"a", 0.5, 0.5, 0.2}}, supports +
-                         R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": ")" + kind + "\"}]"))
+    return test::extract(
+               test::grid_scene({0, 1, 4}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
+                                supports + R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": ")" +
+                                    kind + "\"}]"))
         .matrices;
   };
   const auto rigid = strip("rigid");
@@ -46,10 +52,14 @@ TEST(Traction, ActsOnFarDiscsAsARigidBoundaryDoes) {
 }
 
 TEST(Traction, OnAnEdgeThatSupportsHoldIsRefused) {
-  EXPECT_THAT([] {
-    (void)test::make_plate(test::grid_scene({0, 1}, {0, 1}, {}, supports +
-                           R"(, "external": [{"id": "T", "on": "left", "direction": "x", "kind": "traction"}])"));
-  }, testing::ThrowsMessage<InputError>(testing::HasSubstr("/external/0: supports hold the whole edge against this traction")));
+  EXPECT_THAT(
+      [] {
+        (void)test::make_plate(test::grid_scene(
+            {0, 1}, {0, 1}, {},
+            supports + R"(, "external": [{"id": "T", "on": "left", "direction": "x", "kind": "traction"}])"));
+      },
+      testing::ThrowsMessage<InputError>(
+          testing::HasSubstr("/external/0: supports hold the whole edge against this traction")));
 }
 
 }  // namespace

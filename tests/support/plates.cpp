@@ -17,7 +17,8 @@ Plate make_plate(const std::string& json) {
 
 formats::PlateSolution solve(const Plate& plate) {
   auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test");
-  for (const int p : solution.p) solution.cases.push_back(stage1::solve_degree(plate.problem, p, solution.friction_probe));
+  for (const int p : solution.p)
+    solution.cases.push_back(stage1::solve_degree(plate.problem, p, solution.friction_probe));
   return solution;
 }
 

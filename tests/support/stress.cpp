@@ -25,7 +25,8 @@ Eigen::Matrix2Xd coefficients(const Plate& plate, const Eigen::VectorXd& free, c
 
 Eigen::Vector3d stress_at(const Plate& plate, const Eigen::Matrix2Xd& u, int element, double xi, double eta) {
   const auto& numbering = plate.problem.numbering;
-  const auto shape = pfem::shape_values(numbering.p, Eigen::VectorXd::Constant(1, xi), Eigen::VectorXd::Constant(1, eta));
+  const auto shape =
+      pfem::shape_values(numbering.p, Eigen::VectorXd::Constant(1, xi), Eigen::VectorXd::Constant(1, eta));
   const pfem::ElementMap map(plate.mesh.mesh, plate.mesh.edges, element);
   Eigen::Matrix2d G = Eigen::Matrix2d::Zero();  // du/d(xi, eta)
   for (Eigen::Index m = 0; m < shape.N.rows(); ++m)
