@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/condensed_system.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <vector>
+
+#include "common/errors.hpp"
+#include "stage3_nonlinear/saddle.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// The joint's rows S u + G+ F+ + G- F- + B F = load, before anything is eliminated.
+struct Rows {
+  MatrixXd S;                ///< (N, N)
+  MatrixXd B;                ///< (N, n)
+  MatrixXd G_plus, G_minus;  ///< (N, n) friction, without columns if there is none
+  VectorXd load;             ///< (N) at load factor 1
+  VectorXd given;            ///< (N) given displacements at load factor 1, else 0
+  std::vector<Index> free;   ///< unknowns that are not given
+};
+
+bool any_friction(const JointModel& joint) {
+  for (const auto& fastener : joint.fasteners)
+    for (const auto& end : fastener.ends)
+      for (const auto& friction : end.friction)
+        if (friction.load.size() > 0) return true;
+  return false;
+}
+
+void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
+  const Index m = plate.n_discs();
+  const Index n = plate.n_unknowns();
+  rows.S.block(offset, offset, n, n) = plate.S;
+  rows.load.segment(offset, n) = -plate.T * plate.traction_force;
+  rows.load.segment(offset + m, plate.n_externals()) += plate.external_force;
+  for (Index i = 0; i < n; ++i) {
+    const auto& displacement =
+        i < m ? std::optional<double>() : plate.external_displacement[static_cast<std::size_t>(i - m)];
+    if (displacement) {
+      rows.given[offset + i] = *displacement;
+    } else {
+      rows.free.push_back(offset + i);
+    }
+  }
+}
+
+void add_fastener(Rows& rows, const JointModel& joint, Index j) {
+  for (const End end : {first_plate, second_plate}) {
+    const FastenerEnd& at = joint.fasteners[static_cast<std::size_t>(j)].ends[end];
+    const Index offset = joint.offset(at.plate);
+    rows.B(offset + at.disc, j) = end == first_plate ? 1 : -1;
+    const auto& [plus, minus] = at.friction;
+    if (plus.load.size() > 0) rows.G_plus.block(offset, j, plus.load.size(), 1) += plus.load;
+    if (minus.load.size() > 0) rows.G_minus.block(offset, j, minus.load.size(), 1) += minus.load;
+  }
+}
+
+Rows assemble(const JointModel& joint) {
+  const Index N = joint.n_unknowns();
+  const Index n = joint.n_fasteners();
+  const Index n_friction = any_friction(joint) ? n : 0;
+  Rows rows{.S = MatrixXd::Zero(N, N),
+            .B = MatrixXd::Zero(N, n),
+            .G_plus = MatrixXd::Zero(N, n_friction),
+            .G_minus = MatrixXd::Zero(N, n_friction),
+            .load = VectorXd::Zero(N),
+            .given = VectorXd::Zero(N),
+            .free = {}};
+  for (std::size_t i = 0; i < joint.plates.size(); ++i) add_plate(rows, joint.plates[i], joint.offset(i));
+  for (Index j = 0; j < n; ++j) add_fastener(rows, joint, j);
+  return rows;
+}
+
+[[noreturn]] void fail_as_mechanism(const JointModel& joint, const Rows& rows, const Saddle& saddle) {
+  constexpr double moves = 1e-3;  // of the largest displacement of the motion
+  VectorXd largest = VectorXd::Zero(joint.n_unknowns());
+  const MatrixXd motions = saddle.free_motions();
+  if (motions.cols() > 0) largest(rows.free) = motions.cwiseAbs().rowwise().maxCoeff();
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    if (largest.segment(joint.offset(i), joint.plates[i].n_unknowns()).maxCoeff() > moves)
+      names.push_back(fmt::format("\"{}\"", joint.plates[i].name));
+  throw NumericalError(
+      fmt::format("{}: the joint is a mechanism: plate {} can move freely even with rigid fasteners, nothing "
+                  "holds the joint there; give a plate a support (stage 1), or hold an external with "
+                  "\"displacement\": 0",
+                  joint.file, fmt::join(names, " with plate ")));
+}
+
+/// Right-hand sides of the saddle-point system, block after block: load, delta, F+, F-.
+MatrixXd right_hand_sides(const Rows& rows) {
+  const Index N = static_cast<Index>(rows.free.size());
+  const Index n = rows.B.cols();
+  const Index n_friction = rows.G_plus.cols();
+  MatrixXd rhs = MatrixXd::Zero(N + n, 1 + n + 2 * n_friction);
+  const VectorXd load = rows.load - rows.S * rows.given;
+  rhs.topLeftCorner(N, 1) = load(rows.free);
+  rhs.block(N, 1, n, n).setIdentity();
+  rhs.block(0, 1 + n, N, n_friction) = -rows.G_plus(rows.free, Eigen::all);
+  rhs.block(0, 1 + n + n_friction, N, n_friction) = -rows.G_minus(rows.free, Eigen::all);
+  return rhs;
+}
+
+/// Zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to the
+/// largest.
+VectorXd without_rounding(const VectorXd& q, double largest_load) {
+  constexpr double rounding = 1e-12;
+  return (q.array().abs() > rounding * largest_load).select(q, 0);
+}
+
+CondensedSystem unpack(const Rows& rows, const MatrixXd& rhs, const MatrixXd& solution) {
+  const Index n = rows.B.cols();
+  const Index n_friction = rows.G_plus.cols();
+  const MatrixXd F = solution.bottomRows(n);
+  MatrixXd D = MatrixXd::Zero(rows.S.rows(), solution.cols());
+  D(rows.free, Eigen::all) = solution.topRows(static_cast<Index>(rows.free.size()));
+  D.col(0) += rows.given;
+  return {.q = without_rounding(F.col(0), rhs.col(0).cwiseAbs().maxCoeff()),
+          .S_ud = -F.middleCols(1, n),
+          .H_plus = -F.middleCols(1 + n, n_friction),
+          .H_minus = -F.rightCols(n_friction),
+          .D_load = D.col(0),
+          .D_delta = D.middleCols(1, n),
+          .D_plus = D.middleCols(1 + n, n_friction),
+          .D_minus = D.rightCols(n_friction)};
+}
+
+}  // namespace
+
+VectorXd CondensedSystem::residual(const VectorXd& F, const VectorXd& delta, double load_factor) const {
+  VectorXd r = F + S_ud * delta - load_factor * q;
+  if (has_friction()) r += H_plus * F.cwiseMax(0) + H_minus * (-F).cwiseMax(0);
+  return r;
+}
+
+VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta, double load_factor) const {
+  VectorXd D = load_factor * D_load + D_delta * delta;
+  if (has_friction()) D += D_plus * F.cwiseMax(0) + D_minus * (-F).cwiseMax(0);
+  return D;
+}
+
+CondensedSystem condense(const JointModel& joint) {
+  const Rows rows = assemble(joint);
+  const Saddle saddle(rows.S(rows.free, rows.free), rows.B(rows.free, Eigen::all));
+  if (!saddle.is_regular()) fail_as_mechanism(joint, rows, saddle);
+  const MatrixXd rhs = right_hand_sides(rows);
+  return unpack(rows, rhs, saddle.solve(rhs));
+}
+
+}  // namespace fastjoint::stage3

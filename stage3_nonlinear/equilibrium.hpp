@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "stage3_nonlinear/condensed_system.hpp"
+#include "stage3_nonlinear/load_path.hpp"
+
+namespace fastjoint::stage3 {
+
+/// One plate at one increment.
+struct PlateState {
+  Eigen::VectorXd D;       ///< (m) disc displacements, length
+  Eigen::VectorXd De, Pe;  ///< (e) displacements of the rigid externals and forces on them, length, force
+  // Sums of the forces that act on the plate along x, force.
+  double applied = 0;       ///< by rigid externals and tractions
+  double by_fasteners = 0;  ///< bearing and friction
+  double by_supports = 0;   ///< the remainder: what stage 1's supports must give
+};
+
+/// The whole joint at one increment, from the plates' own matrices.
+struct JointState {
+  std::vector<PlateState> plates;
+  /// F and the friction resultant that helps it, (n), force.
+  Eigen::VectorXd transferred_first, transferred_second;
+  double largest_force = 0;   ///< of externals, tractions and fasteners
+  double out_of_balance = 0;  ///< worst row of S D + R Lambda + T f + B F - P, over the largest force
+};
+
+[[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
+
+/// Per cent of the sum, shape (n); NaN where the sum is nothing but rounding.
+[[nodiscard]] Eigen::VectorXd shares(const Eigen::VectorXd& transferred);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/hybrid_solver.hpp"
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_multiroots.h>
+
+#include <exception>
+#include <limits>
+#include <memory>
+#include <new>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::VectorXd;
+using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+// GSL's solver works on blocks of its own, whose rows lie one after the other.
+using VectorView = Eigen::Map<VectorXd>;
+using MatrixView = Eigen::Map<RowMajorXd, 0, Eigen::OuterStride<>>;
+
+/// What GSL carries through to the functions below.
+struct Payload {
+  const RootProblem& problem;
+  std::exception_ptr thrown;
+};
+
+/// Nothing may be thrown through C.
+template <class Body>
+int guarded(Payload& payload, Body body) noexcept {
+  try {
+    return body() ? GSL_SUCCESS : GSL_EBADFUNC;
+  } catch (...) {
+    payload.thrown = std::current_exception();
+    return GSL_EBADFUNC;
+  }
+}
+
+VectorXd copied(const gsl_vector* v) {
+  return Eigen::Map<const VectorXd, 0, Eigen::InnerStride<>>(
+      v->data, static_cast<Eigen::Index>(v->size), Eigen::InnerStride<>(static_cast<Eigen::Index>(v->stride)));
+}
+
+int evaluate(const gsl_vector* x, void* params, gsl_vector* f) noexcept {
+  auto& payload = *static_cast<Payload*>(params);
+  return guarded(payload, [&] {
+    const VectorXd value = payload.problem.residual(copied(x));
+    VectorView(f->data, value.size()) = value;
+    return value.allFinite();
+  });
+}
+
+int differentiate(const gsl_vector* x, void* params, gsl_matrix* J) noexcept {
+  auto& payload = *static_cast<Payload*>(params);
+  return guarded(payload, [&] {
+    const Eigen::MatrixXd value = payload.problem.jacobian(copied(x));
+    MatrixView(J->data, value.rows(), value.cols(), Eigen::OuterStride<>(static_cast<Eigen::Index>(J->tda))) = value;
+    return value.allFinite();
+  });
+}
+
+int evaluate_both(const gsl_vector* x, void* params, gsl_vector* f, gsl_matrix* J) noexcept {
+  const int status = evaluate(x, params, f);
+  return status == GSL_SUCCESS ? differentiate(x, params, J) : status;
+}
+
+struct FreeSolver {
+  void operator()(gsl_multiroot_fdfsolver* solver) const noexcept { gsl_multiroot_fdfsolver_free(solver); }
+};
+using Solver = std::unique_ptr<gsl_multiroot_fdfsolver, FreeSolver>;
+
+double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
+
+void iterate(gsl_multiroot_fdfsolver* solver, const RootOptions& options, Root& root) {
+  for (int status = GSL_SUCCESS; status == GSL_SUCCESS; status = gsl_multiroot_fdfsolver_iterate(solver)) {
+    root.x = copied(solver->x);
+    root.residual = copied(solver->f);
+    if (!root.residual.allFinite()) {  // at the start, where GSL does not ask
+      root.residual.setConstant(std::numeric_limits<double>::infinity());
+      return;
+    }
+    root.converged = largest(root.residual) <= options.tolerance;
+    if (root.converged || root.iterations == options.max_iterations) return;
+    ++root.iterations;
+  }
+}
+
+}  // namespace
+
+void take_over_gsl_errors() { gsl_set_error_handler_off(); }
+
+Root hybrid_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
+  Payload payload{problem, nullptr};
+  const auto n = static_cast<std::size_t>(start.size());
+  const Solver solver(gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n));
+  if (!solver) throw std::bad_alloc();
+  gsl_multiroot_function_fdf functions{evaluate, differentiate, evaluate_both, n, &payload};
+  const gsl_vector_const_view x0 = gsl_vector_const_view_array(start.data(), n);
+  Root root{start, VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity())};
+  if (gsl_multiroot_fdfsolver_set(solver.get(), &functions, &x0.vector) == GSL_SUCCESS)
+    iterate(solver.get(), options, root);
+  if (payload.thrown) std::rethrow_exception(payload.thrown);
+  return root;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/formats/header.hpp"
+#include "common/input/json.hpp"
+#include "stage3_nonlinear/law.hpp"
+
+namespace fastjoint::stage3 {
+
+/// "plate:name" of the input, and where it stands there ("FILE: POINTER") for messages.
+struct Reference {
+  std::string plate, name, where;
+};
+
+struct PlateScene {
+  std::string name;
+  std::string file;  ///< path of its MATRICES.h5, relative to the current folder
+  std::string where;
+};
+
+struct LawScene {
+  std::shared_ptr<const Law> law;
+  bool one_sided = false;
+};
+
+struct FastenerScene {
+  std::string id;
+  std::array<Reference, 2> between;  ///< "plate:hole" of the first and the second plate
+  std::string law;                   ///< a key of JointScene::laws
+  double clearance = 0;              ///< radial gap, length
+  std::array<double, 2> friction{};  ///< mu on the first and the second plate
+  std::string where;
+};
+
+struct LoadScene {
+  Reference external;  ///< "plate:external"
+  double value = 0;    ///< at load factor 1: force, or length
+  bool is_displacement = false;
+};
+
+/// First guesses of Bortman & Szabo, section 6.1.
+enum class Guess { rigid, linear, equal };
+
+struct InitialScene {
+  Guess guess = Guess::linear;
+  std::optional<double> stiffness;  ///< of {"linear": K}, force / length
+};
+
+struct SolverScene {
+  double tolerance = 1e-10;  ///< largest residual, relative to the largest force
+  int max_iterations = 200;  ///< of one try
+};
+
+/// JOINT.json as it stands (schemas/joint.schema.json).
+struct JointScene {
+  std::string file, name;
+  std::optional<formats::Units> units;
+  std::vector<PlateScene> plates;
+  std::map<std::string, LawScene> laws;
+  std::vector<FastenerScene> fasteners;
+  std::vector<LoadScene> loads;
+  std::vector<double> load_factors;  ///< one per increment, none zero
+  InitialScene initial;
+  SolverScene solver;
+  std::vector<std::string> warnings;  ///< one sentence each, with file and pointer
+};
+
+/// Reads types and ranges strictly, then checks what one file alone can tell (check_scene). Throws
+/// InputError.
+[[nodiscard]] JointScene read_joint_scene(const input::Document& document);
+
+/// Throws InputError "WHERE: FOUND; allowed: ALLOWED".
+[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed);
+
+}  // namespace fastjoint::stage3

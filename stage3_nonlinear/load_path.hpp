@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "stage3_nonlinear/joint_equations.hpp"
+#include "stage3_nonlinear/joint_scene.hpp"
+
+namespace fastjoint::stage3 {
+
+/// How often a step that does not converge is halved before the path ends.
+inline constexpr int max_halvings = 6;
+
+/// A converged increment.
+struct PathStep {
+  double load_factor;
+  Eigen::VectorXd F, delta;                ///< (n) force, length
+  int iterations;                          ///< of all tries
+  double residual;                         ///< largest, relative to the largest force
+  std::vector<Eigen::Index> undetermined;  ///< fasteners within whose gaps a plate is free (joint_equations.hpp)
+};
+
+/// Where a path ended early.
+struct PathFailure {
+  std::size_t increment;  ///< 0-based
+  double load_factor;     ///< that was asked for
+  double reached;         ///< largest part of it that converged
+  Eigen::Index fastener;  ///< with the worst residual in the best try
+  double residual;        ///< there, relative to the largest force; infinite if each try left it spent
+};
+
+struct LoadPath {
+  bool linear = false;  ///< linear solves did it
+  /// What residuals are relative to: the largest |q| at the largest load factor, force.
+  double force_scale = 1;
+  std::vector<PathStep> steps;
+  std::optional<PathFailure> failure;
+};
+
+struct PathOptions {
+  InitialScene initial;
+  SolverScene solver;
+};
+
+/// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap,
+/// linear solves do it. Else the hybrid method in the contact coordinates; what does not converge is tried
+/// from the first guesses in turn, then by damped Newton from the same, then in half steps.
+[[nodiscard]] LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors,
+                              const PathOptions& options);
+
+/// The same, by the nonlinear solvers even if linear solves would do.
+[[nodiscard]] LoadPath follow_nonlinear(const JointEquations& equations, const std::vector<double>& load_factors,
+                                        const PathOptions& options);
+
+}  // namespace fastjoint::stage3

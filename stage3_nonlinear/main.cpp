@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <iostream>
+
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/hybrid_solver.hpp"
+#include "stage3_nonlinear/run.hpp"
+
+namespace {
+
+constexpr int highest_p = 99;  // matrices may come from elsewhere; what they hold is checked when they are read
+
+const fastjoint::program::Command command{
+    .name = "stage3_nonlinear",
+    .summary = "Finds the loads of the fasteners of a joint from its plates' matrices.",
+    .input = "JOINT.json",
+    .output = "RESULT.h5",
+    .options = {{"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
+                {"--csv", "FILE", "also write one line per increment and fastener"}}};
+
+void body(const fastjoint::program::Arguments& arguments) {
+  fastjoint::stage3::run({.input = arguments.input,
+                          .output = arguments.output,
+                          .csv = arguments.text("--csv"),
+                          .p = arguments.integer("--p", 1, highest_p, 0),
+                          .quiet = arguments.quiet,
+                          .generator = fastjoint::program::generator(command.name)},
+                         std::cout, std::cerr);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  fastjoint::stage3::take_over_gsl_errors();
+  return fastjoint::program::run(command, argc, argv, body);
+}

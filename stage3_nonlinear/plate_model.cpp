@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/plate_model.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <cassert>
+#include <set>
+
+#include "common/errors.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Rounding of stage 2 is far below; laboratory matrices must be made symmetric before they come here.
+constexpr double symmetry_tolerance = 1e-8;
+
+void check_once(const std::string& file, const char* dataset, const std::vector<std::string>& names) {
+  std::set<std::string> seen;
+  for (const auto& name : names)
+    if (!seen.insert(name).second)
+      throw FileError(fmt::format("{}:{}: \"{}\" stands twice, expected each name once", file, dataset, name));
+}
+
+void check_directions(const std::string& file, const formats::PlateMatrices& a) {
+  for (std::size_t i = 0; i < a.disc_direction.size(); ++i)
+    if (a.disc_direction[i] != "x")
+      throw InputError(
+          fmt::format("{}:disc/direction: hole \"{}\" has the direction \"{}\"; allowed: \"x\" for every disc (this "
+                      "program joins discs in x only: give the plate \"disc_directions\": [\"x\"])",
+                      file, a.disc_hole[i], a.disc_direction[i]));
+}
+
+void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
+  if (S.size() == 0) return;
+  const double largest = S.cwiseAbs().maxCoeff();
+  Eigen::Index row = 0, col = 0;
+  const double worst = (S - S.transpose()).cwiseAbs().maxCoeff(&row, &col);
+  if (!(worst <= symmetry_tolerance * largest))
+    throw FileError(
+        fmt::format("{}:{}: is not symmetric: entries ({}, {}) and ({}, {}) are {} and {}, expected equal to {} of the "
+                    "largest entry {}",
+                    file, dataset, row, col, col, row, S(row, col), S(col, row), symmetry_tolerance, largest));
+}
+
+void check_not_negative(const std::string& file, const MatrixXd& S) {
+  if (S.size() == 0) return;
+  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (!(least >= -symmetry_tolerance * S.cwiseAbs().maxCoeff()))
+    throw FileError(
+        fmt::format("{}:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue {:.6g}, expected none "
+                    "below zero: a plate cannot give energy",
+                    file, least));
+}
+
+/// Over the largest entry; unknown if the file has no estimate or p is not its highest degree.
+std::optional<double> relative_error(const formats::PlateMatrices& a, std::size_t level, const MatrixXd& S) {
+  if (a.p[static_cast<Eigen::Index>(level)] != a.p.maxCoeff()) return std::nullopt;
+  double error = 0;
+  for (const MatrixXd* E : {&a.S_dd_error, &a.S_ed_error, &a.S_ee_error})
+    if (E->size() > 0) error = std::max(error, E->cwiseAbs().maxCoeff());
+  if (!std::isfinite(error)) return std::nullopt;
+  return error / S.cwiseAbs().maxCoeff();
+}
+
+std::size_t level_of(const formats::PlateMatrices& a, int p) {
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    if (a.p[i] == p) return static_cast<std::size_t>(i);
+  throw std::logic_error("make_plate: degree not in the file");
+}
+
+Eigen::VectorXd along_x(const std::vector<std::string>& directions) {
+  Eigen::VectorXd result(static_cast<Eigen::Index>(directions.size()));
+  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = directions[static_cast<std::size_t>(i)] == "x" ? 1 : 0;
+  return result;
+}
+
+MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
+  MatrixXd A(discs.rows() + externals.rows(), discs.cols());
+  A << discs, externals;
+  return A;
+}
+
+MatrixXd stiffness(const std::string& file, const formats::PlateMatrices& a, std::size_t level) {
+  check_symmetric(file, "S_dd", a.S_dd[level]);
+  check_symmetric(file, "S_ee", a.S_ee[level]);
+  const auto m = a.n_discs();
+  const auto e = a.n_externals();
+  MatrixXd S(m + e, m + e);
+  S.topLeftCorner(m, m) = a.S_dd[level];
+  S.topRightCorner(m, e) = a.S_ed[level].transpose();
+  S.bottomLeftCorner(e, m) = a.S_ed[level];
+  S.bottomRightCorner(e, e) = a.S_ee[level];
+  check_not_negative(file, S);
+  return S;
+}
+
+}  // namespace
+
+PlateModel make_plate(const std::string& name, const std::string& file, const formats::PlateMatrices& a, int p) {
+  check_directions(file, a);
+  check_once(file, "disc/hole", a.disc_hole);
+  std::vector<std::string> boundaries = a.external_id;
+  boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
+  check_once(file, "external/id", boundaries);
+  const std::size_t level = level_of(a, p);
+  PlateModel plate;
+  plate.name = name;
+  plate.file = file;
+  plate.holes = a.disc_hole;
+  plate.externals = a.external_id;
+  plate.tractions = a.traction_id;
+  plate.S = stiffness(file, a, level);
+  plate.R = stacked(a.R_df[level], a.R_ef[level]);
+  plate.T = stacked(a.T_d[level], a.T_e[level]);
+  plate.friction_hole = a.friction_hole;
+  plate.friction_bearing = a.friction_bearing;
+  plate.friction_unit_force = a.friction_unit_force;
+  plate.friction_resultant = a.friction_resultant;
+  plate.external_in_x = along_x(a.external_direction);
+  plate.traction_in_x = along_x(a.traction_direction);
+  plate.relative_error = relative_error(a, level, plate.S);
+  plate.external_force = Eigen::VectorXd::Zero(a.n_externals());
+  plate.external_displacement.resize(a.external_id.size());
+  plate.traction_force = Eigen::VectorXd::Zero(a.n_tractions());
+  return plate;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/formats/plate_matrices.hpp"
+
+namespace fastjoint::stage3 {
+
+/// A plate at one degree p: its m discs first, then its e rigid externals, as unknowns of one list.
+///
+/// Forces that must act on it from outside: S u + R Lambda + T f (theory.md sections 3 to 5).
+struct PlateModel {
+  std::string name, file;
+  std::vector<std::string> holes, externals, tractions;      ///< (m), (e), (q)
+  Eigen::MatrixXd S;                                         ///< (m+e, m+e), force / length
+  Eigen::MatrixXd R;                                         ///< (m+e, h), length^2
+  Eigen::MatrixXd T;                                         ///< (m+e, q), dimensionless
+  std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
+  Eigen::VectorXd friction_unit_force, friction_resultant;   ///< (h), length^2
+  Eigen::VectorXd external_in_x, traction_in_x;              ///< (e), (q) 1 for those along x, else 0
+  /// Estimated error of S over its largest entry, where the file knows it.
+  std::optional<double> relative_error;
+  // Loads at load factor 1.
+  Eigen::VectorXd external_force;                            ///< (e), 0 where a displacement is given
+  std::vector<std::optional<double>> external_displacement;  ///< (e)
+  Eigen::VectorXd traction_force;                            ///< (q)
+
+  [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(holes.size()); }
+  [[nodiscard]] Eigen::Index n_externals() const { return static_cast<Eigen::Index>(externals.size()); }
+  [[nodiscard]] Eigen::Index n_unknowns() const { return n_discs() + n_externals(); }
+};
+
+/// The matrices at degree p, checked: directions x, names that stand once, S symmetric and positive
+/// semi-definite. Throws FileError or InputError with the file and the dataset.
+[[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file,
+                                    const formats::PlateMatrices& matrices, int p);
+
+}  // namespace fastjoint::stage3

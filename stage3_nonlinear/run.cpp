@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/run.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <ostream>
+
+#include "common/errors.hpp"
+#include "common/h5/whole_file.hpp"
+#include "common/program/text_file.hpp"
+#include "stage3_nonlinear/joint_history.hpp"
+#include "stage3_nonlinear/report.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_csv(const RunOptions& options) {
+  if (options.csv.empty()) return;
+  std::error_code ignored;
+  const auto same = [&](const std::string& other) {
+    return fs::weakly_canonical(options.csv, ignored) == fs::weakly_canonical(other, ignored);
+  };
+  if (same(options.input) || same(options.output))
+    throw InputError(fmt::format("--csv {}: is the input or the output file; choose another name", options.csv));
+  h5::check_can_write(options.csv);
+}
+
+void warn(std::ostream& log, const std::vector<std::string>& sentences) {
+  for (const auto& sentence : sentences) log << "stage3_nonlinear: warning: " << sentence << "\n";
+}
+
+}  // namespace
+
+void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
+  check_csv(options);
+  const auto document = input::parse(options.input, program::read_text_file(options.input));
+  const JointScene scene = read_joint_scene(document);
+  warn(log, scene.warnings);
+  const JointModel joint = load_joint(scene, options.p);
+  const JointEquations equations = make_equations(joint);
+  const LoadPath path = follow(equations, scene.load_factors, {scene.initial, scene.solver});
+  warn(log, warnings(joint, equations, path));
+
+  std::vector<JointState> states;
+  states.reserve(path.steps.size());
+  for (const auto& step : path.steps) states.push_back(joint_state(joint, equations.system, step));
+  auto result = joint_result(joint, path, states);
+  result.header = {options.generator, scene.name, joint.units, document.text};
+  formats::write(options.output, result);
+  if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(result));
+  if (!options.quiet) out << summary(scene, joint, path, states);
+  if (path.failure) throw NumericalError(failure_message(scene, *path.failure, options.output));
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+namespace fastjoint::stage3 {
+
+/// What the command line says.
+struct RunOptions {
+  std::string input;   ///< JOINT.json
+  std::string output;  ///< RESULT.h5
+  std::string csv;     ///< empty: none
+  int p = 0;           ///< 0: the highest degree that all plates have
+  bool quiet = false;
+  std::string generator;  ///< program and version, for the file's header
+};
+
+/// The whole stage: reads the joint and its matrices, solves, writes RESULT.h5 and the CSV, prints the
+/// summary to `out` and warnings to `log`.
+///
+/// If an increment does not converge, the files hold those before it, marked incomplete, and NumericalError
+/// says why.
+void run(const RunOptions& options, std::ostream& out, std::ostream& log);
+
+}  // namespace fastjoint::stage3

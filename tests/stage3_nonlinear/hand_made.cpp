@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "stage3_nonlinear/cubic_law.hpp"
+#include "stage3_nonlinear/power_law.hpp"
+
+namespace fastjoint::test {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using formats::PlateMatrices;
+
+namespace {
+
+double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+/// Even over the decades.
+double decades(std::mt19937& random, double low, double high) {
+  return std::exp(uniform(random, std::log(low), std::log(high)));
+}
+
+PlateMatrices from_stiffness(const MatrixXd& S, int n_discs, int n_externals) {
+  PlateMatrices a;
+  a.header.units = {"in", "lbf"};
+  a.p = Eigen::VectorXi::Constant(1, 8);
+  a.ndof = Eigen::VectorXi::Constant(1, 1);
+  for (int i = 1; i <= n_discs; ++i) a.disc_hole.push_back(std::to_string(i));
+  a.disc_direction.assign(a.disc_hole.size(), "x");
+  const std::vector<std::string> externals{"P", "Q"};
+  a.external_id.assign(externals.begin(), externals.begin() + n_externals);
+  a.external_direction.assign(a.external_id.size(), "x");
+  a.S_dd = {S.topLeftCorner(n_discs, n_discs)};
+  a.S_ed = {S.bottomLeftCorner(n_externals, n_discs)};
+  a.S_ee = {S.bottomRightCorner(n_externals, n_externals)};
+  a.S_dd_error = MatrixXd::Zero(n_discs, n_discs);
+  a.S_ed_error = MatrixXd::Zero(n_externals, n_discs);
+  a.S_ee_error = MatrixXd::Zero(n_externals, n_externals);
+  a.R_df = {MatrixXd::Zero(n_discs, 0)};
+  a.R_ef = {MatrixXd::Zero(n_externals, 0)};
+  a.T_d = {MatrixXd::Zero(n_discs, 0)};
+  a.T_e = {MatrixXd::Zero(n_externals, 0)};
+  a.C_t = {MatrixXd::Zero(0, 0)};
+  return a;
+}
+
+std::shared_ptr<const stage3::Law> random_law(std::mt19937& random, const RandomJoint& kind) {
+  if (kind.cubics && uniform(random, 0, 1) < 0.4) {
+    // Rises for all delta: a cubic that turns down carries no more than its peak.
+    const double F = decades(random, 30, 3000);
+    const double d = decades(random, 0.003, 0.3);
+    return std::make_shared<stage3::CubicLaw>(std::array{d, 2 * d, 3 * d}, std::array{F, 1.6 * F, 2.4 * F});
+  }
+  const double n = uniform(random, 0, 1) < 0.25 ? 1.0 : uniform(random, kind.least_n, 1.0);
+  return power_law(decades(random, 100, 100000), n);
+}
+
+}  // namespace
+
+PlateMatrices spring_plate(int n_discs, int n_externals, const std::vector<Spring>& springs) {
+  MatrixXd S = MatrixXd::Zero(n_discs + n_externals, n_discs + n_externals);
+  for (const auto& [a, b, k] : springs) {
+    S(a, a) += k;
+    if (b == ground) continue;
+    S(b, b) += k;
+    S(a, b) -= k;
+    S(b, a) -= k;
+  }
+  return from_stiffness(S, n_discs, n_externals);
+}
+
+PlateMatrices chain(int n_discs, int n_externals, double k, const std::vector<Spring>& more) {
+  std::vector<Spring> springs = more;
+  for (int i = 0; i + 1 < n_discs; ++i) springs.push_back({i, i + 1, k});
+  return spring_plate(n_discs, n_externals, springs);
+}
+
+void add_friction(PlateMatrices& plate, std::mt19937& random) {
+  const Index m = plate.n_discs();
+  const Index e = plate.n_externals();
+  plate.R_df[0] = MatrixXd::Zero(m, 2 * m);
+  plate.R_ef[0] = MatrixXd::Zero(e, 2 * m);
+  plate.friction_unit_force.resize(2 * m);
+  plate.friction_resultant.resize(2 * m);
+  for (Index i = 0; i < 2 * m; ++i) {
+    const double side = i % 2 == 0 ? 1 : -1;
+    plate.friction_hole.push_back(plate.disc_hole[static_cast<std::size_t>(i / 2)]);
+    plate.friction_bearing.emplace_back(side > 0 ? "+x" : "-x");
+    const double c = uniform(random, 0.005, 0.02);
+    const double resultant = side * 2 / std::numbers::pi * c;
+    plate.friction_unit_force[i] = c;
+    plate.friction_resultant[i] = resultant;
+    // The discs and boundaries that hold the plate share what holds the resultant, the disc of the hole most.
+    for (Index row = 0; row < m; ++row) plate.R_df[0](row, i) = -resultant * uniform(random, 0, 0.3);
+    for (Index row = 0; row < e; ++row) plate.R_ef[0](row, i) = -resultant * uniform(random, 0, 0.3);
+    plate.R_df[0](i / 2, i) -= 0.4 * resultant;
+  }
+}
+
+stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law) {
+  stage3::JointModel joint;
+  joint.file = "joint.json";
+  joint.units = lap.a.header.units;
+  joint.p = 8;
+  joint.plates = {stage3::make_plate("a", "a.h5", lap.a, 8), stage3::make_plate("b", "b.h5", lap.b, 8)};
+  joint.plates[0].external_force[0] = lap.force;
+  for (Index j = 0; j < std::min(lap.a.n_discs(), lap.b.n_discs()); ++j)
+    joint.fasteners.push_back({.id = std::to_string(j + 1),
+                               .ends = {stage3::FastenerEnd{0, j, {}}, stage3::FastenerEnd{1, j, {}}},
+                               .law = law,
+                               .gap = law->delta0()});
+  return joint;
+}
+
+void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu) {
+  for (const auto end : {stage3::first_plate, stage3::second_plate}) {
+    stage3::FastenerEnd& at = joint.fasteners[fastener].ends[end];
+    const stage3::PlateModel& plate = joint.plates[at.plate];
+    for (const auto sign : {stage3::positive_force, stage3::negative_force}) {
+      const bool plus = (end == stage3::second_plate) == (sign == stage3::positive_force);
+      const Index column = 2 * at.disc + (plus ? 0 : 1);
+      const double amplitude = mu / plate.friction_unit_force[column];
+      at.friction[sign] = {plate.R.col(column) * amplitude, std::abs(plate.friction_resultant[column]) * amplitude};
+    }
+  }
+}
+
+std::shared_ptr<const stage3::Law> linear_law(double k) { return power_law(k, 1); }
+
+std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0) {
+  return std::make_shared<stage3::PowerLaw>(A, n, delta0);
+}
+
+stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
+  const int n = std::uniform_int_distribution<int>(1, 12)(random);
+  const double k_a = decades(random, 1e3, 1e5);
+  const double k_b = decades(random, 1e3, 1e5);
+  // A plate that holds itself would leave a floating one without load; so then the first is held only by its
+  // own end.
+  std::vector<Spring> left{{0, ground, k_b}};
+  if (kind.floating) left.clear();
+  Lap lap{chain(n, 1, k_a, {{n - 1, n, k_a}, {0, ground, kind.floating ? k_a : 0.1 * k_a}}), chain(n, 0, k_b, left),
+          decades(random, 10, 10000)};
+  if (kind.friction) {
+    add_friction(lap.a, random);
+    add_friction(lap.b, random);
+  }
+  auto joint = joint_of(lap, linear_law(1));
+  for (std::size_t j = 0; j < joint.fasteners.size(); ++j) {
+    auto& fastener = joint.fasteners[j];
+    fastener.law = random_law(random, kind);
+    if (kind.clearances && uniform(random, 0, 1) < 0.6) fastener.gap = decades(random, 1e-4, 1e-1);
+    fastener.one_sided = kind.one_sided && uniform(random, 0, 1) < 0.5;
+    if (kind.friction && uniform(random, 0, 1) < 0.7) set_friction(joint, j, uniform(random, 0, 0.4));
+  }
+  return joint;
+}
+
+MatrixXd random_stiffness(std::mt19937& random, int n) {
+  const MatrixXd A = MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -1, 1); });
+  return A * A.transpose() + MatrixXd::Identity(n, n);
+}
+
+std::string joint_text(const std::map<std::string, std::string>& members) {
+  std::map<std::string, std::string> all{{"format", R"("joint")"},
+                                         {"version", "1"},
+                                         {"plates", R"({"a": "a.h5", "b": "b.h5"})"},
+                                         {"laws", R"({"lin": {"type": "linear", "k": 1000}})"},
+                                         {"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"},
+                       {"id": "f2", "between": ["a:2", "b:2"], "law": "lin"}])"},
+                                         {"loads", R"([{"external": "a:P", "force": 100}])"},
+                                         {"increments", "1"}};
+  for (const auto& [key, value] : members) all[key] = value;
+  std::string text = "{";
+  for (const auto& [key, value] : all)
+    if (!value.empty()) text += (text.size() > 1 ? ",\n\"" : "\n\"") + key + "\": " + value;
+  return text + "\n}\n";
+}
+
+std::string write_joint(const TemporaryFolder& folder, const Lap& lap,
+                        const std::map<std::string, std::string>& members) {
+  formats::write(folder.path("a.h5"), lap.a);
+  formats::write(folder.path("b.h5"), lap.b);
+  return folder.write("joint.json", joint_text(members));
+}
+
+Lap two_fastener_lap() {
+  constexpr double k = 1000;
+  return {chain(2, 1, k, {{1, 2, k}}), chain(2, 0, k, {{0, ground, k}}), 100};
+}
+
+}  // namespace fastjoint::test

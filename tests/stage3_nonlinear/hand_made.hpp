@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "common/formats/plate_matrices.hpp"
+#include "stage3_nonlinear/joint_equations.hpp"
+#include "tests/support/files.hpp"
+
+namespace fastjoint::test {
+
+/// A spring between two unknowns of a plate (discs first, then externals), or from one to the ground.
+struct Spring {
+  int a, b;
+  double k;
+};
+inline constexpr int ground = -1;
+
+/// A plate made of springs, at p = 8: holes "1", "2", ..., externals "P", "Q" as far as asked for.
+[[nodiscard]] formats::PlateMatrices spring_plate(int n_discs, int n_externals, const std::vector<Spring>& springs);
+
+/// Discs in a row with springs k between neighbours; what holds and loads it is left to `more`.
+[[nodiscard]] formats::PlateMatrices chain(int n_discs, int n_externals, double k, const std::vector<Spring>& more);
+
+/// Gives every hole friction cases on both sides: random R, c and resultants of the size that real plates
+/// have.
+void add_friction(formats::PlateMatrices& plate, std::mt19937& random);
+
+/// Plate "a" pulled at its external "P" with `force`, plate "b" held or floating, fastener j through the
+/// holes j of both.
+struct Lap {
+  formats::PlateMatrices a, b;
+  double force = 1;
+};
+
+/// A joint of those two without files, all fasteners with this law.
+[[nodiscard]] stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law);
+
+/// Gives a fastener of `joint` friction mu on both plates, from the friction cases of the plates.
+void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu);
+
+[[nodiscard]] std::shared_ptr<const stage3::Law> linear_law(double k);
+[[nodiscard]] std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0 = 0);
+
+/// Ranges of random joints.
+struct RandomJoint {
+  double least_n = 0.4;  ///< exponents from here to 1
+  bool cubics = false;
+  bool clearances = true;
+  bool friction = false;
+  bool one_sided = false;
+  bool floating = false;  ///< plate b is held by the fasteners only
+};
+
+/// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.
+[[nodiscard]] stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind);
+
+/// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).
+[[nodiscard]] Eigen::MatrixXd random_stiffness(std::mt19937& random, int n);
+
+/// Writes a.h5 and b.h5 and a joint.json around these members of its object; returns the path of the JSON.
+/// What `members` does not give is: two plates, law "lin" (k = 1000), fasteners "f1", "f2" through holes 1
+/// and 2, force 100 on "a:P", one increment.
+[[nodiscard]] std::string write_joint(const TemporaryFolder& folder, const Lap& lap,
+                                      const std::map<std::string, std::string>& members = {});
+
+/// The text of that JSON.
+[[nodiscard]] std::string joint_text(const std::map<std::string, std::string>& members = {});
+
+/// Two discs each: a pulled at P, b held at its left end; segments of stiffness 1000.
+[[nodiscard]] Lap two_fastener_lap();
+
+}  // namespace fastjoint::test
