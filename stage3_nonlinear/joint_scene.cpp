@@ -105,10 +105,7 @@ LoadScene read_load(const std::string& file, const Value& value) {
 std::vector<double> read_increments(const Value& value) {
   std::vector<double> factors;
   if (value.is_array()) {
-    for (const auto& item : value.items(1, most_increments)) {
-      factors.push_back(item.number());
-      if (factors.back() == 0) item.not_allowed("a number other than 0");
-    }
+    for (const auto& item : value.items(1, most_increments)) factors.push_back(item.number());
   } else {
     const int n = value.integer(1, most_increments);
     for (int i = 1; i <= n; ++i) factors.push_back(static_cast<double>(i) / n);
@@ -153,7 +150,7 @@ JointScene read_joint_scene(const input::Document& document) {
   read_laws(root.at("laws"), scene);
   for (const auto& item : root.at("fasteners").items(1)) scene.fasteners.push_back(read_fastener(item, scene));
   for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(scene.file, item));
-  scene.load_factors = read_increments(root.at("increments"));
+  if (const auto increments = root.find("increments")) scene.load_factors = read_increments(*increments);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   check_scene(scene);

@@ -66,7 +66,7 @@ struct JointScene {
   std::map<std::string, LawScene> laws;
   std::vector<FastenerScene> fasteners;
   std::vector<LoadScene> loads;
-  std::vector<double> load_factors;  ///< one per increment, none zero
+  std::vector<double> load_factors{1};  ///< one per increment
   InitialScene initial;
   SolverScene solver;
   std::vector<std::string> warnings;  ///< one sentence each, with file and pointer

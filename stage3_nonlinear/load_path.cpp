@@ -66,6 +66,10 @@ class Walk {
   }
 
   bool solve(double target) {
+    if (target == 0) {  // without load the joint as it was built is in equilibrium, exactly
+      here_ = {0, VectorXd::Zero(equations_.n_fasteners())};
+      return true;
+    }
     worst_residual_ = std::numeric_limits<double>::infinity();
     const auto problem = scaled_problem(target);
     const auto solved_by = [&](decltype(&hybrid_root) solver) {

@@ -41,7 +41,7 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
 }
 
 std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
-  const bool differ = state.transferred_first != state.transferred_second;
+  const bool differ = !state.transferred_first.isApprox(state.transferred_second, 1e-9);  // beyond rounding
   const std::string length = formats::unit(joint.units, 1, 0);
   const std::string force = formats::unit(joint.units, 0, 1);
   std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}", "fastener", width, head("delta", length),

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "common/errors.hpp"
 
 namespace fastjoint::formats {
@@ -28,9 +30,9 @@ Sparse read_sparse(const h5::Reader& file, const std::string& group, Eigen::Inde
   const Eigen::VectorXi start = file.integers(group + "/start", cols + 1);
   const Eigen::VectorXi row = file.integers(group + "/row", h5::any);
   const Eigen::VectorXd value = file.vector(group + "/value", row.size(), unit);
-  const bool steps_up =
-      start[0] == 0 && start[cols] == row.size() && (start.tail(cols) - start.head(cols)).minCoeff() >= 0;
-  if ((cols > 0 && !steps_up) || (row.size() > 0 && (row.minCoeff() < 0 || row.maxCoeff() >= rows)))
+  const bool steps_up = start[0] == 0 && start[cols] == row.size() && std::is_sorted(start.begin(), start.end());
+  const bool fits = row.size() == 0 || (row.minCoeff() >= 0 && row.maxCoeff() < rows);
+  if (!steps_up || !fits)
     throw FileError(fmt::format("{}:{}: is not a sparse matrix of {} x {}", file.path(), group, rows, cols));
   return Eigen::Map<const Sparse>(rows, cols, row.size(), start.data(), row.data(), value.data());
 }
@@ -50,6 +52,11 @@ void write_mesh(h5::Writer& file, const pfem::Mesh& mesh, const std::string& len
   file.write("mesh/thickness", mesh.thickness, {length, "thickness of each element"});
 }
 
+void check_indices(const h5::Reader& file, const char* dataset, const Eigen::MatrixXi& indices, int n) {
+  if (indices.size() > 0 && (indices.minCoeff() < 0 || indices.maxCoeff() >= n))
+    throw FileError(fmt::format("{}:{}: an index is outside 0..{}", file.path(), dataset, n - 1));
+}
+
 pfem::Mesh read_mesh(const h5::Reader& file, const std::string& length) {
   pfem::Mesh mesh;
   mesh.nodes = file.matrix("mesh/nodes", h5::any, 2, length).transpose();
@@ -58,8 +65,8 @@ pfem::Mesh read_mesh(const h5::Reader& file, const std::string& length) {
   const Eigen::MatrixXd center = file.matrix("mesh/arc_center", nodes.rows(), 2, length);
   for (Eigen::Index i = 0; i < nodes.rows(); ++i) mesh.arcs.push_back({nodes(i, 0), nodes(i, 1), center.row(i)});
   mesh.thickness = file.vector("mesh/thickness", mesh.n_elements(), length);
-  if (mesh.quads.size() > 0 && (mesh.quads.minCoeff() < 0 || mesh.quads.maxCoeff() >= mesh.n_nodes()))
-    throw FileError(fmt::format("{}:mesh/quads: names a node that mesh/nodes has not", file.path()));
+  check_indices(file, "mesh/quads", mesh.quads, mesh.n_nodes());
+  check_indices(file, "mesh/arc_nodes", nodes, mesh.n_nodes());
   return mesh;
 }
 
@@ -125,6 +132,9 @@ void read_names(const h5::Reader& file, PlateSolution& a) {
   a.disc_direction = file.strings("disc/direction", count(a.disc_hole));
   a.friction_hole = file.strings("friction/hole", h5::any);
   a.friction_bearing = file.strings("friction/bearing", count(a.friction_hole));
+  for (const auto& hole : a.friction_hole)
+    if (std::find(a.hole_id.begin(), a.hole_id.end(), hole) == a.hole_id.end())
+      throw FileError(fmt::format("{}:friction/hole: \"{}\" is not in hole/id", file.path(), hole));
 }
 
 std::string case_group(int p) { return fmt::format("p{}/", p); }

@@ -199,7 +199,6 @@ BAD_INPUTS = [
     ("joint_increments_text", "joint_minimal", "/increments", "six"),
     ("joint_factors_none", "joint_laws", "/increments", []),
     ("joint_factors_too_many", "joint_laws", "/increments", [1] * 100001),
-    ("joint_factor_zero", "joint_laws", "/increments", [0, 1]),
     ("joint_factor_text", "joint_laws", "/increments", ["half", 1]),
     ("joint_initial_unknown", "joint_laws", "/initial", "soft"),
     ("joint_initial_number", "joint_laws", "/initial", 10000),

@@ -130,6 +130,19 @@ TEST(LoadPath, ReversedLoadMirrorsOddLaws) {
   }
 }
 
+/// Elastic laws forget: unloaded, nothing is left, and the way back meets the forces of the way up.
+TEST(LoadPath, UnloadingReturnsTheWayItCame) {
+  std::mt19937 random(35);
+  for (int i = 0; i < 50; ++i) {
+    const auto joint = test::random_joint(random, {.friction = true});
+    const LoadPath path = follow(make_equations(joint), {0.5, 1, 0.5, 0}, tight);
+    ASSERT_FALSE(path.failure) << "joint " << i;
+    EXPECT_LT((path.steps[2].F - path.steps[0].F).norm(), 1e-9 * path.force_scale) << "joint " << i;
+    EXPECT_EQ(path.steps[3].F.norm(), 0) << "joint " << i;
+    EXPECT_EQ(path.steps[3].residual, 0) << "joint " << i;
+  }
+}
+
 TEST(LoadPath, OneSidedFastenersDoNotPull) {
   std::mt19937 random(34);
   int open = 0;

@@ -16,6 +16,7 @@ namespace {
 
 using testing::AllOf;
 using testing::ElementsAre;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -97,6 +98,13 @@ TEST_F(Run, PrintsATable) {
                                     "  a                         100             -100                    0\n"
                                     "  b                           0              100                 -100\n"
                                     "  equilibrium: worst row out of balance by "));
+}
+
+TEST_F(Run, UnloadedHasNoRoundingToCompareWith) {
+  write({{"laws", R"({"lin": {"type": "power", "A": 300, "n": 0.6}})"}, {"increments", "[1, 0]"}});
+  run();
+  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 0, 0 iterations, residual 0.0e+00"));
+  EXPECT_THAT(out_.str(), EndsWith("equilibrium: worst row out of balance by 0.0e+00 of the largest force\n"));
 }
 
 TEST_F(Run, QuietPrintsNothing) {
