@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <iostream>
 
 #include "common/program/program.hpp"
@@ -30,10 +32,11 @@ void run(const program::Arguments& arguments) {
   std::cout << fmt::format("{}: {} discs, {} externals, {} friction cases, {} tractions, p = {}..{}\n",
                            arguments.output, a.n_discs(), a.n_externals(), a.n_friction_cases(), a.n_tractions(),
                            a.p[0], a.p[a.p.size() - 1]);
-  const double S = std::max({largest(a.S_ee.back()), largest(a.S_dd.back())});
-  const double error = std::max({largest(a.S_ee_error), largest(a.S_dd_error)});
-  std::cout << fmt::format("  largest stiffness {:.6g} {}, estimated error {:.1e} of it\n", S,
-                           formats::unit(a.header.units, -1, 1), S > 0 ? error / S : 0);
+  const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
+  const double error = std::max(largest(a.S_ee_error), largest(a.S_dd_error));
+  std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),
+                           std::isfinite(error) ? fmt::format("estimated error {:.1e} of it", S > 0 ? error / S : 0)
+                                                : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks);
 }
 

@@ -27,7 +27,7 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   Arguments arguments;
   CLI::App app(command.summary, command.name);
   app.set_version_flag("--version", generator(command.name));
-  app.add_option("input", arguments.input, command.input)->required()->type_name("")->option_text(command.input);
+  app.add_option(command.input, arguments.input, "file to read")->required()->option_text(" ");
   app.add_option("-o,--output", arguments.output, "file to write")->required()->option_text(command.output);
   for (const auto& option : command.options) {
     const auto keep = [&arguments, name = option.name](const std::string& text) { arguments.options[name] = text; };
