@@ -11,8 +11,8 @@
 #include <numeric>
 
 #include "common/errors.hpp"
-#include "common/h5/digest.hpp"
 #include "common/h5/handle.hpp"
+#include "common/h5/seal.hpp"
 
 namespace fastjoint::h5 {
 namespace {
@@ -91,13 +91,6 @@ struct Reader::Impl {
     if (found != expected) fail(name, fmt::format("unit is '{}', expected '{}'", found, expected));
   }
 
-  void check_digest(const Dataset& set, const std::string& name, const std::string& found) const {
-    if (has_attribute(set.get(), "digest") && read_text_attribute(set.get(), "digest") != found)
-      fail(name,
-           "data do not match their digest: the file is damaged, or was edited by hand (then delete the "
-           "attribute 'digest')");
-  }
-
   template <class Scalar>
   Shape read(const std::string& name, const Shape& expected, H5T_class_t cls, hid_t memory_type,
              std::vector<Scalar>& values) const {
@@ -107,7 +100,6 @@ struct Reader::Impl {
     values.resize(count(found));
     if (!values.empty() && H5Dread(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
       fail(name, fmt::format("cannot be read: {}", last_error()));
-    check_digest(set, name, digest(values.data(), values.size() * sizeof(Scalar)));
     return found;
   }
 
@@ -142,7 +134,6 @@ struct Reader::Impl {
         fail(name, fmt::format("cannot be read: {}", last_error()));
       for (std::size_t i = 0; i < n; ++i) result.emplace_back(block.substr(i * width, width).c_str());
     }
-    check_digest(set, name, digest(result));
     return result;
   }
 };
@@ -181,6 +172,7 @@ void check_version(const Reader& reader, hid_t file, const std::string& format, 
 Reader::Reader(std::string path, const std::string& format, int major) : impl_(std::make_unique<Impl>()) {
   impl_->path = std::move(path);
   check_readable(impl_->path);
+  check_seal(impl_->path);
   if (H5Fis_hdf5(impl_->path.c_str()) <= 0)
     throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", impl_->path, format));
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));

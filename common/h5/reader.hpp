@@ -11,11 +11,11 @@ namespace fastjoint::h5 {
 /// Any extent will do.
 inline constexpr Eigen::Index any = -1;
 
-/// An HDF5 file opened for reading, whose kind and major version are checked before anything else.
+/// An HDF5 file opened for reading, whose seal, kind and major version are checked before anything else.
 ///
-/// Every read checks type class, rank, shape, unit and digest and throws FileError with the file, the dataset,
-/// what was found and what was expected. A dataset without `unit` or `digest` is taken as it is: files written by
-/// hand (a laboratory's matrices) need not carry them.
+/// Every read checks type class, rank, shape and unit and throws FileError with the file, the dataset, what was found
+/// and what was expected. A dataset without `unit` is taken as it is: files written by hand (a laboratory's matrices)
+/// need none.
 class Reader {
  public:
   Reader(std::string path, const std::string& format, int major);

@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "common/h5/digest.hpp"
 #include "common/h5/handle.hpp"
+#include "common/h5/seal.hpp"
 #include "common/h5/whole_file.hpp"
 
 namespace fastjoint::h5 {
@@ -59,7 +59,7 @@ struct Writer::Impl {
   }
 
   void dataset(const std::string& name, const Space& space, hid_t file_type, hid_t memory_type, const void* data,
-               const Meta& meta, const std::string& digest_text) const {
+               const Meta& meta) const {
     make_groups(name);
     const auto list = properties(H5P_DATASET_CREATE);
     const Dataset set(
@@ -69,7 +69,6 @@ struct Writer::Impl {
     if (!empty && H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(name);
     text_attribute(set.get(), "unit", meta.unit);
     text_attribute(set.get(), "description", meta.description);
-    text_attribute(set.get(), "digest", digest_text);
   }
 
   void doubles(const std::string& name, const Shape& shape, const double* data, const Meta& meta) const {
@@ -78,14 +77,14 @@ struct Writer::Impl {
     const Eigen::Map<const Eigen::ArrayXd> values(data, static_cast<Eigen::Index>(n));
     if (values.isNaN().any()) throw NumericalError(fmt::format("{}: {} would hold a NaN", path, name));
     const Space space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
-    dataset(name, space, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data, meta, digest(data, n * sizeof(double)));
+    dataset(name, space, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data, meta);
   }
 
   void integers(const std::string& name, const Shape& shape, const int* data, const Meta& meta) const {
     std::size_t n = 1;
     for (const auto e : shape) n *= e;
     const Space space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
-    dataset(name, space, H5T_STD_I32LE, H5T_NATIVE_INT, data, meta, digest(data, n * sizeof(int)));
+    dataset(name, space, H5T_STD_I32LE, H5T_NATIVE_INT, data, meta);
   }
 };
 
@@ -145,15 +144,13 @@ void Writer::write(const std::string& dataset, const std::vector<std::string>& s
   for (const auto& s : strings) chars.push_back(s.c_str());
   const hsize_t n = strings.size();
   const auto type = utf8_string();
-  impl_->dataset(dataset, Space(H5Screate_simple(1, &n, nullptr)), type.get(), type.get(), chars.data(), meta,
-                 digest(strings));
+  impl_->dataset(dataset, Space(H5Screate_simple(1, &n, nullptr)), type.get(), type.get(), chars.data(), meta);
 }
 
 void Writer::write(const std::string& dataset, const std::string& text, const Meta& meta) {
   const char* chars = text.c_str();
   const auto type = utf8_string();
-  impl_->dataset(dataset, Space(H5Screate(H5S_SCALAR)), type.get(), type.get(), &chars, meta,
-                 digest(std::vector<std::string>{text}));
+  impl_->dataset(dataset, Space(H5Screate(H5S_SCALAR)), type.get(), type.get(), &chars, meta);
 }
 
 void Writer::commit() {
@@ -162,7 +159,7 @@ void Writer::commit() {
   if (n_bytes <= 0) impl_->fail("file");
   std::string image(static_cast<std::size_t>(n_bytes), '\0');
   if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) impl_->fail("file");
-  write_whole_file(impl_->path, image);
+  write_whole_file(impl_->path, image + seal(image));
 }
 
 }  // namespace fastjoint::h5

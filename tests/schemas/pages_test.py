@@ -92,7 +92,7 @@ def check_units(rows, datasets, labels):
         unit = re.sub("length|force", lambda match: labels.get(match[0], match[0]), rows[path]["unit"])
         if attributes.get("unit") != unit:
             yield f"{path}: unit is {attributes.get('unit')}, the page says {unit}"
-        if set(attributes) != {"unit", "description", "digest"} or not attributes["description"]:
+        if set(attributes) != {"unit", "description"} or not attributes["description"]:
             yield f"{path}: has the attributes {dict(attributes)}"
 
 
