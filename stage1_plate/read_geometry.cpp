@@ -19,7 +19,7 @@ int material_index(const Value& value, const Materials& materials) {
 
 /// The only material there is may go unnamed.
 std::optional<Value> find_material(const Value& geometry, const Materials& materials) {
-  const auto value = geometry.find("material");
+  auto value = geometry.find("material");
   if (!value && materials.name.size() > 1) return geometry.at("material");
   return value;
 }

@@ -46,11 +46,12 @@ class SideSprings {
 void add_springs(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
                  const Unknowns& unknowns, Assembler& assembler) {
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
-    if (!scene.holes[hole].spring_modulus) continue;
+    const auto& modulus = scene.holes[hole].spring_modulus;
+    if (!modulus) continue;
     const int first = unknowns.n_externals() + unknowns.disc_of_hole[hole];
     for (const auto& side : plate.rims[hole].sides) {
       const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, numbering.p);
-      const SideSprings springs(rule, *scene.holes[hole].spring_modulus, plate.mesh.thickness[side.element]);
+      const SideSprings springs(rule, *modulus, plate.mesh.thickness[side.element]);
       assembler.add_stiffness(side.element, springs.plate(numbering.function.rows()));
       for (std::size_t a = 0; a < scene.disc_directions.size(); ++a) {
         const auto e = pfem::axis(scene.disc_directions[a]);

@@ -107,8 +107,9 @@ void require_good(const Checks& checks, const std::string& file) {
   };
   if (!(checks.symmetry < worst_allowed)) fail("asymmetry of S", checks.symmetry);
   if (!(checks.smallest_eigenvalue > -worst_allowed)) fail("smallest eigenvalue of S", checks.smallest_eigenvalue);
-  if (!(checks.reciprocity.value_or(0) < worst_allowed)) fail("error of reciprocity", *checks.reciprocity);
-  if (!(checks.equilibrium.value_or(0) < worst_allowed)) fail("error of global equilibrium", *checks.equilibrium);
+  if (!(checks.reciprocity.value_or(0) < worst_allowed)) fail("error of reciprocity", checks.reciprocity.value_or(0));
+  if (!(checks.equilibrium.value_or(0) < worst_allowed))
+    fail("error of global equilibrium", checks.equilibrium.value_or(0));
 }
 
 std::string report(const Checks& checks) {

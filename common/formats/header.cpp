@@ -7,8 +7,6 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "common/errors.hpp"
-
 namespace fastjoint::formats {
 namespace {
 
@@ -31,6 +29,10 @@ std::string unit(const Units& units, int length_power, int force_power) {
   return (above.size() == 2 ? above[0] + " " + above[1] : above[0]) + below;
 }
 
+std::string expected_unit(const Units& units, int length_power, int force_power) {
+  return units.length.empty() || units.force.empty() ? "" : unit(units, length_power, force_power);
+}
+
 void write_header(h5::Writer& file, const Header& header) {
   const nlohmann::json units = {{"length", header.units.length}, {"force", header.units.force}};
   file.attribute("generator", header.generator);
@@ -44,13 +46,10 @@ Header read_header(const h5::Reader& file) {
   header.generator = file.attribute("generator", "");
   header.name = file.attribute("name", "");
   if (file.has("input")) header.input = file.text("input");
-  const std::string units = file.attribute("units", R"({"length": "", "force": ""})");
-  const auto json = nlohmann::json::parse(units, nullptr, false);
+  // A hand-made file may have no labels, or some of another form: then they are unknown.
+  const auto units = nlohmann::json::parse(file.attribute("units", "{}"), nullptr, false);
   const auto label = [&](const char* key) -> std::string {
-    if (!json.is_object() || !json.contains(key) || !json[key].is_string())
-      throw FileError(fmt::format("{}: attribute 'units' is '{}', expected {{\"length\": \"...\", \"force\": \"...\"}}",
-                                  file.path(), units));
-    return json[key];
+    return units.is_object() && units.contains(key) && units[key].is_string() ? units[key] : "";
   };
   header.units = {label("length"), label("force")};
   return header;

@@ -18,6 +18,9 @@ struct Units {
 /// length^l force^f as a label: "in^2", "lbf/in", "1" if dimensionless. Every unit attribute comes from here.
 [[nodiscard]] std::string unit(const Units& units, int length_power, int force_power);
 
+/// The unit that a dataset must have in a file with these labels; "", any unit, in a file without labels.
+[[nodiscard]] std::string expected_unit(const Units& units, int length_power, int force_power);
+
 /// What every file says of itself.
 struct Header {
   std::string generator;  ///< program and version

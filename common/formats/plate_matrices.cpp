@@ -100,10 +100,10 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   a.external_direction = directions(file, "external/direction", e);
   a.traction_direction = directions(file, "traction/direction", q);
   a.friction_bearing = strings_if_any(file, "friction/bearing", h);
-  const std::string area = unit(a.header.units, 2, 0);
+  const std::string area = expected_unit(a.header.units, 2, 0);
   a.friction_unit_force = h > 0 ? file.vector("friction/unit_force", h, area) : Eigen::VectorXd();
   a.friction_resultant = h > 0 ? file.vector("friction/resultant", h, area) : Eigen::VectorXd();
-  const std::string stiffness = unit(a.header.units, -1, 1);
+  const std::string stiffness = expected_unit(a.header.units, -1, 1);
   a.S_ee = stack_if_any(file, "S_ee", np, e, e, stiffness);
   a.S_ed = stack_if_any(file, "S_ed", np, e, m, stiffness);
   a.S_dd = file.stack("S_dd", np, m, m, stiffness);
@@ -112,9 +112,9 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   a.S_dd_error = error_if_any(file, "S_dd_error", m, m, stiffness);
   a.R_ef = stack_if_any(file, "R_ef", np, e, h, area);
   a.R_df = stack_if_any(file, "R_df", np, m, h, area);
-  a.T_d = stack_if_any(file, "T_d", np, m, q, "1");
-  a.T_e = stack_if_any(file, "T_e", np, e, q, "1");
-  a.C_t = stack_if_any(file, "C_t", np, q, q, unit(a.header.units, 1, -1));
+  a.T_d = stack_if_any(file, "T_d", np, m, q, expected_unit(a.header.units, 0, 0));
+  a.T_e = stack_if_any(file, "T_e", np, e, q, expected_unit(a.header.units, 0, 0));
+  a.C_t = stack_if_any(file, "C_t", np, q, q, expected_unit(a.header.units, 1, -1));
   return a;
 }
 

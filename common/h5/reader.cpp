@@ -26,7 +26,8 @@ using RowMajorXi = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::Row
 std::string read_text_attribute(hid_t owner, const char* name) {
   const Attribute attribute(H5Aopen(owner, name, H5P_DEFAULT));
   const Type type(H5Aget_type(attribute.get()));
-  if (H5Tget_class(type.get()) != H5T_STRING) return {};
+  const Space space(H5Aget_space(attribute.get()));
+  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1) return {};
   if (H5Tis_variable_str(type.get()) > 0) {
     char* chars = nullptr;
     if (H5Aread(attribute.get(), type.get(), &chars) < 0 || chars == nullptr) return {};
@@ -86,7 +87,7 @@ struct Reader::Impl {
   }
 
   void check_unit(const Dataset& set, const std::string& name, const std::string& expected) const {
-    if (!has_attribute(set.get(), "unit")) return;
+    if (expected.empty() || !has_attribute(set.get(), "unit")) return;
     const std::string found = read_text_attribute(set.get(), "unit");
     if (found != expected) fail(name, fmt::format("unit is '{}', expected '{}'", found, expected));
   }

@@ -14,8 +14,8 @@ inline constexpr Eigen::Index any = -1;
 /// An HDF5 file opened for reading, whose seal, kind and major version are checked before anything else.
 ///
 /// Every read checks type class, rank, shape and unit and throws FileError with the file, the dataset, what was found
-/// and what was expected. A dataset without `unit` is taken as it is: files written by hand (a laboratory's matrices)
-/// need none.
+/// and what was expected. A dataset without `unit` is taken as it is (a laboratory's matrices need none),
+/// and so is any where "" is expected.
 class Reader {
  public:
   Reader(std::string path, const std::string& format, int major);

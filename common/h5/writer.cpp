@@ -81,8 +81,6 @@ struct Writer::Impl {
   }
 
   void integers(const std::string& name, const Shape& shape, const int* data, const Meta& meta) const {
-    std::size_t n = 1;
-    for (const auto e : shape) n *= e;
     const Space space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
     dataset(name, space, H5T_STD_I32LE, H5T_NATIVE_INT, data, meta);
   }
@@ -141,6 +139,7 @@ void Writer::write(const std::string& dataset, const std::vector<Eigen::MatrixXd
 
 void Writer::write(const std::string& dataset, const std::vector<std::string>& strings, const Meta& meta) {
   std::vector<const char*> chars;
+  chars.reserve(strings.size());
   for (const auto& s : strings) chars.push_back(s.c_str());
   const hsize_t n = strings.size();
   const auto type = utf8_string();

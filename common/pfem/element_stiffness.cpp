@@ -25,7 +25,7 @@ ElementStiffness::Table ElementStiffness::tabulate(int p, int n_points) {
   table.xi = rule.x.replicate(n_points, 1);
   table.eta.resize(table.xi.size());
   table.w.resize(table.xi.size());
-  for (int j = 0; j < n_points; ++j) {
+  for (Eigen::Index j = 0; j < n_points; ++j) {
     table.eta.segment(j * n_points, n_points).setConstant(rule.x[j]);
     table.w.segment(j * n_points, n_points) = rule.w[j] * rule.w;
   }

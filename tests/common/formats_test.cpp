@@ -46,6 +46,27 @@ TEST(PlateMatrices, HandMadeFilesMayLeaveOutWhatTheyDoNotHave) {
   EXPECT_TRUE(std::isinf(a.S_dd_error(0, 0)));
 }
 
+TEST(PlateMatrices, UnitsAreComparedWhereTheFileHasLabels) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("lab.h5");
+  const auto write_with = [&](const std::string& labels) {
+    h5::Writer file(path, "plate-matrices", 1, 0);
+    file.attribute("units", labels);
+    file.write("p", Eigen::VectorXi(Eigen::VectorXi::Constant(1, 1)), {"1", ""});
+    file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
+    file.write("disc/direction", std::vector<std::string>{"x"}, {"1", ""});
+    file.write("S_dd", {Eigen::MatrixXd::Identity(1, 1)}, 1, 1, {"N/m", ""});
+    file.commit();
+  };
+  write_with("metres and newtons");
+  EXPECT_EQ(read_plate_matrices(path).header.units, Units{});
+  write_with(R"({"length": "m", "force": "N"})");
+  EXPECT_EQ(read_plate_matrices(path).header.units, (Units{"m", "N"}));
+  write_with(R"({"length": "mm", "force": "N"})");
+  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
+              ThrowsMessage<FileError>(HasSubstr("lab.h5:S_dd: unit is 'N/m', expected 'N/mm'")));
+}
+
 TEST(PlateMatrices, AnExternalNeedsItsStiffness) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("lab.h5");
