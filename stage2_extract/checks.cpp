@@ -17,8 +17,6 @@ using formats::PlateSolution;
 /// Far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any modelling error.
 constexpr double worst_allowed = 1e-7;
 
-double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
-
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
 Eigen::MatrixXd stacked(const Eigen::MatrixXd& above, const Eigen::MatrixXd& below) {
@@ -85,6 +83,8 @@ std::string shown(const std::optional<double>& value, const char* otherwise) {
 }
 
 }  // namespace
+
+double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 
 Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
   Checks checks{};

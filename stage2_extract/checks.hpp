@@ -9,6 +9,9 @@
 
 namespace fastjoint::stage2 {
 
+/// Largest absolute entry, 0 of an empty matrix: what all checks are relative to.
+[[nodiscard]] double largest(const Eigen::MatrixXd& A);
+
 /// What must hold whatever the mesh, at the highest p; each relative to the largest entry of what it compares.
 struct Checks {
   double symmetry;             ///< largest |S - S^T|

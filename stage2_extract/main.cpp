@@ -20,8 +20,6 @@ const program::Command command = {
     "MATRICES.h5",
     {}};
 
-double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
-
 void run(const program::Arguments& arguments) {
   const auto plate = formats::read_plate_solution(arguments.input);
   const auto extraction = stage2::extract(plate, program::generator(command.name));
@@ -32,6 +30,7 @@ void run(const program::Arguments& arguments) {
   std::cout << fmt::format("{}: {} discs, {} externals, {} friction cases, {} tractions, p = {}..{}\n",
                            arguments.output, a.n_discs(), a.n_externals(), a.n_friction_cases(), a.n_tractions(),
                            a.p[0], a.p[a.p.size() - 1]);
+  using stage2::largest;
   const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
   const double error = std::max(largest(a.S_ee_error), largest(a.S_dd_error));
   std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),
