@@ -30,6 +30,7 @@ class Builder {
     thickness_.push_back(thickness);
     material_.push_back(material);
   }
+  int n_elements() const { return static_cast<int>(quads_.size()); }
   void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
 
   pfem::Mesh mesh() const {
@@ -185,21 +186,49 @@ void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, 
                    cell.material);
 }
 
-/// Sides of elements on the four lines of the border.
-void name_border(const GridGeometry& grid, PlateMesh& plate) {
-  const auto on_line = [&](const pfem::Side& side, int axis, double line) {
-    const auto nodes = plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element));
-    return plate.mesh.nodes(axis, nodes[0]) == line && plate.mesh.nodes(axis, nodes[1]) == line;
-  };
-  for (const char* name : {"left", "right", "bottom", "top"}) plate.sets[name];
-  for (int element = 0; element < plate.mesh.n_elements(); ++element)
+/// Elements of a cell with a hole: [first, last).
+struct CellElements {
+  const HoleCell* hole;
+  Cell cell;
+  int first, last;
+};
+
+/// Sides of elements [first, last) on the line where coordinate `axis` has the value `line`.
+std::vector<pfem::Side> sides_on(const PlateMesh& plate, int first, int last, int axis, double line) {
+  std::vector<pfem::Side> sides;
+  for (int element = first; element < last; ++element)
     for (int edge = 0; edge < n_cell_sides; ++edge) {
-      const pfem::Side side{element, edge};
-      if (on_line(side, 0, grid.x.front())) plate.sets["left"].push_back(side);
-      if (on_line(side, 0, grid.x.back())) plate.sets["right"].push_back(side);
-      if (on_line(side, 1, grid.y.front())) plate.sets["bottom"].push_back(side);
-      if (on_line(side, 1, grid.y.back())) plate.sets["top"].push_back(side);
+      const auto nodes = plate.edges.nodes.col(plate.edges.of_element(edge, element));
+      if (plate.mesh.nodes(axis, nodes[0]) == line && plate.mesh.nodes(axis, nodes[1]) == line)
+        sides.push_back({element, edge});
     }
+  return sides;
+}
+
+void name_border(const GridGeometry& grid, PlateMesh& plate) {
+  const auto border = [&](int axis, double line) { return sides_on(plate, 0, plate.mesh.n_elements(), axis, line); };
+  plate.sets = {{"left", border(0, grid.x.front())},
+                {"right", border(0, grid.x.back())},
+                {"bottom", border(1, grid.y.front())},
+                {"top", border(1, grid.y.back())}};
+}
+
+/// The sides of a hole's cell across each direction of the discs, unless they run through the hole.
+void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& plate) {
+  struct Cut {
+    CellSide side;
+    const char* name;
+    double line;
+  };
+  for (const auto& direction : scene.disc_directions) {
+    const bool is_x = direction == "x";
+    const std::array<Cut, 2> cuts =
+        is_x ? std::array<Cut, 2>{{{right, "+x", at.cell.x_high}, {left, "-x", at.cell.x_low}}}
+             : std::array<Cut, 2>{{{top, "+y", at.cell.y_high}, {bottom, "-y", at.cell.y_low}}};
+    for (const auto& cut : cuts)
+      if (!at.hole->cuts[cut.side])
+        plate.sections.push_back({at.hole->hole, cut.name, sides_on(plate, at.first, at.last, is_x ? 0 : 1, cut.line)});
+  }
 }
 
 }  // namespace
@@ -208,6 +237,7 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
   const auto holes = find_hole_cells(scene, grid);
   const CellLines lines(scene, grid, holes);
   Builder builder;
+  std::vector<CellElements> with_hole;
   for (int row = 0; row < grid.thickness.rows(); ++row)
     for (int column = 0; column < grid.thickness.cols(); ++column) {
       const Cell cell = cell_at(grid, column, row);
@@ -216,13 +246,18 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
       if (hole == holes.end()) {
         mesh_plain_cell(builder, lines, cell);
       } else {
+        const int first = builder.n_elements();
         mesh_hole_cell(builder, lines, cell, *hole, scene.holes[static_cast<std::size_t>(hole->hole)]);
+        with_hole.push_back({&*hole, cell, first, builder.n_elements()});
       }
     }
   PlateMesh plate;
   plate.mesh = builder.mesh();
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
+  for (const auto& at : with_hole) add_sections(scene, at, plate);
+  std::stable_sort(plate.sections.begin(), plate.sections.end(),
+                   [](const auto& a, const auto& b) { return a.hole < b.hole; });
   return plate;
 }
 

@@ -23,7 +23,8 @@ const program::Command command = {
     "PLATE.json",
     "PLATE.h5",
     {{"--p", "N or A..B", "degree 1..8, or a range of degrees; default: \"p\" of the input, else 1..8"},
-     {"--threads", "N", "threads of the dense kernels; default: 1"}}};
+     {"--threads", "N", "threads of the dense kernels; default: 1"},
+     {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
 void run(const program::Arguments& arguments) {
   constexpr int most_threads = 256;
@@ -34,8 +35,9 @@ void run(const program::Arguments& arguments) {
   const auto plate = stage1::make_mesh(scene);
   const auto problem = stage1::assemble(scene, plate);
   stage1::check_held(scene, plate, problem.unknowns);
-  auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name));
-  for (const int p : solution.p) solution.cases.push_back(stage1::solve_degree(problem, p, solution.friction_probe));
+  const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
+  auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name), wanted);
+  stage1::solve_cases(problem, solution);
   formats::write(arguments.output, solution);
   if (arguments.quiet) return;
   std::cout << fmt::format("{}: {} elements, {} nodes, {} discs, {} rigid externals, {} tractions\n", arguments.output,

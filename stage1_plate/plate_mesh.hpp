@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/formats/plate_solution.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/pfem/rim.hpp"
 #include "stage1_plate/scene.hpp"
@@ -17,6 +18,7 @@ struct PlateMesh {
   pfem::Edges edges;
   std::map<std::string, std::vector<pfem::Side>> sets;  ///< sides of elements by name
   std::vector<pfem::Rim> rims;                          ///< of each hole, in the scene's order
+  std::vector<formats::Section> sections;               ///< beside holes: the sides of their cells, of a grid only
 };
 
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.

@@ -7,14 +7,19 @@
 namespace fastjoint::stage1 {
 
 /// All unit cases of one degree: factorises the leading block of K_ff once and solves one block of right-hand sides.
-/// @param probe (h) weights of the friction cases in the probe that checks reciprocity, stress.
-[[nodiscard]] formats::PlateCases solve_degree(const PlateProblem& problem, int p, const Eigen::VectorXd& probe);
+/// @param mixture (h, w) weights of the friction cases in each mixture of them that is solved, stress.
+[[nodiscard]] formats::PlateCases solve_degree(const PlateProblem& problem, int p, const Eigen::MatrixXd& mixture);
 
-/// Weights that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
-[[nodiscard]] Eigen::VectorXd probe_weights(Eigen::Index n_friction_cases);
+/// What stage 2 is to make of the plate.
+enum class Wanted { loads_and_stresses, loads };
 
 /// What stage 2 needs of the scene, the mesh and the problem, without the cases.
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
-                                                 const PlateProblem& problem, const std::string& generator);
+                                                 const PlateProblem& problem, const std::string& generator,
+                                                 Wanted wanted);
+
+/// Solves all cases of every degree. The friction fields are needed for stresses alone, at the two highest degrees;
+/// without stresses, one mixture of them at the highest checks reciprocity.
+void solve_cases(const PlateProblem& problem, formats::PlateSolution& solution);
 
 }  // namespace fastjoint::stage1

@@ -43,6 +43,11 @@ class SideSprings {
 
 }  // namespace
 
+formats::HoleSpring spring_of(const Hole& hole) {
+  if (!hole.spring_modulus) return {};
+  return {*hole.spring_modulus, {{-pfem::full_turn / 2, pfem::full_turn / 2}}};
+}
+
 void add_springs(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
                  const Unknowns& unknowns, Assembler& assembler) {
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {

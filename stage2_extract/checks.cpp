@@ -31,16 +31,16 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrice
   const auto n = cases.U.rows();
   const Eigen::SparseMatrix<double> K_cf = plate.K_fc.topRows(n).transpose();
   double worst = 0;
-  if (plate.friction_probe.size() > 0) {
-    const Eigen::MatrixXd solved = K_cf * cases.probe - plate.L_c * plate.friction_probe;
+  if (cases.W.cols() > 0) {
+    const Eigen::MatrixXd solved = K_cf * cases.W - plate.L_c * plate.friction_mixture;
     const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
-    worst = ratio(largest(solved - R * plate.friction_probe), largest(R));
+    worst = ratio(largest(solved - R * plate.friction_mixture), largest(R));
   }
   if (cases.V.cols() > 0) {
     const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
     worst = std::max(worst, ratio(largest(K_cf * cases.V - plate.T_c - T), std::max(largest(T), 1e-3)));
   }
-  if (plate.friction_probe.size() + cases.V.cols() == 0 || plate.K_cc.size() == 0) return std::nullopt;
+  if (cases.W.cols() + cases.V.cols() == 0 || plate.K_cc.size() == 0) return std::nullopt;
   return worst;
 }
 

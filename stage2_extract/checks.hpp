@@ -17,7 +17,7 @@ struct Checks {
   double symmetry;             ///< largest |S - S^T|
   double smallest_eigenvalue;  ///< of S, over the largest
   std::optional<double>
-      reciprocity;  ///< reactions to the probe and to tractions by unit fields against those by solving
+      reciprocity;  ///< reactions to friction and to tractions by unit fields against those by solving
   std::optional<double> equilibrium;  ///< force left when all discs and boundaries move together; none if supports hold
 };
 

@@ -14,9 +14,30 @@ namespace fastjoint::formats {
 
 /// Solutions of one degree p, with all controlled displacements (rigid externals, then discs) held but one.
 struct PlateCases {
-  Eigen::MatrixXd U;      ///< (n_p, nc) plate unknowns per unit of each controlled displacement
-  Eigen::MatrixXd V;      ///< (n_p, q) plate unknowns per unit total force on each traction boundary
-  Eigen::VectorXd probe;  ///< (n_p) under the friction loads weighted by friction_probe: checks reciprocity
+  Eigen::MatrixXd U;  ///< (n_p, nc) plate unknowns per unit of each controlled displacement
+  Eigen::MatrixXd V;  ///< (n_p, q) plate unknowns per unit total force on each traction boundary
+  Eigen::MatrixXd W;  ///< (n_p, w) under each mixture of friction cases; no columns where nothing needs them
+};
+
+/// Distributed normal springs of a hole.
+struct HoleSpring {
+  double modulus = 0;                  ///< force / length^3; 0 where the rim between links, or all of it, is free
+  std::vector<pfem::AngleRange> acts;  ///< the sprung parts of the rim
+};
+
+/// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.
+struct Section {
+  int hole;                       ///< index into hole_id
+  std::string side;               ///< on which side of the hole, "+x", "-x", "+y" or "-y"
+  std::vector<pfem::Side> sides;  ///< elements on the hole's side of the cut
+};
+
+/// A hole whose springs push but do not pull, under the scene's loads.
+struct Contact {
+  int hole;              ///< index into hole_id
+  int iterations;        ///< until its arcs stood still
+  double peak_pressure;  ///< stress
+  double peak_angle;     ///< where, radians
 };
 
 /// What stage 1 hands to stage 2 (schemas/plate-solution.md).
@@ -25,13 +46,21 @@ struct PlateCases {
 /// ordered by degree: the rows of the couplings and loads for degree p are the first ndof(p).
 struct PlateSolution {
   Header header;
-  pfem::Mesh mesh;  ///< without materials
+  pfem::Mesh mesh;
+  std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
+  /// (2, n_functions) what becomes of u_x and u_y of each global function of the highest degree (pfem/numbering.hpp):
+  /// >= 0 a plate unknown, -1 zero, -2 - i the controlled displacement i.
+  Eigen::Matrix2Xi unknown;
   std::vector<std::string> hole_id;
   std::vector<pfem::Rim> hole_rim;
+  std::vector<HoleSpring> hole_spring;
+  std::vector<Section> sections;
   std::vector<std::string> supported;  ///< directions that a support fixes somewhere
   Eigen::VectorXi p, ndof;
   std::vector<std::string> external_id, external_direction;
   std::vector<std::string> traction_id, traction_direction;
+  std::vector<std::string>
+      traction_hole;  ///< (q) the hole under cosine pressure, "" for an edge under uniform traction
   std::vector<std::string> disc_hole, disc_direction;
   std::vector<std::string> friction_hole, friction_bearing;
   Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc), force / length
@@ -40,8 +69,14 @@ struct PlateSolution {
   Eigen::MatrixXd L_c;               ///< (nc, h) what of them acts on the controlled displacements directly
   Eigen::SparseMatrix<double> T_f;   ///< (n_f, q) loads of the unit tractions
   Eigen::MatrixXd T_c;               ///< (nc, q)
-  Eigen::VectorXd friction_probe;    ///< (h) weights of the probe case
+  Eigen::VectorXi stress_p;          ///< degrees whose stresses are wanted: W there has every friction case
+  Eigen::MatrixXd friction_mixture;  ///< (h, w) friction cases in each column of W, stress
   std::vector<PlateCases> cases;     ///< one for each p
+  std::vector<Contact> contacts;
+  /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
+  Eigen::MatrixXd load_displacement;  ///< (l, nc) length
+  Eigen::MatrixXd load_friction;      ///< (l, h) stress
+  Eigen::MatrixXd load_traction;      ///< (l, q) force
 };
 
 /// Throws FileError; what was at `path` before survives.

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <numbers>
 
 #include "common/pfem/trunk_space.hpp"
 
@@ -40,17 +39,28 @@ double covered_angle(const Mesh& mesh, const Edges& edges, const Rim& rim) {
   return sum;
 }
 
-SideRule rim_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p) {
-  constexpr double quarter = std::numbers::pi / 2;
-  constexpr double at_end = 1e-9;  // a break this close to an end is that end
+bool covers(const std::vector<AngleRange>& ranges, double angle) {
+  return std::any_of(ranges.begin(), ranges.end(), [&](const AngleRange& range) {
+    return angle - full_turn * std::floor((angle - range.from) / full_turn) <= range.to;
+  });
+}
+
+SideRule rim_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p,
+                  const std::vector<AngleRange>& ranges) {
+  constexpr double at_end = 1e-9;  // a break this close to an end, or to another, is that one
   const Curve curve = edge_curve(mesh, edges, side.element, side.local_edge);
   const double low = std::min(curve.start_angle(), curve.start_angle() + curve.sweep());
+  std::vector<double> angles = {0, full_turn / 4, full_turn / 2, -full_turn / 4};
+  for (const auto& range : ranges) angles.insert(angles.end(), {range.from, range.to});
   std::vector<double> breaks;
-  for (double angle = quarter * std::ceil(low / quarter); angle < low + std::abs(curve.sweep()); angle += quarter) {
-    const double s = -1 + 2 * (angle - curve.start_angle()) / curve.sweep();
+  for (const double angle : angles) {
+    const double inside = angle - full_turn * std::floor((angle - low) / full_turn);  // in [low, low + full turn)
+    const double s = -1 + 2 * (inside - curve.start_angle()) / curve.sweep();
     if (std::abs(s) < 1 - at_end) breaks.push_back(s);
   }
   std::sort(breaks.begin(), breaks.end());
+  const auto close = [](double a, double b) { return b - a < at_end; };
+  breaks.erase(std::unique(breaks.begin(), breaks.end(), close), breaks.end());
   return side_rule(mesh, edges, side, p, breaks);
 }
 

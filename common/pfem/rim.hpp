@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -23,9 +24,21 @@ struct Rim {
 /// Angle that the rim covers, radians.
 [[nodiscard]] double covered_angle(const Mesh& mesh, const Edges& edges, const Rim& rim);
 
+/// Part of a rim, radians counter-clockwise from x: from < to <= from + 2 pi.
+struct AngleRange {
+  double from, to;
+  friend bool operator==(const AngleRange&, const AngleRange&) = default;
+};
+
+inline constexpr double full_turn = 2 * std::numbers::pi;
+
+/// Whether one of the ranges covers the angle, any multiple of a full turn away.
+[[nodiscard]] bool covers(const std::vector<AngleRange>& ranges, double angle);
+
 /// Quadrature on one side of a rim. Pieces end where a rim is cut by a line through its centre along x or y: there the
-/// tractions of bearing along +-x and +-y jump, kink or end.
-[[nodiscard]] SideRule rim_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p);
+/// tractions of bearing along +-x and +-y jump, kink or end; and where `ranges` end.
+[[nodiscard]] SideRule rim_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p,
+                                const std::vector<AngleRange>& ranges = {});
 
 /// Unit vector along "x" or "y".
 [[nodiscard]] Eigen::Vector2d axis(const std::string& direction);

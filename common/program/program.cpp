@@ -31,7 +31,12 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   app.add_option("-o,--output", arguments.output, "file to write")->required()->option_text(command.output);
   for (const auto& option : command.options) {
     const auto keep = [&arguments, name = option.name](const std::string& text) { arguments.options[name] = text; };
-    app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
+    if (option.value.empty()) {
+      app.add_flag_callback(
+          option.name, [keep] { keep("given"); }, option.help);
+    } else {
+      app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
+    }
   }
   app.add_flag("--quiet", arguments.quiet, "print no summary");
   app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage or input, 3 bad file, 4 numerical failure.");

@@ -33,6 +33,8 @@ struct Arguments {
 
   /// Value of an integer option within [low, high], or `otherwise`. Throws InputError.
   [[nodiscard]] int integer(const std::string& name, int low, int high, int otherwise) const;
+  /// Whether a flag was given.
+  [[nodiscard]] bool flag(const std::string& name) const { return options.contains(name); }
   /// Value of an option or "".
   [[nodiscard]] std::string text(const std::string& name) const;
 };

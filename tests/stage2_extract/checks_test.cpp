@@ -57,7 +57,7 @@ TEST(Checks, SpoiltSolutionsAreFound) {
   EXPECT_THAT([&] { stage2::require_good(checks, "f.h5"); },
               ThrowsMessage<NumericalError>(HasSubstr("f.h5: asymmetry of S is")));
   spoilt = good;
-  spoilt.cases.back().probe[7] += 1e-3 * spoilt.cases.back().probe.cwiseAbs().maxCoeff();
+  spoilt.cases.back().W(7, 0) += 1e-3 * spoilt.cases.back().W.cwiseAbs().maxCoeff();
   EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "test").checks, "f.h5"); },
               ThrowsMessage<NumericalError>(HasSubstr("error of reciprocity")));
   spoilt = good;

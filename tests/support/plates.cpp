@@ -16,9 +16,9 @@ Plate make_plate(const std::string& json) {
 }
 
 formats::PlateSolution solve(const Plate& plate) {
-  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test");
-  for (const int p : solution.p)
-    solution.cases.push_back(stage1::solve_degree(plate.problem, p, solution.friction_probe));
+  auto solution =
+      stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
+  stage1::solve_cases(plate.problem, solution);
   return solution;
 }
 
