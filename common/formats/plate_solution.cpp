@@ -176,8 +176,9 @@ PlateSolution read_plate_solution(const std::string& path) {
   const auto nc = static_cast<Eigen::Index>(a.external_id.size() + a.disc_hole.size());
   const auto h = static_cast<Eigen::Index>(a.friction_hole.size());
   const auto q = static_cast<Eigen::Index>(a.traction_id.size());
-  if ((a.unknown.array() >= static_cast<int>(n) || a.unknown.array() < -1 - nc).any())
-    throw FileError(fmt::format("{}:unknown: an index is outside {}..{}", path, -1 - nc, n - 1));
+  const int least = -1 - static_cast<int>(nc);
+  if (a.unknown.size() == 0 || a.unknown.maxCoeff() >= n || a.unknown.minCoeff() < least)
+    throw FileError(fmt::format("{}:unknown: an index is outside {}..{}", path, least, n - 1));
   a.K_fc = read_sparse(file, "K_fc", n, nc, unit(units, -1, 1));
   a.K_cc = file.matrix("K_cc", nc, nc, unit(units, -1, 1));
   a.L_f = read_sparse(file, "L_f", n, h, unit(units, 2, 0));
