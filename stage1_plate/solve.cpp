@@ -61,7 +61,10 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   };
   name(unknowns.rigid, a.external_id, a.external_direction);
   name(unknowns.traction, a.traction_id, a.traction_direction);
-  a.traction_hole.resize(a.traction_id.size());
+  for (const int i : unknowns.traction) {
+    const External& external = scene.externals[static_cast<std::size_t>(i)];
+    a.traction_hole.push_back(external.kind == ExternalKind::bearing ? external.on : "");
+  }
   a.disc_hole = unknowns.disc_hole;
   a.disc_direction = unknowns.disc_direction;
   a.friction_hole = problem.friction_hole;
