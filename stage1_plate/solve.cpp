@@ -85,6 +85,14 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   return a;
 }
 
+void add_contact(const ContactState& state, formats::PlateSolution& a) {
+  for (const auto& contact : state.holes)
+    a.contacts.push_back({contact.hole, contact.iterations, contact.peak_pressure, contact.peak_angle});
+  a.load_displacement = state.displacement.transpose();
+  a.load_friction = state.friction.transpose();
+  a.load_traction = state.traction.transpose();
+}
+
 void solve_cases(const PlateProblem& problem, formats::PlateSolution& a) {
   const int first_mixed = a.stress_p.size() > 0 ? a.stress_p[0] : a.p[a.p.size() - 1];
   const Eigen::MatrixXd none(problem.L_f.cols(), 0);
