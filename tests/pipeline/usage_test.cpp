@@ -49,6 +49,31 @@ TEST_P(Usage, OutputsThatCannotBe) {
 
 INSTANTIATE_TEST_SUITE_P(Stage, Usage, testing::Values(1, 2, 3));
 
+/// Once for the scene, however many there are; results are written all the same.
+TEST(UsageOfOptions, SpringsAtNodesAreWarnedOf) {
+  const test::TemporaryFolder folder;
+  const auto scene = [](const std::string& spring, const std::string& points) {
+    return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+      "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}}, "geometry": {{"grid": {{"x": [0, 1], "y": [0, 1], "thickness": 1}}}},
+      "holes": [{{"id": "h", "center": [0.5, 0.5], "radius": 0.2, "spring": {}}}], "points": [{}],
+      "supports": [{{"on": "left", "fix": ["x", "y"]}}]}})",
+                       spring, points);
+  };
+  const std::string sentence =
+      "stage1_plate: warning: plate.json: points and links concentrate their load at nodes: "
+      "the results depend on the mesh\n";
+  const std::string point = R"({"id": "p", "at": [1, 1], "stiffness": 1})";
+  for (const auto& json :
+       {scene(R"({"links": 1})", point), scene(R"({"links": 1})", ""), scene(R"({"modulus": 1})", point)}) {
+    folder.write("plate.json", json);
+    const auto run = test::stage1(folder, "plate.json -o plate.h5 --p 2");
+    EXPECT_EQ(run.status, 0);
+    EXPECT_EQ(run.err, sentence);
+  }
+  folder.write("plate.json", scene(R"({"modulus": 1})", ""));
+  EXPECT_EQ(test::stage1(folder, "plate.json -o plate.h5 --p 2").err, "");
+}
+
 TEST(UsageOfOptions, WrongValues) {
   const test::TemporaryFolder folder;
   test::make_matrices(folder);
