@@ -12,7 +12,6 @@ namespace fastjoint::stage1 {
 namespace {
 
 constexpr double at_rest = 1e-6;  // radians
-constexpr int most_iterations = 50;
 constexpr double degree = pfem::full_turn / 360;
 
 /// Force on the disc of a hole from outside, as far as its directions tell.
@@ -31,10 +30,10 @@ class ContactSearch {
     for (const int hole : system_.holes()) result_.push_back({hole, {}, 0, 0, 0, 0});
   }
 
-  ContactState run() {
+  ContactState run(int most_iterations) {
     start();
     for (int iteration = 1; !at_rest_; ++iteration) {
-      if (iteration > most_iterations) not_converged();
+      if (iteration > most_iterations) not_converged(most_iterations);
       step(iteration);
     }
     state_ = system_.solve(arcs_);
@@ -68,15 +67,14 @@ class ContactSearch {
     }
   }
 
-  [[noreturn]] void not_converged() const {
+  [[noreturn]] void not_converged(int iterations) const {
     std::size_t worst = 0;
     for (std::size_t i = 1; i < result_.size(); ++i)
       if (result_[i].last_move > result_[worst].last_move) worst = i;
     const double move = result_[worst].last_move;
     throw NumericalError(fmt::format(
         "{}: /holes/{}/spring: the contact of hole \"{}\" has not come to rest in {} iterations: {}; allowed: {:g} rad",
-        scene_.file, result_[worst].hole, scene_.holes[static_cast<std::size_t>(result_[worst].hole)].id,
-        most_iterations,
+        scene_.file, result_[worst].hole, scene_.holes[static_cast<std::size_t>(result_[worst].hole)].id, iterations,
         std::isfinite(move) ? fmt::format("the ends of its arcs still move by {:.3g} rad", move)
                             : std::string("the number of its arcs still changes"),
         at_rest));
@@ -115,8 +113,9 @@ class ContactSearch {
 
 }  // namespace
 
-ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
-  return ContactSearch(scene, plate, problem).run();
+ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
+                          int most_iterations) {
+  return ContactSearch(scene, plate, problem).run(most_iterations);
 }
 
 PlateScene with_arcs(PlateScene scene, const ContactState& state) {

@@ -34,7 +34,8 @@ struct ContactState {
 /// The first arcs are the halves that bear under the forces on the discs when all springs are in place.
 /// @param problem Of the scene with the whole rims sprung.
 /// Throws NumericalError if contact is lost or the arcs do not come to rest.
-[[nodiscard]] ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem);
+[[nodiscard]] ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
+                                        int most_iterations = 50);
 
 /// The scene with springs on the found arcs only: an ordinary linear plate.
 [[nodiscard]] PlateScene with_arcs(PlateScene scene, const ContactState& state);

@@ -131,6 +131,14 @@ void ContactSystem::lost(const std::vector<Arcs>& arcs) const {
           "{}: /loads: hole \"{}\" has lost contact all round, and then something that carries load can move freely; "
           "allowed: loads that press discs against rims, or supports that hold the plate without them",
           scene_.file, scene_.holes[static_cast<std::size_t>(holes_[i])].id));
+  bool whole = true;
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    whole = whole && arcs[i] == scene_.holes[static_cast<std::size_t>(holes_[i])].spring->acts;
+  if (whole)
+    throw NumericalError(
+        fmt::format("{}: /loads: even with the whole rims sprung, something that carries load can move freely; "
+                    "allowed: loads against which supports, held discs or held externals stand",
+                    scene_.file));
   throw NumericalError(fmt::format(
       "{}: /loads: with springs on the parts of rims that bear, something that carries load can move freely; allowed: "
       "loads under which contact, supports and other springs hold the plate and its discs",

@@ -220,6 +220,14 @@ TEST(Contact, SpringsAndFrictionCarryTheLoad) {
   EXPECT_LE(contact.state.holes[0].iterations, 5);
 }
 
+TEST(Contact, ASearchThatIsCutShortSaysHowFarItWas) {
+  const auto plate = test::make_plate(Sheet{.extra = pulled("traction", 1)}.json());
+  const auto search = [&] { (void)stage1::find_contact(plate.scene, plate.mesh, plate.problem, 2); };
+  EXPECT_THAT(search, testing::ThrowsMessage<NumericalError>(testing::MatchesRegex(
+                          "plate.json: /holes/0/spring: the contact of hole \"pin\" has not come to rest in 2 "
+                          "iterations: the ends of its arcs still move by 0.00.* rad; allowed: 1e-06 rad")));
+}
+
 TEST(Contact, LostContactIsSaid) {
   const auto message = [](const Sheet& sheet) -> std::string {
     try {
@@ -229,6 +237,9 @@ TEST(Contact, LostContactIsSaid) {
     }
     return "no error";
   };
+  EXPECT_THAT(message({.extra = R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}],
+    "loads": [{"external": "P", "force": 1}, {"disc": "pin", "force": -2}])"}),
+              HasSubstr("plate.json: /loads: even with the whole rims sprung, something that carries load can move"));
   // biaxial tension opens the hole all round, and a disc in it cannot carry a force
   EXPECT_THAT(message({.extra = R"(, "external": [{"id": "L", "on": "left", "direction": "x", "kind": "rigid"},
       {"id": "R", "on": "right", "direction": "x", "kind": "rigid"}, {"id": "T", "on": "top", "direction": "y", "kind": "rigid"}],
