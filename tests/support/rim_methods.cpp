@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/rim_methods.hpp"
+
+#include <cmath>
+
+#include "common/pfem/strain.hpp"
+
+namespace fastjoint::test {
+
+Eigen::MatrixXd plain_rim_stress(const stage2::UnitFields& fields, const stage2::RimPoint& point) {
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, fields.n_cases());
+  for (const auto& at : point.on) {
+    const pfem::ElementMap map(fields.plate().mesh, fields.edges(), at.side.element);
+    const Eigen::Matrix2Xd xi = pfem::along_edge(at.side.local_edge, Eigen::VectorXd::Constant(1, at.s));
+    const Eigen::MatrixXd B = pfem::strain_operator(map, fields.p(), xi.row(0).transpose(), xi.row(1).transpose());
+    mean += pfem::polar_stress(point.angle) * fields.elasticity(at.side.element) * B *
+            fields.coefficients(at.side.element) / static_cast<double>(point.on.size());
+  }
+  return mean;
+}
+
+Eigen::MatrixXd harmonic_hoop_stress(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points,
+                                     int highest, double E) {
+  const auto& plate = fields.plate();
+  const auto& rim = plate.hole_rim[0];
+  const Eigen::Index n = highest / 2 + 1;
+  Eigen::MatrixXd radial = Eigen::MatrixXd::Zero(n, fields.n_cases()), hoop = radial;  // of cos m theta, sin m theta
+  for (const auto& side : rim.sides) {
+    const auto rule = pfem::rim_rule(plate.mesh, fields.edges(), side, fields.p());
+    const Eigen::MatrixXd C = fields.coefficients(side.element, rule.modes);
+    const auto n_modes = rule.N.rows();
+    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
+      const Eigen::Vector2d r = -rule.normal.col(q);
+      const double theta = std::atan2(r.y(), r.x());
+      const Eigen::RowVectorXd ux = rule.N.col(q).transpose() * C.topRows(n_modes);
+      const Eigen::RowVectorXd uy = rule.N.col(q).transpose() * C.bottomRows(n_modes);
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const double weight = (i == 0 ? 4 : 8) / pfem::full_turn * rule.ds[q] / rim.radius;
+        const double m = 2 * static_cast<double>(i);
+        radial.row(i) += weight * std::cos(m * theta) * (r.x() * ux + r.y() * uy);
+        hoop.row(i) += weight * std::sin(m * theta) * (r.x() * uy - r.y() * ux);
+      }
+    }
+  }
+  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), fields.n_cases());
+  for (Eigen::Index k = 0; k < sigma.rows(); ++k)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double m = 2 * static_cast<double>(i);
+      sigma.row(k) +=
+          E / rim.radius * std::cos(m * points[static_cast<std::size_t>(k)].angle) * (radial.row(i) + m * hoop.row(i));
+    }
+  return sigma;
+}
+
+}  // namespace fastjoint::test
