@@ -74,8 +74,9 @@ GaussStrains gauss_strains(const stage2::UnitFields& fields, const pfem::Side& s
   const Eigen::MatrixXd dN = pfem::integrated_legendre(fields.p(), gauss.x).dN * (2 / curve.sweep() / radius);
   const auto n = dN.rows();
   GaussStrains result{curve.start_angle() + (gauss.x.array() + 1) / 2 * curve.sweep(), {}};
-  result.strain = -Eigen::VectorXd(result.theta.array().sin()).asDiagonal() * (dN.transpose() * C.topRows(n));
-  result.strain += Eigen::VectorXd(result.theta.array().cos()).asDiagonal() * (dN.transpose() * C.bottomRows(n));
+  const Eigen::ArrayXd sine = result.theta.array().sin(), cosine = result.theta.array().cos();
+  result.strain = cosine.matrix().asDiagonal() * (dN.transpose() * C.bottomRows(n));
+  result.strain -= sine.matrix().asDiagonal() * (dN.transpose() * C.topRows(n));
   return result;
 }
 
