@@ -5,6 +5,7 @@
 #include "stage2_extract/error_estimate.hpp"
 #include "stage2_extract/friction_constants.hpp"
 #include "stage2_extract/load_reactions.hpp"
+#include "stage2_extract/stresses.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -29,9 +30,24 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   return a;
 }
 
+/// What stage 1 found of the scene's own loads, for readers of MATRICES.h5.
+void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
+  constexpr double degrees = 360 / pfem::full_turn;
+  for (const auto& contact : plate.contacts) {
+    const auto hole = static_cast<std::size_t>(contact.hole);
+    a.contacts.push_back(
+        {plate.hole_id[hole], {}, contact.iterations, contact.peak_pressure, degrees * contact.peak_angle});
+    for (const auto& range : plate.hole_spring[hole].acts)
+      a.contacts.back().arcs.push_back({degrees * range.from, degrees * range.to});
+  }
+  a.load_displacement = plate.load_displacement;
+  a.load_friction = plate.load_friction;
+  a.load_traction = plate.load_traction;
+}
+
 }  // namespace
 
-Extraction extract(const formats::PlateSolution& plate, const std::string& generator) {
+Extraction extract(const formats::PlateSolution& plate, const std::string& file, const std::string& generator) {
   Extraction result{names(plate, generator), {}};
   auto& a = result.matrices;
   const auto e = a.n_externals();
@@ -55,6 +71,8 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
+  a.stresses = extract_stresses(plate, file);
+  carry_over_loads(plate, a);
   result.checks = check(plate, a, S.back());
   return result;
 }

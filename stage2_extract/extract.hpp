@@ -13,7 +13,9 @@ struct Extraction {
   Checks checks;
 };
 
+/// @param file      Name of the plate's file, for messages.
 /// @param generator Name and version of the program.
-[[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& generator);
+[[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& file,
+                                 const std::string& generator);
 
 }  // namespace fastjoint::stage2

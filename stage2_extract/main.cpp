@@ -22,7 +22,7 @@ const program::Command command = {
 
 void run(const program::Arguments& arguments) {
   const auto plate = formats::read_plate_solution(arguments.input);
-  const auto extraction = stage2::extract(plate, program::generator(command.name));
+  const auto extraction = stage2::extract(plate, arguments.input, program::generator(command.name));
   stage2::require_good(extraction.checks, arguments.input);
   const auto& a = extraction.matrices;
   formats::write(arguments.output, a);

@@ -6,7 +6,7 @@ namespace {
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 0;
+constexpr int minor = 1;
 
 /// (steps, n) twice as (steps, n, 2).
 std::vector<Eigen::MatrixXd> paired(const Eigen::MatrixXd& first, const Eigen::MatrixXd& second) {
@@ -18,6 +18,41 @@ std::vector<Eigen::MatrixXd> paired(const Eigen::MatrixXd& first, const Eigen::M
   return stack;
 }
 
+/// Every (steps, r) dataset of the rims, once for writing and reading.
+template <class Rims, class Each>
+void for_each_table(Rims& a, const Units& units, Each each) {
+  const std::string force = unit(units, 0, 1);
+  const std::string stress = unit(units, -2, 1);
+  each("bearing_load", a.bearing_load, force, "force of the fastener along x on the plate, by bearing");
+  each("bearing_stress", a.bearing_stress, stress, "its amount over the projected area d t");
+  each("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
+  each("peak_hoop", a.peak_hoop, stress, "largest hoop stress at the rim");
+  each("peak_angle", a.peak_angle, std::string("deg"), "where it is, counter-clockwise from x");
+  each("peak_error", a.peak_error, stress, "its change from the degree below: estimated error");
+  each("gross_concentration", a.gross_concentration, std::string("1"), "peak over the stress of the gross section");
+  each("net_concentration", a.net_concentration, std::string("1"), "peak over the stress of the net section");
+}
+
+void write_rims(h5::Writer& file, const std::string& group, const RimHistory& rims, const Units& units) {
+  file.write(group + "hole", rims.hole, {"1", "holes, open ones included"});
+  file.write(group + "sections", rims.sections, {"1", "how many sections beside the hole the plate has"});
+  for_each_table(rims, units,
+                 [&](const char* name, const Eigen::MatrixXd& table, const std::string& unit, const char* what) {
+                   file.write(group + name, table, {unit, what});
+                 });
+}
+
+RimHistory read_rims(const h5::Reader& file, const std::string& group, Eigen::Index steps, const Units& units) {
+  RimHistory rims;
+  rims.hole = file.strings(group + "hole", h5::any);
+  const auto r = static_cast<Eigen::Index>(rims.hole.size());
+  rims.sections = file.integers(group + "sections", r);
+  for_each_table(rims, units, [&](const char* name, Eigen::MatrixXd& table, const std::string& unit, const char*) {
+    table = file.matrix(group + name, steps, r, unit);
+  });
+  return rims;
+}
+
 void write_plate(h5::Writer& file, const PlateHistory& plate, const Units& units) {
   const std::string group = "plates/" + plate.name + "/";
   file.write(group + "disc/hole", plate.disc_hole, {"1", "hole of each disc unknown"});
@@ -26,6 +61,12 @@ void write_plate(h5::Writer& file, const PlateHistory& plate, const Units& units
   file.write(group + "D", plate.D, {unit(units, 1, 0), "disc displacement"});
   file.write(group + "De", plate.De, {unit(units, 1, 0), "displacement of the external boundary"});
   file.write(group + "Pe", plate.Pe, {unit(units, 0, 1), "force on the external boundary"});
+  file.write(group + "friction/hole", plate.friction_hole, {"1", "hole of each friction case"});
+  file.write(group + "friction/bearing", plate.friction_bearing, {"1", "side of the rim that bears"});
+  file.write(group + "Lambda", plate.Lambda, {unit(units, -2, 1), "peak stress of each friction case"});
+  file.write(group + "traction/id", plate.traction_id, {"1", "boundaries under traction"});
+  file.write(group + "traction/force", plate.traction, {unit(units, 0, 1), "force on each"});
+  write_rims(file, group + "rim/", plate.rims, units);
 }
 
 PlateHistory read_plate(const h5::Reader& file, const std::string& name, Eigen::Index steps, const Units& units) {
@@ -40,6 +81,14 @@ PlateHistory read_plate(const h5::Reader& file, const std::string& name, Eigen::
   plate.D = file.matrix(group + "D", steps, m, unit(units, 1, 0));
   plate.De = file.matrix(group + "De", steps, e, unit(units, 1, 0));
   plate.Pe = file.matrix(group + "Pe", steps, e, unit(units, 0, 1));
+  plate.friction_hole = file.strings(group + "friction/hole", h5::any);
+  const auto h = static_cast<Eigen::Index>(plate.friction_hole.size());
+  plate.friction_bearing = file.strings(group + "friction/bearing", h);
+  plate.Lambda = file.matrix(group + "Lambda", steps, h, unit(units, -2, 1));
+  plate.traction_id = file.strings(group + "traction/id", h5::any);
+  const auto q = static_cast<Eigen::Index>(plate.traction_id.size());
+  plate.traction = file.matrix(group + "traction/force", steps, q, unit(units, 0, 1));
+  plate.rims = read_rims(file, group + "rim/", steps, units);
   return plate;
 }
 
@@ -51,6 +100,7 @@ void write(const std::string& path, const JointResult& a) {
   h5::Writer file(path, format, major, minor);
   write_header(file, a.header);
   file.attribute("complete", a.complete ? 1 : 0);
+  file.attribute("p", a.p);
   file.write("load_factor", a.load_factor, {"1", "share of the loads that acts at this increment"});
   file.write("converged", a.converged, {"1", "1 where the increment converged"});
   file.write("iterations", a.iterations, {"1", "iterations of the nonlinear solver, failed tries included"});
@@ -72,6 +122,7 @@ JointResult read_joint_result(const std::string& path) {
   JointResult a;
   a.header = read_header(file);
   a.complete = file.integer_attribute("complete") == 1;
+  a.p = file.integer_attribute("p");
   const Units& units = a.header.units;
   a.load_factor = file.vector("load_factor", h5::any, "1");
   const auto steps = a.load_factor.size();

@@ -9,18 +9,38 @@
 
 namespace fastjoint::formats {
 
+/// What engineers read off the holes of a plate, open ones included, one row per increment; all of shape (steps, r).
+struct RimHistory {
+  std::vector<std::string> hole;   ///< (r); none if the plate's matrices hold no stresses at this degree
+  Eigen::MatrixXd bearing_load;    ///< along x on the plate, 0 of an open hole, force
+  Eigen::MatrixXd bearing_stress;  ///< |bearing load| / (d t), stress
+  Eigen::MatrixXd peak_hoop;       ///< largest hoop stress, tension positive, stress
+  Eigen::MatrixXd peak_angle;      ///< where, degrees counter-clockwise from x
+  Eigen::MatrixXd peak_error;      ///< its change from the degree below; infinite where there is none, stress
+  Eigen::VectorXi sections;        ///< (r) how many of the two sections beside the hole across x the plate has
+  // 0 where it has none of them:
+  Eigen::MatrixXd bypass_load;          ///< force that passes the fastener by, tension positive
+  Eigen::MatrixXd gross_concentration;  ///< peak over the larger section force per gross area; 0 if that is 0
+  Eigen::MatrixXd net_concentration;    ///< the same per net area
+};
+
 /// Displacements and forces of one plate of a joint, one row per increment.
 struct PlateHistory {
   std::string name;
-  std::vector<std::string> disc_hole, disc_direction, external_id;
-  Eigen::MatrixXd D;   ///< (steps, m) disc displacements, length
-  Eigen::MatrixXd De;  ///< (steps, e) displacements of the rigid externals, length
-  Eigen::MatrixXd Pe;  ///< (steps, e) forces on them, force
+  std::vector<std::string> disc_hole, disc_direction, external_id, traction_id;
+  std::vector<std::string> friction_hole, friction_bearing;
+  Eigen::MatrixXd D;         ///< (steps, m) disc displacements, length
+  Eigen::MatrixXd De;        ///< (steps, e) displacements of the rigid externals, length
+  Eigen::MatrixXd Pe;        ///< (steps, e) forces on them, force
+  Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
+  Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
+  RimHistory rims;
 };
 
 /// What a joint did under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
+  int p = 0;                                              ///< degree of the matrices
   bool complete = false;                                  ///< every increment asked for converged
   Eigen::VectorXd load_factor;                            ///< (steps)
   Eigen::VectorXi converged;                              ///< (steps) 1

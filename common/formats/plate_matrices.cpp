@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 0;
+constexpr int minor = 1;
 
 /// A stack that is missing altogether is one of zero-width matrices.
 std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,
@@ -56,6 +56,38 @@ void write_stiffness(h5::Writer& file, const PlateMatrices& a, const std::string
   file.write("S_dd_error", a.S_dd_error, {stiffness, "estimated absolute error of S_dd at the highest p"});
 }
 
+void write_contacts(h5::Writer& file, const PlateMatrices& a) {
+  const Units& units = a.header.units;
+  const auto n = static_cast<Eigen::Index>(a.contacts.size());
+  std::vector<std::string> hole, arc_hole;
+  Eigen::VectorXi iterations(n);
+  Eigen::VectorXd pressure(n), angle(n);
+  std::vector<double> arcs;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const HoleContact& contact = a.contacts[static_cast<std::size_t>(i)];
+    hole.push_back(contact.hole);
+    iterations[i] = contact.iterations;
+    pressure[i] = contact.peak_pressure;
+    angle[i] = contact.peak_angle;
+    for (const auto& [from, to] : contact.arcs) {
+      arc_hole.push_back(contact.hole);
+      arcs.insert(arcs.end(), {from, to});
+    }
+  }
+  const Eigen::MatrixXd arc =
+      Eigen::Map<const Eigen::Matrix2Xd>(arcs.data(), 2, static_cast<Eigen::Index>(arc_hole.size())).transpose();
+  file.write("contact/hole", hole, {"1", "holes whose springs push but do not pull, under the loads of the input"});
+  file.write("contact/iterations", iterations, {"1", "until the ends of the arcs in contact stood still"});
+  file.write("contact/peak_pressure", pressure, {unit(units, -2, 1), "largest pressure on the rim"});
+  file.write("contact/peak_angle", angle, {"deg", "where, counter-clockwise from x"});
+  file.write("contact/arc_hole", arc_hole, {"1", "hole of each arc in contact"});
+  file.write("contact/arc", arc, {"deg", "where it starts and ends, counter-clockwise from x"});
+  file.write("loads/displacement", a.load_displacement,
+             {unit(units, 1, 0), "displacement of each external, then disc, under the loads of the input"});
+  file.write("loads/friction", a.load_friction, {unit(units, -2, 1), "peak stress of each friction case under them"});
+  file.write("loads/traction", a.load_traction, {unit(units, 0, 1), "force of each traction under them"});
+}
+
 }  // namespace
 
 void write(const std::string& path, const PlateMatrices& a) {
@@ -78,6 +110,8 @@ void write(const std::string& path, const PlateMatrices& a) {
   file.write("T_e", a.T_e, e, q, {"1", "force that holds external i per unit total force on traction boundary j"});
   file.write("C_t", a.C_t, q, q,
              {unit(units, 1, -1), "mean displacement of traction boundary i per unit total force on j, all else held"});
+  write_stresses(file, a.stresses, units);
+  write_contacts(file, a);
   file.commit();
 }
 
@@ -115,6 +149,7 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   a.T_d = stack_if_any(file, "T_d", np, m, q, expected_unit(a.header.units, 0, 0));
   a.T_e = stack_if_any(file, "T_e", np, e, q, expected_unit(a.header.units, 0, 0));
   a.C_t = stack_if_any(file, "C_t", np, q, q, expected_unit(a.header.units, 1, -1));
+  a.stresses = read_stresses(file, a.n_cases(), a.header.units);
   return a;
 }
 

@@ -2,12 +2,23 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string>
 #include <vector>
 
 #include "common/formats/header.hpp"
+#include "common/formats/plate_stresses.hpp"
 
 namespace fastjoint::formats {
+
+/// A hole whose springs push but do not pull: where they do, under the loads of PLATE.json.
+struct HoleContact {
+  std::string hole;
+  std::vector<std::array<double, 2>> arcs;  ///< from, to, degrees counter-clockwise from x
+  int iterations;                           ///< until the arcs stood still
+  double peak_pressure;                     ///< stress
+  double peak_angle;                        ///< where, degrees
+};
 
 /// Everything linear about one sheet, for every degree p (schemas/plate-matrices.md).
 ///
@@ -29,18 +40,27 @@ struct PlateMatrices {
   std::vector<Eigen::MatrixXd> C_t;               ///< np x (q,q), length / force
   /// Estimated absolute error at the highest p; infinite where one p alone says nothing of it.
   Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
+  PlateStresses stresses;
+  std::vector<HoleContact> contacts;  ///< under the scene's loads
+  /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
+  Eigen::MatrixXd load_displacement;  ///< (l, e + m) length
+  Eigen::MatrixXd load_friction;      ///< (l, h) stress
+  Eigen::MatrixXd load_traction;      ///< (l, q) force
 
   [[nodiscard]] Eigen::Index n_externals() const { return static_cast<Eigen::Index>(external_id.size()); }
   [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(disc_hole.size()); }
   [[nodiscard]] Eigen::Index n_friction_cases() const { return static_cast<Eigen::Index>(friction_hole.size()); }
   [[nodiscard]] Eigen::Index n_tractions() const { return static_cast<Eigen::Index>(traction_id.size()); }
+  /// Unit cases in their order: externals, discs, friction, tractions.
+  [[nodiscard]] Eigen::Index n_cases() const { return n_externals() + n_discs() + n_friction_cases() + n_tractions(); }
 };
 
 /// Throws FileError; what was at `path` before survives.
 void write(const std::string& path, const PlateMatrices& matrices);
 
-/// Reads all of it. `p`, `disc/hole`, `disc/direction` and `S_dd` must stand in the file; groups that a hand-made
-/// file leaves out (external, friction, traction, errors) are taken as empty, directions of externals as x.
+/// Reads all of it but contacts and loads, which nothing behind stage 2 needs. `p`, `disc/hole`, `disc/direction` and
+/// `S_dd` must stand in the file; groups that a hand-made file leaves out (external, friction, traction, errors) are
+/// taken as empty, directions of externals as x.
 [[nodiscard]] PlateMatrices read_plate_matrices(const std::string& path);
 
 }  // namespace fastjoint::formats

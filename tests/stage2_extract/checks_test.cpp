@@ -52,21 +52,21 @@ TEST(Checks, SpoiltSolutionsAreFound) {
   const auto good = test::solve(test::make_plate(floating));
   auto spoilt = good;
   spoilt.cases.back().U(5, 0) *= 1.01;
-  const auto checks = stage2::extract(spoilt, "test").checks;
+  const auto checks = stage2::extract(spoilt, "plate.h5", "test").checks;
   EXPECT_GT(checks.symmetry, 1e-7);
   EXPECT_THAT([&] { stage2::require_good(checks, "f.h5"); },
               ThrowsMessage<NumericalError>(HasSubstr("f.h5: asymmetry of S is")));
   spoilt = good;
   spoilt.cases.back().W(7, 0) += 1e-3 * spoilt.cases.back().W.cwiseAbs().maxCoeff();
-  EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "test").checks, "f.h5"); },
+  EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "plate.h5", "test").checks, "f.h5"); },
               ThrowsMessage<NumericalError>(HasSubstr("error of reciprocity")));
   spoilt = good;
   spoilt.K_cc.diagonal() *= 1.001;
-  EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "test").checks, "f.h5"); },
+  EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "plate.h5", "test").checks, "f.h5"); },
               ThrowsMessage<NumericalError>(HasSubstr("error of global equilibrium")));
   spoilt = good;
   spoilt.K_cc.diagonal() *= 0.5;
-  EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "test").checks, "f.h5"); },
+  EXPECT_THAT([&] { stage2::require_good(stage2::extract(spoilt, "plate.h5", "test").checks, "f.h5"); },
               ThrowsMessage<NumericalError>(HasSubstr("smallest eigenvalue of S")));
 }
 

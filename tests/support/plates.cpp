@@ -22,7 +22,9 @@ formats::PlateSolution solve(const Plate& plate) {
   return solution;
 }
 
-stage2::Extraction extract(const std::string& json) { return stage2::extract(solve(make_plate(json)), "test"); }
+stage2::Extraction extract(const std::string& json) {
+  return stage2::extract(solve(make_plate(json)), "plate.h5", "test");
+}
 
 std::string grid_scene(const std::vector<double>& x, const std::vector<double>& y, const std::vector<HoleText>& holes,
                        const std::string& extra) {

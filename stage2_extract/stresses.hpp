@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/formats/plate_solution.hpp"
+#include "common/formats/plate_stresses.hpp"
+
+namespace fastjoint::stage2 {
+
+/// Stresses at the rims and forces over the sections beside the holes in every unit case, at the degrees for which the
+/// plate has its friction fields; none if it has no such degree.
+/// @param file Name of the plate's file, for messages.
+[[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, const std::string& file);
+
+}  // namespace fastjoint::stage2
