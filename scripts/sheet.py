@@ -20,7 +20,9 @@ class Sheet:
             start = time.perf_counter()
             for words in (("stage1_plate", "plate.json", "-o", "plate.h5"),
                           ("stage2_extract", "plate.h5", "-o", "matrices.h5")):
-                subprocess.run([*words, "--quiet"], cwd=folder, check=True, capture_output=True)
+                run = subprocess.run([*words, "--quiet"], cwd=folder, capture_output=True, text=True)
+                if run.returncode:
+                    raise RuntimeError(run.stderr)
             self.seconds = time.perf_counter() - start
             with h5py.File(folder / "matrices.h5") as f:
                 self.data = {}
