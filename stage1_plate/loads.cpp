@@ -112,11 +112,9 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   problem.T_c = loads.controlled();
   for (std::size_t column = 0; column < list.size(); ++column) {
     const auto c = static_cast<Eigen::Index>(column);
-    if (!Eigen::VectorXd(problem.T_f.col(c)).isZero(0) || !problem.T_c.col(c).isZero(0)) continue;
-    const bool is_edge = scene.externals[static_cast<std::size_t>(list[column])].kind == ExternalKind::traction;
-    reject(scene, fmt::format("/external/{}", list[column]),
-           fmt::format("supports hold the whole {} against this traction", is_edge ? "edge" : "rim"),
-           fmt::format("a traction along a direction in which the {} can move", is_edge ? "edge" : "rim"));
+    if (Eigen::VectorXd(problem.T_f.col(c)).isZero(0) && problem.T_c.col(c).isZero(0))
+      reject(scene, fmt::format("/external/{}", list[column]), "supports hold all that it loads against it",
+             "a load along a direction in which the plate can move there");
   }
 }
 
