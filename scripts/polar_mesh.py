@@ -3,13 +3,13 @@
 import numpy as np
 
 
-def polar_mesh(radii, half_width, n_sectors, n_quarters):
+def polar_mesh(radii, half_width, degrees):
     """Rings of quadrilaterals at the given radii (the first is the hole's, 1), and one from the last ring to the border.
 
-    n_sectors of equal angle in each of the first n_quarters (1: x, y >= 0; 2: y >= 0). Edges: right, top, left (the
-    border, or x = 0 of a quarter), bottom.
+    degrees: angles of the rays, from 0 to 90 (the quarter x, y >= 0) or to 180 (the half y >= 0), 45 and 135 among them.
+    Edges: right, top, left (the border, or x = 0 of a quarter), bottom.
     """
-    theta = np.linspace(0, np.pi / 2 * n_quarters, n_sectors * n_quarters + 1)
+    theta = np.radians(degrees)
     ray = np.column_stack([np.cos(theta), np.sin(theta)])
     ray[np.abs(ray) < 1e-15] = 0
     square = ray / np.abs(ray).max(axis=1)[:, None] * half_width
@@ -28,7 +28,7 @@ def polar_mesh(radii, half_width, n_sectors, n_quarters):
         return [[layer * m + i, (layer + 1) * m + i] for layer in range(n_layers)]
 
     edges = {"right": on(0, half_width), "top": on(1, half_width), "bottom": ray_edges(0)}
-    if n_quarters == 1:
+    if degrees[-1] == 90:
         edges["left"] = ray_edges(m - 1)
     else:
         edges["left"] = on(0, -half_width)
@@ -44,3 +44,14 @@ def graded_radii(first_step, growth, outer):
         radii.append(radii[-1] * (1 + step))
         step = min(step * growth, 1.0)
     return radii
+
+
+def graded_degrees(smallest, largest, end):
+    """Rays from 0 to 90 that draw together towards 90, doubling from there, and the mirror image up to an end of 180."""
+    steps = [smallest]
+    while 45 - sum(steps) > 2 * largest:
+        steps.append(min(2 * steps[-1], largest))
+    n = int(np.ceil((45 - sum(steps)) / largest))
+    near = 90 - np.concatenate([[0], np.cumsum(steps)])
+    quarter = np.unique(np.round(np.concatenate([near, np.linspace(45, near[-1], n + 1), np.linspace(0, 45, 3)]), 9))
+    return quarter if end == 90 else np.concatenate([quarter, 180 - quarter[-2::-1]])
