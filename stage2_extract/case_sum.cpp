@@ -47,7 +47,7 @@ bool starts_as_case(const std::string& spec) {
 }
 
 std::string case_sum_allowed(const formats::PlateSolution& plate) {
-  return fmt::format("loads, a RESULT.h5, or a sum CASE=AMOUNT,... of the cases {}", listed(case_names(plate)));
+  return fmt::format("a RESULT.h5, or a sum CASE=AMOUNT,... of the cases {}", listed(case_names(plate)));
 }
 
 FieldState case_sum(const formats::PlateSolution& plate, const std::string& spec) {
@@ -59,7 +59,7 @@ FieldState case_sum(const formats::PlateSolution& plate, const std::string& spec
   for (std::string_view rest = spec;;) {
     const auto found = first_case(names, rest);
     if (found < 0)
-      throw InputError(fmt::format("--field: '{}' is not a case of the plate{}; allowed: {}", rest,
+      throw InputError(fmt::format("--field: '{}' is not a case of the plate{}; allowed: loads, {}", rest,
                                    starts_as_case(spec) ? "" : " nor a file", case_sum_allowed(plate)));
     const auto at = static_cast<std::size_t>(found);
     if (given[at]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[at]));

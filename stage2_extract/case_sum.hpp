@@ -8,7 +8,7 @@ namespace fastjoint::stage2 {
 /// Whether the text starts as a case does: "external:", "disc:", "friction:" or "traction:".
 [[nodiscard]] bool starts_as_case(const std::string& spec);
 
-/// What a message says a spec may be.
+/// What a message says a spec may be, besides "loads".
 [[nodiscard]] std::string case_sum_allowed(const formats::PlateSolution& plate);
 
 /// Cases with commas between them, each with "=AMOUNT" or of amount 1: "external:P=0.01,disc:1:x". Ids may hold commas,
