@@ -20,8 +20,8 @@ struct FieldState {
 
 /// What the user asks for, as given: "" and 0 where the choice is the program's.
 struct FieldRequest {
-  std::string spec;
-  std::string plate;
+  std::string spec = {};
+  std::string plate = {};
   int increment = 0;
   int p = 0;
 };
