@@ -24,15 +24,19 @@ VectorXd transferred(const JointModel& joint, const VectorXd& F, End end) {
 
 /// What acts on one plate and what its rows ask for, force.
 struct PlateForces {
-  VectorXd asked;    ///< (m+e) S u + R Lambda + T f
-  VectorXd discs;    ///< (m) by the fasteners' bearing
-  double fasteners;  ///< bearing and friction, sum
+  VectorXd asked;     ///< (m+e) S u + R Lambda + T f
+  VectorXd discs;     ///< (m) by the fasteners' bearing
+  VectorXd friction;  ///< (m) by their friction
+  VectorXd Lambda;    ///< (h) stress
+
+  [[nodiscard]] double fasteners() const { return discs.sum() + friction.sum(); }
 };
 
 PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd& u, const PathStep& step) {
   const PlateModel& plate = joint.plates[at];
-  PlateForces forces{plate.S * u + step.load_factor * (plate.T * plate.traction_force), VectorXd::Zero(plate.n_discs()),
-                     0};
+  const VectorXd none = VectorXd::Zero(plate.n_discs());
+  PlateForces forces{plate.S * u + step.load_factor * (plate.T * plate.traction_force), none, none,
+                     VectorXd::Zero(plate.friction_unit_force.size())};
   for (Index j = 0; j < step.F.size(); ++j) {
     const double F = step.F[j];
     for (const End end : {first_plate, second_plate}) {
@@ -40,9 +44,12 @@ PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd
       if (fastener.plate != at) continue;
       const double on_plate = end == first_plate ? -F : F;
       const FrictionLoad& friction = friction_at(fastener, F);
-      if (friction.load.size() > 0) forces.asked += friction.load * std::abs(F);
+      if (friction.load.size() > 0) {
+        forces.asked += friction.load * std::abs(F);
+        forces.Lambda[friction.case_index] += friction.peak * std::abs(F);
+      }
       forces.discs[fastener.disc] += on_plate;
-      forces.fasteners += on_plate * (1 + friction.resultant);
+      forces.friction[fastener.disc] += on_plate * friction.resultant;
     }
   }
   return forces;
@@ -54,6 +61,11 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
   state.D = u.head(m);
   state.De = u.tail(plate.n_externals());
   state.Pe = factor * plate.external_force;
+  state.Lambda = forces.Lambda;
+  state.traction = factor * plate.traction_force;
+  VectorXd amounts(state.De.size() + m + state.Lambda.size() + state.traction.size());
+  amounts << state.De, state.D, state.Lambda, state.traction;
+  state.rims = rim_states(plate, {amounts, forces.discs, forces.friction});
   double worst = (forces.asked.head(m) - forces.discs).cwiseAbs().maxCoeff();
   for (Index i = 0; i < state.Pe.size(); ++i) {
     if (plate.external_displacement[static_cast<std::size_t>(i)]) {
@@ -63,7 +75,7 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
     }
   }
   state.applied = state.Pe.dot(plate.external_in_x) + factor * plate.traction_force.dot(plate.traction_in_x);
-  state.by_fasteners = forces.fasteners;
+  state.by_fasteners = forces.fasteners();
   state.by_supports = -(state.applied + state.by_fasteners);
   return worst;
 }

@@ -6,13 +6,17 @@
 
 #include "stage3_nonlinear/condensed_system.hpp"
 #include "stage3_nonlinear/load_path.hpp"
+#include "stage3_nonlinear/rim_state.hpp"
 
 namespace fastjoint::stage3 {
 
 /// One plate at one increment.
 struct PlateState {
-  Eigen::VectorXd D;       ///< (m) disc displacements, length
-  Eigen::VectorXd De, Pe;  ///< (e) displacements of the rigid externals and forces on them, length, force
+  Eigen::VectorXd D;           ///< (m) disc displacements, length
+  Eigen::VectorXd De, Pe;      ///< (e) displacements of the rigid externals and forces on them, length, force
+  Eigen::VectorXd Lambda;      ///< (h) peak stress of each friction case, stress
+  Eigen::VectorXd traction;    ///< (q) force on each traction boundary, force
+  std::vector<RimState> rims;  ///< of every hole that the plate's stresses know
   // Sums of the forces that act on the plate along x, force.
   double applied = 0;       ///< by rigid externals and tractions
   double by_fasteners = 0;  ///< bearing and friction

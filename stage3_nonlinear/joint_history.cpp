@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "stage3_nonlinear/rim_history.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -15,15 +17,23 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.disc_hole = plate.holes;
   history.disc_direction.assign(plate.holes.size(), "x");
   history.external_id = plate.externals;
+  history.traction_id = plate.tractions;
+  history.friction_hole = plate.friction_hole;
+  history.friction_bearing = plate.friction_bearing;
   history.D.resize(steps, plate.n_discs());
   history.De.resize(steps, plate.n_externals());
   history.Pe.resize(steps, plate.n_externals());
+  history.Lambda.resize(steps, plate.friction_unit_force.size());
+  history.traction.resize(steps, plate.traction_force.size());
   for (Index step = 0; step < steps; ++step) {
     const PlateState& state = states[static_cast<std::size_t>(step)].plates[at];
     history.D.row(step) = state.D.transpose();
     history.De.row(step) = state.De.transpose();
     history.Pe.row(step) = state.Pe.transpose();
+    history.Lambda.row(step) = state.Lambda.transpose();
+    history.traction.row(step) = state.traction.transpose();
   }
+  history.rims = rim_history(plate, states, at);
   return history;
 }
 
@@ -42,6 +52,7 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   const auto steps = static_cast<Index>(path.steps.size());
   const Index n = joint.n_fasteners();
   formats::JointResult result;
+  result.p = joint.p;
   result.complete = !path.failure;
   result.load_factor.resize(steps);
   result.converged = Eigen::VectorXi::Ones(steps);
@@ -66,17 +77,26 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   return result;
 }
 
-std::string csv(const formats::JointResult& a) {
+std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text =
-      "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,"
-      "residual\n";
+      "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,residual";
+  for (const char* end : {"first", "second"}) text += rim_csv_names(end);
+  text += "\n";
   for (Index i = 0; i < a.F.rows(); ++i) {
     const Eigen::VectorXd share = shares(a.transferred_first.row(i).transpose());
-    for (Index j = 0; j < a.F.cols(); ++j)
+    for (Index j = 0; j < a.F.cols(); ++j) {
       text +=
-          fmt::format("{},{},{},{},{},{},{},{},{},{}\n", i + 1, a.load_factor[i],
+          fmt::format("{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i],
                       field(a.fastener_id[static_cast<std::size_t>(j)]), a.delta(i, j), a.F(i, j),
                       a.transferred_first(i, j), a.transferred_second(i, j), share[j], a.iterations[i], a.residual[i]);
+      const auto& fastener = joint.fasteners[static_cast<std::size_t>(j)];
+      for (const End end : {first_plate, second_plate}) {
+        const FastenerEnd& at = fastener.ends[end];
+        const auto& hole = joint.plates[at.plate].holes[static_cast<std::size_t>(at.disc)];
+        text += rim_csv_fields(a.plates[at.plate].rims, hole, i);
+      }
+      text += "\n";
+    }
   }
   return text;
 }

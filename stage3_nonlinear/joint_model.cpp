@@ -80,7 +80,7 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
                       "{} has no meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or "
                       "friction 0",
                       plate.file, hole, c, bearing, mu));
-    return {plate.R.col(i) * (mu / c), std::abs(plate.friction_resultant[i]) * mu / c};
+    return {plate.R.col(i) * (mu / c), std::abs(plate.friction_resultant[i]) * mu / c, i, mu / c};
   }
   throw InputError(
       fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has "

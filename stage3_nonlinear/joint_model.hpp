@@ -14,8 +14,10 @@ namespace fastjoint::stage3 {
 
 /// Friction at one end of a fastener for one sign of its force, per unit |F|; empty without friction.
 struct FrictionLoad {
-  Eigen::VectorXd load;  ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
-  double resultant = 0;  ///< |resultant| mu / c: share of |F| that friction adds to what is transferred
+  Eigen::VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
+  double resultant = 0;         ///< |resultant| mu / c: share of |F| that friction adds to what is transferred
+  Eigen::Index case_index = 0;  ///< among the plate's friction cases
+  double peak = 0;              ///< mu / c: peak stress Lambda of the case, 1 / length^2
 };
 
 enum Sign : std::size_t { positive_force, negative_force };

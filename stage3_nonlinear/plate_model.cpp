@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cassert>
 #include <set>
 
@@ -122,6 +123,10 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   plate.external_in_x = along_x(a.external_direction);
   plate.traction_in_x = along_x(a.traction_direction);
   plate.relative_error = relative_error(a, level, plate.S);
+  plate.stresses = a.stresses;
+  const auto& levels = a.stresses.p;
+  if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())
+    plate.stress_level = static_cast<std::size_t>(at - levels.begin());
   plate.external_force = Eigen::VectorXd::Zero(a.n_externals());
   plate.external_displacement.resize(a.external_id.size());
   plate.traction_force = Eigen::VectorXd::Zero(a.n_tractions());

@@ -24,6 +24,8 @@ struct PlateModel {
   Eigen::VectorXd external_in_x, traction_in_x;              ///< (e), (q) 1 for those along x, else 0
   /// Estimated error of S over its largest entry, where the file knows it.
   std::optional<double> relative_error;
+  formats::PlateStresses stresses;          ///< as the file has them
+  std::optional<std::size_t> stress_level;  ///< those of the joint's degree, if there are any
   // Loads at load factor 1.
   Eigen::VectorXd external_force;                            ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+#include "stage3_nonlinear/rim_history.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -72,6 +74,16 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
          fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force\n", state.out_of_balance);
 }
 
+std::string stress_table(const JointModel& joint, const JointState& state) {
+  std::string text;
+  for (const auto& plate : joint.plates)
+    if (!plate.stress_level && plate.stresses.p.size() > 0)
+      text += fmt::format("no stresses of {}: {} holds them at p = {} only\n", plate.name, plate.file,
+                          fmt::join(plate.stresses.p, ", "));
+  const std::string table = rim_table(joint, state);
+  return table.empty() ? text : fmt::format("{}stresses at the last increment\n{}", text, table);
+}
+
 /// Named with the first increment at which it happens, once per fastener.
 void warn_beyond_last_point(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                             std::vector<std::string>& result) {
@@ -118,6 +130,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
                         path.linear ? "linear solves" : "iterations", step.residual);
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }
+  if (!states.empty()) text += stress_table(joint, states.back());
   return text;
 }
 

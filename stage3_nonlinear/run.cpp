@@ -50,7 +50,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};
   formats::write(options.output, result);
-  if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(result));
+  if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
   if (!options.quiet) out << summary(scene, joint, path, states);
   if (path.failure) throw NumericalError(failure_message(scene, *path.failure, options.output));
 }

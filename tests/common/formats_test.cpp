@@ -93,13 +93,21 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.fastener_id = {"1", "2", "3"};
     a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
     a.transferred_second = 2 * a.F;
-    a.plates = {{"top",
-                 {"1"},
-                 {"x"},
-                 {},
-                 Eigen::MatrixXd::Random(steps, 1),
-                 Eigen::MatrixXd(steps, 0),
-                 Eigen::MatrixXd(steps, 0)}};
+    PlateHistory& plate = a.plates.emplace_back();
+    plate.name = "top";
+    plate.disc_hole = {"1"};
+    plate.disc_direction = {"x"};
+    plate.friction_hole = {"1", "1"};
+    plate.friction_bearing = {"+x", "-x"};
+    plate.D = Eigen::MatrixXd::Random(steps, 1);
+    plate.De = plate.Pe = plate.traction = Eigen::MatrixXd(steps, 0);
+    plate.Lambda = Eigen::MatrixXd::Random(steps, 2);
+    RimHistory& rims = plate.rims;
+    rims.hole = {"1"};
+    rims.sections = Eigen::VectorXi::Constant(1, 2);
+    for (auto* table : {&rims.bearing_load, &rims.bearing_stress, &rims.bypass_load, &rims.peak_hoop, &rims.peak_angle,
+                        &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
+      *table = Eigen::MatrixXd::Random(steps, 1);
     write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));
     EXPECT_EQ(b.header.units, a.header.units);
@@ -108,7 +116,12 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.fastener_id, a.fastener_id);
     EXPECT_EQ(b.F, a.F);
     EXPECT_EQ(b.transferred_second, a.transferred_second);
-    EXPECT_EQ(b.plates.at(0).D, a.plates[0].D);
+    EXPECT_EQ(b.plates.at(0).D, plate.D);
+    EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);
+    EXPECT_EQ(b.plates[0].friction_bearing, plate.friction_bearing);
+    EXPECT_EQ(b.plates[0].rims.sections, rims.sections);
+    EXPECT_EQ(b.plates[0].rims.peak_hoop, rims.peak_hoop);
+    EXPECT_EQ(b.plates[0].rims.net_concentration, rims.net_concentration);
   }
 }
 

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "common/formats/joint_result.hpp"
+#include "stage3_nonlinear/equilibrium.hpp"
+
+namespace fastjoint::stage3 {
+
+/// What the holes of one plate showed, one row per step.
+[[nodiscard]] formats::RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states,
+                                              std::size_t at);
+
+/// Columns of the CSV for one end of a fastener ("first" or "second" plate), each with a comma before it.
+[[nodiscard]] std::string rim_csv_names(const std::string& end);
+
+/// Their values for a hole at a step.
+[[nodiscard]] std::string rim_csv_fields(const formats::RimHistory& rims, const std::string& hole, Eigen::Index step);
+
+/// The table of the summary: every hole of every plate at one increment. Empty if no plate has stresses.
+[[nodiscard]] std::string rim_table(const JointModel& joint, const JointState& state);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "stage3_nonlinear/plate_model.hpp"
+
+namespace fastjoint::stage3 {
+
+/// What engineers read off one hole of a plate at one increment.
+struct RimState {
+  double bearing_load = 0;    ///< along x on the plate, force
+  double bearing_stress = 0;  ///< |bearing load| / (d t), stress
+  double bypass_load = 0;     ///< force along x that passes the fastener by, tension positive
+  double peak_hoop = 0;       ///< largest hoop stress, tension positive, stress
+  double peak_angle = 0;      ///< where, degrees counter-clockwise from x
+  double peak_error = 0;      ///< its change from the degree below, infinite where there is none, stress
+  double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
+};
+
+/// How much a plate is loaded by each unit case of its stresses, and by its fasteners.
+struct PlateLoading {
+  Eigen::VectorXd amounts;   ///< (e + m + h + q) in the order of formats::PlateStresses
+  Eigen::VectorXd bearing;   ///< (m) bearing force along x on each disc's rim, force
+  Eigen::VectorXd friction;  ///< (m) friction resultant along x there, force
+};
+
+/// All holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
+///
+/// Bypass: of the force that comes over the section beside the hole towards the loaded side of the hole, what leaves
+/// over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at the
+/// bearing direction, where the friction jumps: points within 7.5 degrees of it are no candidates for the peak.
+[[nodiscard]] std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& loading);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/rim_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <numbers>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+
+constexpr double degree = std::numbers::pi / 180;
+
+/// A plate with the disc "1" and two cases; the hoop stress of the first case is `hoop` at the higher degree and 1 %
+/// more below; sections carry 3 (right) and 5 (left) times the second case.
+PlateModel plate(double from, double to, const std::function<double(double)>& hoop) {
+  PlateModel model;
+  model.holes = {"1"};
+  formats::PlateStresses& a = model.stresses;
+  a.p = Eigen::VectorXi::LinSpaced(2, 7, 8);
+  a.rim_hole = {"1"};
+  a.bearing_area = Eigen::RowVector2d(0.5, 0.5);
+  const auto n = static_cast<Index>(std::lround((to - from) / 5));
+  const Index points = n < 72 ? n + 1 : n;
+  a.rim_start.resize(2);
+  a.rim_start << 0, static_cast<int>(points);
+  a.angle = Eigen::VectorXd::LinSpaced(points, from, from + 5 * static_cast<double>(points - 1));
+  Eigen::MatrixXd tt = Eigen::MatrixXd::Zero(points, 2);
+  for (Index i = 0; i < points; ++i) tt(i, 0) = hoop(a.angle[i] * degree);
+  a.sigma_tt = {1.01 * tt, tt};
+  a.section_hole = {"1", "1"};
+  a.section_side = {"+x", "-x"};
+  a.gross_area = Eigen::Vector2d(2, 2);
+  a.net_area = Eigen::Vector2d(1.5, 1.5);
+  a.section_force = {Eigen::MatrixXd{{0, 3}, {0, 5}}, Eigen::MatrixXd{{0, 3}, {0, 5}}};
+  model.stress_level = 1;
+  return model;
+}
+
+RimState state(const PlateModel& model, double bearing, double friction) {
+  const auto states = rim_states(
+      model, {Eigen::Vector2d(2, 1), Eigen::VectorXd::Constant(1, bearing), Eigen::VectorXd::Constant(1, friction)});
+  EXPECT_EQ(states.size(), 1U);
+  return states.at(0);
+}
+
+/// The top of cos 2 (theta - theta0) between points, for any theta0: the parabola finds it to 1e-4.
+TEST(RimState, PeakBetweenPoints) {
+  for (double top = -180; top < 180; top += 0.7) {
+    const auto s = state(
+        plate(0, 360, [&](double t) { return std::cos(t - top * degree) + 0.3 * std::cos(2 * (t - top * degree)); }), 0,
+        0);
+    EXPECT_NEAR(s.peak_hoop, 2 * 1.3, 2e-4) << top;
+    EXPECT_NEAR(std::remainder(s.peak_angle - top, 360), 0, 0.05) << top;
+    EXPECT_NEAR(s.peak_error, 0.026, 1e-3);
+  }
+}
+
+TEST(RimState, PeakAtTheEndOfAQuarter) {
+  const auto s = state(plate(0, 90, [](double t) { return 1 - 2 * std::cos(2 * t); }), 0, 0);
+  EXPECT_DOUBLE_EQ(s.peak_hoop, 6);
+  EXPECT_DOUBLE_EQ(s.peak_angle, 90);
+}
+
+/// Where friction jumps, the hoop stress is singular: however large the number there, it is no peak.
+TEST(RimState, NeverReportsTheJumpOfFriction) {
+  const auto spike = [](double at) {
+    return [at](double t) {
+      return std::abs(std::remainder(t / degree - at, 360)) < 2 ? 100.0 : std::sin(t) * std::sin(t);
+    };
+  };
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, spike(0)), 1, 0.1).peak_angle, 90);
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, spike(180)), -1, -0.1).peak_angle, 90);
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, spike(0)), 1, 0).peak_hoop, 200) << "without friction it is a peak as any other";
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, spike(180)), 1, 0.1).peak_hoop, 200) << "friction is on the other side";
+}
+
+TEST(RimState, BypassIsWhatLeavesOnTheBearingSide) {
+  const auto flat = [](double) { return 4.0; };
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), 2, 0).bypass_load, 3);
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), -2, 0).bypass_load, 5);
+  EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), 0, 0).bypass_load, 4);
+  PlateModel one = plate(0, 360, flat);
+  one.stresses.section_side[0] = "+y";  // only the left one is left
+  EXPECT_DOUBLE_EQ(state(one, 1.5, 0.5).bypass_load, 5 - 2) << "less what the fastener takes, friction included";
+  EXPECT_DOUBLE_EQ(state(one, -1.5, -0.5).bypass_load, 5);
+}
+
+TEST(RimState, BearingStressAndConcentrations) {
+  const auto s = state(plate(0, 360, [](double) { return 4.0; }), -2, 0);
+  EXPECT_DOUBLE_EQ(s.bearing_stress, 4);
+  EXPECT_DOUBLE_EQ(s.bearing_load, -2);
+  EXPECT_DOUBLE_EQ(s.gross_concentration, 8 / (5.0 / 2));
+  EXPECT_DOUBLE_EQ(s.net_concentration, 8 / (5.0 / 1.5));
+}
+
+TEST(RimState, NoConcentrationOnAnUnloadedSection) {
+  PlateModel model = plate(0, 360, [](double) { return 4.0; });
+  model.stresses.section_force[1].setZero();
+  EXPECT_EQ(state(model, 1, 0).gross_concentration, 0);
+  EXPECT_TRUE(std::isfinite(state(model, 0, 0).net_concentration));
+}
+
+TEST(RimState, OneDegreeAloneKnowsNoError) {
+  PlateModel model = plate(0, 360, [](double) { return 4.0; });
+  model.stress_level = 0;
+  EXPECT_EQ(state(model, 1, 0).peak_error, std::numeric_limits<double>::infinity());
+}
+
+TEST(RimState, NoStressesNoRims) {
+  PlateModel model = plate(0, 360, [](double) { return 4.0; });
+  model.stress_level.reset();
+  EXPECT_TRUE(rim_states(model, {Eigen::Vector2d(2, 1), Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)}).empty());
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3
