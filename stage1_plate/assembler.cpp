@@ -62,6 +62,19 @@ void Assembler::add_coupling(int element, const ElementVector& g, int controlled
     }
 }
 
+void Assembler::add_spring(int target, int controlled, double stiffness) {
+  K_cc_(controlled, controlled) += stiffness;
+  if (Unknowns::is_free(target)) {
+    ff_.emplace_back(target, target, stiffness);
+    fc_.emplace_back(target, controlled, -stiffness);
+  } else if (target != Unknowns::fixed) {
+    const int other = Unknowns::controlled_index(target);
+    K_cc_(other, other) += stiffness;
+    K_cc_(other, controlled) -= stiffness;
+    K_cc_(controlled, other) -= stiffness;
+  }
+}
+
 Eigen::SparseMatrix<double> Assembler::K_ff() const {
   return compressed(ff_, unknowns_.n_free.back(), unknowns_.n_free.back());
 }

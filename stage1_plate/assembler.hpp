@@ -23,6 +23,8 @@ class Assembler {
   void add_stiffness(int element, const Eigen::MatrixXd& K);
   /// Stiffness between an element's coefficients and a controlled displacement.
   void add_coupling(int element, const ElementVector& g, int controlled);
+  /// A spring between a coefficient of the plate, by its target, and a controlled displacement.
+  void add_spring(int target, int controlled, double stiffness);
   void add_controlled(int i, int j, double value) { K_cc_(i, j) += value; }
 
   [[nodiscard]] Eigen::SparseMatrix<double> K_ff() const;

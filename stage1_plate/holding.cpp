@@ -10,6 +10,7 @@
 #include <numeric>
 
 #include "common/errors.hpp"
+#include "stage1_plate/springs.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -78,15 +79,28 @@ void add_supports(const PlateMesh& plate, const Unknowns& unknowns, const std::v
 void add_springs(const PlateScene& scene, const PlateMesh& plate, const std::vector<int>& part_of_node,
                  std::vector<Part>& parts) {
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
-    if (!scene.holes[hole].spring_modulus) continue;
+    if (!scene.holes[hole].spring) continue;
     for (const auto& side : plate.rims[hole].sides) {
       const int node = plate.mesh.quads(0, side.element);
       Part& part = parts[static_cast<std::size_t>(part_of_node[static_cast<std::size_t>(node)])];
-      const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, 1);
-      for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
+      const auto [rule, weight] = side_springs(*scene.holes[hole].spring, plate, side, 1);
+      for (Eigen::Index q = 0; q < weight.size(); ++q) {
+        if (weight[q] == 0) continue;
         const Eigen::RowVector3d along = rule.normal.col(q).transpose() * part.motion(rule.x.col(q));
-        part.held += rule.ds[q] / rule.ds.sum() * along.transpose() * along;
+        part.held += weight[q] / weight.sum() * along.transpose() * along;
       }
+    }
+  }
+}
+
+void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const std::vector<int>& part_of_node,
+                      std::vector<Part>& parts) {
+  for (const int node : plate.point_nodes) {
+    Part& part = parts[static_cast<std::size_t>(part_of_node[static_cast<std::size_t>(node)])];
+    const auto u = part.motion(plate.mesh.nodes.col(node));
+    for (const auto& direction : scene.disc_directions) {
+      const Eigen::RowVector3d along = pfem::axis(direction).transpose() * u;
+      part.held += along.transpose() * along;
     }
   }
 }
@@ -110,12 +124,13 @@ void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns&
   auto parts = make_parts(plate.mesh, part_of_node);
   add_supports(plate, unknowns, part_of_node, parts);
   add_springs(scene, plate, part_of_node, parts);
+  add_line_springs(scene, plate, part_of_node, parts);
   for (const auto& part : parts) {
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(part.held);
     if (eigen.eigenvalues()[0] > free_to_move * std::max(1.0, eigen.eigenvalues()[2])) continue;
     throw NumericalError(fmt::format(
         "{}: /supports: nothing keeps the {} from moving {} while all externals and discs are held; allowed: a plate "
-        "that supports, externals and sprung holes hold against every rigid motion",
+        "that supports, externals, sprung holes and points hold against every rigid motion",
         scene.file,
         parts.size() == 1 ? std::string("plate")
                           : fmt::format("part of the plate around ({:g}, {:g})", part.middle.x(), part.middle.y()),

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "stage1_plate/assembler.hpp"
 
 namespace fastjoint::stage1 {
@@ -17,13 +19,69 @@ ElementVector friction_load(const pfem::SideRule& rule, double thickness, const 
   return load;
 }
 
+/// Uniform traction of unit total force on an edge.
+void add_uniform(const PlateMesh& plate, const External& external, int p, int column, LoadAssembler& loads) {
+  const auto& sides = plate.sets.at(external.on);
+  double area = 0;
+  for (const auto& side : sides)
+    area += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, plate.edges, side, 1).ds.sum();
+  for (const auto& side : sides) {
+    const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, p);
+    const Eigen::VectorXd spread = plate.mesh.thickness[side.element] / area * (rule.N * rule.ds);
+    loads.add(side.element, {rule.modes, pfem::axis(external.direction) * spread.transpose()}, column);
+  }
+}
+
+/// Cosine pressure on the half of an open hole that bears along the external's direction, of unit force along it.
+void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_index, int p, int column,
+                  LoadAssembler& loads) {
+  const External& external = scene.externals[static_cast<std::size_t>(external_index)];
+  const auto is_meant = [&](const Hole& hole) { return hole.id == external.on; };
+  const auto hole = std::find_if(scene.holes.begin(), scene.holes.end(), is_meant) - scene.holes.begin();
+  const pfem::Rim& rim = plate.rims[static_cast<std::size_t>(hole)];
+  const Eigen::Vector2d d = pfem::axis(external.direction);
+  const double unit_force = bearing_unit_force(plate, rim, d);
+  constexpr double nothing = 1e-12;  // of what a whole rim bears; rounding leaves about 1e-16
+  if (unit_force < nothing * plate.mesh.thickness.maxCoeff() * rim.radius)
+    reject(scene, fmt::format("/external/{}", external_index),
+           fmt::format("the model has no rim of hole \"{}\" on the side that bears along +{}", external.on,
+                       external.direction),
+           "a hole with a rim on that side");
+  for (const auto& side : rim.sides) {
+    const auto rule = pfem::rim_rule(plate.mesh, plate.edges, side, p);
+    ElementVector load{rule.modes, Eigen::Matrix2Xd::Zero(2, rule.N.rows())};
+    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
+      const Eigen::Vector2d n = -rule.normal.col(q);
+      const double pressure = pfem::cosine_bearing(n, d).contact / unit_force;
+      load.values += plate.mesh.thickness[side.element] * rule.ds[q] * pressure * n * rule.N.col(q).transpose();
+    }
+    loads.add(side.element, load, column);
+  }
+}
+
 }  // namespace
+
+double bearing_unit_force(const PlateMesh& plate, const pfem::Rim& rim, const Eigen::Vector2d& d) {
+  constexpr int p = 8;  // only the number of points: enough for products of sines over a quarter
+  double force = 0;
+  for (const auto& side : rim.sides) {
+    const auto rule = pfem::rim_rule(plate.mesh, plate.edges, side, p);
+    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
+      const double contact = pfem::cosine_bearing(-rule.normal.col(q), d).contact;
+      force += plate.mesh.thickness[side.element] * rule.ds[q] * contact * contact;
+    }
+  }
+  return force;
+}
 
 void add_friction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   const Unknowns& unknowns = problem.unknowns;
-  LoadAssembler loads(problem.numbering, unknowns, 2 * unknowns.n_discs());
+  const auto n_sprung =
+      std::count_if(scene.holes.begin(), scene.holes.end(), [](const Hole& hole) { return hole.spring.has_value(); });
+  const auto n_cases = 2 * n_sprung * static_cast<std::ptrdiff_t>(scene.disc_directions.size());
+  LoadAssembler loads(problem.numbering, unknowns, static_cast<int>(n_cases));
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
-    if (!scene.holes[hole].spring_modulus) continue;
+    if (!scene.holes[hole].spring) continue;
     for (const auto& direction : scene.disc_directions)
       for (const double sign : {1.0, -1.0}) {
         const int column = static_cast<int>(problem.friction_hole.size());
@@ -45,24 +103,18 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   LoadAssembler loads(problem.numbering, problem.unknowns, static_cast<int>(list.size()));
   for (std::size_t column = 0; column < list.size(); ++column) {
     const External& external = scene.externals[static_cast<std::size_t>(list[column])];
-    const auto& sides = plate.sets.at(external.on);
-    double area = 0;
-    for (const auto& side : sides)
-      area += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, plate.edges, side, 1).ds.sum();
-    for (const auto& side : sides) {
-      const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
-      const Eigen::VectorXd spread = plate.mesh.thickness[side.element] / area * (rule.N * rule.ds);
-      loads.add(side.element, {rule.modes, pfem::axis(external.direction) * spread.transpose()},
-                static_cast<int>(column));
-    }
+    if (external.kind == ExternalKind::bearing)
+      add_pressure(scene, plate, list[column], problem.numbering.p, static_cast<int>(column), loads);
+    else
+      add_uniform(plate, external, problem.numbering.p, static_cast<int>(column), loads);
   }
   problem.T_f = loads.free();
   problem.T_c = loads.controlled();
   for (std::size_t column = 0; column < list.size(); ++column) {
     const auto c = static_cast<Eigen::Index>(column);
     if (Eigen::VectorXd(problem.T_f.col(c)).isZero(0) && problem.T_c.col(c).isZero(0))
-      reject(scene, fmt::format("/external/{}", list[column]), "supports hold the whole edge against this traction",
-             "a traction along a direction in which the edge can move");
+      reject(scene, fmt::format("/external/{}", list[column]), "supports hold all that it loads against it",
+             "a load along a direction in which the plate can move there");
   }
 }
 

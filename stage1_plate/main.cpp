@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iostream>
+#include <optional>
 
 #include "common/errors.hpp"
 #include "common/formats/plate_solution.hpp"
 #include "common/linalg/cholesky.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
+#include "stage1_plate/contact_summary.hpp"
 #include "stage1_plate/degree_range.hpp"
 #include "stage1_plate/holding.hpp"
 #include "stage1_plate/solve.hpp"
@@ -26,6 +29,16 @@ const program::Command command = {
      {"--threads", "N", "threads of the dense kernels; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
+/// Section 3 of the paper: what line springs and links do converges slowly or not at all.
+void warn(const stage1::PlateScene& scene) {
+  const bool has_links = std::any_of(scene.holes.begin(), scene.holes.end(),
+                                     [](const stage1::Hole& hole) { return hole.spring && hole.spring->link > 0; });
+  if (has_links || !scene.points.empty())
+    std::cerr << fmt::format(
+        "{}: warning: {}: points and links concentrate their load at nodes: the results depend on the mesh\n",
+        command.name, scene.file);
+}
+
 void run(const program::Arguments& arguments) {
   constexpr int most_threads = 256;
   linalg::set_threads(arguments.integer("--threads", 1, most_threads, 1));
@@ -33,10 +46,19 @@ void run(const program::Arguments& arguments) {
       stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
   const auto plate = stage1::make_mesh(scene);
-  const auto problem = stage1::assemble(scene, plate);
+  warn(scene);
+  auto problem = stage1::assemble(scene, plate);
   stage1::check_held(scene, plate, problem.unknowns);
+  std::optional<stage1::ContactState> contact;
+  if (scene.loads) {
+    contact = stage1::find_contact(scene, plate, problem);
+    scene = stage1::with_arcs(std::move(scene), *contact);
+    problem = stage1::assemble(scene, plate);
+    stage1::check_held(scene, plate, problem.unknowns);
+  }
   const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
   auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name), wanted);
+  if (contact) stage1::add_contact(*contact, solution);
   stage1::solve_cases(problem, solution);
   formats::write(arguments.output, solution);
   if (arguments.quiet) return;
@@ -45,6 +67,7 @@ void run(const program::Arguments& arguments) {
                            problem.unknowns.n_externals(), problem.unknowns.traction.size());
   for (Eigen::Index i = 0; i < solution.p.size(); ++i)
     std::cout << fmt::format("  p = {}: {} unknowns\n", solution.p[i], solution.ndof[i]);
+  if (contact) std::cout << stage1::contact_summary(scene, *contact);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "common/pfem/element_stiffness.hpp"
 #include "stage1_plate/explicit_mesh.hpp"
 #include "stage1_plate/grid_mesher.hpp"
+#include "stage1_plate/line_springs.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -57,6 +58,7 @@ PlateMesh make_mesh(const PlateScene& scene) {
                         : mesh_explicit(scene, std::get<MeshGeometry>(scene.geometry));
   check_elements(scene, plate);
   find_rims(scene, plate);
+  plate.point_nodes = find_point_nodes(scene, plate.mesh);
   return plate;
 }
 

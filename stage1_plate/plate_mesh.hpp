@@ -18,6 +18,7 @@ struct PlateMesh {
   pfem::Edges edges;
   std::map<std::string, std::vector<pfem::Side>> sets;  ///< sides of elements by name
   std::vector<pfem::Rim> rims;                          ///< of each hole, in the scene's order
+  std::vector<int> point_nodes;                         ///< vertex of each point spring
   std::vector<formats::Section> sections;               ///< beside holes: the sides of their cells, of a grid only
 };
 

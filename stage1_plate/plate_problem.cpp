@@ -3,6 +3,7 @@
 
 #include "common/pfem/element_stiffness.hpp"
 #include "stage1_plate/assembler.hpp"
+#include "stage1_plate/line_springs.hpp"
 #include "stage1_plate/loads.hpp"
 #include "stage1_plate/springs.hpp"
 
@@ -20,6 +21,7 @@ PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
         element, stiffness(pfem::ElementMap(plate.mesh, plate.edges, element), D, plate.mesh.thickness[element]));
   }
   add_springs(scene, plate, problem.numbering, problem.unknowns, assembler);
+  add_line_springs(scene, plate, problem.unknowns, assembler);
   problem.K_ff = assembler.K_ff();
   problem.K_fc = assembler.K_fc();
   problem.K_cc = assembler.K_cc();

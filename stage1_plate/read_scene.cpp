@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 
 #include "common/errors.hpp"
 #include "common/input/value.hpp"
 #include "stage1_plate/read_geometry.hpp"
+#include "stage1_plate/read_loads.hpp"
 #include "stage1_plate/read_material.hpp"
+#include "stage1_plate/read_spring.hpp"
 #include "stage1_plate/scene.hpp"
 
 namespace fastjoint::stage1 {
@@ -48,22 +51,8 @@ formats::Units read_units(const Value& root) {
   return {units->at("length").text(), units->at("force").text()};
 }
 
-/// Equation (29) for an elastic disc in plane stress, or the user's own modulus.
-double read_spring(const Value& spring, double radius) {
-  spring.only({"disk", "modulus"});
-  const auto disk = spring.find("disk");
-  const auto modulus = spring.find("modulus");
-  if (disk.has_value() == modulus.has_value()) spring.not_allowed("either \"disk\" or \"modulus\"");
-  if (modulus) return modulus->number(input::positive);
-  disk->only({"E", "nu"});
-  const double E = disk->at("E").number(input::positive);
-  const double nu = disk->at("nu").number(poisson_range);
-  return 2 / (1 - nu) * E / (2 * radius);
-}
-
-std::vector<Hole> read_holes(const Value& root, bool is_grid) {
+std::vector<Hole> read_holes(const Value& root, bool is_grid, UniqueNames& ids) {
   std::vector<Hole> holes;
-  UniqueNames ids;
   const auto list = root.find("holes");
   if (!list) return holes;
   for (const auto& item : list->items()) {
@@ -72,7 +61,7 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid) {
     hole.id = ids.add(item.at("id"));
     hole.center = read_point(item.at("center"));
     hole.radius = item.at("radius").number(input::positive);
-    if (const auto spring = item.find("spring")) hole.spring_modulus = read_spring(*spring, hole.radius);
+    if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius);
     constexpr int most_rings = 20;
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
@@ -80,6 +69,17 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid) {
     holes.push_back(std::move(hole));
   }
   return holes;
+}
+
+std::vector<PointSpring> read_points(const Value& root, UniqueNames& ids) {
+  std::vector<PointSpring> points;
+  if (const auto list = root.find("points"))
+    for (const auto& item : list->items()) {
+      item.only({"id", "at", "stiffness"});
+      points.push_back(
+          {ids.add(item.at("id")), read_point(item.at("at")), item.at("stiffness").number(input::positive)});
+    }
+  return points;
 }
 
 std::vector<Support> read_supports(const Value& root, const std::vector<std::string>& edge_names) {
@@ -92,16 +92,31 @@ std::vector<Support> read_supports(const Value& root, const std::vector<std::str
   return supports;
 }
 
-std::vector<External> read_externals(const Value& root, const std::vector<std::string>& edge_names) {
+/// The id of an open hole.
+std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes) {
+  std::vector<std::string> names;
+  for (const auto& hole : holes) names.push_back(hole.id);
+  const std::string name = value.choice(names);
+  const auto hole = std::find_if(holes.begin(), holes.end(), [&](const Hole& h) { return h.id == name; });
+  if (hole->spring)
+    value.fail(fmt::format("hole \"{}\" has springs, which transmit its load", name), "a hole without \"spring\"");
+  return name;
+}
+
+std::vector<External> read_externals(const Value& root, const std::vector<std::string>& edge_names,
+                                     const std::vector<Hole>& holes) {
+  const std::map<std::string, ExternalKind> kinds = {
+      {"rigid", ExternalKind::rigid}, {"traction", ExternalKind::traction}, {"bearing", ExternalKind::bearing}};
   std::vector<External> externals;
   UniqueNames ids;
   if (const auto list = root.find("external"))
     for (const auto& item : list->items()) {
       item.only({"id", "on", "direction", "kind"});
-      const bool rigid = item.at("kind").choice({"rigid", "traction"}) == "rigid";
-      externals.push_back({ids.add(item.at("id")), item.at("on").choice(edge_names),
-                           item.at("direction").choice(directions),
-                           rigid ? ExternalKind::rigid : ExternalKind::traction});
+      const ExternalKind kind = kinds.at(item.at("kind").choice({"rigid", "traction", "bearing"}));
+      const Value on = item.at("on");
+      externals.push_back({ids.add(item.at("id")),
+                           kind == ExternalKind::bearing ? read_bearing_hole(on, holes) : on.choice(edge_names),
+                           item.at("direction").choice(directions), kind});
     }
   return externals;
 }
@@ -130,8 +145,8 @@ Eigen::Vector2d read_point(const Value& value) {
 
 PlateScene read_scene(const input::Document& document) {
   const Value root(document);
-  root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes",
-             "disc_directions", "supports", "external", "p"});
+  root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes", "points",
+             "disc_directions", "supports", "external", "loads", "p"});
   input::check_format(root, "plate");
   PlateScene scene;
   scene.file = document.file;
@@ -141,13 +156,27 @@ PlateScene read_scene(const input::Document& document) {
   const Materials materials = read_materials(root);
   scene.elasticity = materials.elasticity;
   scene.geometry = read_geometry(root.at("geometry"), materials);
-  scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry));
+  UniqueNames disc_ids;
+  scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
+  scene.points = read_points(root, disc_ids);
   const auto discs = root.find("disc_directions");
   scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x"};
   scene.supports = read_supports(root, edge_names(scene));
-  scene.externals = read_externals(root, edge_names(scene));
+  scene.externals = read_externals(root, edge_names(scene), scene.holes);
+  scene.loads = read_loads(root, scene);
   read_p(root, scene);
   return scene;
+}
+
+std::vector<Disc> list_discs(const PlateScene& scene) {
+  std::vector<Disc> discs;
+  const auto add = [&](const std::string& id) {
+    for (const auto& direction : scene.disc_directions) discs.push_back({id, direction});
+  };
+  for (const auto& hole : scene.holes)
+    if (hole.spring) add(hole.id);
+  for (const auto& point : scene.points) add(point.id);
+  return discs;
 }
 
 void reject(const PlateScene& scene, const std::string& pointer, const std::string& found, const std::string& allowed) {

@@ -10,6 +10,7 @@
 
 #include "common/formats/header.hpp"
 #include "common/input/json.hpp"
+#include "common/pfem/rim.hpp"
 
 namespace fastjoint::stage1 {
 
@@ -40,12 +41,28 @@ struct MeshGeometry {
   std::vector<EdgeSet> edges;
 };
 
+/// Springs between the rim of a hole and a rigid disc in it: distributed, or links at the nodes of the rim.
+struct Spring {
+  double modulus = 0;  ///< force / length^3; 0 with links
+  double link = 0;     ///< force / length at each node, half of it for either side that ends there; 0 without links
+  std::vector<pfem::AngleRange> acts = {{-pfem::full_turn / 2, pfem::full_turn / 2}};  ///< the sprung part of the rim
+  bool has_arc = false;           ///< whether the scene says which part
+  bool compression_only = false;  ///< under the scene's loads it pushes but does not pull
+};
+
 struct Hole {
   std::string id;
   Eigen::Vector2d center;
   double radius;
-  std::optional<double> spring_modulus;  ///< force / length^3; none in an open hole, which has no disc
-  int rings;                             ///< extra rings of elements around it (grid only)
+  std::optional<Spring> spring;  ///< none in an open hole, which has no disc
+  int rings;                     ///< extra rings of elements around it (grid only)
+};
+
+/// A spring between a vertex of the mesh and a disc of its own: what results depend on the mesh with.
+struct PointSpring {
+  std::string id;
+  Eigen::Vector2d at;
+  double stiffness;  ///< force / length, along each direction of the discs
 };
 
 struct Support {
@@ -53,11 +70,30 @@ struct Support {
   std::vector<std::string> fix;  ///< directions
 };
 
-enum class ExternalKind { rigid, traction };
+/// An edge that moves as one, an edge under uniform traction, an open hole under cosine pressure.
+enum class ExternalKind { rigid, traction, bearing };
 
 struct External {
   std::string id, on, direction;
   ExternalKind kind;
+};
+
+/// A disc unknown: a direction of the disc of a sprung hole or of a point spring.
+struct Disc {
+  std::string id, direction;
+};
+
+/// What acts on an external or a disc: its force, or its displacement, is given.
+struct Load {
+  bool is_force;
+  double value;         ///< force or length; of a disc, the force that its springs transmit
+  double friction = 0;  ///< coefficient of friction at a disc of a hole
+};
+
+/// The loads under which springs push but do not pull.
+struct SceneLoads {
+  std::vector<Load> external;  ///< of each of PlateScene::externals
+  std::vector<Load> disc;      ///< of each of list_discs
 };
 
 /// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
@@ -68,9 +104,11 @@ struct PlateScene {
   std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
+  std::vector<PointSpring> points;
   std::vector<std::string> disc_directions;
   std::vector<Support> supports;
   std::vector<External> externals;
+  std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
   int p_low = 1, p_high = 8;
 };
 
@@ -78,6 +116,9 @@ inline constexpr int highest_p = 8;
 
 /// Reads PLATE.json strictly. Throws InputError with the file, the JSON pointer, what was found and what is allowed.
 [[nodiscard]] PlateScene read_scene(const input::Document& document);
+
+/// The discs of sprung holes, then those of point springs, each in the scene's order, directions inner.
+[[nodiscard]] std::vector<Disc> list_discs(const PlateScene& scene);
 
 /// Throws the InputError that read_scene would throw at this place of the file.
 [[noreturn]] void reject(const PlateScene& scene, const std::string& pointer, const std::string& found,

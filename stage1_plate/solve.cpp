@@ -61,7 +61,10 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   };
   name(unknowns.rigid, a.external_id, a.external_direction);
   name(unknowns.traction, a.traction_id, a.traction_direction);
-  a.traction_hole.resize(a.traction_id.size());
+  for (const int i : unknowns.traction) {
+    const External& external = scene.externals[static_cast<std::size_t>(i)];
+    a.traction_hole.push_back(external.kind == ExternalKind::bearing ? external.on : "");
+  }
   a.disc_hole = unknowns.disc_hole;
   a.disc_direction = unknowns.disc_direction;
   a.friction_hole = problem.friction_hole;
@@ -80,6 +83,14 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.load_friction.resize(0, h);
   a.load_traction.resize(0, problem.T_f.cols());
   return a;
+}
+
+void add_contact(const ContactState& state, formats::PlateSolution& a) {
+  for (const auto& contact : state.holes)
+    a.contacts.push_back({contact.hole, contact.iterations, contact.peak_pressure, contact.peak_angle});
+  a.load_displacement = state.displacement.transpose();
+  a.load_friction = state.friction.transpose();
+  a.load_traction = state.traction.transpose();
 }
 
 void solve_cases(const PlateProblem& problem, formats::PlateSolution& a) {

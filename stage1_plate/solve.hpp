@@ -2,6 +2,7 @@
 #pragma once
 
 #include "common/formats/plate_solution.hpp"
+#include "stage1_plate/contact.hpp"
 #include "stage1_plate/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
@@ -17,6 +18,9 @@ enum class Wanted { loads_and_stresses, loads };
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
                                                  const PlateProblem& problem, const std::string& generator,
                                                  Wanted wanted);
+
+/// Sets the contacts and the loads of a scene that has them.
+void add_contact(const ContactState& state, formats::PlateSolution& solution);
 
 /// Solves all cases of every degree. The friction fields are needed for stresses alone, at the two highest degrees;
 /// without stresses, one mixture of them at the highest checks reciprocity.

@@ -82,14 +82,17 @@ class Classifier {
   }
 
   void add_discs() {
-    for (const auto& hole : scene_.holes) {
-      result_.disc_of_hole.push_back(hole.spring_modulus ? result_.n_discs() : -1);
-      if (!hole.spring_modulus) continue;
-      for (const auto& direction : scene_.disc_directions) {
-        result_.disc_hole.push_back(hole.id);
-        result_.disc_direction.push_back(direction);
-      }
+    for (const auto& disc : list_discs(scene_)) {
+      result_.disc_hole.push_back(disc.id);
+      result_.disc_direction.push_back(disc.direction);
     }
+    const auto n_directions = static_cast<int>(scene_.disc_directions.size());
+    int disc = 0;
+    for (const auto& hole : scene_.holes) {
+      result_.disc_of_hole.push_back(hole.spring ? disc : -1);
+      if (hole.spring) disc += n_directions;
+    }
+    for (std::size_t i = 0; i < scene_.points.size(); ++i, disc += n_directions) result_.disc_of_point.push_back(disc);
     result_.n_controlled = result_.n_externals() + result_.n_discs();
   }
 

@@ -11,7 +11,7 @@ namespace fastjoint::stage1 {
 
 /// What becomes of each coefficient (global function x component): a free unknown, zero, or a controlled displacement.
 ///
-/// The nc = e + m controlled displacements are the rigid externals, then the discs (hole by hole, direction inner). The
+/// The nc = e + m controlled displacements are the rigid externals, then the discs in the order of list_discs. The
 /// free unknowns keep the order of the functions, so those of degree <= k come first.
 struct Unknowns {
   std::vector<int> target;  ///< (2 n_functions), at 2 function + component: see below
@@ -20,12 +20,14 @@ struct Unknowns {
   std::vector<int> rigid, traction;                    ///< indices into PlateScene::externals
   std::vector<std::string> disc_hole, disc_direction;  ///< (m)
   std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
+  std::vector<int> disc_of_point;                      ///< (points) first disc of the point spring
 
   static constexpr int fixed = -1;
   [[nodiscard]] static constexpr int controlled(int index) { return -2 - index; }
   [[nodiscard]] static constexpr bool is_free(int target) { return target >= 0; }
   [[nodiscard]] static constexpr int controlled_index(int target) { return -2 - target; }
 
+  [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals() + disc; }
   [[nodiscard]] int n_externals() const { return static_cast<int>(rigid.size()); }
   [[nodiscard]] int n_discs() const { return static_cast<int>(disc_hole.size()); }
 };

@@ -91,7 +91,7 @@ Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Ei
   checks.symmetry = ratio(largest(S - S.transpose()), largest(S));
   if (S.size() > 0) {
     const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen((S + S.transpose()) / 2, Eigen::EigenvaluesOnly);
-    checks.smallest_eigenvalue = eigen.eigenvalues()[0] / eigen.eigenvalues()[S.rows() - 1];
+    checks.smallest_eigenvalue = ratio(eigen.eigenvalues()[0], eigen.eigenvalues()[S.rows() - 1]);
   }
   checks.reciprocity = reciprocity(plate, matrices);
   checks.equilibrium = equilibrium(plate, matrices, S);

@@ -43,8 +43,8 @@ TEST(ReadScene, TakesEveryKey) {
   const auto& grid = std::get<GridGeometry>(scene.geometry);
   EXPECT_EQ(grid.thickness, Eigen::RowVector2d(0.1, 0.2));
   EXPECT_EQ(grid.material, Eigen::RowVector2i(0, 1));
-  EXPECT_NEAR(*scene.holes[0].spring_modulus, 2 / 0.7 * 1e7 / 0.4, 1e-6);  // (29)
-  EXPECT_EQ(*scene.holes[1].spring_modulus, 5);
+  EXPECT_NEAR(scene.holes[0].spring->modulus, 2 / 0.7 * 1e7 / 0.4, 1e-6);  // (29)
+  EXPECT_EQ(scene.holes[1].spring->modulus, 5);
   EXPECT_EQ(scene.holes[1].rings, 2);
   EXPECT_EQ(scene.disc_directions.size(), 2U);
   EXPECT_EQ(scene.externals[1].kind, ExternalKind::traction);
@@ -70,7 +70,7 @@ TEST(ReadScene, RefusesWithThePlaceAndWhatIsAllowed) {
               HasSubstr("/geometry/grid/x/2: 1 is not allowed; allowed: cell lines in ascending order"));
   EXPECT_THAT(message(replaced("\"id\": \"2\"", "\"id\": \"1\"")), HasSubstr("/holes/1/id: \"1\" stands twice"));
   EXPECT_THAT(message(replaced("{\"modulus\": 5}", "{}")),
-              HasSubstr("/holes/1/spring: {} is not allowed; allowed: either \"disk\" or \"modulus\""));
+              HasSubstr("/holes/1/spring: {} is not allowed; allowed: either \"disk\" or \"modulus\" or \"links\""));
   EXPECT_THAT(message(replaced("\"on\": \"left\"", "\"on\": \"rigth\"")),
               HasSubstr("allowed: \"left\", \"right\", \"bottom\", \"top\""));
   EXPECT_THAT(message(replaced("[\"x\", \"y\"]", "[\"x\", \"x\"]")),

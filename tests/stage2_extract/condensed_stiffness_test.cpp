@@ -57,5 +57,15 @@ TEST(CondensedStiffness, SpringsAndPlateActInSeries) {
   EXPECT_NEAR(S(1e12) / S(1e11), 1, 1e-3);  // a rigid inclusion with a frictionless rim
 }
 
+/// A sheet that one disc alone holds along x follows it without force: S is zero, not rounding of either sign.
+TEST(CondensedStiffness, OfASheetOnOneDiscIsZero) {
+  const auto extraction = test::extract(test::grid_scene({0, 1, 2.5}, {0, 0.5}, {{"1", 0.5, 0, 0.2}},
+                                                         R"(, "supports": [{"on": "bottom", "fix": ["y"]}],
+         "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])"));
+  for (const auto& S : extraction.matrices.S_dd) EXPECT_EQ(S(0, 0), 0);
+  EXPECT_NEAR(extraction.matrices.T_d.back()(0, 0), -1, 1e-10) << "all of the traction";
+  EXPECT_NO_THROW(stage2::require_good(extraction.checks, "plate.h5"));
+}
+
 }  // namespace
 }  // namespace fastjoint

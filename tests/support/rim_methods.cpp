@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/rim_methods.hpp"
 
+#include <Eigen/QR>
 #include <cmath>
 
+#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "common/pfem/strain.hpp"
+#include "common/pfem/trunk_space.hpp"
 
 namespace fastjoint::test {
 
@@ -50,6 +54,57 @@ Eigen::MatrixXd harmonic_hoop_stress(const stage2::UnitFields& fields, const std
           E / rim.radius * std::cos(m * points[static_cast<std::size_t>(k)].angle) * (radial.row(i) + m * hoop.row(i));
     }
   return sigma;
+}
+
+namespace {
+
+/// Hoop strains at the Gauss points of a side, one row each, and where they are.
+struct GaussStrains {
+  Eigen::VectorXd theta;
+  Eigen::MatrixXd strain;
+};
+
+GaussStrains gauss_strains(const stage2::UnitFields& fields, const pfem::Side& side, double radius) {
+  const auto gauss = pfem::gauss(fields.p());
+  const auto curve = pfem::edge_curve(fields.plate().mesh, fields.edges(), side.element, side.local_edge);
+  const auto [first, second] = pfem::natural_ends(side.local_edge);
+  std::vector<int> modes = {first, second};
+  for (int k = 2; k <= fields.p(); ++k) modes.push_back(pfem::edge_mode(fields.p(), side.local_edge, k));
+  const Eigen::MatrixXd C = fields.coefficients(side.element, modes);
+  const Eigen::MatrixXd dN = pfem::integrated_legendre(fields.p(), gauss.x).dN * (2 / curve.sweep() / radius);
+  const auto n = dN.rows();
+  GaussStrains result{curve.start_angle() + (gauss.x.array() + 1) / 2 * curve.sweep(), {}};
+  const Eigen::ArrayXd sine = result.theta.array().sin(), cosine = result.theta.array().cos();
+  result.strain = cosine.matrix().asDiagonal() * (dN.transpose() * C.bottomRows(n));
+  result.strain -= sine.matrix().asDiagonal() * (dN.transpose() * C.topRows(n));
+  return result;
+}
+
+/// Powers 0..degree of an angle of the quarter, by its distance from 45 degrees, shape (n, degree + 1).
+Eigen::MatrixXd powers(const Eigen::VectorXd& theta, int degree) {
+  const Eigen::ArrayXd x = (theta.array() - pfem::full_turn / 8) / (pfem::full_turn / 8);
+  Eigen::MatrixXd P(theta.size(), degree + 1);
+  for (int k = 0; k <= degree; ++k) P.col(k) = x.pow(k);
+  return P;
+}
+
+}  // namespace
+
+Eigen::MatrixXd patch_hoop_stress(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points,
+                                  double E) {
+  const auto& rim = fields.plate().hole_rim[0];
+  const auto n = static_cast<Eigen::Index>(rim.sides.size()) * fields.p();
+  Eigen::VectorXd theta(n);
+  Eigen::MatrixXd strain(n, fields.n_cases());
+  for (std::size_t i = 0; i < rim.sides.size(); ++i) {
+    const auto side = gauss_strains(fields, rim.sides[i], rim.radius);
+    theta.segment(static_cast<Eigen::Index>(i) * fields.p(), fields.p()) = side.theta;
+    strain.middleRows(static_cast<Eigen::Index>(i) * fields.p(), fields.p()) = side.strain;
+  }
+  const Eigen::MatrixXd c = powers(theta, fields.p()).colPivHouseholderQr().solve(strain);
+  Eigen::VectorXd at(static_cast<Eigen::Index>(points.size()));
+  for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = points[static_cast<std::size_t>(k)].angle;
+  return E * powers(at, fields.p()) * c;
 }
 
 }  // namespace fastjoint::test

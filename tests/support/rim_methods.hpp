@@ -21,4 +21,10 @@ namespace fastjoint::test {
 [[nodiscard]] Eigen::MatrixXd harmonic_hoop_stress(const stage2::UnitFields& fields,
                                                    const std::vector<stage2::RimPoint>& points, int highest, double E);
 
+/// The hoop stress of the same from the polynomial of degree p in the angle that fits the hoop strains at the p Gauss
+/// points of every side of the quarter best, shape (n_points, n_cases): patch recovery, Zienkiewicz & Zhu,
+/// Int. J. Numer. Meth. Engng 33, 1331 (1992), along the rim.
+[[nodiscard]] Eigen::MatrixXd patch_hoop_stress(const stage2::UnitFields& fields,
+                                                const std::vector<stage2::RimPoint>& points, double E);
+
 }  // namespace fastjoint::test
