@@ -7,6 +7,7 @@
 
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
+#include "stage2_extract/field_file.hpp"
 
 namespace {
 
@@ -15,13 +16,17 @@ using namespace fastjoint;
 const program::Command command = {
     "stage2_extract",
     "Extracts from a solved plate its condensed stiffness S, the friction matrices R and every other linear quantity,\n"
-    "superconvergent, for every degree, with error estimates.",
+    "superconvergent, for every degree, with error estimates. With --field: one of its stress fields, for ParaView.",
     "PLATE.h5",
     "MATRICES.h5",
-    {}};
+    {{"--field", "SPEC",
+      "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, loads (the scene's own), or cases "
+      "with amounts, external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
+     {"--plate", "NAME", "of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
+     {"--increment", "N", "of RESULT.h5; default: the last"},
+     {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
-void run(const program::Arguments& arguments) {
-  const auto plate = formats::read_plate_solution(arguments.input);
+void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate) {
   const auto extraction = stage2::extract(plate, arguments.input, program::generator(command.name));
   stage2::require_good(extraction.checks, arguments.input);
   const auto& a = extraction.matrices;
@@ -37,6 +42,24 @@ void run(const program::Arguments& arguments) {
                            std::isfinite(error) ? fmt::format("estimated error {:.1e} of it", S > 0 ? error / S : 0)
                                                 : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks);
+}
+
+/// Options are checked before a large file is read.
+stage2::FieldRequest field_request(const program::Arguments& arguments) {
+  constexpr int most_increments = 1000000, highest_p = 8;
+  const stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
+                                        arguments.integer("--increment", 1, most_increments, 0),
+                                        arguments.integer("--p", 1, highest_p, 0)};
+  stage2::check_field_options(request, arguments.flag("--field"), arguments.output);
+  return request;
+}
+
+void run(const program::Arguments& arguments) {
+  const auto request = field_request(arguments);
+  const auto plate = formats::read_plate_solution(arguments.input);
+  if (!arguments.flag("--field")) return write_matrices(arguments, plate);
+  const std::string summary = stage2::write_field(arguments.output, plate, arguments.input, request);
+  if (!arguments.quiet) std::cout << summary;
 }
 
 }  // namespace

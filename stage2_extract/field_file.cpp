@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/field_file.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "common/errors.hpp"
+#include "common/h5/whole_file.hpp"
+#include "stage2_extract/vtu.hpp"
+
+namespace fastjoint::stage2 {
+namespace {
+
+std::string summary(const std::string& output, const formats::PlateSolution& plate, const FieldState& state,
+                    const Field& field) {
+  Eigen::Index at = 0;
+  const double largest = von_mises(field.stress).maxCoeff(&at);
+  const auto& units = plate.header.units;
+  return fmt::format("{}: {}, {} cells of degree {}\n  largest von Mises stress {:.6g} {} at ({:.4g}, {:.4g}) {}\n",
+                     output, state.words, plate.mesh.n_elements(), field.p, largest, formats::unit(units, -2, 1),
+                     field.points(0, at), field.points(1, at), formats::unit(units, 1, 0));
+}
+
+}  // namespace
+
+void check_field_options(const FieldRequest& request, bool wanted, const std::string& output) {
+  if (!wanted && request.p != 0) throw InputError("--p: goes with --field only; matrices are of all degrees");
+  if (!wanted && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 only");
+  if (!wanted && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
+  std::error_code ignored;
+  if (wanted && std::filesystem::equivalent(request.spec, output, ignored))
+    throw InputError(fmt::format("-o {}: is the file of --field; choose another name", output));
+}
+
+std::string write_field(const std::string& output, const formats::PlateSolution& plate, const std::string& file,
+                        const FieldRequest& request) {
+  const FieldState state = field_state(plate, file, request);
+  const std::size_t level = field_level(plate, file, request, state);
+  UnitFields fields(plate, file);
+  fields.use(level);
+  const Field field = superpose(fields, plate.p[static_cast<Eigen::Index>(level)], state.amounts);
+  h5::write_whole_file(output, vtu(plate, state, field));
+  return summary(output, plate, state, field);
+}
+
+}  // namespace fastjoint::stage2

@@ -1,0 +1,166 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a solved joint to a picture of its stresses: field_test.py BIN_FOLDER. Files are read as VTK and users would."""
+import os
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+DRAW = str(ROOT / "scripts/draw_stress")
+EXAMPLE = ROOT / "examples/three_fasteners"
+
+
+def run(*words):
+    return subprocess.run(words, capture_output=True, text=True)
+
+
+def done(*words):
+    result = run(*words)
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
+def load_script():
+    sys.dont_write_bytecode = True
+    loader = SourceFileLoader("draw_stress", DRAW)
+    module = module_from_spec(spec_from_loader("draw_stress", loader))
+    loader.exec_module(module)
+    return module
+
+
+def make_joint():
+    for name in ("center", "doubler"):
+        done("stage1_plate", str(EXAMPLE / f"{name}.json"), "-o", f"{name}.h5", "--p", "7..8")
+        os.makedirs("out", exist_ok=True)
+        done("stage2_extract", f"{name}.h5", "-o", f"out/{name}.matrices.h5")
+    Path("joint.json").write_text((EXAMPLE / "joint.json").read_text())
+    done("stage3_nonlinear", "joint.json", "-o", "joint.h5")
+
+
+def check_grid(path, p, n_cells):
+    """Well-formed, every array as long as points and cells want it, every cell of type 70 with its own nodes."""
+    root = xml.etree.ElementTree.parse(path).getroot()
+    piece = root.find("UnstructuredGrid/Piece")
+    n_nodes = (p + 1) ** 2
+    n_points = int(piece.get("NumberOfPoints"))
+    assert int(piece.get("NumberOfCells")) == n_cells and n_points == n_cells * n_nodes
+    names = [a.get("Name") for a in piece.findall("PointData/DataArray")]
+    assert names == ["displacement", "stress_xx", "stress_yy", "stress_xy", "von_mises", "principal_1", "principal_2"]
+    for array in piece.findall("PointData/DataArray") + piece.findall("Points/DataArray"):
+        values = np.array(array.text.split(), dtype=float)
+        assert len(values) == n_points * int(array.get("NumberOfComponents")) and np.isfinite(values).all()
+    cells = {a.get("Name"): np.array(a.text.split(), dtype=int) for a in piece.findall("Cells/DataArray")}
+    assert (cells["connectivity"] == np.arange(n_points)).all()
+    assert (cells["offsets"] == n_nodes * np.arange(1, n_cells + 1)).all()
+    assert (cells["types"] == 70).all() and len(cells["types"]) == n_cells
+    thickness = piece.find("CellData/DataArray")
+    assert thickness.get("Name") == "thickness" and len(thickness.text.split()) == n_cells
+
+
+def check_against_rims(field, plate, joint):
+    """Hoop stress where a rim meets x: near that which stage 2 extracts in another way and stage 3 superposes."""
+    with h5py.File(joint) as f:
+        rim = f[f"plates/{plate}/rim"]
+        holes, peaks = rim["hole"].asstr()[:], rim["peak_hoop"][-1]
+    nodes = field.points["points"][..., :2].reshape(-1, 2)
+    x, y, xy = (field.points[f"stress_{c}"].ravel() for c in ("xx", "yy", "xy"))
+    for hole, peak in zip(holes, peaks):
+        r = nodes - field.holes()[hole]
+        on_rim = np.abs(np.hypot(*r.T) - 0.15) < 1e-7
+        c, s = (r[on_rim] / 0.15).T
+        hoop = s**2 * x[on_rim] + c**2 * y[on_rim] - 2 * c * s * xy[on_rim]
+        assert abs(hoop.max() / peak - 1) < 0.01, (hole, hoop.max(), peak)
+
+
+def check_refinement(script):
+    """The fine patch reproduces a polynomial of the cell's degree."""
+    p = 5
+    refine, triangles = script.fine_patch((p + 1) ** 2)
+    n = int(np.sqrt(len(refine)))
+    eta, xi = (a.ravel() for a in np.meshgrid(*2 * [np.linspace(-1, 1, n)], indexing="ij"))
+    u, v = script.lagrange_nodes(p).T
+    assert np.abs(refine @ (u**5 * v**4 - v**5) - (xi**5 * eta**4 - eta**5)).max() < 1e-12
+    a, b, c = (np.column_stack([xi, eta])[triangles[:, i]] for i in range(3))
+    area = np.cross(b - a, c - a) / 2
+    assert (area > 0).all() and abs(area.sum() - 4) < 1e-12
+
+
+def check_pictures():
+    for i in range(2):
+        done(DRAW, "center.vtu", "doubler.vtu", "--joint", "joint.h5", "-o", f"{i}.png")
+    assert Path("0.png").read_bytes() == Path("1.png").read_bytes()
+    done(DRAW, "center.vtu", "--quantity", "stress_xy", "-o", "xy.png")
+    done(DRAW, "center.vtu", "doubler.vtu", "-o", "bare.png")
+    assert len({Path(f"{name}.png").read_bytes() for name in ("0", "xy", "bare")}) == 3
+    done("stage2_extract", "center.h5", "--field", "external:P", "-o", "unit.vtu")
+    done(DRAW, "unit.vtu", "-o", "unit.png")
+
+
+def check_arrows(script):
+    """Loads of a file that holds nothing else, by the increment of the field unless another is asked for."""
+    field = script.Field("center.vtu")
+    with h5py.File("hand_made.h5", "w") as f:
+        f["plates/center/rim/hole"] = ["1", "3"]
+        f["plates/center/rim/bearing_load"] = [[1.0, 2], [3, 4], [5, 0]]
+        f["plates/center/rim/bearing_load"].attrs["unit"] = "lbf"
+        assert script.bearing_loads(field, f, None) == ({"1": 5, "3": 0}, "lbf")
+        assert script.bearing_loads(field, f, 2) == ({"1": 3, "3": 4}, "lbf")
+    assert {hole: tuple(c) for hole, c in field.holes().items()} == {"1": (2.3, 0), "2": (1.3, 0), "3": (0.3, 0)}
+    done(DRAW, "center.vtu", "--joint", "hand_made.h5", "--increment", "2", "-o", "hand_made.png")
+
+
+def check_messages():
+    for message, *words in (
+            ("unit.vtu: is not the state of a joint", "unit.vtu", "--joint", "joint.h5"),
+            ("joint.json: cannot be read as a file of stage2_extract --field", "joint.json"),
+            ("none.vtu: cannot be read as a file of stage2_extract --field", "none.vtu"),
+            ("none.h5: cannot be read", "center.vtu", "--joint", "none.h5"),
+            ("center.h5:plates/center/rim: is missing", "center.vtu", "--joint", "center.h5"),
+            ("joint.h5: has no increment 4; allowed: 1..3", "center.vtu", "--joint", "joint.h5", "--increment", "4"),
+            ("--increment goes with --joint", "center.vtu", "--increment", "1")):
+        result = run(DRAW, *words, "-o", "no.png")
+        assert result.returncode != 0 and message in result.stderr, (words, result.stderr)
+    joint = ("--field", "joint.h5")
+    for status, message, *words in (
+            (2, "'external:Q' is not a case of the plate", "--field", "external:Q"),
+            (2, "--increment: 4 is not allowed; joint.h5 has the increments 1..3", *joint, "--increment", "4"),
+            (2, "--p: 6 is not allowed; center.h5 has the degrees 7, 8", *joint, "--p", "6"),
+            (2, "--p: '9' is not allowed", *joint, "--p", "9"),
+            (2, "--plate: 'doubler' of joint.h5 is not the sheet of center.h5", *joint, "--plate", "doubler"),
+            (2, "--p: goes with --field only", "--p", "8"),
+            (3, "center.h5: is a 'plate-solution' file, expected 'joint-result'", "--field", "center.h5"),
+            (3, "none.h5: cannot be opened", "--field", "none.h5")):
+        result = run("stage2_extract", "center.h5", *words, "-o", "no.vtu")
+        assert result.returncode == status and message in result.stderr, (words, result.stderr)
+    assert not Path("no.png").exists() and not Path("no.vtu").exists()
+
+
+def main(folder):
+    os.environ["PATH"] = str(Path(folder).resolve()) + os.pathsep + os.environ["PATH"]
+    script = load_script()
+    with tempfile.TemporaryDirectory() as work:
+        os.chdir(work)
+        make_joint()
+        for plate, n_cells in (("center", 25), ("doubler", 24)):
+            summary = done("stage2_extract", f"{plate}.h5", "--field", "joint.h5", "-o", f"{plate}.vtu")
+            assert f"{n_cells} cells of degree 8" in summary and "increment 3 of 3" in summary, summary
+            check_grid(f"{plate}.vtu", 8, n_cells)
+            check_against_rims(script.Field(f"{plate}.vtu"), plate, "joint.h5")
+        assert done("stage2_extract", "center.h5", "--field", "external:P", "--p", "7", "-o", "p7.vtu", "--quiet") == ""
+        check_grid("p7.vtu", 7, 25)
+        check_refinement(script)
+        check_pictures()
+        check_arrows(script)
+        check_messages()
+        os.chdir(ROOT)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
