@@ -18,9 +18,10 @@ class Sheet:
             folder = Path(name)
             (folder / "plate.json").write_text(json.dumps({"format": "plate", "version": 1, **scene}))
             start = time.perf_counter()
-            for words in (("stage1_plate", "plate.json", "-o", "plate.h5"),
-                          ("stage2_extract", "plate.h5", "-o", "matrices.h5")):
-                run = subprocess.run([*words, "--quiet"], cwd=folder, capture_output=True, text=True)
+            for program, source, target in (("stage1_plate", "plate.json", "plate.h5"),
+                                            ("stage2_extract", "plate.h5", "matrices.h5")):
+                run = subprocess.run([program, folder / source, "-o", folder / target, "--quiet"], capture_output=True,
+                                     text=True)
                 if run.returncode:
                     raise RuntimeError(run.stderr)
             self.seconds = time.perf_counter() - start

@@ -19,12 +19,12 @@ def output(*words):
 
 def options_in_readme(readme, program):
     rows = re.findall(rf"^\| {program} \| (.*?) \|", readme, re.M)
-    return {option for row in rows for option in re.findall(r"`(-+[a-z]+)`", row)}
+    return {option for row in rows for option in re.findall(r"`(-+[a-z-]+)`", row)}
 
 
 def check_options(readme):
     for program in PROGRAMS:
-        helped = set(re.findall(r"(?<!\w)-{1,2}[a-z]+", output(program, "--help").split("Options:")[1])) - COMMON
+        helped = set(re.findall(r"(?<!\w)-{1,2}[a-z][a-z-]*", output(program, "--help").split("Options:")[1])) - COMMON
         assert options_in_readme(readme, program) == helped, (program, helped)
     assert options_in_readme(readme, "all") == COMMON - {"-h"}
 
@@ -42,10 +42,15 @@ def check_joint(readme):
             subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
 
 
-def check_tables(readme):
-    shown = readme.split("<!-- accuracy -->\n")[1].split("<!-- /accuracy -->")[0]
-    printed = output(str(ROOT / "scripts/accuracy_table"))
-    assert shown == printed, f"README.md is not what scripts/accuracy_table prints:\n{printed}"
+def check_table(readme, name, timed=None):
+    """A block of the README is what its script prints, but for a column of times."""
+    shown = readme.split(f"<!-- {name} -->\n")[1].split(f"<!-- /{name} -->")[0]
+    printed = output(str(ROOT / f"scripts/{name}_table"))
+
+    def rows(text):
+        return [[cell for i, cell in enumerate(line.split("|")) if i != timed] for line in text.splitlines()]
+
+    assert rows(shown) == rows(printed), f"README.md is not what scripts/{name}_table prints:\n{printed}"
 
 
 def check_links(readme):
@@ -59,7 +64,8 @@ def main(folder):
     check_links(readme)
     check_options(readme)
     check_joint(readme)
-    check_tables(readme)
+    check_table(readme, "accuracy")
+    check_table(readme, "verification", timed=5)
 
 
 if __name__ == "__main__":

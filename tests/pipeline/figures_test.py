@@ -1,0 +1,91 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The paper's figures of sections 3 and 5 show what the paper says of them: figures_test.py BIN_FOLDER."""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+sys.dont_write_bytecode = True
+import inclusion  # noqa: E402
+
+
+def rows(script, folder):
+    """The numbers that a figure's script prints; its picture is written."""
+    picture = folder / f"{script}.png"
+    printed = subprocess.run([ROOT / "scripts" / script, "-o", picture], check=True, capture_output=True, text=True).stdout
+    assert picture.read_bytes()[1:4] == b"PNG"
+    return list(csv.DictReader(printed.splitlines()))
+
+
+def curves(table, value):
+    """Values over rising unknowns by model."""
+    models = {}
+    for row in table:
+        models.setdefault(row["model"], []).append(float(row[value]))
+    return models
+
+
+def check_line_springs(folder):
+    ratio = curves(rows("figure_5", folder), "F2/F1")
+    distributed = ratio.pop("distributed springs, p = 1 ... 8")
+    assert abs(distributed[-1] / distributed[-2] - 1) < 1e-4, distributed
+    finest = [values[-1] for values in ratio.values()]
+    assert max(finest) / min(finest) > 1.4, "gradings of one mesh size do not agree"
+    for model, values in ratio.items():
+        assert values[-1] / values[-2] < 0.98, f"{model}: still drifts from 400 to 1600 elements: {values}"
+    # The drift is that of ln h: as much from 100 to 400 elements as from 400 to 1600, and so on without end.
+    flexibility = [1 / value for value in ratio["Q = 1"]]
+    assert flexibility[3] - flexibility[2] > 0.7 * (flexibility[2] - flexibility[1])
+
+
+def check_links(folder):
+    stress = curves(rows("figure_8", folder), "largest stress")
+    smooth = stress.pop("p-version, 8 elements, p = 1 ... 8")
+    assert abs(smooth[-1] / smooth[-2] - 1) < 0.01, smooth
+    falling, constant = stress["links, K n constant"], stress["links, K constant"]
+    assert abs(falling[-1] / smooth[-1] - 1) < 0.01, "both converge to the same value"
+    assert max(abs(value / smooth[-1] - 1) for value in falling[:2]) > 0.04, "but the links slowly"
+    assert constant[-1] / falling[-1] > 1.02 and constant[-1] > constant[-2], "K constant stiffens without end"
+
+
+def check_inclusion(folder):
+    table = rows("figure_16", folder)
+    assert [float(row["E_D/E_P"]) for row in table] == [float(f"{beta:.4g}") for beta in inclusion.BETAS]
+    for beta, row in zip(inclusion.BETAS, table):
+        A, B = inclusion.springs(beta)
+        assert abs(float(row["A"]) - A) < 1e-6 and abs(float(row["B"]) - B) < 1e-6, row
+        assert abs(float(row["B by the second-harmonic law"]) - inclusion.disk(beta)[1]) < 1e-6, row
+
+
+def check_nisida(folder):
+    shutil.copytree(ROOT / "scripts", folder / "scripts")
+    shutil.copytree(ROOT / "examples/nisida", folder / "examples/nisida", ignore=shutil.ignore_patterns("out"))
+    example = folder / "examples/nisida"
+    subprocess.run(["make", "-s"], cwd=example, check=True, capture_output=True)
+    smooth, rough = csv.DictReader((example / "out/figure_18.csv").open())
+    assert abs(float(smooth["contact half-angle"]) / 87.20 - 1) < 1e-3, smooth
+    assert abs(float(smooth["peak pressure"]) / 1.2045 - 1) < 1e-3, smooth
+    assert 3 <= int(smooth["iterations"]) <= 4 and 3 <= int(rough["iterations"]) <= 4
+    assert float(rough["peak pressure"]) < float(smooth["peak pressure"])
+    assert float(rough["largest hoop stress"]) > float(smooth["largest hoop stress"])
+    page = (ROOT / "examples/nisida/README.md").read_text()
+    for row in (smooth, rough):
+        assert " | ".join(list(row.values())[1:]) in page, "the example's page has these numbers"
+
+
+def main(bin_folder):
+    os.environ["PATH"] = os.path.abspath(bin_folder) + os.pathsep + os.environ["PATH"]
+    with tempfile.TemporaryDirectory() as name:
+        for check in (check_line_springs, check_links, check_inclusion, check_nisida):
+            folder = Path(name) / check.__name__
+            folder.mkdir()
+            check(folder)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
