@@ -26,16 +26,19 @@ double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 /// Points of one rim.
 class Rim {
  public:
-  Rim(const formats::PlateStresses& a, Index rim)
-      : first_(a.rim_start[rim]), angle_(a.angle.segment(first_, a.rim_start[rim + 1] - first_)) {}
+  /// @param friction Resultant along x: it jumps at the bearing direction.
+  Rim(const formats::PlateStresses& a, Index rim, double friction)
+      : first_(a.rim_start[rim]), angle_(a.angle.segment(first_, a.rim_start[rim + 1] - first_)) {
+    const double jump = friction > 0 ? 0 : 180;
+    for (const double angle : angle_) allowed_.push_back(friction == 0 || std::abs(turn(angle - jump)) > left_out);
+  }
 
   [[nodiscard]] VectorXd hoop(const Eigen::MatrixXd& sigma_tt, const VectorXd& amounts) const {
     return sigma_tt.middleRows(first_, angle_.size()) * amounts;
   }
 
   /// Largest value, at the top of the parabola through it and its neighbours; none if all points are left out.
-  [[nodiscard]] std::optional<Peak> peak(const VectorXd& value, std::optional<double> jump) const {
-    const auto allowed = [&](Index i) { return !jump || std::abs(turn(angle_[i] - *jump)) > left_out; };
+  [[nodiscard]] std::optional<Peak> peak(const VectorXd& value) const {
     std::optional<Peak> best;
     for (Index i = 0; i < angle_.size(); ++i)
       if (allowed(i) && (!best || value[i] > best->value)) best = Peak{value[i], angle_[i], i};
@@ -47,7 +50,18 @@ class Rim {
     return best;
   }
 
+  /// Largest change within 45 degrees of a point.
+  [[nodiscard]] double change_around(Index at, const VectorXd& change) const {
+    constexpr double around = 45;
+    double largest = 0;
+    for (Index i = 0; i < angle_.size(); ++i)
+      if (allowed(i) && std::abs(turn(angle_[i] - angle_[at])) <= around)
+        largest = std::max(largest, std::abs(change[i]));
+    return largest;
+  }
+
  private:
+  [[nodiscard]] bool allowed(Index i) const { return allowed_[static_cast<std::size_t>(i)]; }
   [[nodiscard]] double step() const { return angle_[1] - angle_[0]; }
   [[nodiscard]] bool closed() const { return angle_[angle_.size() - 1] - angle_[0] > 360 - 1.5 * step(); }
   [[nodiscard]] std::optional<Index> neighbour(Index i, Index by) const {
@@ -65,6 +79,7 @@ class Rim {
 
   Index first_;
   VectorXd angle_;
+  std::vector<bool> allowed_;  ///< (n) not close to the jump
 };
 
 /// Forces over the sections on the two sides of a hole along x.
@@ -116,7 +131,6 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
                                   loading.bearing.size() > 0 ? loading.bearing.cwiseAbs().maxCoeff() : 0);
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
     const auto rim_index = static_cast<Index>(i);
-    const Rim rim(a, rim_index);
     RimState state;
     double friction = 0;
     const auto disc = std::find(plate.holes.begin(), plate.holes.end(), a.rim_hole[i]);
@@ -125,14 +139,16 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
       friction = loading.friction[disc - plate.holes.begin()];
     }
     state.bearing_stress = std::abs(state.bearing_load) / a.bearing_area(rim_index, 0);
-    const auto jump = friction == 0 ? std::nullopt : std::optional(friction > 0 ? 0.0 : 180.0);
+    const Rim rim(a, rim_index, friction);
     const VectorXd hoop = rim.hoop(a.sigma_tt[level], loading.amounts);
-    if (const auto peak = rim.peak(hoop, jump)) {
+    if (const auto peak = rim.peak(hoop)) {
       state.peak_hoop = peak->value;
       state.peak_angle = peak->angle;
-      state.peak_error = level == 0
-                             ? std::numeric_limits<double>::infinity()
-                             : std::abs(rim.hoop(a.sigma_tt[level - 1], loading.amounts)[peak->at] - hoop[peak->at]);
+      state.peak_error = std::numeric_limits<double>::infinity();
+      if (level > 0) {
+        const VectorXd below = rim.hoop(a.sigma_tt[level - 1], loading.amounts);
+        state.peak_error = rim.change_around(peak->at, hoop - below);
+      }
     }
     read_sections(a, a.rim_hole[i], force, state.bearing_load + friction, largest, state);
     states.push_back(state);

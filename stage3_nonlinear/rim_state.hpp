@@ -15,7 +15,7 @@ struct RimState {
   double bypass_load = 0;     ///< force along x that passes the fastener by, tension positive
   double peak_hoop = 0;       ///< largest hoop stress, tension positive, stress
   double peak_angle = 0;      ///< where, degrees counter-clockwise from x
-  double peak_error = 0;      ///< its change from the degree below, infinite where there is none, stress
+  double peak_error = 0;      ///< estimated; infinite where there is no degree below, stress
   double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
 };
 
@@ -27,6 +27,9 @@ struct PlateLoading {
 };
 
 /// All holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
+///
+/// Error of the peak: the largest change of the hoop stress from the degree below within 45 degrees of it. The change at
+/// the peak itself is no estimate: there the two may agree by chance (tests/pipeline/peak_error_test.cpp).
 ///
 /// Bypass: of the force that comes over the section beside the hole towards the loaded side of the hole, what leaves
 /// over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at the

@@ -28,7 +28,7 @@ void for_each_table(Rims& a, const Units& units, Each each) {
   each("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
   each("peak_hoop", a.peak_hoop, stress, "largest hoop stress at the rim");
   each("peak_angle", a.peak_angle, std::string("deg"), "where it is, counter-clockwise from x");
-  each("peak_error", a.peak_error, stress, "its change from the degree below: estimated error");
+  each("peak_error", a.peak_error, stress, "estimated error of that peak");
   each("gross_concentration", a.gross_concentration, std::string("1"), "peak over the stress of the gross section");
   each("net_concentration", a.net_concentration, std::string("1"), "peak over the stress of the net section");
 }
