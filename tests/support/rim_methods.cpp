@@ -23,8 +23,8 @@ Eigen::MatrixXd plain_rim_stress(const stage2::UnitFields& fields, const stage2:
   return mean;
 }
 
-Eigen::MatrixXd harmonic_hoop_stress(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points,
-                                     int highest, double E) {
+Eigen::MatrixXd harmonic_hoop_strain(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points,
+                                     int highest) {
   const auto& plate = fields.plate();
   const auto& rim = plate.hole_rim[0];
   const Eigen::Index n = highest / 2 + 1;
@@ -46,14 +46,14 @@ Eigen::MatrixXd harmonic_hoop_stress(const stage2::UnitFields& fields, const std
       }
     }
   }
-  Eigen::MatrixXd sigma = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), fields.n_cases());
-  for (Eigen::Index k = 0; k < sigma.rows(); ++k)
+  Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), fields.n_cases());
+  for (Eigen::Index k = 0; k < strain.rows(); ++k)
     for (Eigen::Index i = 0; i < n; ++i) {
       const double m = 2 * static_cast<double>(i);
-      sigma.row(k) +=
-          E / rim.radius * std::cos(m * points[static_cast<std::size_t>(k)].angle) * (radial.row(i) + m * hoop.row(i));
+      strain.row(k) +=
+          1 / rim.radius * std::cos(m * points[static_cast<std::size_t>(k)].angle) * (radial.row(i) + m * hoop.row(i));
     }
-  return sigma;
+  return strain;
 }
 
 namespace {
@@ -90,8 +90,7 @@ Eigen::MatrixXd powers(const Eigen::VectorXd& theta, int degree) {
 
 }  // namespace
 
-Eigen::MatrixXd patch_hoop_stress(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points,
-                                  double E) {
+Eigen::MatrixXd patch_hoop_strain(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points) {
   const auto& rim = fields.plate().hole_rim[0];
   const auto n = static_cast<Eigen::Index>(rim.sides.size()) * fields.p();
   Eigen::VectorXd theta(n);
@@ -104,7 +103,7 @@ Eigen::MatrixXd patch_hoop_stress(const stage2::UnitFields& fields, const std::v
   const Eigen::MatrixXd c = powers(theta, fields.p()).colPivHouseholderQr().solve(strain);
   Eigen::VectorXd at(static_cast<Eigen::Index>(points.size()));
   for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = points[static_cast<std::size_t>(k)].angle;
-  return E * powers(at, fields.p()) * c;
+  return powers(at, fields.p()) * c;
 }
 
 }  // namespace fastjoint::test

@@ -14,17 +14,17 @@ namespace fastjoint::test {
 /// The finite element stress as it comes: (sigma_rr, sigma_tt, sigma_rt), mean of the sides, shape (3, n_cases).
 [[nodiscard]] Eigen::MatrixXd plain_rim_stress(const stage2::UnitFields& fields, const stage2::RimPoint& point);
 
-/// The hoop stress of an open quarter hole between lines of symmetry x = 0 and y = 0, of an isotropic plate, from the
-/// first harmonics of its displacement. Each is an integral of the displacement with a smooth weight, so that its
-/// error is the product of two energy-norm errors, as that of S is; shape (n_points, n_cases).
-/// @param highest Highest harmonic, even. @param E Young's modulus for the analysis, stress.
-[[nodiscard]] Eigen::MatrixXd harmonic_hoop_stress(const stage2::UnitFields& fields,
-                                                   const std::vector<stage2::RimPoint>& points, int highest, double E);
+/// The hoop strain at the rim of a quarter hole between lines of symmetry x = 0 and y = 0 from the first harmonics of
+/// its displacement. Each is an integral of the displacement with a smooth weight, so that its error is the product of
+/// two energy-norm errors, as that of S is; shape (n_points, n_cases).
+/// @param highest Highest harmonic, even.
+[[nodiscard]] Eigen::MatrixXd harmonic_hoop_strain(const stage2::UnitFields& fields,
+                                                   const std::vector<stage2::RimPoint>& points, int highest);
 
-/// The hoop stress of the same from the polynomial of degree p in the angle that fits the hoop strains at the p Gauss
-/// points of every side of the quarter best, shape (n_points, n_cases): patch recovery, Zienkiewicz & Zhu,
-/// Int. J. Numer. Meth. Engng 33, 1331 (1992), along the rim.
-[[nodiscard]] Eigen::MatrixXd patch_hoop_stress(const stage2::UnitFields& fields,
-                                                const std::vector<stage2::RimPoint>& points, double E);
+/// The same from the polynomial of degree p in the angle that fits the hoop strains at the p Gauss points of every side
+/// of the quarter best, shape (n_points, n_cases): patch recovery, Zienkiewicz & Zhu, Int. J. Numer. Meth. Engng 33,
+/// 1331 (1992), along the rim.
+[[nodiscard]] Eigen::MatrixXd patch_hoop_strain(const stage2::UnitFields& fields,
+                                                const std::vector<stage2::RimPoint>& points);
 
 }  // namespace fastjoint::test
