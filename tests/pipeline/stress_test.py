@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What RESULT.h5 and its CSV say of the holes is what the matrices and the joint's state give: stress_test.py BIN_FOLDER."""
+import csv
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def amounts(plate, step):
+    """Of the unit cases, in the order of the matrices' columns."""
+    return np.concatenate([plate[name][step] for name in ("De", "D", "Lambda", "traction/force")])
+
+
+def check_hole(matrices, plate, i, step):
+    state = amounts(plate, step)
+    points = slice(*matrices["rim/start"][i:i + 2])
+    angle, hoop = matrices["rim/angle"][points], matrices["rim/sigma_tt"][-1, points] @ state
+    load = plate["rim/bearing_load"][step, i]
+    area = matrices["rim/bearing_area"][i, 0]
+    assert np.isclose(plate["rim/bearing_stress"][step, i], abs(load) / area)
+    jump = 0 if load > 0 else 180
+    away = np.abs((angle - jump + 180) % 360 - 180) > 7.5
+    peak = plate["rim/peak_hoop"][step, i]
+    assert hoop[away].max() <= peak < 1.002 * hoop[away].max()
+    at = np.abs((angle[away][hoop[away].argmax()] - plate["rim/peak_angle"][step, i] + 180) % 360 - 180)
+    assert at <= 2.5 + 1e-9, at
+
+    hole = matrices["rim/hole"].asstr()[i]
+    beside = {side: n for n, (name, side) in enumerate(zip(matrices["section/hole"].asstr(), matrices["section/side"].asstr()))
+              if name == hole}
+    force = matrices["section/force"][-1] @ state
+    assert np.isclose(plate["rim/bypass_load"][step, i], force[beside["+x" if load > 0 else "-x"]])
+    loaded = max(beside.values(), key=lambda n: abs(force[n]))
+    for name in ("gross", "net"):
+        stress = abs(force[loaded]) / matrices[f"section/{name}_area"][loaded]
+        assert np.isclose(plate[f"rim/{name}_concentration"][step, i], peak / stress)
+
+
+def check_pressure(matrices, plate, step):
+    """The pressure around each whole rim has the bearing force that the fastener has."""
+    state = amounts(plate, step)
+    for i, radius in enumerate(matrices["rim/radius"][:]):
+        points = slice(*matrices["rim/start"][i:i + 2])
+        angle = np.radians(matrices["rim/angle"][points])
+        thickness = matrices["rim/bearing_area"][i, 0] / (2 * radius)
+        radial = matrices["rim/sigma_rr"][-1, points] @ state
+        force = -(radial * np.cos(angle)).mean() * 2 * np.pi * radius * thickness
+        assert np.isclose(force, plate["rim/bearing_load"][step, i], rtol=2e-3), (i, force)
+
+
+def check_csv(path, result):
+    rows = list(csv.DictReader(path.open()))
+    for row in rows:
+        step = int(row["increment"]) - 1
+        for end, plate in (("first", "upper"), ("second", "lower")):
+            rim = result[f"plates/{plate}/rim"]
+            i = list(rim["hole"].asstr()).index(row["fastener"])
+            for name in ("bearing_load", "bearing_stress", "bypass_load", "peak_hoop", "peak_angle", "peak_error",
+                         "gross_concentration", "net_concentration"):
+                assert float(row[f"{name}_{end}"]) == rim[name][step, i], (row["fastener"], name)
+
+
+def main(bin_folder):
+    os.environ["PATH"] = os.path.abspath(bin_folder) + os.pathsep + os.environ["PATH"]
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name) / "lap_joint"
+        shutil.copytree(ROOT / "examples/lap_joint", folder)
+        subprocess.run(["make", "-s", "joint.h5"], cwd=folder, check=True, capture_output=True)
+        with h5py.File(folder / "joint.h5") as result:
+            for plate in ("upper", "lower"):
+                with h5py.File(folder / f"{plate}.matrices.h5") as matrices:
+                    state = result[f"plates/{plate}"]
+                    assert list(state["rim/hole"].asstr()) == ["a", "b", "c", "d"]
+                    for step in range(len(result["load_factor"])):
+                        for i in range(4):
+                            check_hole(matrices, state, i, step)
+                        check_pressure(matrices, state, step)
+            check_csv(folder / "joint.csv", result)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
