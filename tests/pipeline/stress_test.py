@@ -29,7 +29,7 @@ def check_hole(matrices, plate, i, step):
     jump = 0 if load > 0 else 180
     away = np.abs((angle - jump + 180) % 360 - 180) > 7.5
     peak = plate["rim/peak_hoop"][step, i]
-    assert hoop[away].max() <= peak < 1.002 * hoop[away].max()
+    assert hoop[away].max() <= peak < 1.01 * hoop[away].max()
     at = np.abs((angle[away][hoop[away].argmax()] - plate["rim/peak_angle"][step, i] + 180) % 360 - 180)
     assert at <= 2.5 + 1e-9, at
 
