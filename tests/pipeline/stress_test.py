@@ -72,7 +72,7 @@ def main(bin_folder):
     os.environ["PATH"] = os.path.abspath(bin_folder) + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name) / "lap_joint"
-        shutil.copytree(ROOT / "examples/lap_joint", folder)
+        shutil.copytree(ROOT / "examples/lap_joint", folder, ignore=shutil.ignore_patterns("*.h5"))
         subprocess.run(["make", "-s", "joint.h5"], cwd=folder, check=True, capture_output=True)
         with h5py.File(folder / "joint.h5") as result:
             for plate in ("upper", "lower"):
