@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage1_plate/named_edges.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -85,19 +87,6 @@ void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const 
   }
 }
 
-pfem::Side find_side(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer, int a, int b) {
-  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
-    const int local = pfem::local_edge_between(plate.mesh, element, a, b);
-    if (local < 0) continue;
-    if (plate.edges.n_elements[static_cast<std::size_t>(plate.edges.of_element(local, element))] == 1)
-      return {element, local};
-    reject(scene, pointer, fmt::format("the edge between nodes {} and {} is inside the plate", a, b),
-           "edges of the border");
-  }
-  reject(scene, pointer, fmt::format("nodes {} and {} are not joined by an edge of an element", a, b),
-         "edges of elements");
-}
-
 }  // namespace
 
 PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
@@ -108,10 +97,7 @@ PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
   check_arcs(scene, plate.mesh, plate.edges);
   check_shared_edges(scene, plate.edges);
   check_hanging_nodes(scene, plate.mesh, plate.edges);
-  for (const auto& set : geometry.edges)
-    for (std::size_t i = 0; i < set.edges.size(); ++i)
-      plate.sets[set.name].push_back(find_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", set.name, i),
-                                               set.edges[i].first, set.edges[i].second));
+  name_edges(scene, geometry, plate);
   return plate;
 }
 

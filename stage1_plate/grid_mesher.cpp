@@ -256,8 +256,6 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);
-  std::stable_sort(plate.sections.begin(), plate.sections.end(),
-                   [](const auto& a, const auto& b) { return a.hole < b.hole; });
   return plate;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -56,6 +57,8 @@ PlateMesh make_mesh(const PlateScene& scene) {
   PlateMesh plate = std::holds_alternative<GridGeometry>(scene.geometry)
                         ? mesh_grid(scene, std::get<GridGeometry>(scene.geometry))
                         : mesh_explicit(scene, std::get<MeshGeometry>(scene.geometry));
+  std::stable_sort(plate.sections.begin(), plate.sections.end(),
+                   [](const auto& a, const auto& b) { return a.hole < b.hole; });
   check_elements(scene, plate);
   find_rims(scene, plate);
   plate.point_nodes = find_point_nodes(scene, plate.mesh);

@@ -19,7 +19,7 @@ struct PlateMesh {
   std::map<std::string, std::vector<pfem::Side>> sets;  ///< sides of elements by name
   std::vector<pfem::Rim> rims;                          ///< of each hole, in the scene's order
   std::vector<int> point_nodes;                         ///< vertex of each point spring
-  std::vector<formats::Section> sections;               ///< beside holes: the sides of their cells, of a grid only
+  std::vector<formats::Section> sections;               ///< beside holes, in the order of the holes
 };
 
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.

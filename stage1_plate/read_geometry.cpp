@@ -2,7 +2,6 @@
 #include "stage1_plate/read_geometry.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <optional>
 
 namespace fastjoint::stage1 {
@@ -10,11 +9,11 @@ namespace {
 
 using input::Value;
 
-constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
-
-int material_index(const Value& value, const Materials& materials) {
-  const std::string name = value.choice(materials.name);
-  return static_cast<int>(std::find(materials.name.begin(), materials.name.end(), name) - materials.name.begin());
+/// Reads the name of a material as its index.
+auto index_among(const Materials& materials) {
+  return [&names = materials.name](const Value& value) {
+    return static_cast<int>(std::find(names.begin(), names.end(), value.choice(names)) - names.begin());
+  };
 }
 
 /// The only material there is may go unnamed.
@@ -35,6 +34,13 @@ std::vector<double> read_lines(const Value& value) {
   return lines;
 }
 
+template <class T, class Read>
+std::vector<T> read_list(const Value& value, std::size_t n, const Read& read) {
+  std::vector<T> list;
+  for (const auto& item : value.items(n, n)) list.push_back(read(item));
+  return list;
+}
+
 /// One value for all cells, or a table with one row per y-interval, bottom to top.
 template <class Table, class Read>
 void read_cells(const Value& value, Table& table, const Read& read) {
@@ -42,12 +48,12 @@ void read_cells(const Value& value, Table& table, const Read& read) {
     table.setConstant(read(value));
     return;
   }
+  using Scalar = typename Table::Scalar;
+  const auto rows = static_cast<std::size_t>(table.rows());
   Eigen::Index row = 0;
-  for (const auto& line : value.items(static_cast<std::size_t>(table.rows()), static_cast<std::size_t>(table.rows()))) {
-    Eigen::Index column = 0;
-    for (const auto& cell : line.items(static_cast<std::size_t>(table.cols()), static_cast<std::size_t>(table.cols())))
-      table(row, column++) = read(cell);
-    ++row;
+  for (const auto& line : value.items(rows, rows)) {
+    const auto cells = read_list<Scalar>(line, static_cast<std::size_t>(table.cols()), read);
+    table.row(row++) = Eigen::Map<const Eigen::RowVectorX<Scalar>>(cells.data(), table.cols());
   }
 }
 
@@ -62,17 +68,14 @@ GridGeometry read_grid(const Value& value, const Materials& materials) {
   read_cells(value.at("thickness"), grid.thickness, read_thickness);
   grid.material = Eigen::MatrixXi::Zero(rows, cols);
   if (const auto material = find_material(value, materials))
-    read_cells(*material, grid.material, [&](const Value& v) { return material_index(v, materials); });
+    read_cells(*material, grid.material, index_among(materials));
   return grid;
 }
 
 /// One value for all elements, or a list.
 template <class T, class Read>
 std::vector<T> read_elements(const Value& value, std::size_t n, const Read& read) {
-  if (!value.is_array()) return std::vector<T>(n, read(value));
-  std::vector<T> list;
-  for (const auto& item : value.items(n, n)) list.push_back(read(item));
-  return list;
+  return value.is_array() ? read_list<T>(value, n, read) : std::vector<T>(n, read(value));
 }
 
 std::pair<int, int> read_edge(const Value& value, int n_nodes) {
@@ -95,7 +98,7 @@ Eigen::Vector4i read_quad(const Value& value, int n_nodes) {
 }
 
 MeshGeometry read_mesh(const Value& value, const Materials& materials) {
-  value.only({"nodes", "quads", "arcs", "thickness", "material", "edges"});
+  value.only({"nodes", "quads", "arcs", "thickness", "material", "edges", "sections"});
   MeshGeometry mesh;
   for (const auto& node : value.at("nodes").items(4)) mesh.nodes.push_back(read_point(node));
   const int n_nodes = static_cast<int>(mesh.nodes.size());
@@ -110,16 +113,19 @@ MeshGeometry read_mesh(const Value& value, const Materials& materials) {
   mesh.thickness = read_elements<double>(value.at("thickness"), n, read_thickness);
   mesh.material.assign(n, 0);
   if (const auto material = find_material(value, materials))
-    mesh.material = read_elements<int>(*material, n, [&](const Value& v) { return material_index(v, materials); });
+    mesh.material = read_elements<int>(*material, n, index_among(materials));
   if (const auto edges = value.find("edges"))
-    for (const auto& [name, list] : edges->members()) {
-      mesh.edges.push_back({name, {}});
-      for (const auto& edge : list.items(1, unlimited)) mesh.edges.back().edges.push_back(read_edge(edge, n_nodes));
-    }
+    for (const auto& [name, list] : edges->members()) mesh.edges.push_back({name, read_edges(list, n_nodes)});
   return mesh;
 }
 
 }  // namespace
+
+std::vector<std::pair<int, int>> read_edges(const Value& value, int n_nodes) {
+  std::vector<std::pair<int, int>> edges;
+  for (const auto& edge : value.items(1)) edges.push_back(read_edge(edge, n_nodes));
+  return edges;
+}
 
 std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const Materials& materials) {
   value.only({"grid", "mesh"});

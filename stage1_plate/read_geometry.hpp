@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "common/input/value.hpp"
 #include "stage1_plate/read_material.hpp"
@@ -12,7 +14,10 @@ namespace fastjoint::stage1 {
 
 [[nodiscard]] Eigen::Vector2d read_point(const input::Value& value);
 
-/// Reads "geometry": {"grid": ...} or {"mesh": ...}.
+/// A list of edges, each by its two nodes, and at least one.
+[[nodiscard]] std::vector<std::pair<int, int>> read_edges(const input::Value& value, int n_nodes);
+
+/// Reads "geometry": {"grid": ...} or {"mesh": ...} without its "sections", which need the holes: read_sections.hpp.
 [[nodiscard]] std::variant<GridGeometry, MeshGeometry> read_geometry(const input::Value& value,
                                                                      const Materials& materials);
 

@@ -11,6 +11,7 @@
 #include "stage1_plate/read_geometry.hpp"
 #include "stage1_plate/read_loads.hpp"
 #include "stage1_plate/read_material.hpp"
+#include "stage1_plate/read_sections.hpp"
 #include "stage1_plate/read_spring.hpp"
 #include "stage1_plate/scene.hpp"
 
@@ -161,6 +162,7 @@ PlateScene read_scene(const input::Document& document) {
   scene.points = read_points(root, disc_ids);
   const auto discs = root.find("disc_directions");
   scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x"};
+  read_sections(root, scene);
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
   scene.loads = read_loads(root, scene);

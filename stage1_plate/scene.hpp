@@ -27,6 +27,13 @@ struct EdgeSet {
   std::vector<std::pair<int, int>> edges;
 };
 
+/// A cut across the sheet beside a hole, along edges of the mesh.
+struct MeshSection {
+  int hole;          ///< index into PlateScene::holes
+  std::string side;  ///< on which side of the hole, "+x", "-x", "+y" or "-y"
+  std::vector<std::pair<int, int>> edges;
+};
+
 /// A mesh that the user made.
 struct MeshGeometry {
   struct Arc {
@@ -39,6 +46,7 @@ struct MeshGeometry {
   std::vector<double> thickness;  ///< (quads), length
   std::vector<int> material;      ///< (quads)
   std::vector<EdgeSet> edges;
+  std::vector<MeshSection> sections;
 };
 
 /// Springs between the rim of a hole and a rigid disc in it: distributed, or links at the nodes of the rim.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -56,6 +58,59 @@ TEST(SectionForce, AreasAreThoseOfTheCell) {
   EXPECT_NEAR(s.gross_area[0], 0.08, 1e-14);
   EXPECT_NEAR(s.net_area[0], 0.08 - 0.02, 1e-12);
   EXPECT_NEAR(s.net_area[2], 0.08 - 0.024, 1e-12);
+}
+
+/// The strip with hole a alone, in ten elements numbered unlike the grid's: a fan of eight and two rectangles.
+std::string strip_by_hand(const std::string& right_cut) {
+  const double length = std::hypot(0.5, 0.4);
+  const double dx = 0.1 * 0.5 / length, dy = 0.1 * 0.4 / length;  // to the rim on the ray to a corner of the cell
+  std::string arcs;
+  for (int i = 0; i < 8; ++i)
+    arcs += fmt::format(R"({}{{"edge": [{}, {}], "center": [0.5, 0.4]}})", i ? ", " : "", 11 + i, 11 + (i + 1) % 8);
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+    "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
+    "geometry": {{"mesh": {{
+      "nodes": [[2, 0], [2, 0.4], [2, 0.8], [1, 0.8], [1, 0.4], [1, 0], [0.5, 0], [0, 0], [0, 0.4], [0, 0.8], [0.5, 0.8],
+                [{1:.17g}, {2:.17g}], [0.6, 0.4], [{1:.17g}, {3:.17g}], [0.5, 0.5],
+                [{0:.17g}, {3:.17g}], [0.4, 0.4], [{0:.17g}, {2:.17g}], [0.5, 0.3]],
+      "quads": [[4, 1, 2, 3], [1, 4, 5, 0], [6, 5, 11, 18], [11, 5, 4, 12], [4, 3, 13, 12], [3, 10, 14, 13],
+                [10, 9, 15, 14], [9, 8, 16, 15], [16, 8, 7, 17], [7, 6, 18, 17]],
+      "arcs": [{4}], "thickness": 0.1,
+      "edges": {{"right": [[0, 1], [2, 1]], "bottom": [[0, 5], [5, 6], [6, 7]]}},
+      "sections": [{{"hole": "a", "side": "+x", "edges": [{5}]}},
+                   {{"hole": "a", "side": "-x", "edges": [[7, 8], [8, 9]]}}]}}}},
+    "holes": [{{"id": "a", "center": [0.5, 0.4], "radius": 0.1, "spring": {{"disk": {{"E": 1e7, "nu": 0.3}}}}}}],
+    "supports": [{{"on": "bottom", "fix": ["y"]}}],
+    "external": [{{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}}]}})",
+                     0.5 - dx, 0.5 + dx, 0.4 - dy, 0.4 + dy, arcs, right_cut);
+}
+
+TEST(SectionForce, OfAMeshOfItsOwnAreThoseOfTheGridWithTheSameMesh) {
+  const auto grid = test::extract(test::grid_scene({0, 1, 2}, {0, 0.8}, {{"a", 0.5, 0.4, 0.1}},
+                                                   R"(, "supports": [{"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])"));
+  const auto mesh = test::extract(strip_by_hand("[3, 4], [5, 4]"));
+  const auto& expected = grid.matrices.stresses;
+  const auto& found = mesh.matrices.stresses;
+  ASSERT_EQ(mesh.matrices.ndof, grid.matrices.ndof);
+  EXPECT_EQ(found.section_hole, expected.section_hole);
+  EXPECT_EQ(found.section_side, expected.section_side);
+  EXPECT_LT((found.gross_area - expected.gross_area).norm(), 1e-14);
+  EXPECT_LT((found.net_area - expected.net_area).norm(), 1e-12);
+  ASSERT_EQ(found.section_force.size(), expected.section_force.size());
+  constexpr double round_off = 1e-9;  // of the largest force: another order of elements and unknowns
+  for (std::size_t level = 0; level < expected.section_force.size(); ++level) {
+    const auto& N = expected.section_force[level];
+    ASSERT_EQ(N.rows(), 2);
+    for (Index c = 0; c < N.cols(); ++c)
+      EXPECT_LT((found.section_force[level].col(c) - N.col(c)).norm(), round_off * N.col(c).norm()) << "case " << c;
+  }
+}
+
+/// What crosses the strip beside the hole leaves it at its end: a border has elements on one side only.
+TEST(SectionForce, OnTheBorderIsThatOfTheExternal) {
+  const auto a = test::extract(strip_by_hand("[1, 0], [1, 2]")).matrices;
+  EXPECT_NEAR(a.stresses.section_force.back()(0, 0), a.S_ee.back()(0, 0), 2e-3 * a.S_ee.back()(0, 0));
 }
 
 /// On a line of symmetry through the hole there is no section on that side.
