@@ -25,6 +25,7 @@ double turned(double angle, double low) {
 
 std::vector<SideAngles> all_sides(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Rim& rim) {
   std::vector<SideAngles> sides;
+  sides.reserve(rim.sides.size());
   for (const auto& side : rim.sides) {
     const auto curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
     sides.push_back({side, curve.start_angle(), curve.sweep()});

@@ -100,9 +100,10 @@ Sections sections_of(const formats::PlateStresses& a, const std::string& hole) {
 /// Tension is N_plus on the right and N_minus on the left; the fastener's force T along +x takes N_minus - N_plus. It
 /// bears on the side that it pushes to.
 double bypass(std::optional<double> N_plus, std::optional<double> N_minus, double T) {
-  if (T > 0) return N_plus ? *N_plus : *N_minus - T;
-  if (T < 0) return N_minus ? *N_minus : *N_plus + T;
-  return N_plus && N_minus ? (*N_plus + *N_minus) / 2 : N_plus.value_or(N_minus.value_or(0));
+  const double right = N_plus.value_or(N_minus.value_or(0) - T);
+  const double left = N_minus.value_or(N_plus.value_or(0) + T);
+  if (T == 0) return (left + right) / 2;
+  return T > 0 ? right : left;
 }
 
 void read_sections(const formats::PlateStresses& a, const std::string& hole, const VectorXd& force, double T,

@@ -28,8 +28,8 @@ struct PlateLoading {
 
 /// All holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
 ///
-/// Error of the peak: the largest change of the hoop stress from the degree below within 45 degrees of it. The change at
-/// the peak itself is no estimate: there the two may agree by chance (tests/pipeline/peak_error_test.cpp).
+/// Error of the peak: the largest change of the hoop stress from the degree below within 45 degrees of it. The change
+/// at the peak itself is no estimate: there the two may agree by chance (tests/pipeline/peak_error_test.cpp).
 ///
 /// Bypass: of the force that comes over the section beside the hole towards the loaded side of the hole, what leaves
 /// over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at the

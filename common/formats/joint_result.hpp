@@ -16,8 +16,8 @@ struct RimHistory {
   Eigen::MatrixXd bearing_stress;  ///< |bearing load| / (d t), stress
   Eigen::MatrixXd peak_hoop;       ///< largest hoop stress, tension positive, stress
   Eigen::MatrixXd peak_angle;      ///< where, degrees counter-clockwise from x
-  Eigen::MatrixXd peak_error;      ///< estimated error of the peak; infinite where one degree alone says nothing, stress
-  Eigen::VectorXi sections;        ///< (r) how many of the two sections beside the hole across x the plate has
+  Eigen::MatrixXd peak_error;  ///< estimated error of the peak; infinite where one degree alone says nothing, stress
+  Eigen::VectorXi sections;    ///< (r) how many of the two sections beside the hole across x the plate has
   // 0 where it has none of them:
   Eigen::MatrixXd bypass_load;          ///< force that passes the fastener by, tension positive
   Eigen::MatrixXd gross_concentration;  ///< peak over the larger section force per gross area; 0 if that is 0
