@@ -102,7 +102,7 @@ Eigen::MatrixXd ContactSystem::friction_per_force() const {
     const auto hole = std::find_if(scene_.holes.begin(), scene_.holes.end(), [&](const Hole& h) { return h.id == id; });
     const auto& rim = plate_.rims[static_cast<std::size_t>(hole - scene_.holes.begin())];
     const Eigen::Vector2d e = pfem::axis(unknowns.disc_direction[static_cast<std::size_t>(disc)]);
-    const double c = bearing_unit_force(plate_, rim, side * e);
+    const double c = pfem::bearing(plate_.mesh, plate_.edges, rim, side * e).unit_force;
     const int friction_case = 2 * disc + (side > 0 ? 0 : 1);
     if (c > 0) A(friction_case, controlled) = friction * side / c;
   }

@@ -40,7 +40,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
   const auto hole = std::find_if(scene.holes.begin(), scene.holes.end(), is_meant) - scene.holes.begin();
   const pfem::Rim& rim = plate.rims[static_cast<std::size_t>(hole)];
   const Eigen::Vector2d d = pfem::axis(external.direction);
-  const double unit_force = bearing_unit_force(plate, rim, d);
+  const double unit_force = pfem::bearing(plate.mesh, plate.edges, rim, d).unit_force;
   constexpr double nothing = 1e-12;  // of what a whole rim bears; rounding leaves about 1e-16
   if (unit_force < nothing * plate.mesh.thickness.maxCoeff() * rim.radius)
     reject(scene, fmt::format("/external/{}", external_index),
@@ -60,19 +60,6 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
 }
 
 }  // namespace
-
-double bearing_unit_force(const PlateMesh& plate, const pfem::Rim& rim, const Eigen::Vector2d& d) {
-  constexpr int p = 8;  // only the number of points: enough for products of sines over a quarter
-  double force = 0;
-  for (const auto& side : rim.sides) {
-    const auto rule = pfem::rim_rule(plate.mesh, plate.edges, side, p);
-    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
-      const double contact = pfem::cosine_bearing(-rule.normal.col(q), d).contact;
-      force += plate.mesh.thickness[side.element] * rule.ds[q] * contact * contact;
-    }
-  }
-  return force;
-}
 
 void add_friction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   const Unknowns& unknowns = problem.unknowns;

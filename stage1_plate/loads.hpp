@@ -5,10 +5,6 @@
 
 namespace fastjoint::stage1 {
 
-/// Force along the unit vector d of a cosine pressure of unit peak on the half of a rim that bears along d, as far as
-/// the model has it: int t cos^2 ds, length^2.
-[[nodiscard]] double bearing_unit_force(const PlateMesh& plate, const pfem::Rim& rim, const Eigen::Vector2d& d);
-
 /// Unit friction cases of every disc of a hole, direction inner, bearing side + then -: tangential traction cos(theta)
 /// on the bearing half of the rim, dragging the plate along the bearing direction. Sets friction_hole,
 /// friction_bearing, L_f, L_c.

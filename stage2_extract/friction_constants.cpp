@@ -11,31 +11,16 @@ Eigen::Vector2d bearing_direction(const std::string& side) {
   return side[0] == '+' ? axis : Eigen::Vector2d(-axis);
 }
 
-Bearing bearing_of(const formats::PlateSolution& plate, std::size_t hole, const Eigen::Vector2d& d) {
-  const auto edges = pfem::find_edges(plate.mesh);
-  Bearing sum;
-  for (const auto& side : plate.hole_rim[hole].sides) {
-    constexpr int p = 8;  // only the number of points: enough for products of sines over a quarter
-    const auto rule = pfem::rim_rule(plate.mesh, edges, side, p);
-    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
-      const auto at = pfem::cosine_bearing(-rule.normal.col(q), d);
-      const double t_ds = plate.mesh.thickness[side.element] * rule.ds[q];
-      sum.area += t_ds * at.contact;
-      sum.unit_force += t_ds * at.contact * at.contact;
-      sum.resultant += t_ds * at.contact * at.tangent.dot(d);
-    }
-  }
-  return sum;
-}
-
 FrictionConstants friction_constants(const formats::PlateSolution& plate) {
   const auto h = static_cast<Eigen::Index>(plate.friction_hole.size());
+  const auto edges = pfem::find_edges(plate.mesh);
   FrictionConstants constants{Eigen::VectorXd::Zero(h), Eigen::VectorXd::Zero(h)};
   for (Eigen::Index j = 0; j < h; ++j) {
     const auto at = static_cast<std::size_t>(j);
     const auto id = std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.friction_hole[at]);
     const auto hole = static_cast<std::size_t>(std::distance(plate.hole_id.begin(), id));
-    const auto bearing = bearing_of(plate, hole, bearing_direction(plate.friction_bearing[at]));
+    const auto bearing =
+        pfem::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(plate.friction_bearing[at]));
     constants.unit_force[j] = bearing.unit_force;
     constants.resultant[j] = plate.friction_bearing[at][0] == '+' ? bearing.resultant : -bearing.resultant;
   }

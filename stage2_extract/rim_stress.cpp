@@ -59,7 +59,8 @@ Eigen::RowVectorXd radial_stress(const UnitFields& fields, std::size_t hole, dou
     const auto k = static_cast<std::size_t>(i);
     if (plate.traction_hole[k] != plate.hole_id[hole]) continue;
     const Eigen::Vector2d d = pfem::axis(plate.traction_direction[k]);
-    sigma[fields.n_cases() - q + i] -= pfem::cosine_bearing(n, d).contact / bearing_of(plate, hole, d).unit_force;
+    sigma[fields.n_cases() - q + i] -= pfem::cosine_bearing(n, d).contact /
+                                       pfem::bearing(plate.mesh, fields.edges(), plate.hole_rim[hole], d).unit_force;
   }
   return sigma;
 }

@@ -52,7 +52,7 @@ SectionArea section_area(const formats::PlateSolution& plate, const formats::Sec
   for (const auto& side : section.sides)
     gross += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();
   const auto hole = static_cast<std::size_t>(section.hole);
-  return {gross, gross - bearing_of(plate, hole, bearing_direction(section.side)).area};
+  return {gross, gross - pfem::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(section.side)).area};
 }
 
 }  // namespace fastjoint::stage2

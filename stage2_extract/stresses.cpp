@@ -17,7 +17,8 @@ constexpr double degrees = 360 / pfem::full_turn;
 using Rims = std::vector<std::vector<RimPoint>>;
 
 /// Names, places and areas.
-void describe_rims(const formats::PlateSolution& plate, const Rims& rims, formats::PlateStresses& a) {
+void describe_rims(const UnitFields& fields, const Rims& rims, formats::PlateStresses& a) {
+  const auto& plate = fields.plate();
   const auto r = static_cast<Eigen::Index>(rims.size());
   a.rim_hole = plate.hole_id;
   a.rim_center.resize(r, 2);
@@ -29,7 +30,9 @@ void describe_rims(const formats::PlateSolution& plate, const Rims& rims, format
     const auto hole = static_cast<std::size_t>(i);
     a.rim_center.row(i) = plate.hole_rim[hole].center.transpose();
     a.rim_radius[i] = plate.hole_rim[hole].radius;
-    const auto area = [&](const char* side) { return bearing_of(plate, hole, bearing_direction(side)).area; };
+    const auto area = [&](const char* side) {
+      return pfem::bearing(plate.mesh, fields.edges(), plate.hole_rim[hole], bearing_direction(side)).area;
+    };
     a.bearing_area.row(i) << std::max(area("+x"), area("-x")), std::max(area("+y"), area("-y"));
     for (const auto& point : rims[hole]) angle.push_back(degrees * point.angle);
     a.rim_start[i + 1] = static_cast<int>(angle.size());
@@ -80,7 +83,7 @@ formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, con
   UnitFields fields(plate, file);
   Rims rims;
   for (const auto& rim : plate.hole_rim) rims.push_back(rim_points(plate.mesh, fields.edges(), rim));
-  describe_rims(plate, rims, a);
+  describe_rims(fields, rims, a);
   describe_sections(plate, a);
   for (const int p : a.p) {
     fields.use(static_cast<std::size_t>(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p))));

@@ -75,4 +75,20 @@ CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d)
   return {cosine, (d - cosine * n).normalized()};
 }
 
+Bearing bearing(const Mesh& mesh, const Edges& edges, const Rim& rim, const Eigen::Vector2d& d) {
+  Bearing sum;
+  for (const auto& side : rim.sides) {
+    constexpr int p = 8;  // only the number of points: enough for products of sines over a quarter
+    const auto rule = rim_rule(mesh, edges, side, p);
+    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
+      const auto at = cosine_bearing(-rule.normal.col(q), d);
+      const double t_ds = mesh.thickness[side.element] * rule.ds[q];
+      sum.area += t_ds * at.contact;
+      sum.unit_force += t_ds * at.contact * at.contact;
+      sum.resultant += t_ds * at.contact * at.tangent.dot(d);
+    }
+  }
+  return sum;
+}
+
 }  // namespace fastjoint::pfem

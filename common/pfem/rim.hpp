@@ -51,4 +51,13 @@ struct CosineBearing {
 /// @param n Unit radial vector from the hole's centre. @param d Unit vector of the bearing direction.
 [[nodiscard]] CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d);
 
+/// Integrals over the part of a rim that bears along the unit vector d, as far as the model has it, length^2.
+struct Bearing {
+  double area = 0;        ///< int t cos ds: d t of a whole hole
+  double unit_force = 0;  ///< c = int t cos^2 ds: bearing force per unit peak contact stress; t d pi/4 of a whole hole,
+                          ///< t d pi/8 of the half hole of a symmetric model
+  double resultant = 0;   ///< along d, of unit friction with the cosine distribution
+};
+[[nodiscard]] Bearing bearing(const Mesh& mesh, const Edges& edges, const Rim& rim, const Eigen::Vector2d& d);
+
 }  // namespace fastjoint::pfem

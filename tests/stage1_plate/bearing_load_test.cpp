@@ -43,7 +43,8 @@ TEST(BearingLoad, HasUnitForceAlongItsDirection) {
 /// A pressure cos(theta)/c without friction: int p0 cos theta dA over the bearing half, c = t d pi / 4.
 TEST(BearingLoad, ItsConstantIsThatOfACosine) {
   const auto plate = test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {open}, held));
-  const double c = stage1::bearing_unit_force(plate.mesh, plate.mesh.rims[0], Eigen::Vector2d::UnitX());
+  const double c =
+      pfem::bearing(plate.mesh.mesh, plate.mesh.edges, plate.mesh.rims[0], Eigen::Vector2d::UnitX()).unit_force;
   EXPECT_NEAR(c / (0.1 * 0.4 * std::numbers::pi / 4), 1, 1e-13);
 }
 

@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 
 #include "common/errors.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -22,12 +23,7 @@ std::string mesh_scene(const std::string& nodes, const std::string& quads, const
 }
 
 std::string message(const std::string& json) {
-  try {
-    (void)test::make_plate(json);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::message_of([&] { return test::make_plate(json); });
 }
 
 const std::string square = "[0,0],[1,0],[1,1],[0,1]";

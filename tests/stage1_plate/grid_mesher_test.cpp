@@ -11,6 +11,7 @@
 #include "common/errors.hpp"
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/gauss.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -24,12 +25,7 @@ stage1::PlateMesh mesh(const std::string& json) {
 }
 
 std::string message(const std::string& json) {
-  try {
-    (void)mesh(json);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::message_of([&] { return mesh(json); });
 }
 
 double area(const stage1::PlateMesh& plate) {

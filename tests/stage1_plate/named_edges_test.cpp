@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 
 #include "common/errors.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -46,12 +47,7 @@ stage1::PlateMesh mesh(const std::string& json) {
 }
 
 std::string message(const std::string& json) {
-  try {
-    (void)mesh(json);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::message_of([&] { return mesh(json); });
 }
 
 std::vector<int> elements(const formats::Section& s) {

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "common/errors.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -26,12 +27,7 @@ std::string scene(const std::string& loads, const std::string& directions = R"([
 stage1::PlateScene read(const std::string& json) { return stage1::read_scene(input::parse("plate.json", json)); }
 
 std::string message(const std::string& json) {
-  try {
-    (void)read(json);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::message_of([&] { return read(json); });
 }
 
 TEST(ReadLoads, WhatIsNotListedIsFreeOrHeld) {

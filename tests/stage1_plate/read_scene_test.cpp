@@ -3,6 +3,7 @@
 
 #include "common/errors.hpp"
 #include "stage1_plate/scene.hpp"
+#include "tests/support/message.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -28,12 +29,7 @@ std::string replaced(const std::string& what, const std::string& by) {
 }
 
 std::string message(const std::string& text) {
-  try {
-    (void)read_scene(input::parse("plate.json", text));
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::message_of([&] { return read_scene(input::parse("plate.json", text)); });
 }
 
 TEST(ReadScene, TakesEveryKey) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -28,12 +29,7 @@ std::string scene(const std::string& spring, bool half = false) {
 }
 
 std::string message(const std::string& json) {
-  try {
-    (void)test::make_plate(json);
-  } catch (const InputError& e) {
-    return e.what();
-  }
-  return "no error";
+  return test::message_of([&] { return test::make_plate(json); });
 }
 
 /// int k t (cos^2, sin cos, sin^2) r dtheta from a to b.
