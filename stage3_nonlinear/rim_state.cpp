@@ -40,27 +40,27 @@ class Rim {
     for (Index i = 0; i < angle_.size(); ++i)
       if (allowed(i) && (!best || value[i] > best->value)) best = Peak{value[i], angle_[i], i};
     if (!best) return best;
-    const auto before = neighbour(best->at, -1);
-    const auto after = neighbour(best->at, 1);
-    if (before && after && allowed(*before) && allowed(*after)) refine(value[*before], value[*after], *best);
+    const Index before = neighbour(best->at, -1), after = neighbour(best->at, 1);
+    const double step = distance(best->at, after);
+    const bool between = step > 0 && std::abs(distance(before, best->at) - step) < same_step * step;
+    if (between && allowed(before) && allowed(after)) refine(value[before], value[after], step, *best);
     best->angle = turn(best->angle);
     return best;
   }
 
  private:
-  [[nodiscard]] double step() const { return angle_[1] - angle_[0]; }
-  [[nodiscard]] bool closed() const { return angle_[angle_.size() - 1] - angle_[0] > 360 - 1.5 * step(); }
-  [[nodiscard]] std::optional<Index> neighbour(Index i, Index by) const {
-    const Index n = angle_.size();
-    if (closed()) return (i + by + n) % n;
-    return i + by >= 0 && i + by < n ? std::optional(i + by) : std::nullopt;
-  }
-  void refine(double before, double after, Peak& peak) const {
+  static constexpr double same_step = 1e-6;
+
+  /// The next point counter-clockwise or before, around a closed rim.
+  [[nodiscard]] Index neighbour(Index i, Index by) const { return (i + by + angle_.size()) % angle_.size(); }
+  /// Counter-clockwise, degrees; negative or 0 where that is not the shorter way.
+  [[nodiscard]] double distance(Index from, Index to) const { return turn(angle_[to] - angle_[from]); }
+  static void refine(double before, double after, double step, Peak& peak) {
     const double curvature = before - 2 * peak.value + after;
     if (!(curvature < 0)) return;
     const double shift = (before - after) / (2 * curvature);
     peak.value -= curvature * shift * shift / 2;
-    peak.angle += shift * step();
+    peak.angle += shift * step;
   }
 
   Index first_;
