@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
+#include "stage1_plate/holding.hpp"
 #include "stage1_plate/loads.hpp"
 
 namespace fastjoint::stage1 {
@@ -56,6 +57,10 @@ ContactSystem::State ContactSystem::solve_whole() {
 
 /// Unknowns x = (u_r, D, P / kappa), kappa the size of K_cc; its rows: u_r, P_c and what is given.
 ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
+  PlateScene sprung = scene_;
+  for (std::size_t i = 0; i < arcs.size(); ++i)
+    sprung.holes[static_cast<std::size_t>(holes_[i])].spring->acts = arcs[i];
+  if (!is_held_under_loads(sprung, plate_, problem_.unknowns)) lost(arcs);
   Eigen::MatrixXd dM = -whole_;
   for (std::size_t i = 0; i < gaps_.size(); ++i) dM += gaps_[i].stiffness(arcs[i]);
   const auto n_r = static_cast<Eigen::Index>(rim_.free.size());

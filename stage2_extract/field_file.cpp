@@ -40,6 +40,11 @@ std::string write_field(const std::string& output, const formats::PlateSolution&
   UnitFields fields(plate, file);
   fields.use(level);
   const Field field = superpose(fields, plate.p[static_cast<Eigen::Index>(level)], state.amounts);
+  if (!field.displacement.allFinite() || !von_mises(field.stress).allFinite())
+    throw NumericalError(
+        fmt::format("{}: --field {}: displacements or stresses are too large for the numbers of this "
+                    "machine; allowed: smaller amounts",
+                    file, request.spec));
   h5::write_whole_file(output, vtu(plate, state, field));
   return summary(output, plate, state, field);
 }

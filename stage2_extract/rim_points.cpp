@@ -33,15 +33,26 @@ std::vector<SideAngles> all_sides(const pfem::Mesh& mesh, const pfem::Edges& edg
   return sides;
 }
 
-/// Where no other side ends; 0 of a closed rim.
-double first_angle(const std::vector<SideAngles>& sides) {
-  for (const auto& side : sides) {
-    const auto ends_here = [&](const SideAngles& other) {
-      return turned(other.high(), side.low()) < side.low() + same_angle;
-    };
-    if (std::none_of(sides.begin(), sides.end(), ends_here)) return side.low();
+/// A part of a rim without gaps.
+struct Piece {
+  double from, to;
+};
+
+/// The pieces that end somewhere; none of a closed rim.
+std::vector<Piece> open_pieces(const std::vector<SideAngles>& sides) {
+  const auto meets = [](double end, double start) { return std::abs(turned(end, start) - start) < same_angle; };
+  std::vector<Piece> pieces;
+  for (const auto& first : sides) {
+    const auto ends_here = [&](const SideAngles& other) { return meets(other.high(), first.low()); };
+    if (std::any_of(sides.begin(), sides.end(), ends_here)) continue;
+    Piece piece{first.low(), first.high()};
+    const auto goes_on = [&](const SideAngles& other) { return meets(piece.to, other.low()); };
+    for (auto next = std::find_if(sides.begin(), sides.end(), goes_on); next != sides.end();
+         next = std::find_if(sides.begin(), sides.end(), goes_on))
+      piece.to += next->high() - next->low();
+    pieces.push_back(piece);
   }
-  return 0;
+  return pieces;
 }
 
 RimPoint point_at(const std::vector<SideAngles>& sides, double angle) {
@@ -59,12 +70,17 @@ RimPoint point_at(const std::vector<SideAngles>& sides, double angle) {
 
 std::vector<RimPoint> rim_points(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Rim& rim) {
   const auto sides = all_sides(mesh, edges, rim);
-  const double step = pfem::full_turn / n_points_per_turn;
-  const int n_steps = static_cast<int>(std::lround(pfem::covered_angle(mesh, edges, rim) / step));
-  const int n = n_steps < n_points_per_turn ? n_steps + 1 : n_steps;
-  const double first = first_angle(sides);
+  constexpr double step = pfem::full_turn / n_points_per_turn;
   std::vector<RimPoint> points;
-  for (int i = 0; i < n; ++i) points.push_back(point_at(sides, first + i * step));
+  if (sides.empty()) return points;
+  const auto pieces = open_pieces(sides);
+  if (pieces.empty())
+    for (int i = 0; i < n_points_per_turn; ++i) points.push_back(point_at(sides, i * step));
+  for (const auto& piece : pieces) {
+    const int n_steps = std::max(1, static_cast<int>(std::lround((piece.to - piece.from) / step)));
+    for (int i = 0; i <= n_steps; ++i)
+      points.push_back(point_at(sides, piece.from + i * (piece.to - piece.from) / n_steps));
+  }
   return points;
 }
 

@@ -26,7 +26,8 @@ struct RimPoint {
 /// is then known to 1e-4 of it.
 inline constexpr int n_points_per_turn = 72;
 
-/// Points all around a whole rim from 0 on, or from one end of a half or quarter to the other, both included.
+/// Points all around a whole rim from 0 on, or from one end of a part of it to the other, both included, in as many
+/// equal steps as come closest to 5 degrees. No point of a rim without sides.
 [[nodiscard]] std::vector<RimPoint> rim_points(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Rim& rim);
 
 }  // namespace fastjoint::stage2

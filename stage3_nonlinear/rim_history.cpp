@@ -22,10 +22,11 @@ struct Column {
   bool needs_section;
 };
 
-constexpr std::array<Column, 8> columns = {{
+constexpr std::array<Column, 9> columns = {{
     {"bearing_load", &RimState::bearing_load, &RimHistory::bearing_load, false},
     {"bearing_stress", &RimState::bearing_stress, &RimHistory::bearing_stress, false},
     {"bypass_load", &RimState::bypass_load, &RimHistory::bypass_load, true},
+    {"bypass_error", &RimState::bypass_error, &RimHistory::bypass_error, true},
     {"peak_hoop", &RimState::peak_hoop, &RimHistory::peak_hoop, false},
     {"peak_angle", &RimState::peak_angle, &RimHistory::peak_angle, false},
     {"peak_error", &RimState::peak_error, &RimHistory::peak_error, false},

@@ -12,6 +12,9 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
+/// The error where one degree alone says nothing.
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
 /// Half width of what is left out around a jump of friction, degrees: the point itself and its neighbours.
 constexpr double left_out = 7.5;
 
@@ -43,9 +46,10 @@ class Rim {
     for (Index i = 0; i < angle_.size(); ++i)
       if (allowed(i) && (!best || value[i] > best->value)) best = Peak{value[i], angle_[i], i};
     if (!best) return best;
-    const auto before = neighbour(best->at, -1);
-    const auto after = neighbour(best->at, 1);
-    if (before && after && allowed(*before) && allowed(*after)) refine(value[*before], value[*after], *best);
+    const Index before = neighbour(best->at, -1), after = neighbour(best->at, 1);
+    const double step = distance(best->at, after);
+    const bool between = step > 0 && std::abs(distance(before, best->at) - step) < same_step * step;
+    if (between && allowed(before) && allowed(after)) refine(value[before], value[after], step, *best);
     best->angle = turn(best->angle);
     return best;
   }
@@ -62,25 +66,34 @@ class Rim {
 
  private:
   [[nodiscard]] bool allowed(Index i) const { return allowed_[static_cast<std::size_t>(i)]; }
-  [[nodiscard]] double step() const { return angle_[1] - angle_[0]; }
-  [[nodiscard]] bool closed() const { return angle_[angle_.size() - 1] - angle_[0] > 360 - 1.5 * step(); }
-  [[nodiscard]] std::optional<Index> neighbour(Index i, Index by) const {
-    const Index n = angle_.size();
-    if (closed()) return (i + by + n) % n;
-    return i + by >= 0 && i + by < n ? std::optional(i + by) : std::nullopt;
-  }
-  void refine(double before, double after, Peak& peak) const {
+  static constexpr double same_step = 1e-6;
+
+  /// The next point counter-clockwise or before, around a closed rim.
+  [[nodiscard]] Index neighbour(Index i, Index by) const { return (i + by + angle_.size()) % angle_.size(); }
+  /// Counter-clockwise, degrees; negative or 0 where that is not the shorter way.
+  [[nodiscard]] double distance(Index from, Index to) const { return turn(angle_[to] - angle_[from]); }
+  static void refine(double before, double after, double step, Peak& peak) {
     const double curvature = before - 2 * peak.value + after;
     if (!(curvature < 0)) return;
     const double shift = (before - after) / (2 * curvature);
     peak.value -= curvature * shift * shift / 2;
-    peak.angle += shift * step();
+    peak.angle += shift * step;
   }
 
   Index first_;
   VectorXd angle_;
   std::vector<bool> allowed_;  ///< (n) not close to the jump
 };
+
+void read_peak(const formats::PlateStresses& a, const Rim& rim, std::size_t level, const VectorXd& amounts,
+               RimState& state) {
+  const VectorXd hoop = rim.hoop(a.sigma_tt[level], amounts);
+  const auto peak = rim.peak(hoop);
+  if (!peak) return;
+  state.peak_hoop = peak->value;
+  state.peak_angle = peak->angle;
+  state.peak_error = level > 0 ? rim.change_around(peak->at, hoop - rim.hoop(a.sigma_tt[level - 1], amounts)) : unknown;
+}
 
 /// Forces over the sections on the two sides of a hole along x.
 struct Sections {
@@ -106,12 +119,24 @@ double bypass(std::optional<double> N_plus, std::optional<double> N_minus, doubl
   return T > 0 ? right : left;
 }
 
-void read_sections(const formats::PlateStresses& a, const std::string& hole, const VectorXd& force, double T,
+/// Forces over all sections of a plate.
+struct SectionForces {
+  VectorXd force;                 ///< (s)
+  std::optional<VectorXd> below;  ///< at the degree below
+};
+
+/// @param T Force of the fastener along x, friction included. @param largest Force anywhere on the plate.
+void read_sections(const formats::PlateStresses& a, const std::string& hole, const SectionForces& forces, double T,
                    double largest, RimState& state) {
   const Sections at = sections_of(a, hole);
   if (!at.plus && !at.minus) return;
-  const auto N = [&](std::optional<Index> i) { return i ? std::optional(force[*i]) : std::nullopt; };
-  state.bypass_load = bypass(N(at.plus), N(at.minus), T);
+  const auto passing = [&](const VectorXd& force) {
+    const auto N = [&](std::optional<Index> i) { return i ? std::optional(force[*i]) : std::nullopt; };
+    return bypass(N(at.plus), N(at.minus), T);
+  };
+  state.bypass_load = passing(forces.force);
+  state.bypass_error = forces.below ? std::abs(passing(*forces.below) - state.bypass_load) : unknown;
+  const VectorXd& force = forces.force;
   const bool plus = at.plus && (!at.minus || std::abs(force[*at.plus]) >= std::abs(force[*at.minus]));
   const Index loaded = plus ? *at.plus : *at.minus;
   constexpr double rounding = 1e-9;
@@ -127,11 +152,11 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
   const formats::PlateStresses& a = plate.stresses;
   if (!plate.stress_level) return states;
   const std::size_t level = *plate.stress_level;
-  const VectorXd force = a.section_force[level] * loading.amounts;
-  const double largest = std::max(force.size() > 0 ? force.cwiseAbs().maxCoeff() : 0,
-                                  loading.bearing.size() > 0 ? loading.bearing.cwiseAbs().maxCoeff() : 0);
+  SectionForces forces{a.section_force[level] * loading.amounts, std::nullopt};
+  if (level > 0) forces.below = a.section_force[level - 1] * loading.amounts;
+  const double largest = std::max(forces.force.lpNorm<Eigen::Infinity>(), loading.bearing.lpNorm<Eigen::Infinity>());
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
-    const auto rim_index = static_cast<Index>(i);
+    const auto rim = static_cast<Index>(i);
     RimState state;
     double friction = 0;
     const auto disc = std::find(plate.holes.begin(), plate.holes.end(), a.rim_hole[i]);
@@ -139,19 +164,9 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
       state.bearing_load = loading.bearing[disc - plate.holes.begin()];
       friction = loading.friction[disc - plate.holes.begin()];
     }
-    state.bearing_stress = std::abs(state.bearing_load) / a.bearing_area(rim_index, 0);
-    const Rim rim(a, rim_index, friction);
-    const VectorXd hoop = rim.hoop(a.sigma_tt[level], loading.amounts);
-    if (const auto peak = rim.peak(hoop)) {
-      state.peak_hoop = peak->value;
-      state.peak_angle = peak->angle;
-      state.peak_error = std::numeric_limits<double>::infinity();
-      if (level > 0) {
-        const VectorXd below = rim.hoop(a.sigma_tt[level - 1], loading.amounts);
-        state.peak_error = rim.change_around(peak->at, hoop - below);
-      }
-    }
-    read_sections(a, a.rim_hole[i], force, state.bearing_load + friction, largest, state);
+    state.bearing_stress = std::abs(state.bearing_load) / a.bearing_area(rim, 0);
+    read_peak(a, Rim(a, rim, friction), level, loading.amounts, state);
+    read_sections(a, a.rim_hole[i], forces, state.bearing_load + friction, largest, state);
     states.push_back(state);
   }
   return states;

@@ -13,6 +13,7 @@ struct RimState {
   double bearing_load = 0;    ///< along x on the plate, force
   double bearing_stress = 0;  ///< |bearing load| / (d t), stress
   double bypass_load = 0;     ///< force along x that passes the fastener by, tension positive
+  double bypass_error = 0;    ///< its change from the degree below; infinite where there is none, force
   double peak_hoop = 0;       ///< largest hoop stress, tension positive, stress
   double peak_angle = 0;      ///< where, degrees counter-clockwise from x
   double peak_error = 0;      ///< estimated; infinite where there is no degree below, stress

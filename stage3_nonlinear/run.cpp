@@ -8,6 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
+#include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage3_nonlinear/joint_history.hpp"
 #include "stage3_nonlinear/report.hpp"
@@ -29,7 +30,7 @@ void check_csv(const RunOptions& options) {
 }
 
 void warn(std::ostream& log, const std::vector<std::string>& sentences) {
-  for (const auto& sentence : sentences) log << "stage3_nonlinear: warning: " << sentence << "\n";
+  for (const auto& sentence : sentences) log << "stage3_nonlinear: warning: " << program::one_line(sentence) << "\n";
 }
 
 }  // namespace

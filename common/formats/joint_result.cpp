@@ -26,6 +26,7 @@ void for_each_table(Rims& a, const Units& units, Each each) {
   each("bearing_load", a.bearing_load, force, "force of the fastener along x on the plate, by bearing");
   each("bearing_stress", a.bearing_stress, stress, "its amount over the projected area d t");
   each("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
+  each("bypass_error", a.bypass_error, force, "estimated error of the bypass load");
   each("peak_hoop", a.peak_hoop, stress, "largest hoop stress at the rim");
   each("peak_angle", a.peak_angle, std::string("deg"), "where it is, counter-clockwise from x");
   each("peak_error", a.peak_error, stress, "estimated error of that peak");
@@ -48,7 +49,8 @@ RimHistory read_rims(const h5::Reader& file, const std::string& group, Eigen::In
   const auto r = static_cast<Eigen::Index>(rims.hole.size());
   rims.sections = file.integers(group + "sections", r);
   for_each_table(rims, units, [&](const char* name, Eigen::MatrixXd& table, const std::string& unit, const char*) {
-    table = file.matrix(group + name, steps, r, unit);
+    const bool may_be_unknown = &table == &rims.peak_error;
+    table = file.matrix(group + name, steps, r, unit, may_be_unknown ? h5::Infinite::allowed : h5::Infinite::refused);
   });
   return rims;
 }

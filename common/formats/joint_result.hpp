@@ -20,6 +20,7 @@ struct RimHistory {
   Eigen::VectorXi sections;    ///< (r) how many of the two sections beside the hole across x the plate has
   // 0 where it has none of them:
   Eigen::MatrixXd bypass_load;          ///< force that passes the fastener by, tension positive
+  Eigen::MatrixXd bypass_error;         ///< estimated; infinite where one degree alone says nothing
   Eigen::MatrixXd gross_concentration;  ///< peak over the larger section force per gross area; 0 if that is 0
   Eigen::MatrixXd net_concentration;    ///< the same per net area
 };

@@ -20,7 +20,7 @@ std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* da
 
 Eigen::MatrixXd error_if_any(const h5::Reader& file, const char* dataset, Eigen::Index rows, Eigen::Index cols,
                              const std::string& unit) {
-  if (file.has(dataset)) return file.matrix(dataset, rows, cols, unit);
+  if (file.has(dataset)) return file.matrix(dataset, rows, cols, unit, h5::Infinite::allowed);
   return Eigen::MatrixXd::Constant(rows, cols, std::numeric_limits<double>::infinity());
 }
 

@@ -2,8 +2,10 @@
 #include "common/formats/plate_solution.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "common/errors.hpp"
 #include "common/formats/plate_solution_geometry.hpp"
@@ -26,13 +28,20 @@ void write_sparse(h5::Writer& file, const std::string& group, const Sparse& A, c
   file.write(group + "/value", Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(A.valuePtr(), nnz)), meta);
 }
 
+/// Each number above the one before.
+bool ascends(const Eigen::VectorXi& list) {
+  return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+}
+
 Sparse read_sparse(const h5::Reader& file, const std::string& group, Eigen::Index rows, Eigen::Index cols,
                    const std::string& unit) {
   const Eigen::VectorXi start = file.integers(group + "/start", cols + 1);
   const Eigen::VectorXi row = file.integers(group + "/row", h5::any);
   const Eigen::VectorXd value = file.vector(group + "/value", row.size(), unit);
   const bool steps_up = start[0] == 0 && start[cols] == row.size() && std::is_sorted(start.begin(), start.end());
-  const bool fits = row.size() == 0 || (row.minCoeff() >= 0 && row.maxCoeff() < rows);
+  bool fits = row.size() == 0 || (row.minCoeff() >= 0 && row.maxCoeff() < rows);
+  for (Eigen::Index j = 0; steps_up && fits && j < cols; ++j)
+    fits = ascends(row.segment(start[j], start[j + 1] - start[j]));
   if (!steps_up || !fits)
     throw FileError(fmt::format("{}:{}: is not a sparse matrix of {} x {}", file.path(), group, rows, cols));
   return Eigen::Map<const Sparse>(rows, cols, row.size(), start.data(), row.data(), value.data());
@@ -54,7 +63,34 @@ void write_names(h5::Writer& file, const PlateSolution& a) {
   file.write("friction/bearing", a.friction_bearing, {"1", "side of the rim that bears"});
 }
 
+void check_words(const h5::Reader& file, const char* dataset, const std::vector<std::string>& words,
+                 const std::vector<std::string>& allowed) {
+  for (const auto& word : words)
+    if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
+      throw FileError(
+          fmt::format("{}:{}: holds \"{}\", expected one of {}", file.path(), dataset, word, fmt::join(allowed, ", ")));
+}
+
+/// The unknowns of each degree are the first of those of any higher one.
+void check_degrees(const h5::Reader& file, const PlateSolution& a) {
+  constexpr int highest = 8;
+  if (a.p.size() == 0) throw FileError(fmt::format("{}:p: holds no degree", file.path()));
+  if (!ascends(a.p) || a.p[0] < 1 || a.p[a.p.size() - 1] > highest)
+    throw FileError(fmt::format("{}:p: is {}, expected ascending degrees from 1 to {}", file.path(),
+                                fmt::join(a.p, ", "), highest));
+  if (!std::is_sorted(a.ndof.begin(), a.ndof.end()) || a.ndof[0] < 0)
+    throw FileError(
+        fmt::format("{}:ndof: is {}, expected numbers that do not fall", file.path(), fmt::join(a.ndof, ", ")));
+  for (const int p : a.stress_p)
+    if (std::find(a.p.begin(), a.p.end(), p) == a.p.end())
+      throw FileError(fmt::format("{}:stress_p: {} is not in p", file.path(), p));
+  if (!ascends(a.stress_p))
+    throw FileError(
+        fmt::format("{}:stress_p: is {}, expected ascending degrees", file.path(), fmt::join(a.stress_p, ", ")));
+}
+
 void read_names(const h5::Reader& file, PlateSolution& a) {
+  const std::vector<std::string> sides = {"+x", "-x", "+y", "-y"};
   const auto count = [](const std::vector<std::string>& names) { return static_cast<Eigen::Index>(names.size()); };
   a.supported = file.strings("supported", h5::any);
   a.p = file.integers("p", h5::any);
@@ -76,9 +112,13 @@ void read_names(const h5::Reader& file, PlateSolution& a) {
   for (const auto& hole : a.friction_hole) check_hole("friction/hole", hole);
   for (const auto& hole : a.traction_hole)
     if (!hole.empty()) check_hole("traction/hole", hole);
-  for (const int p : a.stress_p)
-    if (std::find(a.p.begin(), a.p.end(), p) == a.p.end())
-      throw FileError(fmt::format("{}:stress_p: {} is not in p", file.path(), p));
+  for (const auto& section : a.sections) check_words(file, "section/side", {section.side}, sides);
+  const std::vector<std::string> axes = {"x", "y"};
+  check_words(file, "external/direction", a.external_direction, axes);
+  check_words(file, "traction/direction", a.traction_direction, axes);
+  check_words(file, "disc/direction", a.disc_direction, axes);
+  check_words(file, "friction/bearing", a.friction_bearing, sides);
+  check_degrees(file, a);
 }
 
 void write_loads(h5::Writer& file, const PlateSolution& a) {
@@ -171,7 +211,6 @@ PlateSolution read_plate_solution(const std::string& path) {
   const std::string length = unit(units, 1, 0);
   read_geometry(file, a);
   read_names(file, a);
-  if (a.p.size() == 0) throw FileError(fmt::format("{}:p: holds no degree", path));
   const auto n = a.ndof[a.p.size() - 1];
   const auto nc = static_cast<Eigen::Index>(a.external_id.size() + a.disc_hole.size());
   const auto h = static_cast<Eigen::Index>(a.friction_hole.size());

@@ -120,6 +120,18 @@ void read_springs(const h5::Reader& file, PlateSolution& a) {
     a.hole_spring[static_cast<std::size_t>(sprung[i])].acts.push_back({arc(i, 0), arc(i, 1)});
 }
 
+/// Where the rim of a hole runs follows from the mesh as well.
+void check_rims(const h5::Reader& file, const PlateSolution& a) {
+  const auto edges = pfem::find_edges(a.mesh);
+  for (std::size_t hole = 0; hole < a.hole_rim.size(); ++hole) {
+    const pfem::Rim& rim = a.hole_rim[hole];
+    if (!(rim.sides == pfem::find_rim(a.mesh, edges, rim.center, rim.radius).sides))
+      throw FileError(fmt::format(
+          "{}:hole/rim: the sides of hole \"{}\" are not those arcs of the mesh that have its centre and its radius {}",
+          file.path(), a.hole_id[hole], rim.radius));
+  }
+}
+
 void read_holes(const h5::Reader& file, PlateSolution& a, const std::string& length) {
   a.hole_id = file.strings("hole/id", h5::any);
   const auto n = static_cast<Eigen::Index>(a.hole_id.size());
@@ -128,6 +140,7 @@ void read_holes(const h5::Reader& file, PlateSolution& a, const std::string& len
   for (Eigen::Index hole = 0; hole < n; ++hole) a.hole_rim.push_back({center.row(hole), radius[hole], {}});
   SideTable::read(file, "hole/rim", a.hole_id.size(), a.mesh.n_elements(),
                   [&](std::size_t hole, const pfem::Side& side) { a.hole_rim[hole].sides.push_back(side); });
+  check_rims(file, a);
   read_springs(file, a);
 }
 

@@ -63,6 +63,9 @@ PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const 
   a.rim_start = file.integers("rim/start", r + 1);
   a.angle = file.vector("rim/angle", h5::any, "deg");
   check_starts(file, a.rim_start, a.angle.size());
+  if ((a.bearing_area.array() <= 0).any())
+    throw FileError(
+        fmt::format("{}:rim/bearing_area: holds {}, expected numbers > 0", file.path(), a.bearing_area.minCoeff()));
   const auto stack = [&](const char* dataset, Eigen::Index rows) {
     return file.stack(dataset, a.p.size(), rows, n_cases, per_case);
   };
@@ -72,6 +75,9 @@ PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const 
   a.section_hole = file.strings("section/hole", h5::any);
   const auto s = count(a.section_hole);
   a.section_side = file.strings("section/side", s);
+  for (const auto& side : a.section_side)
+    if (side != "+x" && side != "-x" && side != "+y" && side != "-y")
+      throw FileError(fmt::format("{}:section/side: holds \"{}\", expected +x, -x, +y or -y", file.path(), side));
   a.gross_area = file.vector("section/gross_area", s, area);
   a.net_area = file.vector("section/net_area", s, area);
   a.section_force = stack("section/force", s);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <functional>
@@ -104,12 +105,14 @@ struct Reader::Impl {
     return found;
   }
 
-  Shape doubles(const std::string& name, const Shape& expected, const std::string& unit,
-                std::vector<double>& values) const {
+  Shape doubles(const std::string& name, const Shape& expected, const std::string& unit, std::vector<double>& values,
+                Infinite infinite = Infinite::refused) const {
     const Shape found = read(name, expected, H5T_FLOAT, H5T_NATIVE_DOUBLE, values);
     check_unit(open(name), name, unit);
-    for (const double v : values)
-      if (v != v) fail(name, "holds a NaN");
+    for (const double v : values) {
+      if (std::isnan(v)) fail(name, "holds a NaN");
+      if (std::isinf(v) && infinite == Infinite::refused) fail(name, "holds an infinite number, expected finite ones");
+    }
     return found;
   }
 
@@ -202,8 +205,10 @@ std::string Reader::attribute(const std::string& name, const std::string& otherw
 int Reader::integer_attribute(const std::string& name) const {
   int value = 0;
   const Attribute attribute(H5Aopen(impl_->file.get(), name.c_str(), H5P_DEFAULT));
-  if (!attribute || H5Aread(attribute.get(), H5T_NATIVE_INT, &value) < 0)
-    throw FileError(fmt::format("{}: attribute '{}' is missing or not an integer", path(), name));
+  const Space space(attribute ? H5Aget_space(attribute.get()) : H5I_INVALID_HID);
+  if (!attribute || H5Sget_simple_extent_npoints(space.get()) != 1 ||
+      H5Aread(attribute.get(), H5T_NATIVE_INT, &value) < 0)
+    throw FileError(fmt::format("{}: attribute '{}' is missing or not one integer", path(), name));
   return value;
 }
 
@@ -214,9 +219,9 @@ Eigen::VectorXd Reader::vector(const std::string& dataset, Eigen::Index n, const
 }
 
 Eigen::MatrixXd Reader::matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols,
-                               const std::string& unit) const {
+                               const std::string& unit, Infinite infinite) const {
   std::vector<double> values;
-  const Shape shape = impl_->doubles(dataset, {rows, cols}, unit, values);
+  const Shape shape = impl_->doubles(dataset, {rows, cols}, unit, values, infinite);
   return Eigen::Map<RowMajorXd>(values.data(), shape[0], shape[1]);
 }
 

@@ -11,6 +11,9 @@ namespace fastjoint::h5 {
 /// Any extent will do.
 inline constexpr Eigen::Index any = -1;
 
+/// Whether a dataset may hold infinite numbers; a NaN never stands in a file.
+enum class Infinite { refused, allowed };
+
 /// An HDF5 file opened for reading, whose seal, kind and major version are checked before anything else.
 ///
 /// Every read checks type class, rank, shape and unit and throws FileError with the file, the dataset, what was found
@@ -31,7 +34,7 @@ class Reader {
 
   [[nodiscard]] Eigen::VectorXd vector(const std::string& dataset, Eigen::Index n, const std::string& unit) const;
   [[nodiscard]] Eigen::MatrixXd matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols,
-                                       const std::string& unit) const;
+                                       const std::string& unit, Infinite infinite = Infinite::refused) const;
   /// Shape (n, rows, cols) as n matrices.
   [[nodiscard]] std::vector<Eigen::MatrixXd> stack(const std::string& dataset, Eigen::Index n, Eigen::Index rows,
                                                    Eigen::Index cols, const std::string& unit) const;

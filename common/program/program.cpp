@@ -60,7 +60,7 @@ void check_paths(const Arguments& arguments) {
 
 int report(const std::string& program, const char* what, Status status) {
   std::cout.flush();
-  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ") << what << "\n";
+  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ") << one_line(what) << "\n";
   return status;
 }
 
@@ -79,6 +79,21 @@ int Arguments::integer(const std::string& name, int low, int high, int otherwise
 std::string Arguments::text(const std::string& name) const {
   const auto found = options.find(name);
   return found == options.end() ? "" : found->second;
+}
+
+std::string one_line(const std::string& text) {
+  constexpr char first_printable = ' ', delete_character = 127;
+  std::string line;
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '\n')
+      line += "\\n";
+    else if (code < first_printable || code == delete_character)
+      line += fmt::format("\\u{:04x}", code);
+    else
+      line += c;
+  }
+  return line;
 }
 
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, program_version); }

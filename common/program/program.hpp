@@ -44,6 +44,9 @@ struct Arguments {
 /// 3 file, 4 numerical failure).
 int run(const Command& command, int argc, char** argv, const std::function<void(const Arguments&)>& body);
 
+/// The text with line breaks and other control characters, which names in the input may hold, as JSON escapes them.
+[[nodiscard]] std::string one_line(const std::string& text);
+
 /// Name and version that every file carries: "stage1_plate 1.0.0".
 [[nodiscard]] std::string generator(const std::string& program);
 

@@ -81,6 +81,44 @@ TEST(PlateMatrices, AnExternalNeedsItsStiffness) {
               ThrowsMessage<FileError>(HasSubstr("lab.h5:S_ee: dataset is missing")));
 }
 
+TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("m.h5");
+  const auto write_with = [&](double area, const std::string& side) {
+    PlateMatrices a;
+    a.p = Eigen::VectorXi::Constant(1, 1);
+    a.ndof = a.p;
+    a.disc_hole = {"a"};
+    a.disc_direction = {"x"};
+    a.S_dd = {Eigen::MatrixXd::Identity(1, 1)};
+    a.S_dd_error = Eigen::MatrixXd::Zero(1, 1);
+    a.S_ed_error = Eigen::MatrixXd::Zero(0, 1);
+    const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+    auto& s = a.stresses;
+    s.p = a.p;
+    s.rim_hole = s.section_hole = {"a"};
+    s.rim_center = Eigen::MatrixXd::Zero(1, 2);
+    s.rim_radius = s.gross_area = s.net_area = s.angle = Eigen::VectorXd::Ones(1);
+    s.bearing_area = Eigen::MatrixXd::Constant(1, 2, area);
+    s.rim_start = Eigen::Vector2i(0, 1);
+    s.sigma_rr = s.sigma_tt = s.sigma_rt = s.section_force = {one};
+    s.section_side = {side};
+    a.R_df = a.T_d = {Eigen::MatrixXd(1, 0)};
+    a.S_ed = {Eigen::MatrixXd(0, 1)};
+    a.S_ee = a.R_ef = a.T_e = a.C_t = {Eigen::MatrixXd(0, 0)};
+    a.load_displacement.resize(0, 1);
+    write(path, a);
+  };
+  write_with(0.5, "+x");
+  EXPECT_EQ(read_plate_matrices(path).stresses.section_side.at(0), "+x");
+  write_with(0, "+x");
+  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
+              ThrowsMessage<FileError>(HasSubstr("m.h5:rim/bearing_area: holds 0, expected numbers > 0")));
+  write_with(0.5, "");
+  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
+              ThrowsMessage<FileError>(HasSubstr("m.h5:section/side: holds \"\", expected +x, -x, +y or -y")));
+}
+
 TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
   for (const Eigen::Index steps : {0, 2}) {
     const test::TemporaryFolder folder;
@@ -105,8 +143,9 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     RimHistory& rims = plate.rims;
     rims.hole = {"1"};
     rims.sections = Eigen::VectorXi::Constant(1, 2);
-    for (auto* table : {&rims.bearing_load, &rims.bearing_stress, &rims.bypass_load, &rims.peak_hoop, &rims.peak_angle,
-                        &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
+    for (auto* table :
+         {&rims.bearing_load, &rims.bearing_stress, &rims.bypass_load, &rims.bypass_error, &rims.peak_hoop,
+          &rims.peak_angle, &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
       *table = Eigen::MatrixXd::Random(steps, 1);
     write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));

@@ -163,6 +163,8 @@ TEST_F(WrongFile, ShapesUnitsTypes) {
   EXPECT_THAT(message([](const Reader& f) { (void)f.strings("v", 3); }), HasSubstr("type is not string"));
   EXPECT_THAT(message([](const Reader& f) { (void)f.integer_attribute("nothing"); }),
               HasSubstr("'nothing' is missing"));
+  EXPECT_THAT(message([](const Reader& f) { (void)f.integer_attribute("version"); }),
+              HasSubstr("attribute 'version' is missing or not one integer"));
 }
 
 }  // namespace

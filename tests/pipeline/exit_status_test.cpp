@@ -88,6 +88,11 @@ TEST_F(ExitStatus, HolesThatDoNotFit) {
   plate(center("[2.3, 0]", "[2.7, 0]"), 2, HasSubstr("reaches over the cell line x = 2.8"));
 }
 
+TEST_F(ExitStatus, MessagesAreOneLineWhateverTheNames) {
+  plate(replaced(center("[2.3, 0]", "[3.9, 0]"), R"("id": "1")", R"("id": "one\n\ttwo")"), 2,
+        HasSubstr(R"(hole "one\n\u0009two" of radius 0.15)"));
+}
+
 TEST_F(ExitStatus, PlateThatNothingHolds) {
   const std::string free =
       R"({"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"al": {"E": 1e7, "nu": 0.3}},

@@ -63,7 +63,7 @@ def check_csv(path, result):
         for end, plate in (("first", "upper"), ("second", "lower")):
             rim = result[f"plates/{plate}/rim"]
             i = list(rim["hole"].asstr()).index(row["fastener"])
-            for name in ("bearing_load", "bearing_stress", "bypass_load", "peak_hoop", "peak_angle", "peak_error",
+            for name in ("bearing_load", "bearing_stress", "bypass_load", "bypass_error", "peak_hoop", "peak_angle", "peak_error",
                          "gross_concentration", "net_concentration"):
                 assert float(row[f"{name}_{end}"]) == rim[name][step, i], (row["fastener"], name)
 

@@ -19,6 +19,7 @@ namespace {
 
 using std::numbers::pi;
 using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 constexpr double degree = pi / 180;
 constexpr double diameter = 20, thickness = 5.34;
@@ -226,6 +227,22 @@ TEST(Contact, ASearchThatIsCutShortSaysHowFarItWas) {
   EXPECT_THAT(search, testing::ThrowsMessage<NumericalError>(testing::MatchesRegex(
                           "plate.json: /holes/0/spring: the contact of hole \"pin\" has not come to rest in 2 "
                           "iterations: the ends of its arcs still move by 0.00.* rad; allowed: 1e-06 rad")));
+}
+
+/// Rounding alone would hold such a plate, and move it by any distance.
+TEST(Contact, AFloatingPlateIsNotHeldByRounding) {
+  const auto plate = test::make_plate(R"({"format": "plate", "version": 1, "analysis": "plane strain",
+    "materials": {"m": {"E": 1e18, "nu": -0.5}},
+    "geometry": {"grid": {"x": [0, 1.4953731671602549e-09, 2.519596595165393e-09, 3.174942100487419e-09],
+                          "y": [0, 1.3249713298981606e-09], "thickness": 1e-09}},
+    "disc_directions": ["y", "x"],
+    "holes": [{"id": "a", "center": [7.476865835801274e-10, 6.624856649490803e-10], "radius": 1.3972169309285464e-10,
+               "spring": {"modulus": 7.157084758022732e+21, "compression_only": true}}],
+    "supports": [{"on": "left", "fix": ["y"]}],
+    "external": [{"id": "T", "on": "left", "direction": "x", "kind": "traction"}],
+    "loads": [{"external": "T", "force": 1e-17}, {"disc": "a", "direction": "x", "force": 5e-09}], "p": [1, 2]})");
+  EXPECT_THAT([&] { (void)stage1::find_contact(plate.scene, plate.mesh, plate.problem); },
+              ThrowsMessage<NumericalError>(HasSubstr("/loads: even with the whole rims sprung")));
 }
 
 TEST(Contact, LostContactIsSaid) {

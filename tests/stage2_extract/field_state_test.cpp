@@ -3,11 +3,14 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
 #include "common/errors.hpp"
 #include "common/formats/joint_result.hpp"
 #include "stage2_extract/case_sum.hpp"
 #include "stage2_extract/field_file.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/plates.hpp"
 
 namespace fastjoint {
 namespace {
@@ -228,6 +231,15 @@ TEST(FieldOptions, ThatNeedOthers) {
   const auto file = folder.write("joint.h5", "");
   EXPECT_THAT([&] { stage2::check_field_options({file}, true, file); },
               ThrowsMessage<InputError>(HasSubstr("joint.h5: is the file of --field; choose another name")));
+}
+
+TEST(FieldFile, AmountsThatOverflowAreRefused) {
+  const auto plate = test::solve(test::make_plate(test::panel(1, 1)));
+  const test::TemporaryFolder folder;
+  EXPECT_THAT(
+      [&] { (void)stage2::write_field(folder.path("f.vtu"), plate, "plate.h5", {"external:P=1e305"}); },
+      ThrowsMessage<NumericalError>(HasSubstr("plate.h5: --field external:P=1e305: displacements or stresses")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("f.vtu")));
 }
 
 }  // namespace

@@ -66,6 +66,17 @@ TEST(RimState, PeakAtTheEndOfAQuarter) {
   EXPECT_DOUBLE_EQ(s.peak_angle, 90);
 }
 
+/// Files made by hand may have any points: a parabola needs neighbours at equal distances.
+TEST(RimState, PeakOfOddPoints) {
+  auto one = plate(30, 30, [](double) { return 2.0; });
+  EXPECT_DOUBLE_EQ(state(one, 0, 0).peak_hoop, 4);
+  EXPECT_DOUBLE_EQ(state(one, 0, 0).peak_angle, 30);
+  auto uneven = plate(0, 90, [](double t) { return std::cos(2 * (t - 46 * degree)); });
+  uneven.stresses.angle[8] = 36;
+  EXPECT_DOUBLE_EQ(state(uneven, 0, 0).peak_hoop, 2 * std::cos(2 * degree));
+  EXPECT_DOUBLE_EQ(state(uneven, 0, 0).peak_angle, 45);
+}
+
 /// Where friction jumps, the hoop stress is singular: however large the number there, it is no peak.
 TEST(RimState, NeverReportsTheJumpOfFriction) {
   const auto spike = [](double at) {
