@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // PLATE.h5 files that someone has edited: what no plate can have is refused with its dataset.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -25,7 +26,7 @@ class EditedPlate : public testing::Test {
     const std::string path = folder.path("plate.h5");
     formats::write(path, plate);
     EXPECT_THAT([&] { (void)formats::read_plate_solution(path); },
-                ThrowsMessage<FileError>(HasSubstr("plate.h5:" + message)));
+                ThrowsMessage<FileError>(HasSubstr(fmt::format("plate.h5:{}", message))));
   }
 
  private:
@@ -36,10 +37,10 @@ class EditedPlate : public testing::Test {
 };
 
 TEST_F(EditedPlate, DirectionsAndSides) {
-  refused([](auto& a) { a.disc_direction[0] = "z"; }, "disc/direction: holds \"z\", expected one of x, y");
+  refused([](auto& a) { a.disc_direction[0] = std::string("z"); }, "disc/direction: holds \"z\", expected one of x, y");
   refused([](auto& a) { a.external_direction[0] = ""; }, "external/direction: holds \"\"");
-  refused([](auto& a) { a.traction_direction[0] = "X"; }, "traction/direction: holds \"X\"");
-  refused([](auto& a) { a.friction_bearing[1] = "x"; },
+  refused([](auto& a) { a.traction_direction[0] = std::string("X"); }, "traction/direction: holds \"X\"");
+  refused([](auto& a) { a.friction_bearing[1] = std::string("x"); },
           "friction/bearing: holds \"x\", expected one of +x, -x, +y, -y");
   refused([](auto& a) { a.sections.at(0).side = ""; }, "section/side: holds \"\"");
 }

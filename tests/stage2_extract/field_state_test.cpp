@@ -122,7 +122,7 @@ class StateOfAJoint : public testing::Test {
     sheet.traction = table(1, 5);
     for (auto* rims : {&sheet.rims.bearing_load, &sheet.rims.bearing_stress, &sheet.rims.peak_hoop,
                        &sheet.rims.peak_angle, &sheet.rims.peak_error, &sheet.rims.bypass_load,
-                       &sheet.rims.gross_concentration, &sheet.rims.net_concentration})
+                       &sheet.rims.bypass_error, &sheet.rims.gross_concentration, &sheet.rims.net_concentration})
       rims->resize(2, 0);
     return sheet;
   }
