@@ -88,6 +88,8 @@ class ContactSearch {
     const RimGap::Peak peak = gap.peak(state_.z);
     contact.peak_pressure = scene_.holes[static_cast<std::size_t>(contact.hole)].spring->modulus * peak.gap;
     contact.peak_angle = peak.angle;
+    for (const auto& arc : contact.arcs)  // as the arc counts: 180 degrees at its end, not -180
+      if (peak.angle < arc.from && peak.angle + pfem::full_turn <= arc.to) contact.peak_angle += pfem::full_turn;
     const Eigen::Vector2d force = disc_force(scene_, problem_.unknowns, state_.force, contact.hole);
     if (contact.arcs.size() == 1 && force.norm() > 0)
       contact.half_angle = half_angle(contact.arcs[0], std::atan2(force.y(), force.x()), gap.ends());

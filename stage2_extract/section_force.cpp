@@ -46,8 +46,9 @@ Eigen::RowVectorXd section_force(const UnitFields& fields, const formats::Sectio
   return force;
 }
 
-SectionArea section_area(const formats::PlateSolution& plate, const formats::Section& section) {
-  const auto edges = pfem::find_edges(plate.mesh);
+SectionArea section_area(const UnitFields& fields, const formats::Section& section) {
+  const auto& plate = fields.plate();
+  const auto& edges = fields.edges();
   double gross = 0;
   for (const auto& side : section.sides)
     gross += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();

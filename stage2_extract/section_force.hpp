@@ -15,6 +15,6 @@ namespace fastjoint::stage2 {
 struct SectionArea {
   double gross, net;  ///< net: less the area that the hole takes of it
 };
-[[nodiscard]] SectionArea section_area(const formats::PlateSolution& plate, const formats::Section& section);
+[[nodiscard]] SectionArea section_area(const UnitFields& fields, const formats::Section& section);
 
 }  // namespace fastjoint::stage2

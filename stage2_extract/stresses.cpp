@@ -40,7 +40,8 @@ void describe_rims(const UnitFields& fields, const Rims& rims, formats::PlateStr
   a.angle = Eigen::Map<const Eigen::VectorXd>(angle.data(), static_cast<Eigen::Index>(angle.size()));
 }
 
-void describe_sections(const formats::PlateSolution& plate, formats::PlateStresses& a) {
+void describe_sections(const UnitFields& fields, formats::PlateStresses& a) {
+  const auto& plate = fields.plate();
   const auto s = static_cast<Eigen::Index>(plate.sections.size());
   a.gross_area.resize(s);
   a.net_area.resize(s);
@@ -48,7 +49,7 @@ void describe_sections(const formats::PlateSolution& plate, formats::PlateStress
     const auto& section = plate.sections[static_cast<std::size_t>(i)];
     a.section_hole.push_back(plate.hole_id[static_cast<std::size_t>(section.hole)]);
     a.section_side.push_back(section.side);
-    const auto area = section_area(plate, section);
+    const auto area = section_area(fields, section);
     a.gross_area[i] = area.gross;
     a.net_area[i] = area.net;
   }
@@ -84,7 +85,7 @@ formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, con
   Rims rims;
   for (const auto& rim : plate.hole_rim) rims.push_back(rim_points(plate.mesh, fields.edges(), rim));
   describe_rims(fields, rims, a);
-  describe_sections(plate, a);
+  describe_sections(fields, a);
   for (const int p : a.p) {
     fields.use(static_cast<std::size_t>(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p))));
     add_level(fields, rims, a);
