@@ -93,6 +93,23 @@ std::string rim_csv_fields(const RimHistory& rims, const std::string& hole, Inde
   return text;
 }
 
+std::vector<std::string> pulled_rims(const JointModel& joint, const std::vector<JointState>& states) {
+  std::vector<std::string> result;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (std::size_t rim = 0; rim < joint.plates[i].stresses.rim_hole.size(); ++rim) {
+      const auto pulls = [&](const JointState& state) {
+        return rim < state.plates[i].rims.size() && state.plates[i].rims[rim].pulls;
+      };
+      if (std::any_of(states.begin(), states.end(), pulls))
+        result.push_back(
+            fmt::format("{}: rim/sigma_rr: the springs of hole \"{}\" pull the sheet instead of pushing it: they act "
+                        "on the arc that "
+                        "does not bear under these loads; give its spring the other \"arc\" in PLATE.json",
+                        joint.plates[i].file, joint.plates[i].stresses.rim_hole[rim]));
+    }
+  return result;
+}
+
 std::string rim_table(const JointModel& joint, const JointState& state) {
   std::string rows;
   for (std::size_t i = 0; i < joint.plates.size(); ++i)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <optional>
 
 namespace fastjoint::stage3 {
@@ -36,8 +37,8 @@ class Rim {
     for (const double angle : angle_) allowed_.push_back(friction == 0 || std::abs(turn(angle - jump)) > left_out);
   }
 
-  [[nodiscard]] VectorXd hoop(const Eigen::MatrixXd& sigma_tt, const VectorXd& amounts) const {
-    return sigma_tt.middleRows(first_, angle_.size()) * amounts;
+  [[nodiscard]] VectorXd stress(const Eigen::MatrixXd& sigma, const VectorXd& amounts) const {
+    return sigma.middleRows(first_, angle_.size()) * amounts;
   }
 
   /// Largest value, at the top of the parabola through it and its neighbours; none if all points are left out.
@@ -52,6 +53,14 @@ class Rim {
     if (between && allowed(before) && allowed(after)) refine(value[before], value[after], step, *best);
     best->angle = turn(best->angle);
     return best;
+  }
+
+  /// How much of all radial stress, by amount, is on the half that bears towards `sign` along x.
+  [[nodiscard]] double bearing_share(const VectorXd& sigma_rr, double sign) const {
+    double bearing = 0;
+    for (Index i = 0; i < angle_.size(); ++i)
+      if (sign * std::cos(angle_[i] * std::numbers::pi / 180) > 0) bearing += std::abs(sigma_rr[i]);
+    return bearing / sigma_rr.lpNorm<1>();
   }
 
   /// Largest change within 45 degrees of a point.
@@ -87,12 +96,13 @@ class Rim {
 
 void read_peak(const formats::PlateStresses& a, const Rim& rim, std::size_t level, const VectorXd& amounts,
                RimState& state) {
-  const VectorXd hoop = rim.hoop(a.sigma_tt[level], amounts);
+  const VectorXd hoop = rim.stress(a.sigma_tt[level], amounts);
   const auto peak = rim.peak(hoop);
   if (!peak) return;
   state.peak_hoop = peak->value;
   state.peak_angle = peak->angle;
-  state.peak_error = level > 0 ? rim.change_around(peak->at, hoop - rim.hoop(a.sigma_tt[level - 1], amounts)) : unknown;
+  state.peak_error =
+      level > 0 ? rim.change_around(peak->at, hoop - rim.stress(a.sigma_tt[level - 1], amounts)) : unknown;
 }
 
 /// Forces over the sections on the two sides of a hole along x.
@@ -165,7 +175,11 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
       friction = loading.friction[disc - plate.holes.begin()];
     }
     state.bearing_stress = std::abs(state.bearing_load) / a.bearing_area(rim, 0);
-    read_peak(a, Rim(a, rim, friction), level, loading.amounts, state);
+    const Rim points(a, rim, friction);
+    read_peak(a, points, level, loading.amounts, state);
+    constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
+    state.pulls = std::abs(state.bearing_load) > 1e-9 * largest &&
+                  points.bearing_share(points.stress(a.sigma_rr[level], loading.amounts), state.bearing_load) < hardly;
     read_sections(a, a.rim_hole[i], forces, state.bearing_load + friction, largest, state);
     states.push_back(state);
   }

@@ -17,6 +17,8 @@ struct RimState {
   double peak_hoop = 0;       ///< largest hoop stress, tension positive, stress
   double peak_angle = 0;      ///< where, degrees counter-clockwise from x
   double peak_error = 0;      ///< estimated; infinite where there is no degree below, stress
+  /// The springs pull instead of pushing: they act on the side that does not bear.
+  bool pulls = false;
   double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
 };
 

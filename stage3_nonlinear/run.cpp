@@ -12,6 +12,7 @@
 #include "common/program/text_file.hpp"
 #include "stage3_nonlinear/joint_history.hpp"
 #include "stage3_nonlinear/report.hpp"
+#include "stage3_nonlinear/rim_history.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -48,6 +49,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   std::vector<JointState> states;
   states.reserve(path.steps.size());
   for (const auto& step : path.steps) states.push_back(joint_state(joint, equations.system, step));
+  warn(log, pulled_rims(joint, states));
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};
   formats::write(options.output, result);

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What RESULT.h5 and its CSV say of the holes is what the matrices and the joint's state give: stress_test.py BIN_FOLDER."""
 import csv
+import json
 import os
 import shutil
 import subprocess
@@ -68,6 +69,26 @@ def check_csv(path, result):
                 assert float(row[f"{name}_{end}"]) == rim[name][step, i], (row["fastener"], name)
 
 
+def check_warning(folder):
+    """Springs on the arc that does not bear are noticed; on the one that does, nothing is said."""
+    for name, arcs, warned in (("right", {"upper": [90, 270], "lower": [-90, 90]}, False),
+                               ("wrong", {"upper": [-90, 90], "lower": [-90, 90]}, True)):
+        case = folder / name
+        case.mkdir()
+        shutil.copy(folder / "joint.json", case)
+        for plate, arc in arcs.items():
+            scene = json.loads((folder / f"{plate}.json").read_text())
+            for hole in scene["holes"]:
+                hole["spring"]["arc"] = arc
+            (case / f"{plate}.json").write_text(json.dumps(scene))
+            subprocess.run(["stage1_plate", case / f"{plate}.json", "-o", case / f"{plate}.h5", "--quiet"], check=True)
+            subprocess.run(["stage2_extract", case / f"{plate}.h5", "-o", case / f"{plate}.matrices.h5", "--quiet"], check=True)
+        run = subprocess.run(["stage3_nonlinear", case / "joint.json", "-o", case / "joint.h5", "--quiet"], check=True,
+                             capture_output=True, text=True)
+        assert (run.stderr.count("pull the sheet instead of pushing it") == 4) == warned, run.stderr
+        assert warned or not run.stderr, run.stderr
+
+
 def main(bin_folder):
     os.environ["PATH"] = os.path.abspath(bin_folder) + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as name:
@@ -84,6 +105,7 @@ def main(bin_folder):
                             check_hole(matrices, state, i, step)
                         check_pressure(matrices, state, step)
             check_csv(folder / "joint.csv", result)
+        check_warning(folder)
 
 
 if __name__ == "__main__":

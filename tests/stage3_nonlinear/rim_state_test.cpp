@@ -32,6 +32,7 @@ PlateModel plate(double from, double to, const std::function<double(double)>& ho
   Eigen::MatrixXd tt = Eigen::MatrixXd::Zero(points, 2);
   for (Index i = 0; i < points; ++i) tt(i, 0) = hoop(a.angle[i] * degree);
   a.sigma_tt = {1.01 * tt, tt};
+  a.sigma_rr = {-tt, -tt};
   a.section_hole = {"1", "1"};
   a.section_side = {"+x", "-x"};
   a.gross_area = Eigen::Vector2d(2, 2);
@@ -107,6 +108,23 @@ TEST(RimState, BearingStressAndConcentrations) {
   EXPECT_DOUBLE_EQ(s.bearing_load, -2);
   EXPECT_DOUBLE_EQ(s.gross_concentration, 8 / (5.0 / 2));
   EXPECT_DOUBLE_EQ(s.net_concentration, 8 / (5.0 / 1.5));
+}
+
+/// Springs on the right half alone: right for a fastener that pushes to +x, not for one to -x.
+TEST(RimState, SpringsOnTheWrongArcPull) {
+  PlateModel model = plate(0, 360, [](double) { return 4.0; });
+  const auto radial = [&](const std::function<double(double)>& sigma) {
+    for (Index i = 0; i < model.stresses.angle.size(); ++i)
+      model.stresses.sigma_rr[1](i, 0) = sigma(std::cos(model.stresses.angle[i] * degree));
+  };
+  model.stresses.sigma_rr.assign(2, Eigen::MatrixXd::Zero(model.stresses.angle.size(), 2));
+  radial([](double c) { return c > 0 ? -c : 0; });
+  EXPECT_FALSE(state(model, 1, 0).pulls);
+  radial([](double c) { return c > 0 ? c : 0; });
+  EXPECT_TRUE(state(model, -1, 0).pulls);
+  radial([](double c) { return c + 3 * (2 * c * c - 1); });  // all around, beside a large bypass load
+  EXPECT_FALSE(state(model, -1, 0).pulls);
+  EXPECT_FALSE(state(model, 0, 0).pulls) << "nothing to push";
 }
 
 TEST(RimState, NoConcentrationOnAnUnloadedSection) {
