@@ -86,7 +86,7 @@ class ContactSearch {
     contact.arcs = arcs_[i];
     if (contact.arcs.empty()) return;
     const RimGap::Peak peak = gap.peak(state_.z);
-    contact.peak_pressure = scene_.holes[static_cast<std::size_t>(contact.hole)].spring->modulus * peak.gap;
+    contact.peak_pressure = scene_.holes[static_cast<std::size_t>(contact.hole)].sprung().modulus * peak.gap;
     contact.peak_angle = peak.angle;
     for (const auto& arc : contact.arcs)  // as the arc counts: 180 degrees at its end, not -180
       if (peak.angle < arc.from && peak.angle + pfem::full_turn <= arc.to) contact.peak_angle += pfem::full_turn;
@@ -122,7 +122,7 @@ ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const
 
 PlateScene with_arcs(PlateScene scene, const ContactState& state) {
   for (const auto& contact : state.holes)
-    scene.holes[static_cast<std::size_t>(contact.hole)].spring->acts = contact.arcs;
+    if (auto& spring = scene.holes[static_cast<std::size_t>(contact.hole)].spring) spring->acts = contact.arcs;
   return scene;
 }
 

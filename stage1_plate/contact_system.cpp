@@ -19,9 +19,11 @@ bool has_friction(const std::vector<Load>& loads) {
 
 /// Of each controlled displacement.
 std::vector<Load> controlled_loads(const PlateScene& scene, const Unknowns& unknowns) {
+  const SceneLoads& given = scene.given_loads();
   std::vector<Load> loads;
-  for (const int external : unknowns.rigid) loads.push_back(scene.loads->external[static_cast<std::size_t>(external)]);
-  loads.insert(loads.end(), scene.loads->disc.begin(), scene.loads->disc.end());
+  loads.reserve(unknowns.rigid.size() + given.disc.size());
+  for (const int external : unknowns.rigid) loads.push_back(given.external[static_cast<std::size_t>(external)]);
+  loads.insert(loads.end(), given.disc.begin(), given.disc.end());
   return loads;
 }
 
@@ -32,14 +34,14 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
       plate_(plate),
       problem_(problem),
       rim_(find_rim_unknowns(scene, plate, problem)),
-      plate_matrices_(condense_to_rims(problem, rim_, has_friction(scene.loads->disc))),
+      plate_matrices_(condense_to_rims(problem, rim_, has_friction(scene.given_loads().disc))),
       loads_(controlled_loads(scene, problem.unknowns)),
       traction_(static_cast<Eigen::Index>(problem.unknowns.traction.size())),
       side_(loads_.size(), 0),
       whole_(Eigen::MatrixXd::Zero(rim_.size(), rim_.size())) {
   for (std::size_t i = 0; i < problem.unknowns.traction.size(); ++i)
     traction_[static_cast<Eigen::Index>(i)] =
-        scene.loads->external[static_cast<std::size_t>(problem.unknowns.traction[i])].value;
+        scene.given_loads().external[static_cast<std::size_t>(problem.unknowns.traction[i])].value;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     const auto& spring = scene.holes[hole].spring;
     if (!spring || !spring->compression_only) continue;
@@ -51,7 +53,8 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
 
 ContactSystem::State ContactSystem::solve_whole() {
   std::vector<Arcs> arcs;
-  for (const int hole : holes_) arcs.push_back(scene_.holes[static_cast<std::size_t>(hole)].spring->acts);
+  arcs.reserve(holes_.size());
+  for (const int hole : holes_) arcs.push_back(scene_.holes[static_cast<std::size_t>(hole)].sprung().acts);
   return solve(arcs);
 }
 
@@ -59,7 +62,7 @@ ContactSystem::State ContactSystem::solve_whole() {
 ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   PlateScene sprung = scene_;
   for (std::size_t i = 0; i < arcs.size(); ++i)
-    sprung.holes[static_cast<std::size_t>(holes_[i])].spring->acts = arcs[i];
+    if (auto& spring = sprung.holes[static_cast<std::size_t>(holes_[i])].spring) spring->acts = arcs[i];
   if (!is_held_under_loads(sprung, plate_, problem_.unknowns)) lost(arcs);
   Eigen::MatrixXd dM = -whole_;
   for (std::size_t i = 0; i < gaps_.size(); ++i) dM += gaps_[i].stiffness(arcs[i]);
@@ -138,7 +141,7 @@ void ContactSystem::lost(const std::vector<Arcs>& arcs) const {
           scene_.file, scene_.holes[static_cast<std::size_t>(holes_[i])].id));
   bool whole = true;
   for (std::size_t i = 0; i < arcs.size(); ++i)
-    whole = whole && arcs[i] == scene_.holes[static_cast<std::size_t>(holes_[i])].spring->acts;
+    whole = whole && arcs[i] == scene_.holes[static_cast<std::size_t>(holes_[i])].sprung().acts;
   if (whole)
     throw NumericalError(
         fmt::format("{}: /loads: even with the whole rims sprung, something that carries load can move freely; "

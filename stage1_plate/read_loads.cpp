@@ -50,6 +50,7 @@ class LoadReader {
     item.only({"external", "force", "displacement"});
     const Value id = item.at("external");
     std::vector<std::string> ids;
+    ids.reserve(scene_.externals.size());
     for (const auto& external : scene_.externals) ids.push_back(external.id);
     const auto i = index(ids, id.choice(ids));
     const Load load = read_amount(item);

@@ -151,7 +151,7 @@ RimGap::SideGap RimGap::side_gap(const pfem::Side& side, const pfem::SideRule& r
 
 Eigen::MatrixXd RimGap::stiffness(const Arcs& arcs) const {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(unknowns_.size(), unknowns_.size());
-  Spring spring = *scene_.holes[static_cast<std::size_t>(hole_)].spring;
+  Spring spring = scene_.holes[static_cast<std::size_t>(hole_)].sprung();
   spring.acts = arcs;
   for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
     const SideSprings springs = side_springs(spring, plate_, side, problem_.numbering.p);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -64,6 +65,12 @@ struct Hole {
   double radius;
   std::optional<Spring> spring;  ///< none in an open hole, which has no disc
   int rings;                     ///< extra rings of elements around it (grid only)
+
+  /// The spring of a hole that has one.
+  [[nodiscard]] const Spring& sprung() const {
+    if (!spring) throw std::logic_error("the hole is open");
+    return *spring;
+  }
 };
 
 /// A spring between a vertex of the mesh and a disc of its own: what results depend on the mesh with.
@@ -118,6 +125,12 @@ struct PlateScene {
   std::vector<External> externals;
   std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
   int p_low = 1, p_high = 8;
+
+  /// The loads of a scene that has them.
+  [[nodiscard]] const SceneLoads& given_loads() const {
+    if (!loads) throw std::logic_error("the scene has no loads");
+    return *loads;
+  }
 };
 
 inline constexpr int highest_p = 8;

@@ -80,7 +80,7 @@ double add_hole(const PlateScene& scene, const PlateMesh& plate, std::size_t hol
                 int first_disc, Assembler& assembler) {
   double sum = 0;
   for (const auto& side : plate.rims[hole].sides) {
-    const SideSprings springs = side_springs(*scene.holes[hole].spring, plate, side, numbering.p);
+    const SideSprings springs = side_springs(scene.holes[hole].sprung(), plate, side, numbering.p);
     const SideTerms terms(springs);
     sum += springs.weight.sum();
     assembler.add_stiffness(side.element, terms.plate(numbering.function.rows()));

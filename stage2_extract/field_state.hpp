@@ -31,6 +31,7 @@ struct FieldRequest {
 template <class Plate>
 [[nodiscard]] std::vector<std::string> case_names(const Plate& a) {
   std::vector<std::string> names;
+  names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
   for (const auto& id : a.external_id) names.push_back("external:" + id);
   for (std::size_t i = 0; i < a.disc_hole.size(); ++i)
     names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);

@@ -16,6 +16,7 @@ using formats::PlateHistory;
 
 std::vector<std::string> names_of(const std::vector<const PlateHistory*>& sheets) {
   std::vector<std::string> names;
+  names.reserve(sheets.size());
   for (const auto* sheet : sheets) names.push_back(sheet->name);
   return names;
 }
@@ -23,6 +24,7 @@ std::vector<std::string> names_of(const std::vector<const PlateHistory*>& sheets
 const PlateHistory& named_sheet(const JointResult& joint, const formats::PlateSolution& plate, const std::string& file,
                                 const FieldRequest& request) {
   std::vector<const PlateHistory*> all;
+  all.reserve(joint.plates.size());
   for (const auto& sheet : joint.plates) all.push_back(&sheet);
   for (const auto* sheet : all) {
     if (sheet->name != request.plate) continue;
