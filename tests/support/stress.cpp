@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/stress.hpp"
 
-#include <Eigen/LU>
-
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/gauss.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/strain.hpp"
 
 namespace fastjoint::test {
 
@@ -25,16 +23,17 @@ Eigen::Matrix2Xd coefficients(const Plate& plate, const Eigen::VectorXd& free, c
 
 Eigen::Vector3d stress_at(const Plate& plate, const Eigen::Matrix2Xd& u, int element, double xi, double eta) {
   const auto& numbering = plate.problem.numbering;
-  const auto shape =
-      pfem::shape_values(numbering.p, Eigen::VectorXd::Constant(1, xi), Eigen::VectorXd::Constant(1, eta));
   const pfem::ElementMap map(plate.mesh.mesh, plate.mesh.edges, element);
-  Eigen::Matrix2d G = Eigen::Matrix2d::Zero();  // du/d(xi, eta)
-  for (Eigen::Index m = 0; m < shape.N.rows(); ++m)
-    G += numbering.sign(m, element) * u.col(numbering.function(m, element)) *
-         Eigen::RowVector2d(shape.dN_dxi(m, 0), shape.dN_deta(m, 0));
-  const Eigen::Matrix2d grad = G * map.jacobian(xi, eta).inverse();
+  const auto n = numbering.function.rows();
+  Eigen::VectorXd c(2 * n);  // first those of u_x
+  for (Eigen::Index m = 0; m < n; ++m) {
+    const Eigen::Vector2d value = numbering.sign(m, element) * u.col(numbering.function(m, element));
+    c[m] = value.x();
+    c[n + m] = value.y();
+  }
+  const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
   const auto& D = plate.scene.elasticity[static_cast<std::size_t>(plate.mesh.mesh.material[element])];
-  return D * Eigen::Vector3d(grad(0, 0), grad(1, 1), grad(0, 1) + grad(1, 0));
+  return D * pfem::strain_operator(map, numbering.p, at(xi), at(eta)) * c;
 }
 
 double integrated_force(const Plate& plate, const Eigen::Matrix2Xd& u, const std::string& set) {
@@ -42,15 +41,10 @@ double integrated_force(const Plate& plate, const Eigen::Matrix2Xd& u, const std
   double force = 0;
   for (const auto& side : plate.mesh.sets.at(set)) {
     const auto curve = pfem::edge_curve(plate.mesh.mesh, plate.mesh.edges, side.element, side.local_edge);
-    for (Eigen::Index q = 0; q < rule.x.size(); ++q) {
-      const double s = rule.x[q];
-      const Eigen::Vector2d at = side.local_edge == 0   ? Eigen::Vector2d(s, -1)
-                                 : side.local_edge == 1 ? Eigen::Vector2d(1, s)
-                                 : side.local_edge == 2 ? Eigen::Vector2d(s, 1)
-                                                        : Eigen::Vector2d(-1, s);
-      force += rule.w[q] * curve.derivative(s).norm() * plate.mesh.mesh.thickness[side.element] *
-               stress_at(plate, u, side.element, at.x(), at.y())[0];
-    }
+    const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);
+    for (Eigen::Index q = 0; q < rule.x.size(); ++q)
+      force += rule.w[q] * curve.derivative(rule.x[q]).norm() * plate.mesh.mesh.thickness[side.element] *
+               stress_at(plate, u, side.element, at(0, q), at(1, q))[0];
   }
   return force;
 }
