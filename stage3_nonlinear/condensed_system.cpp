@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <utility>
 #include <vector>
 
 #include "common/errors.hpp"
@@ -16,22 +17,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// The joint's rows S u + G+ F+ + G- F- + B F = load, before anything is eliminated.
+/// The joint's rows S u + G+ b+ + G- b- + B F = load, before anything is eliminated.
 struct Rows {
-  MatrixXd S;                ///< (N, N)
-  MatrixXd B;                ///< (N, n)
-  MatrixXd G_plus, G_minus;  ///< (N, n) friction, without columns if there is none
-  VectorXd load;             ///< (N) at load factor 1
-  VectorXd given;            ///< (N) given displacements at load factor 1, else 0
-  std::vector<Index> free;   ///< unknowns that are not given
+  MatrixXd S;                         ///< (N, N)
+  MatrixXd B;                         ///< (N, n a)
+  std::vector<FrictionRow> friction;  ///< (f)
+  MatrixXd E;                         ///< (f, n a)
+  MatrixXd G_plus, G_minus;           ///< (N, f)
+  VectorXd load;                      ///< (N) at load factor 1
+  VectorXd given;                     ///< (N) given displacements at load factor 1, else 0
+  std::vector<Index> free;            ///< unknowns that are not given
 };
 
-bool any_friction(const JointModel& joint) {
-  for (const auto& fastener : joint.fasteners)
-    for (const auto& end : fastener.ends)
-      for (const auto& friction : end.friction)
-        if (friction.load.size() > 0) return true;
-  return false;
+std::vector<FrictionRow> friction_rows(const JointModel& joint) {
+  std::vector<FrictionRow> rows;
+  for (std::size_t fastener = 0; fastener < joint.fasteners.size(); ++fastener)
+    for (std::size_t hole = 0; hole < joint.fasteners[fastener].holes.size(); ++hole)
+      for (std::size_t d = 0; d < joint.fasteners[fastener].holes[hole].friction.size(); ++d)
+        rows.push_back({fastener, hole, static_cast<Index>(d)});
+  return rows;
 }
 
 void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
@@ -51,30 +55,50 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
   }
 }
 
-void add_fastener(Rows& rows, const JointModel& joint, Index j) {
-  for (const End end : {first_plate, second_plate}) {
-    const FastenerEnd& at = joint.fasteners[static_cast<std::size_t>(j)].ends[end];
-    const Index offset = joint.offset(at.plate);
-    rows.B(offset + at.disc, j) = end == first_plate ? 1 : -1;
-    const auto& [plus, minus] = at.friction;
-    if (plus.load.size() > 0) rows.G_plus.block(offset, j, plus.load.size(), 1) += plus.load;
-    if (minus.load.size() > 0) rows.G_minus.block(offset, j, minus.load.size(), 1) += minus.load;
+void add_plane(Rows& rows, const JointModel& joint, Index at) {
+  const ShearPlane& plane = joint.planes[static_cast<std::size_t>(at)];
+  const HoleModel& first = joint.first_hole(plane);
+  const HoleModel& second = joint.second_hole(plane);
+  for (Index d = 0; d < joint.n_directions(); ++d) {
+    const Index column = at * joint.n_directions() + d;
+    rows.B(joint.offset(first.plate) + first.disc + d, column) = 1;
+    rows.B(joint.offset(second.plate) + second.disc + d, column) = -1;
   }
+  for (std::size_t i = 0; i < rows.friction.size(); ++i) {
+    const FrictionRow& row = rows.friction[i];
+    if (row.fastener != plane.fastener) continue;
+    const Index column = at * joint.n_directions() + row.direction;
+    if (row.hole == plane.first) rows.E(static_cast<Index>(i), column) = -1;
+    if (row.hole == plane.first + 1) rows.E(static_cast<Index>(i), column) = 1;
+  }
+}
+
+void add_friction(Rows& rows, const JointModel& joint, Index at) {
+  const FrictionRow& row = rows.friction[static_cast<std::size_t>(at)];
+  const HoleModel& hole = joint.fasteners[row.fastener].holes[row.hole];
+  const auto& [plus, minus] = hole.friction[static_cast<std::size_t>(row.direction)];
+  const Index offset = joint.offset(hole.plate);
+  if (plus.load.size() > 0) rows.G_plus.block(offset, at, plus.load.size(), 1) = plus.load;
+  if (minus.load.size() > 0) rows.G_minus.block(offset, at, minus.load.size(), 1) = minus.load;
 }
 
 Rows assemble(const JointModel& joint) {
   const Index N = joint.n_unknowns();
-  const Index n = joint.n_fasteners();
-  const Index n_friction = any_friction(joint) ? n : 0;
+  const Index n = joint.n_planes() * joint.n_directions();
+  auto friction = friction_rows(joint);
+  const auto f = static_cast<Index>(friction.size());
   Rows rows{.S = MatrixXd::Zero(N, N),
             .B = MatrixXd::Zero(N, n),
-            .G_plus = MatrixXd::Zero(N, n_friction),
-            .G_minus = MatrixXd::Zero(N, n_friction),
+            .friction = std::move(friction),
+            .E = MatrixXd::Zero(f, n),
+            .G_plus = MatrixXd::Zero(N, f),
+            .G_minus = MatrixXd::Zero(N, f),
             .load = VectorXd::Zero(N),
             .given = VectorXd::Zero(N),
             .free = {}};
   for (std::size_t i = 0; i < joint.plates.size(); ++i) add_plate(rows, joint.plates[i], joint.offset(i));
-  for (Index j = 0; j < n; ++j) add_fastener(rows, joint, j);
+  for (Index j = 0; j < joint.n_planes(); ++j) add_plane(rows, joint, j);
+  for (Index i = 0; i < f; ++i) add_friction(rows, joint, i);
   return rows;
 }
 
@@ -94,7 +118,7 @@ Rows assemble(const JointModel& joint) {
                   joint.file, fmt::join(names, " with plate ")));
 }
 
-/// Right-hand sides of the saddle-point system, block after block: load, delta, F+, F-.
+/// Right-hand sides of the saddle-point system, block after block: load, delta, b+, b-.
 MatrixXd right_hand_sides(const Rows& rows) {
   const Index N = static_cast<Index>(rows.free.size());
   const Index n = rows.B.cols();
@@ -124,6 +148,8 @@ CondensedSystem unpack(const Rows& rows, const MatrixXd& rhs, const MatrixXd& so
   D.col(0) += rows.given;
   return {.q = without_rounding(F.col(0), rhs.col(0).cwiseAbs().maxCoeff()),
           .S_ud = -F.middleCols(1, n),
+          .friction = rows.friction,
+          .E = rows.E,
           .H_plus = -F.middleCols(1 + n, n_friction),
           .H_minus = -F.rightCols(n_friction),
           .D_load = D.col(0),
@@ -136,14 +162,28 @@ CondensedSystem unpack(const Rows& rows, const MatrixXd& rhs, const MatrixXd& so
 
 VectorXd CondensedSystem::residual(const VectorXd& F, const VectorXd& delta, double load_factor) const {
   VectorXd r = F + S_ud * delta - load_factor * q;
-  if (has_friction()) r += H_plus * F.cwiseMax(0) + H_minus * (-F).cwiseMax(0);
+  if (has_friction()) r += friction_forces(F);
   return r;
+}
+
+VectorXd CondensedSystem::friction_forces(const VectorXd& F) const {
+  const VectorXd b = E * F;
+  return H_plus * b.cwiseMax(0) + H_minus * (-b).cwiseMax(0);
+}
+
+MatrixXd CondensedSystem::friction_matrix(const VectorXd& F) const {
+  const VectorXd b = E * F;
+  MatrixXd H = H_plus;
+  for (Index i = 0; i < b.size(); ++i)
+    if (b[i] < 0) H.col(i) = -H_minus.col(i);
+  return H * E;
 }
 
 VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta, double load_factor) const {
   VectorXd D = load_factor * D_load + D_delta * delta;
-  if (has_friction()) D += D_plus * F.cwiseMax(0) + D_minus * (-F).cwiseMax(0);
-  return D;
+  if (!has_friction()) return D;
+  const VectorXd b = E * F;
+  return D + D_plus * b.cwiseMax(0) + D_minus * (-b).cwiseMax(0);
 }
 
 CondensedSystem condense(const JointModel& joint) {

@@ -2,6 +2,7 @@
 #include "stage3_nonlinear/equilibrium.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -11,15 +12,44 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-const FrictionLoad& friction_at(const FastenerEnd& end, double F) {
-  return end.friction[F < 0 ? negative_force : positive_force];
+/// Bearing forces on the plates by fastener and hole, each (a), force.
+using Bearing = std::vector<std::vector<VectorXd>>;
+
+Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
+  const Index a = joint.n_directions();
+  Bearing bearing;
+  for (const auto& fastener : joint.fasteners) bearing.emplace_back(fastener.holes.size(), VectorXd::Zero(a));
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    bearing[plane.fastener][plane.first] -= F.segment(j * a, a);
+    bearing[plane.fastener][plane.first + 1] += F.segment(j * a, a);
+  }
+  return bearing;
 }
 
-VectorXd transferred(const JointModel& joint, const VectorXd& F, End end) {
-  VectorXd result(F.size());
-  for (Index j = 0; j < F.size(); ++j)
-    result[j] = F[j] * (1 + friction_at(joint.fasteners[static_cast<std::size_t>(j)].ends[end], F[j]).resultant);
-  return result;
+/// Null without friction.
+const FrictionLoad* friction_at(const HoleModel& hole, Index direction, double bearing) {
+  if (hole.friction.empty()) return nullptr;
+  return &hole.friction[static_cast<std::size_t>(direction)][bearing < 0 ? minus_side : plus_side];
+}
+
+double friction_share(const HoleModel& hole, Index direction, double bearing) {
+  const FrictionLoad* friction = friction_at(hole, direction, bearing);
+  return friction ? friction->resultant : 0;
+}
+
+/// @param side 0: in the first hole of each plane, 1: in the second.
+VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, std::size_t side) {
+  const Index a = joint.n_directions();
+  VectorXd result = F;
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    const std::size_t hole = plane.first + side;
+    for (Index d = 0; d < a; ++d)
+      result[j * a + d] *=
+          1 + friction_share(joint.fasteners[plane.fastener].holes[hole], d, bearing[plane.fastener][hole][d]);
+  }
+  return amounts(result, a);
 }
 
 /// What acts on one plate and what its rows ask for, force.
@@ -28,31 +58,41 @@ struct PlateForces {
   VectorXd discs;     ///< (m) by the fasteners' bearing
   VectorXd friction;  ///< (m) by their friction
   VectorXd Lambda;    ///< (h) stress
-
-  [[nodiscard]] double fasteners() const { return discs.sum() + friction.sum(); }
 };
 
-PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd& u, const PathStep& step) {
+void add_hole(PlateForces& forces, const HoleModel& hole, const VectorXd& bearing) {
+  for (Index d = 0; d < bearing.size(); ++d) {
+    const double b = bearing[d];
+    forces.discs[hole.disc + d] += b;
+    const FrictionLoad* friction = friction_at(hole, d, b);
+    if (!friction || friction->load.size() == 0) continue;
+    forces.asked += friction->load * std::abs(b);
+    forces.Lambda[friction->case_index] += friction->peak * std::abs(b);
+    forces.friction[hole.disc + d] += b * friction->resultant;
+  }
+}
+
+PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd& u, double load_factor,
+                         const Bearing& bearing) {
   const PlateModel& plate = joint.plates[at];
   const VectorXd none = VectorXd::Zero(plate.n_discs());
-  PlateForces forces{plate.S * u + step.load_factor * (plate.T * plate.traction_force), none, none,
+  PlateForces forces{plate.S * u + load_factor * (plate.T * plate.traction_force), none, none,
                      VectorXd::Zero(plate.friction_unit_force.size())};
-  for (Index j = 0; j < step.F.size(); ++j) {
-    const double F = step.F[j];
-    for (const End end : {first_plate, second_plate}) {
-      const FastenerEnd& fastener = joint.fasteners[static_cast<std::size_t>(j)].ends[end];
-      if (fastener.plate != at) continue;
-      const double on_plate = end == first_plate ? -F : F;
-      const FrictionLoad& friction = friction_at(fastener, F);
-      if (friction.load.size() > 0) {
-        forces.asked += friction.load * std::abs(F);
-        forces.Lambda[friction.case_index] += friction.peak * std::abs(F);
-      }
-      forces.discs[fastener.disc] += on_plate;
-      forces.friction[fastener.disc] += on_plate * friction.resultant;
-    }
-  }
+  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
+    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
+      if (joint.fasteners[i].holes[hole].plate == at)
+        add_hole(forces, joint.fasteners[i].holes[hole], bearing[i][hole]);
   return forces;
+}
+
+void add_sums(PlateState& state, const PlateModel& plate, const PlateForces& forces) {
+  for (Index i = 0; i < state.Pe.size(); ++i)
+    state.applied[plate.external_axis[static_cast<std::size_t>(i)]] += state.Pe[i];
+  for (Index i = 0; i < state.traction.size(); ++i)
+    state.applied[plate.traction_axis[static_cast<std::size_t>(i)]] += state.traction[i];
+  for (Index i = 0; i < plate.n_discs(); ++i)
+    state.by_fasteners[plate.axis_of(i)] += forces.discs[i] + forces.friction[i];
+  state.by_supports = -(state.applied + state.by_fasteners);
 }
 
 /// Fills in the plate and returns its worst row, force.
@@ -74,9 +114,7 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
       worst = std::max(worst, std::abs(forces.asked[m + i] - state.Pe[i]));
     }
   }
-  state.applied = state.Pe.dot(plate.external_in_x) + factor * plate.traction_force.dot(plate.traction_in_x);
-  state.by_fasteners = forces.fasteners();
-  state.by_supports = -(state.applied + state.by_fasteners);
+  add_sums(state, plate, forces);
   return worst;
 }
 
@@ -88,14 +126,16 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   const VectorXd D = system.displacements(step.F, step.delta, step.load_factor);
   JointState state;
   state.plates.resize(joint.plates.size());
-  state.transferred_first = transferred(joint, step.F, first_plate);
-  state.transferred_second = transferred(joint, step.F, second_plate);
+  const Bearing bearing = bearing_forces(joint, step.F);
+  state.transferred_first = transferred(joint, step.F, bearing, 0);
+  state.transferred_second = transferred(joint, step.F, bearing, 1);
   state.largest_force = largest(step.F);
   double worst = 0;
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
-    worst = std::max(worst, fill(state.plates[i], plate, plate_forces(joint, i, u, step), u, step.load_factor));
+    const auto forces = plate_forces(joint, i, u, step.load_factor, bearing);
+    worst = std::max(worst, fill(state.plates[i], plate, forces, u, step.load_factor));
     const double traction = std::abs(step.load_factor) * largest(plate.traction_force);
     state.largest_force = std::max({state.largest_force, largest(state.plates[i].Pe), traction});
   }
@@ -103,12 +143,24 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   return state;
 }
 
-VectorXd shares(const VectorXd& transferred) {
+VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   constexpr double rounding = 1e-9;
-  const double sum = transferred.sum();
-  if (!(std::abs(sum) > rounding * transferred.cwiseAbs().sum()))
-    return VectorXd::Constant(transferred.size(), std::numeric_limits<double>::quiet_NaN());
-  return 100 / sum * transferred;
+  const auto plates = [&](Index j) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    return std::array{joint.first_hole(plane).plate, joint.second_hole(plane).plate};
+  };
+  VectorXd result(transferred.size());
+  for (Index j = 0; j < result.size(); ++j) {
+    double sum = 0, amount = 0;
+    for (Index i = 0; i < result.size(); ++i) {
+      if (plates(i) != plates(j)) continue;
+      sum += transferred[i];
+      amount += std::abs(transferred[i]);
+    }
+    const bool known = std::abs(sum) > rounding * amount;
+    result[j] = known ? 100 / sum * transferred[j] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return result;
 }
 
 }  // namespace fastjoint::stage3

@@ -17,16 +17,17 @@ struct PlateState {
   Eigen::VectorXd Lambda;      ///< (h) peak stress of each friction case, stress
   Eigen::VectorXd traction;    ///< (q) force on each traction boundary, force
   std::vector<RimState> rims;  ///< of every hole that the plate's stresses know
-  // Sums of the forces that act on the plate along x, force.
-  double applied = 0;       ///< by rigid externals and tractions
-  double by_fasteners = 0;  ///< bearing and friction
-  double by_supports = 0;   ///< the remainder: what stage 1's supports must give
+  // Sums of the forces that act on the plate along x and y, force.
+  Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
+  Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction
+  Eigen::Vector2d by_supports{0, 0};   ///< the remainder: what stage 1's supports must give
 };
 
 /// The whole joint at one increment, from the plates' own matrices.
 struct JointState {
   std::vector<PlateState> plates;
-  /// F and the friction resultant that helps it, (n), force.
+  /// F and the friction resultant that helps it in the plane's first and second hole, by amount where the discs have
+  /// two directions, (n), force.
   Eigen::VectorXd transferred_first, transferred_second;
   double largest_force = 0;   ///< of externals, tractions and fasteners
   double out_of_balance = 0;  ///< worst row of S D + R Lambda + T f + B F - P, over the largest force
@@ -34,7 +35,8 @@ struct JointState {
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 
-/// Per cent of the sum, shape (n); NaN where the sum is nothing but rounding.
-[[nodiscard]] Eigen::VectorXd shares(const Eigen::VectorXd& transferred);
+/// Per cent of the sum over all planes between the same two plates, shape (n); NaN where the sum is nothing but
+/// rounding.
+[[nodiscard]] Eigen::VectorXd shares(const JointModel& joint, const Eigen::VectorXd& transferred);
 
 }  // namespace fastjoint::stage3

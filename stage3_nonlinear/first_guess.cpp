@@ -7,16 +7,20 @@ namespace fastjoint::stage3 {
 
 using Eigen::VectorXd;
 
-VectorXd guessed_forces(const CondensedSystem& system, const InitialScene& initial, double load_factor) {
-  const auto n = system.q.size();
+VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor) {
+  const CondensedSystem& system = equations.system;
+  const auto rows = system.q.size();
   if (initial.guess == Guess::linear) {
     const double mean = system.S_ud.diagonal().mean();
     const double K = initial.stiffness.value_or(mean);
     const double flexibility = K > 0 ? 1 / K : 0;
-    return linear_forces(system, VectorXd::Constant(n, flexibility), load_factor).F;
+    return linear_forces(system, VectorXd::Constant(rows, flexibility), load_factor).F;
   }
-  const VectorXd rigid = linear_forces(system, VectorXd::Zero(n), load_factor).F;
-  return initial.guess == Guess::rigid ? rigid : VectorXd::Constant(n, rigid.mean());
+  VectorXd rigid = linear_forces(system, VectorXd::Zero(rows), load_factor).F;
+  if (initial.guess == Guess::rigid) return rigid;
+  const auto n = static_cast<Eigen::Index>(equations.contacts.size());
+  const Eigen::VectorXd mean = rigid.reshaped(rows / n, n).rowwise().mean();
+  return mean.replicate(n, 1);
 }
 
 std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial, double load_factor) {
@@ -26,7 +30,7 @@ std::vector<VectorXd> first_guesses(const JointEquations& equations, const Initi
   std::vector<VectorXd> guesses;
   guesses.reserve(order.size());
   for (const auto& each : order)
-    guesses.push_back(contact_coordinates(equations.contacts, guessed_forces(equations.system, each, load_factor)));
+    guesses.push_back(contact_coordinates(equations.contacts, guessed_forces(equations, each, load_factor)));
   return guesses;
 }
 

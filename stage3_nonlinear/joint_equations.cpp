@@ -1,47 +1,88 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/joint_equations.hpp"
 
-#include <Eigen/LU>
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
 
 namespace fastjoint::stage3 {
+namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// K, one entry for each plane.
+VectorXd reference_stiffnesses(const MatrixXd& S, Index n) {
+  constexpr double more = 1.05;
+  constexpr double negligible = 1e-9;  // a sheet that one fastener holds leaves rounding only
+  const Index a = S.rows() / n;
+  const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
+  const double largest = rows.maxCoeff();
+  VectorXd k(n);
+  for (Index j = 0; j < n; ++j) {
+    const double row = rows.segment(j * a, a).maxCoeff();
+    k[j] = row > negligible * largest ? row : largest > 0 ? largest : 1.0;
+  }
+  return k;
+}
+
+MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts) {
+  const Index a = S.rows() / static_cast<Index>(contacts.size());
+  MatrixXd W = -0.5 * (S + S.transpose());
+  for (Index i = 0; i < W.rows(); ++i) W(i, i) += contacts[static_cast<std::size_t>(i / a)].stiffness;
+  return W.llt().solve(MatrixXd::Identity(W.rows(), W.rows()));
+}
+
+}  // namespace
 
 JointEquations make_equations(const JointModel& joint) {
-  constexpr double negligible = 1e-9;  // a sheet that one fastener holds leaves rounding only
-  JointEquations equations{condense(joint), {}};
-  const Eigen::VectorXd k = equations.system.S_ud.diagonal();
-  double largest = k.maxCoeff();
-  if (!(largest > 0)) largest = 1;
-  for (Index j = 0; j < k.size(); ++j) {
-    const FastenerModel& fastener = joint.fasteners[static_cast<std::size_t>(j)];
-    equations.contacts.push_back({.law = fastener.law,
-                                  .gap = fastener.gap,
-                                  .stiffness = k[j] > negligible * largest ? k[j] : largest,
-                                  .one_sided = fastener.one_sided});
-  }
-  return equations;
+  std::vector<Contact> contacts;
+  contacts.reserve(joint.planes.size());
+  for (const auto& plane : joint.planes) contacts.push_back({plane.law, plane.clearance, 1, plane.one_sided});
+  return make_equations(condense(joint), std::move(contacts));
+}
+
+JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts) {
+  const VectorXd k = reference_stiffnesses(system.S_ud, static_cast<Index>(contacts.size()));
+  for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j].stiffness = k[static_cast<Index>(j)];
+  const bool rise = std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.law->rises(); });
+  MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();
+  return {std::move(system), std::move(contacts), std::move(metric)};
 }
 
 MatrixXd tangent(const CondensedSystem& system, const ContactState& state) {
-  MatrixXd J = system.S_ud * state.ddelta.asDiagonal();
-  J.diagonal() += state.dF;
-  if (!system.has_friction()) return J;
-  for (Index j = 0; j < J.cols(); ++j)
-    J.col(j) += state.F[j] < 0 ? -state.dF[j] * system.H_minus.col(j) : state.dF[j] * system.H_plus.col(j);
-  return J;
+  MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
+  if (system.has_friction()) F += system.friction_matrix(state.F);
+  return state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
 }
 
-std::vector<Index> undetermined(const CondensedSystem& system, const ContactState& state) {
-  constexpr double singular = 1e-10;
-  std::vector<Index> open;
-  for (Index j = 0; j < state.dF.size(); ++j)
-    if (state.dF[j] == 0) open.push_back(j);
-  if (open.empty()) return {};
-  MatrixXd J = tangent(system, state);
-  for (Index j = 0; j < J.cols(); ++j) J.col(j) /= std::max(J.col(j).cwiseAbs().maxCoeff(), 1e-300);
-  return Eigen::PartialPivLU<MatrixXd>(J).rcond() > singular ? std::vector<Index>{} : open;
+RootProblem root_problem(const JointEquations& equations, double load_factor, double scale, const VectorXd* frozen) {
+  const CondensedSystem& system = equations.system;
+  const VectorXd load =
+      frozen ? VectorXd(load_factor * system.q - system.friction_forces(*frozen)) : VectorXd(load_factor * system.q);
+  const bool friction = system.has_friction() && !frozen;
+  RootProblem problem;
+  problem.residual = [&equations, load, scale, friction](const VectorXd& x) -> VectorXd {
+    const auto state = contact_state(equations.contacts, scale * x);
+    VectorXd r = state.F + equations.system.S_ud * state.delta - load;
+    if (friction) r += equations.system.friction_forces(state.F);
+    return r / scale;
+  };
+  problem.jacobian = [&equations, scale, friction](const VectorXd& x) -> MatrixXd {
+    // A trace of stiffness for open fasteners, in the direction of search only: a sheet that none of them touches has
+    // no other, and the solvers divide by what is left.
+    constexpr double trace = 1e-9;
+    auto state = contact_state(equations.contacts, scale * x);
+    state.dF.along = (state.dF.along.array() == 0).select(trace, state.dF.along);
+    state.dF.across = (state.dF.across.array() == 0).select(trace, state.dF.across);
+    if (friction) return tangent(equations.system, state);
+    return state.times(equations.system.S_ud, state.ddelta) +
+           state.times(MatrixXd::Identity(x.size(), x.size()), state.dF);
+  };
+  if (equations.metric.size() > 0 && !friction)
+    problem.descent = [&metric = equations.metric](const VectorXd& r) -> VectorXd { return metric * r; };
+  return problem;
 }
 
 }  // namespace fastjoint::stage3

@@ -6,26 +6,34 @@
 
 #include "stage3_nonlinear/condensed_system.hpp"
 #include "stage3_nonlinear/contact.hpp"
+#include "stage3_nonlinear/root.hpp"
 
 namespace fastjoint::stage3 {
 
-/// The nonlinear equations of a joint: the condensed system with the fasteners' laws put in.
+/// The nonlinear equations of a joint: the condensed system with the fasteners' laws put in, for the contact
+/// coordinates c.
 struct JointEquations {
   CondensedSystem system;
   std::vector<Contact> contacts;  ///< (n)
+  /// W^-1 with W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
+  /// length / force (newton_solver.hpp).
+  Eigen::MatrixXd metric;
 
-  [[nodiscard]] Eigen::Index n_fasteners() const { return system.q.size(); }
+  [[nodiscard]] Eigen::Index n_unknowns() const { return system.q.size(); }
 };
 
-/// Condenses the plates and gives each fastener the plates' stiffness at its place as its reference
-/// stiffness.
+/// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in
+/// its row of S_ud: then K - S_ud is positive definite (Gershgorin).
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
+[[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
 
-/// d residual / d c, shape (n, n), at the state of the contact coordinates c.
+/// d residual / d c, shape (n a, n a), at the state of the contact coordinates c.
 [[nodiscard]] Eigen::MatrixXd tangent(const CondensedSystem& system, const ContactState& state);
 
-/// Fasteners that are open while the tangent is singular: nothing but them holds some plate, so that its
-/// place within their gaps is not determined. Empty if all is well.
-[[nodiscard]] std::vector<Eigen::Index> undetermined(const CondensedSystem& system, const ContactState& state);
+/// The equations at a load factor, unknowns and residuals over `scale` (force).
+///
+/// @param frozen If not null, friction acts as under these bearing forces instead of its own, (n a).
+[[nodiscard]] RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
+                                       const Eigen::VectorXd* frozen = nullptr);
 
 }  // namespace fastjoint::stage3

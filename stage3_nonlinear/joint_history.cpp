@@ -14,8 +14,10 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   const auto steps = static_cast<Index>(states.size());
   formats::PlateHistory history;
   history.name = plate.name;
-  history.disc_hole = plate.holes;
-  history.disc_direction.assign(plate.holes.size(), "x");
+  for (Index i = 0; i < plate.n_discs(); ++i) {
+    history.disc_hole.push_back(plate.hole_of(i));
+    history.disc_direction.emplace_back(axis_names[static_cast<std::size_t>(plate.axis_of(i))]);
+  }
   history.external_id = plate.externals;
   history.traction_id = plate.tractions;
   history.friction_hole = plate.friction_hole;
@@ -50,7 +52,8 @@ std::string field(const std::string& text) {
 formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
                                   const std::vector<JointState>& states) {
   const auto steps = static_cast<Index>(path.steps.size());
-  const Index n = joint.n_fasteners();
+  const Index n = joint.n_planes();
+  const Index a = joint.n_directions();
   formats::JointResult result;
   result.p = joint.p;
   result.complete = !path.failure;
@@ -60,18 +63,26 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   result.residual.resize(steps);
   for (auto* table : {&result.delta, &result.F, &result.transferred_first, &result.transferred_second})
     table->resize(steps, n);
+  for (auto* table : {&result.delta_vector, &result.F_vector}) table->resize(steps, n * a);
   for (Index i = 0; i < steps; ++i) {
     const PathStep& step = path.steps[static_cast<std::size_t>(i)];
     const JointState& state = states[static_cast<std::size_t>(i)];
     result.load_factor[i] = step.load_factor;
     result.iterations[i] = step.iterations;
     result.residual[i] = step.residual;
-    result.delta.row(i) = step.delta.transpose();
-    result.F.row(i) = step.F.transpose();
+    result.delta_vector.row(i) = step.delta.transpose();
+    result.F_vector.row(i) = step.F.transpose();
+    result.delta.row(i) = amounts(step.delta, a).transpose();
+    result.F.row(i) = amounts(step.F, a).transpose();
     result.transferred_first.row(i) = state.transferred_first.transpose();
     result.transferred_second.row(i) = state.transferred_second.transpose();
   }
-  for (const auto& fastener : joint.fasteners) result.fastener_id.push_back(fastener.id);
+  for (const auto& plane : joint.planes) {
+    result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
+    result.first_hole.push_back(joint.name(joint.first_hole(plane)));
+    result.second_hole.push_back(joint.name(joint.second_hole(plane)));
+  }
+  for (const int axis : joint.axes) result.direction.emplace_back(axis_names[static_cast<std::size_t>(axis)]);
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
     result.plates.push_back(plate_history(joint.plates[i], states, i));
   return result;
@@ -79,22 +90,19 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
 
 std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text =
-      "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,residual";
+      "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,residual,first,"
+      "second";
   for (const char* end : {"first", "second"}) text += rim_csv_names(end);
   text += "\n";
   for (Index i = 0; i < a.F.rows(); ++i) {
-    const Eigen::VectorXd share = shares(a.transferred_first.row(i).transpose());
+    const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {
-      text +=
-          fmt::format("{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i],
-                      field(a.fastener_id[static_cast<std::size_t>(j)]), a.delta(i, j), a.F(i, j),
-                      a.transferred_first(i, j), a.transferred_second(i, j), share[j], a.iterations[i], a.residual[i]);
-      const auto& fastener = joint.fasteners[static_cast<std::size_t>(j)];
-      for (const End end : {first_plate, second_plate}) {
-        const FastenerEnd& at = fastener.ends[end];
-        const auto& hole = joint.plates[at.plate].holes[static_cast<std::size_t>(at.disc)];
-        text += rim_csv_fields(a.plates[at.plate].rims, hole, i);
-      }
+      const auto at = static_cast<std::size_t>(j);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[at]),
+                          a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j), share[j],
+                          a.iterations[i], a.residual[i], field(a.first_hole[at]), field(a.second_hole[at]));
+      for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
+        text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
       text += "\n";
     }
   }

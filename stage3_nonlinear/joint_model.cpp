@@ -66,10 +66,28 @@ int chosen_degree(const JointScene& scene, const std::vector<PlateMatrices>& all
   return p;
 }
 
-/// The friction case of one end for one sign of F: F > 0 pushes the second plate to +x and the first to -x.
-FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, End end, Sign sign) {
-  const bool plus = (end == second_plate) == (sign == positive_force);
-  const char* bearing = plus ? "+x" : "-x";
+/// The plates' directions, which must be the same.
+std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateModel>& plates) {
+  const auto names = [](const PlateModel& plate) {
+    std::vector<std::string> result;
+    for (const int axis : plate.axes)
+      result.push_back(fmt::format("\"{}\"", axis_names[static_cast<std::size_t>(axis)]));
+    return fmt::format("[{}]", fmt::join(result, ", "));
+  };
+  for (std::size_t i = 1; i < plates.size(); ++i)
+    if (plates[i].axes != plates[0].axes)
+      refuse(
+          scene.plates[i].where,
+          fmt::format("the discs of {} have the directions {}", plates[i].file, names(plates[i])),
+          fmt::format("{}, as those of {}: give both plates the same \"disc_directions\" and run stages 1 and 2 again",
+                      names(plates[0]), plates[0].file));
+  return plates[0].axes;
+}
+
+/// The friction case of a hole for the side that bears along an axis.
+FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
+  const std::string bearing =
+      fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[static_cast<std::size_t>(axis)]);
   for (Eigen::Index i = 0; i < plate.friction_unit_force.size(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     if (plate.friction_hole[at] != hole || plate.friction_bearing[at] != bearing) continue;
@@ -88,30 +106,53 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
                   plate.file, hole, bearing, mu));
 }
 
-FastenerEnd fastener_end(const JointModel& model, const FastenerScene& scene, End end, bool one_sided) {
-  const Reference& hole = scene.between[end];
+/// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
+std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, std::size_t hole) {
+  std::array<bool, 2> sides{};
+  for (std::size_t plane = 0; plane < fastener.law.size(); ++plane) {
+    if (plane != hole && plane + 1 != hole) continue;
+    const bool both = !scene.laws.at(fastener.law[plane]).one_sided;
+    const Side positive = plane == hole ? minus_side : plus_side;
+    sides[positive] = true;
+    if (both) sides[1 - positive] = true;
+  }
+  return sides;
+}
+
+HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, std::size_t at) {
+  const Reference& hole = fastener.between[at];
   const auto is_named = [&](const PlateModel& plate) { return plate.name == hole.plate; };
   const auto plate = std::find_if(model.plates.begin(), model.plates.end(), is_named);
-  const auto disc = index_of(plate->holes, hole.name);
-  if (!disc)
+  const auto index = index_of(plate->holes, hole.name);
+  if (!index)
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate->file),
            fmt::format("{}", fmt::join(plate->holes, ", ")));
-  FastenerEnd result{static_cast<std::size_t>(plate - model.plates.begin()), *disc, {}};
-  const double mu = scene.friction[end];
+  const double mu = fastener.friction[at];
+  HoleModel result{static_cast<std::size_t>(plate - model.plates.begin()), *index * model.n_directions(), mu, {}};
   if (mu == 0) return result;
-  result.friction[positive_force] = friction_load(*plate, hole.name, mu, end, positive_force);
-  if (!one_sided) result.friction[negative_force] = friction_load(*plate, hole.name, mu, end, negative_force);
+  const auto sides = bearing_sides(scene, fastener, at);
+  for (const int axis : model.axes) {
+    auto& friction = result.friction.emplace_back();
+    for (const Side side : {plus_side, minus_side})
+      if (sides[side]) friction[side] = friction_load(*plate, hole.name, mu, axis, side);
+  }
   return result;
 }
 
-FastenerModel make_fastener(const JointModel& model, const JointScene& scene, const FastenerScene& fastener) {
-  const LawScene& law = scene.laws.at(fastener.law);
-  return {.id = fastener.id,
-          .ends = {fastener_end(model, fastener, first_plate, law.one_sided),
-                   fastener_end(model, fastener, second_plate, law.one_sided)},
-          .law = law.law,
-          .gap = law.law->delta0() + fastener.clearance,
-          .one_sided = law.one_sided};
+void add_fastener(JointModel& model, const JointScene& scene, const FastenerScene& fastener) {
+  for (std::size_t plane = 0; plane < fastener.law.size(); ++plane) {
+    const LawScene& law = scene.laws.at(fastener.law[plane]);
+    if (law.one_sided && model.n_directions() > 1)
+      refuse(fastener.where + "/law",
+             fmt::format("law \"{}\" is one_sided, but the discs move along x and y", fastener.law[plane]),
+             "laws that bear all around, or plates whose discs have one direction");
+    model.planes.push_back(
+        {model.fasteners.size(), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
+  }
+  FastenerModel result{fastener.id, {}};
+  for (std::size_t i = 0; i < fastener.between.size(); ++i)
+    result.holes.push_back(make_hole(model, scene, fastener, i));
+  model.fasteners.push_back(std::move(result));
 }
 
 void apply_load(JointModel& model, const LoadScene& load) {
@@ -145,6 +186,26 @@ Eigen::Index JointModel::offset(std::size_t plate) const {
   return offset;
 }
 
+const HoleModel& JointModel::first_hole(const ShearPlane& plane) const {
+  return fasteners[plane.fastener].holes[plane.first];
+}
+
+const HoleModel& JointModel::second_hole(const ShearPlane& plane) const {
+  return fasteners[plane.fastener].holes[plane.first + 1];
+}
+
+std::string JointModel::name(const HoleModel& hole) const {
+  return plates[hole.plate].name + ":" + plates[hole.plate].hole_of(hole.disc);
+}
+
+std::string JointModel::name(const ShearPlane& plane) const {
+  const FastenerModel& fastener = fasteners[plane.fastener];
+  const std::string id = fmt::format("fastener \"{}\"", fastener.id);
+  if (fastener.holes.size() == 2) return id;
+  return fmt::format("{} between \"{}\" and \"{}\"", id, plates[first_hole(plane).plate].name,
+                     plates[second_hole(plane).plate].name);
+}
+
 JointModel load_joint(const JointScene& scene, int p) {
   const auto all = read_all(scene);
   JointModel model;
@@ -153,7 +214,8 @@ JointModel load_joint(const JointScene& scene, int p) {
   model.p = chosen_degree(scene, all, p);
   for (std::size_t i = 0; i < all.size(); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, all[i], model.p));
-  for (const auto& fastener : scene.fasteners) model.fasteners.push_back(make_fastener(model, scene, fastener));
+  model.axes = common_axes(scene, model.plates);
+  for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
   for (const auto& load : scene.loads) apply_load(model, load);
   return model;
 }

@@ -12,45 +12,66 @@
 
 namespace fastjoint::stage3 {
 
-/// Friction at one end of a fastener for one sign of its force, per unit |F|; empty without friction.
+/// Friction in a hole for one side that bears, per unit bearing force; empty without friction.
 struct FrictionLoad {
   Eigen::VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
-  double resultant = 0;         ///< |resultant| mu / c: share of |F| that friction adds to what is transferred
+  double resultant = 0;         ///< |resultant| mu / c: share of the bearing force that friction adds
   Eigen::Index case_index = 0;  ///< among the plate's friction cases
   double peak = 0;              ///< mu / c: peak stress Lambda of the case, 1 / length^2
 };
 
-enum Sign : std::size_t { positive_force, negative_force };
-enum End : std::size_t { first_plate, second_plate };
+/// Side of a rim that bears: of a bearing force on the plate along + or - the axis.
+enum Side : std::size_t { plus_side, minus_side };
 
 /// Where a fastener holds a plate.
-struct FastenerEnd {
+struct HoleModel {
   std::size_t plate = 0;
-  Eigen::Index disc = 0;
-  std::array<FrictionLoad, 2> friction;  ///< by Sign
+  Eigen::Index disc = 0;  ///< first unknown of its disc among the plate's
+  double mu = 0;          ///< coefficient of friction
+  /// By direction of the joint, then by Side: each component of the bearing force has its own friction case.
+  std::vector<std::array<FrictionLoad, 2>> friction;
 };
 
-/// A fastener, ready for the equations: delta = D(first) - D(second); it pushes the second disc with +F.
+/// A fastener through its holes in their order.
 struct FastenerModel {
   std::string id;
-  std::array<FastenerEnd, 2> ends;  ///< by End
+  std::vector<HoleModel> holes;
+};
+
+/// Between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F and
+/// the first with -F.
+struct ShearPlane {
+  std::size_t fastener = 0;
+  std::size_t first = 0;  ///< hole of the fastener; the second is the next
   std::shared_ptr<const Law> law;
-  double gap = 0;  ///< delta0 of the law + clearance, length
+  std::string law_name;
+  double clearance = 0;  ///< length
   bool one_sided = false;
 };
 
 /// Plates with their loads and fasteners; indices instead of names.
+///
+/// Vectors of the shear planes have one entry for each plane and direction, directions inner.
 struct JointModel {
   std::string file;  ///< of the joint, for messages
   formats::Units units;
   int p = 0;
+  std::vector<int> axes{0};  ///< (a) directions of all discs: 0 x, 1 y
   std::vector<PlateModel> plates;
   std::vector<FastenerModel> fasteners;
+  std::vector<ShearPlane> planes;
 
-  [[nodiscard]] Eigen::Index n_fasteners() const { return static_cast<Eigen::Index>(fasteners.size()); }
+  [[nodiscard]] Eigen::Index n_directions() const { return static_cast<Eigen::Index>(axes.size()); }
+  [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(planes.size()); }
   /// First unknown of a plate in the joint's list, plate after plate.
   [[nodiscard]] Eigen::Index offset(std::size_t plate) const;
   [[nodiscard]] Eigen::Index n_unknowns() const { return offset(plates.size()); }
+  [[nodiscard]] const HoleModel& first_hole(const ShearPlane& plane) const;
+  [[nodiscard]] const HoleModel& second_hole(const ShearPlane& plane) const;
+  /// "plate:hole"
+  [[nodiscard]] std::string name(const HoleModel& hole) const;
+  /// For messages: fastener "1", and of one with several planes also the plates: fastener "1" between "a" and "b".
+  [[nodiscard]] std::string name(const ShearPlane& plane) const;
 };
 
 /// Reads the matrices of all plates and resolves every name.

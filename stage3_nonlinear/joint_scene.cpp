@@ -2,12 +2,15 @@
 #include "stage3_nonlinear/joint_scene.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "common/errors.hpp"
 #include "common/input/value.hpp"
 #include "stage3_nonlinear/scene_check.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -53,19 +56,31 @@ void read_laws(const Value& laws, JointScene& scene) {
   if (scene.laws.empty()) laws.fail("no law", "at least one");
 }
 
-/// A number for both plates, or {"plate": mu} where a plate left out has none.
-std::array<double, 2> read_friction(const Value& value, const std::array<Reference, 2>& between) {
-  if (!value.is_object()) {
-    const double mu = value.number(input::not_negative);
-    return {mu, mu};
-  }
-  std::array<double, 2> friction{};
+/// A number for all holes, or {"plate": mu} where a plate left out has none.
+std::vector<double> read_friction(const Value& value, const std::vector<Reference>& between) {
+  if (!value.is_object()) return std::vector<double>(between.size(), value.number(input::not_negative));
+  std::vector<double> friction(between.size(), 0.0);
   for (const auto& [plate, mu] : value.members()) {
-    if (plate != between[0].plate && plate != between[1].plate)
-      mu.fail("not a plate of this fastener", fmt::format("{}, {}", between[0].plate, between[1].plate));
-    friction[plate == between[0].plate ? 0 : 1] = mu.number(input::not_negative);
+    const auto is_named = [&name = plate](const Reference& hole) { return hole.plate == name; };
+    const auto hole = std::find_if(between.begin(), between.end(), is_named);
+    if (hole == between.end()) {
+      std::vector<std::string> plates;
+      for (const auto& each : between) plates.push_back(each.plate);
+      mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
+    }
+    friction[static_cast<std::size_t>(hole - between.begin())] = mu.number(input::not_negative);
   }
   return friction;
+}
+
+/// One value for all shear planes, or a list with one for each.
+template <class Read>
+auto for_each_plane(const Value& value, std::size_t n_planes, Read read) {
+  if (!value.is_array()) return std::vector(n_planes, read(value));
+  const auto n = static_cast<int>(n_planes);
+  std::vector<decltype(read(value))> result;
+  for (const auto& item : value.items(n, n)) result.push_back(read(item));
+  return result;
 }
 
 FastenerScene read_fastener(const Value& value, const JointScene& scene) {
@@ -73,13 +88,18 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   FastenerScene fastener;
   fastener.where = where(scene.file, value);
   fastener.id = value.at("id").text();
-  const auto between = value.at("between").items(2, 2);
-  for (const std::size_t end : {0U, 1U}) fastener.between[end] = read_reference(scene.file, between[end], "hole");
+  for (const auto& hole : value.at("between").items(2))
+    fastener.between.push_back(read_reference(scene.file, hole, "hole"));
+  const std::size_t n_planes = fastener.between.size() - 1;
   std::vector<std::string> laws;
   laws.reserve(scene.laws.size());
   for (const auto& [name, law] : scene.laws) laws.push_back(name);
-  fastener.law = value.at("law").choice(laws);
-  if (const auto clearance = value.find("clearance")) fastener.clearance = clearance->number(input::not_negative);
+  fastener.law = for_each_plane(value.at("law"), n_planes, [&](const Value& law) { return law.choice(laws); });
+  fastener.clearance.assign(n_planes, 0.0);
+  if (const auto clearance = value.find("clearance"))
+    fastener.clearance =
+        for_each_plane(*clearance, n_planes, [](const Value& gap) { return gap.number(input::not_negative); });
+  fastener.friction.assign(fastener.between.size(), 0.0);
   if (const auto friction = value.find("friction")) fastener.friction = read_friction(*friction, fastener.between);
   return fastener;
 }
@@ -123,8 +143,9 @@ InitialScene read_initial(const Value& value) {
 }
 
 SolverScene read_solver(const Value& value) {
-  value.only({"tolerance", "max_iterations"});
+  value.only({"method", "tolerance", "max_iterations"});
   SolverScene solver;
+  if (const auto method = value.find("method")) solver.method = method->choice(solver_names());
   if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
   if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);
   return solver;

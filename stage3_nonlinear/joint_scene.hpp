@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,12 +29,13 @@ struct LawScene {
   bool one_sided = false;
 };
 
+/// A fastener through h >= 2 holes in their order along its axis: h - 1 shear planes, each between neighbours.
 struct FastenerScene {
   std::string id;
-  std::array<Reference, 2> between;  ///< "plate:hole" of the first and the second plate
-  std::string law;                   ///< a key of JointScene::laws
-  double clearance = 0;              ///< radial gap, length
-  std::array<double, 2> friction{};  ///< mu on the first and the second plate
+  std::vector<Reference> between;  ///< (h) "plate:hole"
+  std::vector<std::string> law;    ///< (h - 1) keys of JointScene::laws
+  std::vector<double> clearance;   ///< (h - 1) radial gap, length
+  std::vector<double> friction;    ///< (h) mu in each hole
   std::string where;
 };
 
@@ -54,8 +54,9 @@ struct InitialScene {
 };
 
 struct SolverScene {
-  double tolerance = 1e-10;  ///< largest residual, relative to the largest force
-  int max_iterations = 200;  ///< of one try
+  std::string method = "hybridsj";  ///< of solver_names()
+  double tolerance = 1e-10;         ///< largest residual, relative to the largest force
+  int max_iterations = 200;         ///< of one try
 };
 
 /// JOINT.json as it stands (schemas/joint.schema.json).

@@ -11,20 +11,33 @@
 
 namespace fastjoint::stage3 {
 
-/// A point of a fastener's curve beyond its gap and on the loaded side, with derivatives by the coordinate s.
+/// A point of a fastener's curve, delta >= 0, with derivatives by the contact coordinate c.
 struct Branch {
   double F;            ///< bearing force, force
-  double stretch;      ///< delta - gap, length
-  double dF;           ///< dF / ds, dimensionless
-  double dstretch;     ///< d stretch / ds, length / force
+  double delta;        ///< relative displacement of the discs, length
+  double dF;           ///< dF / dc, dimensionless
+  double ddelta;       ///< d delta / dc, length / force
   bool spent = false;  ///< past all that the fastener can carry: no place for a solution
 };
 
-/// What a fastener answers to the relative displacement of its discs once the gap is closed.
+/// What a number of the law does to the point with the coordinate c, c and k being fixed.
+struct Slope {
+  double F;      ///< dF / d number
+  double delta;  ///< d delta / d number
+};
+
+/// A number of a law as the input names it; its unit is length^length force^force.
+struct Parameter {
+  std::string name;
+  double length, force;
+};
+
+/// What a fastener answers to the relative displacement of its discs, delta >= 0, its clearance included.
 ///
-/// The curve is given by a coordinate s >= 0 in force units, of which both F and the displacement are smooth
-/// functions (theory.md section 7); which one, the law chooses. A new law is one new file and one line in
-/// law.cpp.
+/// The curve is given by a contact coordinate c >= 0 in force units. Of a law that never falls it is
+/// c = F + k delta (Minty's parametrisation of a monotone curve): F and delta are functions of c with slopes
+/// between 0 and 1 and between 0 and 1/k, also where the law's own slope is infinite, jumps or vanishes. Of a law that
+/// falls somewhere it is c = k delta. A new law is one new file and one line in law.cpp.
 class Law {
  public:
   Law() = default;
@@ -32,17 +45,29 @@ class Law {
   Law& operator=(const Law&) = delete;
   virtual ~Law() = default;
 
-  /// Gap that belongs to the law itself, length.
-  [[nodiscard]] virtual double delta0() const { return 0; }
-  /// @param s Coordinate, force, s >= 0.
-  /// @param k Reference stiffness that turns displacements into forces, force / length.
-  [[nodiscard]] virtual Branch beyond(double s, double k) const = 0;
-  /// Coordinate at which the force is F >= 0, or about that: first guesses start from it.
-  [[nodiscard]] virtual double coordinate(double F, double k) const = 0;
-  /// Force / length, if the force is proportional to the stretch.
-  [[nodiscard]] virtual std::optional<double> stiffness() const { return std::nullopt; }
-  /// Stretch up to which the law was measured, length.
-  [[nodiscard]] virtual double last_stretch() const { return std::numeric_limits<double>::infinity(); }
+  /// @param c Contact coordinate, force, c >= 0.
+  /// @param k Reference stiffness > 0, force / length.
+  [[nodiscard]] virtual Branch at(double c, double k, double clearance) const = 0;
+  /// Coordinate at which the force is F > 0, or about that: first guesses start from it.
+  [[nodiscard]] virtual double coordinate(double F, double k, double clearance) const = 0;
+  /// Displacement up to which the rim does not bear, length.
+  [[nodiscard]] virtual double gap(double clearance) const { return clearance; }
+  /// Whether the force never falls: then the coordinate is c = F + k delta.
+  [[nodiscard]] virtual bool rises() const { return true; }
+  /// Least dF/ddelta anywhere, force / length; 0 if the law rises.
+  [[nodiscard]] virtual double least_slope() const { return 0; }
+  /// Coordinates c > 0 at which the slope jumps, ascending, if the law is linear between them.
+  [[nodiscard]] virtual std::optional<std::vector<double>> kinks(double /*k*/, double /*clearance*/) const {
+    return std::nullopt;
+  }
+  /// Displacement up to which the law was measured, length.
+  [[nodiscard]] virtual double last_delta(double /*clearance*/) const {
+    return std::numeric_limits<double>::infinity();
+  }
+  /// The numbers of the law that results can be differentiated by.
+  [[nodiscard]] virtual std::vector<Parameter> parameters() const { return {}; }
+  /// By the clearance, then by each of parameters().
+  [[nodiscard]] virtual std::vector<Slope> slopes(double c, double k, double clearance) const = 0;
   /// What the user should know of the parameters, one sentence each.
   [[nodiscard]] virtual std::vector<std::string> doubts() const { return {}; }
 };

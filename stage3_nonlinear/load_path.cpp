@@ -6,9 +6,9 @@
 #include <limits>
 
 #include "stage3_nonlinear/first_guess.hpp"
-#include "stage3_nonlinear/hybrid_solver.hpp"
 #include "stage3_nonlinear/linear_joint.hpp"
 #include "stage3_nonlinear/newton_solver.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -35,8 +35,8 @@ struct State {
 class Walk {
  public:
   Walk(const JointEquations& equations, const PathOptions& options, double scale)
-      : equations_(equations), options_(options), scale_(scale) {
-    here_ = {0, VectorXd::Zero(equations.n_fasteners())};
+      : equations_(equations), options_(options), solver_(solver_named(options.solver.method)), scale_(scale) {
+    here_ = {0, VectorXd::Zero(equations.n_unknowns())};
   }
 
   /// Goes to a load factor, in half steps if it must; false if that failed too.
@@ -48,16 +48,23 @@ class Walk {
   [[nodiscard]] PathStep step() const {
     const auto state = contact_state(equations_.contacts, here_.c);
     const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor);
-    return {here_.load_factor,   state.F,
-            state.delta,         iterations_,
-            largest(r) / scale_, undetermined(equations_.system, state)};
+    return {
+        here_.load_factor, state.F, state.delta, iterations_, largest(r) / scale_, check_tangent(equations_, state)};
   }
 
   [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const {
-    return {increment, load_factor, here_.load_factor, worst_fastener_, worst_residual_};
+    const VectorXd F = here_.load_factor != 0 ? contact_state(equations_.contacts, here_.c).F
+                                              : guessed_forces(equations_, options_.initial, load_factor);
+    return {increment,         load_factor,
+            here_.load_factor, worst_row_ / directions(),
+            worst_residual_,   self_locking(equations_.system, F)};
   }
 
  private:
+  [[nodiscard]] Index directions() const {
+    return equations_.n_unknowns() / static_cast<Index>(equations_.contacts.size());
+  }
+
   bool advance(double target, int halvings_left) {
     if (solve(target)) return true;
     if (halvings_left == 0) return false;
@@ -67,51 +74,54 @@ class Walk {
 
   bool solve(double target) {
     if (target == 0) {  // without load the joint as it was built is in equilibrium, exactly
-      here_ = {0, VectorXd::Zero(equations_.n_fasteners())};
+      here_ = {0, VectorXd::Zero(equations_.n_unknowns())};
       return true;
     }
     worst_residual_ = std::numeric_limits<double>::infinity();
-    const auto problem = scaled_problem(target);
-    const auto solved_by = [&](decltype(&hybrid_root) solver) {
-      return [this, &problem, target, solver](const VectorXd& start) {
-        return solve_from(start, target, problem, solver);
-      };
+    const auto problem = root_problem(equations_, target, scale_);
+    const auto solved_by = [&](SolveFunction solver) {
+      return
+          [this, &problem, target, solver](const VectorXd& start) { return take(run(problem, start, solver), target); };
     };
     const bool started = here_.load_factor != 0;
-    if (started && solved_by(hybrid_root)(here_.c)) return true;
+    if (started && solved_by(solver_)(here_.c)) return true;
     auto starts = first_guesses(equations_, options_.initial, target);
-    if (std::any_of(starts.begin(), starts.end(), solved_by(hybrid_root))) return true;
+    if (std::any_of(starts.begin(), starts.end(), solved_by(solver_))) return true;
     starts.insert(starts.begin(), here_.c);
-    return std::any_of(starts.begin(), starts.end(), solved_by(newton_root));
+    if (solver_ != newton_root && std::any_of(starts.begin(), starts.end(), solved_by(newton_root))) return true;
+    return solve_by_turns(target, problem);
   }
 
-  /// Unknowns and residuals over the largest force.
-  [[nodiscard]] RootProblem scaled_problem(double target) const {
-    const auto residual = [this, target](const VectorXd& x) -> VectorXd {
-      const auto state = contact_state(equations_.contacts, scale_ * x);
-      return equations_.system.residual(state.F, state.delta, target) / scale_;
-    };
-    const auto jacobian = [this](const VectorXd& x) {
-      // A trace of stiffness for open fasteners, in the direction of search only: a sheet that none of them
-      // touches has no other, and the solvers divide by what is left.
-      constexpr double trace = 1e-9;
-      auto state = contact_state(equations_.contacts, scale_ * x);
-      state.dF = (state.dF.array() == 0).select(trace, state.dF);
-      return tangent(equations_.system, state);
-    };
-    return {residual, jacobian};
+  /// Friction of the turn before as a load: each turn then has a solution that damped Newton finds, and the turns
+  /// converge where friction changes the forces by less than themselves.
+  bool solve_by_turns(double target, const RootProblem& problem) {
+    constexpr int most_turns = 50;
+    if (!equations_.system.has_friction() || equations_.metric.size() == 0) return false;
+    VectorXd c = here_.c;
+    for (int turn = 0; turn < most_turns; ++turn) {
+      const VectorXd F = contact_state(equations_.contacts, c).F;
+      const Root root = run(root_problem(equations_, target, scale_, &F), c, newton_root);
+      if (!root.converged) return false;
+      c = scale_ * root.x;
+      if (take(run(problem, c, newton_root), target)) return true;
+    }
+    return false;
   }
 
-  bool solve_from(const VectorXd& start, double target, const RootProblem& problem, decltype(&hybrid_root) solver) {
-    const Root root = solver(problem, start / scale_, {options_.solver.tolerance, options_.solver.max_iterations});
+  Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver) {
+    Root root = solver(problem, start / scale_, {options_.solver.tolerance, options_.solver.max_iterations});
     iterations_ += root.iterations;
+    return root;
+  }
+
+  bool take(const Root& root, double target) {
     if (!root.converged) {
       note_failure(root.residual);
       return false;
     }
     const VectorXd c = scale_ * root.x;
     if (const auto spent = contact_state(equations_.contacts, c).spent) {
-      if (std::isinf(worst_residual_)) worst_fastener_ = *spent;
+      if (std::isinf(worst_residual_)) worst_row_ = *spent * directions();
       return false;
     }
     here_ = {target, c};
@@ -124,22 +134,23 @@ class Walk {
     const double worst = residual.cwiseAbs().maxCoeff(&at);
     if (!(worst < worst_residual_)) return;
     worst_residual_ = worst;
-    worst_fastener_ = at;
+    worst_row_ = at;
   }
 
   const JointEquations& equations_;
   const PathOptions& options_;
+  SolveFunction solver_;
   double scale_;
   State here_;
   int iterations_ = 0;
   double worst_residual_ = 0;
-  Index worst_fastener_ = 0;
+  Index worst_row_ = 0;
 };
 
 /// Solutions for load factors 1 and -1 serve all others: with friction the two senses differ.
 std::optional<LoadPath> follow_linear(const JointEquations& equations, const std::vector<double>& load_factors,
                                       double tolerance) {
-  const auto flexibility = linear_flexibility(equations.contacts);
+  const auto flexibility = linear_flexibility(equations);
   if (!flexibility) return std::nullopt;
   LoadPath path{.linear = true, .force_scale = force_scale(equations.system, load_factors), .steps = {}, .failure = {}};
   std::optional<LinearForces> unit[2];
@@ -150,7 +161,8 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
     const VectorXd delta = flexibility->cwiseProduct(F);
     const double residual = largest(equations.system.residual(F, delta, factor)) / path.force_scale;
     if (!forces->consistent || !(residual <= tolerance)) return std::nullopt;
-    path.steps.push_back({factor, F, delta, forces->solves, residual, {}});
+    const auto state = contact_state(equations.contacts, contact_coordinates(equations.contacts, F));
+    path.steps.push_back({factor, F, delta, forces->solves, residual, check_tangent(equations, state)});
   }
   return path;
 }

@@ -7,6 +7,7 @@
 
 #include "stage3_nonlinear/joint_equations.hpp"
 #include "stage3_nonlinear/joint_scene.hpp"
+#include "stage3_nonlinear/tangent_check.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -16,19 +17,20 @@ inline constexpr int max_halvings = 6;
 /// A converged increment.
 struct PathStep {
   double load_factor;
-  Eigen::VectorXd F, delta;                ///< (n) force, length
-  int iterations;                          ///< of all tries
-  double residual;                         ///< largest, relative to the largest force
-  std::vector<Eigen::Index> undetermined;  ///< fasteners within whose gaps a plate is free (joint_equations.hpp)
+  Eigen::VectorXd F, delta;  ///< (n a) force, length
+  int iterations;            ///< of all tries
+  double residual;           ///< largest, relative to the largest force
+  TangentCheck check;
 };
 
 /// Where a path ended early.
 struct PathFailure {
-  std::size_t increment;  ///< 0-based
-  double load_factor;     ///< that was asked for
-  double reached;         ///< largest part of it that converged
-  Eigen::Index fastener;  ///< with the worst residual in the best try
-  double residual;        ///< there, relative to the largest force; infinite if each try left it spent
+  std::size_t increment;          ///< 0-based
+  double load_factor;             ///< that was asked for
+  double reached;                 ///< largest part of it that converged
+  Eigen::Index plane;             ///< with the worst residual in the best try
+  double residual;                ///< there, relative to the largest force; infinite if each try left it spent
+  std::optional<double> locking;  ///< TangentCheck's, at the last load factor that converged or the first guess
 };
 
 struct LoadPath {
@@ -44,9 +46,10 @@ struct PathOptions {
   SolverScene solver;
 };
 
-/// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap,
-/// linear solves do it. Else the hybrid method in the contact coordinates; what does not converge is tried
-/// from the first guesses in turn, then by damped Newton from the same, then in half steps.
+/// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap, linear
+/// solves do it. Else the chosen solver in the contact coordinates; what does not converge is tried from the first
+/// guesses in turn, then by damped Newton from the same, with friction also by turns of damped Newton under the
+/// friction of the turn before, then in half steps.
 [[nodiscard]] LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors,
                               const PathOptions& options);
 

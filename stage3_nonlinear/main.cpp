@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/hybrid_solver.hpp"
+#include "stage3_nonlinear/gsl_solver.hpp"
 #include "stage3_nonlinear/run.hpp"
 
 namespace {

@@ -25,13 +25,39 @@ void check_once(const std::string& file, const char* dataset, const std::vector<
       throw FileError(fmt::format("{}:{}: \"{}\" stands twice, expected each name once", file, dataset, name));
 }
 
-void check_directions(const std::string& file, const formats::PlateMatrices& a) {
-  for (std::size_t i = 0; i < a.disc_direction.size(); ++i)
-    if (a.disc_direction[i] != "x")
-      throw InputError(
-          fmt::format("{}:disc/direction: hole \"{}\" has the direction \"{}\"; allowed: \"x\" for every disc (this "
-                      "program joins discs in x only: give the plate \"disc_directions\": [\"x\"])",
-                      file, a.disc_hole[i], a.disc_direction[i]));
+int axis(const std::string& file, const std::string& place, const std::string& name) {
+  for (int i = 0; i < 2; ++i)
+    if (name == axis_names[static_cast<std::size_t>(i)]) return i;
+  throw FileError(fmt::format("{}:{}: is \"{}\", expected \"x\" or \"y\"", file, place, name));
+}
+
+/// Directions of the first hole's discs; every other hole must have the same in the same order, one after the other.
+std::vector<int> disc_axes(const std::string& file, const formats::PlateMatrices& a) {
+  std::vector<int> axes;
+  for (std::size_t i = 0; i < a.disc_hole.size() && a.disc_hole[i] == a.disc_hole[0]; ++i) {
+    const int next = axis(file, "disc/direction", a.disc_direction[i]);
+    if (std::find(axes.begin(), axes.end(), next) != axes.end()) break;  // check_once says why
+    axes.push_back(next);
+  }
+  for (std::size_t i = 0; i < a.disc_hole.size(); ++i) {
+    const std::size_t first = i - i % axes.size();
+    if (a.disc_hole[i] == a.disc_hole[first] &&
+        axis(file, "disc/direction", a.disc_direction[i]) == axes[i % axes.size()] &&
+        a.disc_hole.size() % axes.size() == 0)
+      continue;
+    throw FileError(
+        fmt::format("{}:disc/direction: hole \"{}\" has other directions than hole \"{}\", expected the same of every "
+                    "disc, hole after hole",
+                    file, a.disc_hole[i], a.disc_hole[0]));
+  }
+  return axes;
+}
+
+std::vector<int> axes_of(const std::string& file, const std::string& dataset, const std::vector<std::string>& names) {
+  std::vector<int> axes;
+  axes.reserve(names.size());
+  for (const auto& name : names) axes.push_back(axis(file, dataset, name));
+  return axes;
 }
 
 void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
@@ -72,12 +98,6 @@ std::size_t level_of(const formats::PlateMatrices& a, int p) {
   throw std::logic_error("make_plate: degree not in the file");
 }
 
-Eigen::VectorXd along_x(const std::vector<std::string>& directions) {
-  Eigen::VectorXd result(static_cast<Eigen::Index>(directions.size()));
-  for (Eigen::Index i = 0; i < result.size(); ++i) result[i] = directions[static_cast<std::size_t>(i)] == "x" ? 1 : 0;
-  return result;
-}
-
 MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
   MatrixXd A(discs.rows() + externals.rows(), discs.cols());
   A << discs, externals;
@@ -101,8 +121,6 @@ MatrixXd stiffness(const std::string& file, const formats::PlateMatrices& a, std
 }  // namespace
 
 PlateModel make_plate(const std::string& name, const std::string& file, const formats::PlateMatrices& a, int p) {
-  check_directions(file, a);
-  check_once(file, "disc/hole", a.disc_hole);
   std::vector<std::string> boundaries = a.external_id;
   boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
   check_once(file, "external/id", boundaries);
@@ -110,7 +128,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   PlateModel plate;
   plate.name = name;
   plate.file = file;
-  plate.holes = a.disc_hole;
+  plate.axes = disc_axes(file, a);
+  for (std::size_t i = 0; i < a.disc_hole.size(); i += plate.axes.size()) plate.holes.push_back(a.disc_hole[i]);
+  check_once(file, "disc/hole", plate.holes);
   plate.externals = a.external_id;
   plate.tractions = a.traction_id;
   plate.S = stiffness(file, a, level);
@@ -120,8 +140,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   plate.friction_bearing = a.friction_bearing;
   plate.friction_unit_force = a.friction_unit_force;
   plate.friction_resultant = a.friction_resultant;
-  plate.external_in_x = along_x(a.external_direction);
-  plate.traction_in_x = along_x(a.traction_direction);
+  plate.external_axis = axes_of(file, "external/direction", a.external_direction);
+  plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
   plate.relative_error = relative_error(a, level, plate.S);
   plate.stresses = a.stresses;
   const auto& levels = a.stresses.p;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,18 +11,22 @@
 
 namespace fastjoint::stage3 {
 
-/// A plate at one degree p: its m discs first, then its e rigid externals, as unknowns of one list.
+/// Names of the axes.
+inline constexpr std::array axis_names{"x", "y"};
+
+/// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, as unknowns of one list.
 ///
 /// Forces that must act on it from outside: S u + R Lambda + T f (theory.md sections 3 to 5).
 struct PlateModel {
   std::string name, file;
-  std::vector<std::string> holes, externals, tractions;      ///< (m), (e), (q)
+  std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
+  std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
   Eigen::MatrixXd S;                                         ///< (m+e, m+e), force / length
   Eigen::MatrixXd R;                                         ///< (m+e, h), length^2
   Eigen::MatrixXd T;                                         ///< (m+e, q), dimensionless
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   Eigen::VectorXd friction_unit_force, friction_resultant;   ///< (h), length^2
-  Eigen::VectorXd external_in_x, traction_in_x;              ///< (e), (q) 1 for those along x, else 0
+  std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
   /// Estimated error of S over its largest entry, where the file knows it.
   std::optional<double> relative_error;
   formats::PlateStresses stresses;          ///< as the file has them
@@ -31,12 +36,18 @@ struct PlateModel {
   std::vector<std::optional<double>> external_displacement;  ///< (e)
   Eigen::VectorXd traction_force;                            ///< (q)
 
-  [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(holes.size()); }
+  /// m: unknowns of the discs.
+  [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(holes.size() * axes.size()); }
   [[nodiscard]] Eigen::Index n_externals() const { return static_cast<Eigen::Index>(externals.size()); }
+  /// Of a disc unknown.
+  [[nodiscard]] const std::string& hole_of(Eigen::Index disc) const {
+    return holes[static_cast<std::size_t>(disc) / axes.size()];
+  }
+  [[nodiscard]] int axis_of(Eigen::Index disc) const { return axes[static_cast<std::size_t>(disc) % axes.size()]; }
   [[nodiscard]] Eigen::Index n_unknowns() const { return n_discs() + n_externals(); }
 };
 
-/// The matrices at degree p, checked: directions x, names that stand once, S symmetric and positive
+/// The matrices at degree p, checked: the same directions of all discs, names that stand once, S symmetric and positive
 /// semi-definite. Throws FileError or InputError with the file and the dataset.
 [[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file,
                                     const formats::PlateMatrices& matrices, int p);

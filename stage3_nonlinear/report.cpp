@@ -15,10 +15,18 @@ using Eigen::Index;
 
 constexpr std::size_t least_name = 12;
 
+/// Of a plane in the table of fasteners: its fastener, and of one with several planes the plates of this one.
+std::string row_name(const JointModel& joint, const ShearPlane& plane) {
+  const std::string& id = joint.fasteners[plane.fastener].id;
+  if (joint.fasteners[plane.fastener].holes.size() == 2) return id;
+  return fmt::format("{} ({}-{})", id, joint.plates[joint.first_hole(plane).plate].name,
+                     joint.plates[joint.second_hole(plane).plate].name);
+}
+
 /// Width of the column of names: fasteners and plates share it.
 std::size_t name_width(const JointModel& joint) {
   std::size_t width = least_name;
-  for (const auto& fastener : joint.fasteners) width = std::max(width, fastener.id.size());
+  for (const auto& plane : joint.planes) width = std::max(width, row_name(joint, plane).size());
   for (const auto& plate : joint.plates) width = std::max(width, plate.name.size());
   return width;
 }
@@ -35,7 +43,7 @@ double rounded(double force, double largest) {
 std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   std::string text = fmt::format("joint{}: {} plates, {} fasteners, p = {}, {}\n",
                                  scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name), joint.plates.size(),
-                                 joint.fasteners.size(), joint.p, path.linear ? "linear" : "hybrid method");
+                                 joint.fasteners.size(), joint.p, path.linear ? "linear" : scene.solver.method);
   for (const auto& plate : joint.plates)
     if (plate.relative_error)
       text += fmt::format("stiffness of {} known to {:.1e} of its largest entry\n", plate.name, *plate.relative_error);
@@ -50,10 +58,13 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
                                  head("F", force), head(differ ? "to 1st" : "transferred", force));
   if (differ) text += fmt::format(" {:>20}", head("to 2nd", force));
   text += fmt::format(" {:>9}\n", "share [%]");
-  const Eigen::VectorXd share = shares(state.transferred_first);
-  for (Index j = 0; j < step.F.size(); ++j) {
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}", joint.fasteners[static_cast<std::size_t>(j)].id,
-                        width, step.delta[j], step.F[j], state.transferred_first[j]);
+  const Eigen::VectorXd share = shares(joint, state.transferred_first);
+  const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
+  const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
+  for (Index j = 0; j < F.size(); ++j) {
+    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}",
+                        row_name(joint, joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
+                        state.transferred_first[j]);
     if (differ) text += fmt::format(" {:>20.8g}", state.transferred_second[j]);
     text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
   }
@@ -64,12 +75,17 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
   const std::string force = formats::unit(joint.units, 0, 1);
   std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}\n", "on plate", width, head("applied", force),
                                  head("fasteners", force), head("supports", force));
-  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
-    const PlateState& plate = state.plates[i];
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n", joint.plates[i].name, width,
-                        rounded(plate.applied, state.largest_force), rounded(plate.by_fasteners, state.largest_force),
-                        rounded(plate.by_supports, state.largest_force));
-  }
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (const int axis : joint.axes) {
+      const PlateState& plate = state.plates[i];
+      const std::string& name = joint.plates[i].name;
+      const char* along = axis_names[static_cast<std::size_t>(axis)];
+      text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n",
+                          joint.n_directions() == 1 ? name : fmt::format("{} {}", name, along), width,
+                          rounded(plate.applied[axis], state.largest_force),
+                          rounded(plate.by_fasteners[axis], state.largest_force),
+                          rounded(plate.by_supports[axis], state.largest_force));
+    }
   return text +
          fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force\n", state.out_of_balance);
 }
@@ -84,35 +100,89 @@ std::string stress_table(const JointModel& joint, const JointState& state) {
   return table.empty() ? text : fmt::format("{}stresses at the last increment\n{}", text, table);
 }
 
-/// Named with the first increment at which it happens, once per fastener.
-void warn_beyond_last_point(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                            std::vector<std::string>& result) {
-  for (std::size_t j = 0; j < joint.fasteners.size(); ++j) {
-    const Contact& contact = equations.contacts[j];
+/// Named with the first increment at which it happens, once per plane.
+void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+    const ShearPlane& plane = joint.planes[j];
+    const double last = plane.law->last_delta(plane.clearance);
     for (const auto& step : path.steps) {
-      const double delta = step.delta[static_cast<Index>(j)];
-      const bool open = contact.one_sided && delta < 0;
-      if (open || std::abs(delta) - contact.gap <= contact.law->last_stretch()) continue;
-      result.push_back(fmt::format(
-          "{}: fastener \"{}\": delta = {:.6g} at load factor {:.6g} is beyond the last point "
-          "{:.6g} of its law (gap included), which is extrapolated there",
-          joint.file, joint.fasteners[j].id, delta, step.load_factor, contact.gap + contact.law->last_stretch()));
+      const double delta = amounts(step.delta, joint.n_directions())[static_cast<Index>(j)];
+      const bool open = plane.one_sided && delta < 0;
+      if (open || std::abs(delta) <= last) continue;
+      result.push_back(
+          fmt::format("{}: {}: delta = {:.6g} at load factor {:.6g} is beyond the last point "
+                      "{:.6g} of its law (gap included), which is extrapolated there",
+                      joint.file, joint.name(plane), delta, step.load_factor, last));
       break;
     }
   }
 }
 
-void warn_undetermined(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+std::string names(const JointModel& joint, const std::vector<Index>& planes) {
+  std::vector<std::string> result;
+  result.reserve(planes.size());
+  for (const Index j : planes) result.push_back(joint.name(joint.planes[static_cast<std::size_t>(j)]));
+  return fmt::format("{}", fmt::join(result, ", "));
+}
+
+/// How each plate moves, by its discs: "plate \"b\" by up to 1 along x".
+std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) {
+  constexpr double moves = 1e-3;  // of the largest displacement of the motion
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (Index d = 0; d < joint.n_directions(); ++d) {
+      double largest = 0;
+      for (Index disc = d; disc < joint.plates[i].n_discs(); disc += joint.n_directions())
+        if (const double u = motion[joint.offset(i) + disc]; std::abs(u) > std::abs(largest)) largest = u;
+      if (std::abs(largest) > moves)
+        parts.push_back(fmt::format("plate \"{}\" by {:.3g} along {}", joint.plates[i].name, largest,
+                                    axis_names[static_cast<std::size_t>(joint.axes[static_cast<std::size_t>(d)])]));
+    }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
   for (const auto& step : path.steps) {
-    if (step.undetermined.empty()) continue;
-    std::vector<std::string> open;
-    open.reserve(step.undetermined.size());
-    for (const Index j : step.undetermined)
-      open.push_back(fmt::format("\"{}\"", joint.fasteners[static_cast<std::size_t>(j)].id));
+    if (!step.check.mechanism) continue;
+    const Mechanism& mechanism = *step.check.mechanism;
+    result.push_back(fmt::format(
+        "{}: at load factor {:.6g} the joint is a mechanism within the gaps of {}: the forces are right, the "
+        "displacements are one of many; free is, in proportion, {}",
+        joint.file, step.load_factor, names(joint, mechanism.open), motion_text(joint, mechanism.motion)));
+    return;
+  }
+}
+
+void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                             std::vector<std::string>& result) {
+  if (const auto planes = planes_that_may_snap(equations); !planes.empty())
     result.push_back(
-        fmt::format("{}: at load factor {:.6g} a plate that only fasteners hold is free within the gaps of {}: the "
-                    "forces are right, its displacement is one of many",
-                    joint.file, step.load_factor, fmt::join(open, ", ")));
+        fmt::format("{}: the law of {} falls more steeply than the plates hold against: the solution may be one of "
+                    "several; the one given is followed from the load before",
+                    joint.file, names(joint, planes)));
+  for (const auto& step : path.steps)
+    if (step.check.turned && !step.check.locking) {
+      result.push_back(
+          fmt::format("{}: at load factor {:.6g} the tangent of the joint has lost its sign: the solution "
+                      "balances, but is not stable; a load beyond it snaps through",
+                      joint.file, step.load_factor));
+      break;
+    }
+}
+
+/// @param factor At most 1.
+std::string locking_text(double factor) {
+  return fmt::format(
+      "friction {:.4g} times as large makes I - R M singular: the joint locks itself, friction alone carries "
+      "the load there, and beyond it a solution need neither exist nor be the only one",
+      factor);
+}
+
+void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  for (const auto& step : path.steps) {
+    if (!step.check.locking) continue;
+    result.push_back(
+        fmt::format("{}: at load factor {:.6g} {}", joint.file, step.load_factor, locking_text(*step.check.locking)));
     return;
   }
 }
@@ -136,20 +206,25 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
   std::vector<std::string> result;
-  warn_beyond_last_point(joint, equations, path, result);
-  warn_undetermined(joint, path, result);
+  warn_beyond_last_point(joint, path, result);
+  warn_mechanism(joint, path, result);
+  warn_of_other_solutions(joint, equations, path, result);
+  warn_self_locking(joint, path, result);
   return result;
 }
 
-std::string failure_message(const JointScene& scene, const PathFailure& failure, const std::string& output) {
+std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
+                            const std::string& output) {
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the largest force, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
   const std::string what = fmt::format(
       "increment {} of {} (load factor {:.6g}) did not converge from the last increment, from any first "
-      "guess, or after {} halvings of the step; load factor {:.6g} was reached; {} fastener \"{}\"",
+      "guess, or after {} halvings of the step; load factor {:.6g} was reached; {} {}",
       failure.increment + 1, scene.load_factors.size(), failure.load_factor, max_halvings, failure.reached, at,
-      scene.fasteners[static_cast<std::size_t>(failure.fastener)].id);
+      joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
+  const std::string locking =
+      failure.locking ? fmt::format("At the last state {}. ", locking_text(*failure.locking)) : "";
   const std::string advice = fmt::format(
       "Check the law and the clearance of that fastener (a cubic that turns down carries no more than its "
       "peak), take smaller increments, allow more than {} iterations or, if the residual is close to it, a "
@@ -157,8 +232,8 @@ std::string failure_message(const JointScene& scene, const PathFailure& failure,
       "only fasteners hold has no stiffness while all of them are open, and one-sided fasteners cannot "
       "pull it",
       scene.solver.max_iterations, scene.solver.tolerance);
-  return fmt::format("{}: {}. {} holds the {} increments before (complete = 0). {}", scene.file, what, output,
-                     failure.increment, advice);
+  return fmt::format("{}: {}. {} holds the {} increments before (complete = 0). {}{}", scene.file, what, output,
+                     failure.increment, locking, advice);
 }
 
 }  // namespace fastjoint::stage3

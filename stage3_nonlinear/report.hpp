@@ -24,7 +24,7 @@ namespace fastjoint::stage3 {
 ///
 /// @param failure Of the path that ended.
 /// @param output  File that holds the increments before.
-[[nodiscard]] std::string failure_message(const JointScene& scene, const PathFailure& failure,
+[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
                                           const std::string& output);
 
 }  // namespace fastjoint::stage3

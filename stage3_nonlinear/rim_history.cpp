@@ -22,8 +22,9 @@ struct Column {
   bool needs_section;
 };
 
-constexpr std::array<Column, 9> columns = {{
+constexpr std::array<Column, 10> columns = {{
     {"bearing_load", &RimState::bearing_load, &RimHistory::bearing_load, false},
+    {"bearing_load_y", &RimState::bearing_load_y, &RimHistory::bearing_load_y, false},
     {"bearing_stress", &RimState::bearing_stress, &RimHistory::bearing_stress, false},
     {"bypass_load", &RimState::bypass_load, &RimHistory::bypass_load, true},
     {"bypass_error", &RimState::bypass_error, &RimHistory::bypass_error, true},

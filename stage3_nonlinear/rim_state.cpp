@@ -30,11 +30,15 @@ double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 /// Points of one rim.
 class Rim {
  public:
-  /// @param friction Resultant along x: it jumps at the bearing direction.
-  Rim(const formats::PlateStresses& a, Index rim, double friction)
+  /// @param friction Resultants along x and y: each jumps at its bearing direction.
+  Rim(const formats::PlateStresses& a, Index rim, const Eigen::Vector2d& friction)
       : first_(a.rim_start[rim]), angle_(a.angle.segment(first_, a.rim_start[rim + 1] - first_)) {
-    const double jump = friction > 0 ? 0 : 180;
-    for (const double angle : angle_) allowed_.push_back(friction == 0 || std::abs(turn(angle - jump)) > left_out);
+    const auto jumps = [&](double angle, int axis) {
+      const double jump = 90 * axis + (friction[axis] > 0 ? 0 : 180);
+      return friction[axis] != 0 && std::abs(turn(angle - jump)) <= left_out;
+    };
+    allowed_.reserve(static_cast<std::size_t>(angle_.size()));
+    for (const double angle : angle_) allowed_.push_back(!jumps(angle, 0) && !jumps(angle, 1));
   }
 
   [[nodiscard]] VectorXd stress(const Eigen::MatrixXd& sigma, const VectorXd& amounts) const {
@@ -55,11 +59,13 @@ class Rim {
     return best;
   }
 
-  /// How much of all radial stress, by amount, is on the half that bears towards `sign` along x.
-  [[nodiscard]] double bearing_share(const VectorXd& sigma_rr, double sign) const {
+  /// How much of all radial stress, by amount, is on the half that bears under a force.
+  [[nodiscard]] double bearing_share(const VectorXd& sigma_rr, const Eigen::Vector2d& force) const {
     double bearing = 0;
-    for (Index i = 0; i < angle_.size(); ++i)
-      if (sign * std::cos(angle_[i] * std::numbers::pi / 180) > 0) bearing += std::abs(sigma_rr[i]);
+    for (Index i = 0; i < angle_.size(); ++i) {
+      const double angle = angle_[i] * std::numbers::pi / 180;
+      if (force[0] * std::cos(angle) + force[1] * std::sin(angle) > 0) bearing += std::abs(sigma_rr[i]);
+    }
     return bearing / sigma_rr.lpNorm<1>();
   }
 
@@ -168,19 +174,22 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
     const auto rim = static_cast<Index>(i);
     RimState state;
-    double friction = 0;
-    const auto disc = std::find(plate.holes.begin(), plate.holes.end(), a.rim_hole[i]);
-    if (disc != plate.holes.end()) {
-      state.bearing_load = loading.bearing[disc - plate.holes.begin()];
-      friction = loading.friction[disc - plate.holes.begin()];
+    Eigen::Vector2d bearing{0, 0}, friction{0, 0};
+    const auto hole = std::find(plate.holes.begin(), plate.holes.end(), a.rim_hole[i]) - plate.holes.begin();
+    for (Index disc = 0; disc < plate.n_discs(); ++disc) {
+      if (disc / static_cast<Index>(plate.axes.size()) != hole) continue;
+      bearing[plate.axis_of(disc)] = loading.bearing[disc];
+      friction[plate.axis_of(disc)] = loading.friction[disc];
     }
-    state.bearing_stress = std::abs(state.bearing_load) / a.bearing_area(rim, 0);
+    state.bearing_load = bearing[0];
+    state.bearing_load_y = bearing[1];
+    state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(rim).transpose()).norm();
     const Rim points(a, rim, friction);
     read_peak(a, points, level, loading.amounts, state);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
-    state.pulls = std::abs(state.bearing_load) > 1e-9 * largest &&
-                  points.bearing_share(points.stress(a.sigma_rr[level], loading.amounts), state.bearing_load) < hardly;
-    read_sections(a, a.rim_hole[i], forces, state.bearing_load + friction, largest, state);
+    state.pulls = bearing.norm() > 1e-9 * largest &&
+                  points.bearing_share(points.stress(a.sigma_rr[level], loading.amounts), bearing) < hardly;
+    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);
     states.push_back(state);
   }
   return states;

@@ -11,6 +11,7 @@ namespace fastjoint::stage3 {
 /// What engineers read off one hole of a plate at one increment.
 struct RimState {
   double bearing_load = 0;    ///< along x on the plate, force
+  double bearing_load_y = 0;  ///< along y, force
   double bearing_stress = 0;  ///< |bearing load| / (d t), stress
   double bypass_load = 0;     ///< force along x that passes the fastener by, tension positive
   double bypass_error = 0;    ///< its change from the degree below; infinite where there is none, force
@@ -25,8 +26,8 @@ struct RimState {
 /// How much a plate is loaded by each unit case of its stresses, and by its fasteners.
 struct PlateLoading {
   Eigen::VectorXd amounts;   ///< (e + m + h + q) in the order of formats::PlateStresses
-  Eigen::VectorXd bearing;   ///< (m) bearing force along x on each disc's rim, force
-  Eigen::VectorXd friction;  ///< (m) friction resultant along x there, force
+  Eigen::VectorXd bearing;   ///< (m) bearing force along each disc's direction on its rim, force
+  Eigen::VectorXd friction;  ///< (m) friction resultant along it, force
 };
 
 /// All holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
@@ -34,9 +35,9 @@ struct PlateLoading {
 /// Error of the peak: the largest change of the hoop stress from the degree below within 45 degrees of it. The change
 /// at the peak itself is no estimate: there the two may agree by chance (tests/pipeline/peak_error_test.cpp).
 ///
-/// Bypass: of the force that comes over the section beside the hole towards the loaded side of the hole, what leaves
-/// over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at the
-/// bearing direction, where the friction jumps: points within 7.5 degrees of it are no candidates for the peak.
+/// Bypass, along x: of the force that comes over the section beside the hole towards the loaded side of the hole, what
+/// leaves over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at
+/// the bearing directions, where the friction jumps: points within 7.5 degrees of them are no candidates for the peak.
 [[nodiscard]] std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& loading);
 
 }  // namespace fastjoint::stage3

@@ -13,6 +13,8 @@ using MatrixFunction = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>;
 struct RootProblem {
   VectorFunction residual;  ///< (n) -> (n)
   MatrixFunction jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
+  /// Of a residual: the gradient of a convex function of x that is least at the root, if there is one, (n) -> (n).
+  VectorFunction descent;
 };
 
 struct RootOptions {

@@ -28,26 +28,26 @@ void check_fasteners(const JointScene& scene) {
   for (const auto& fastener : scene.fasteners) {
     if (!ids.insert(fastener.id).second)
       refuse(fastener.where + "/id", fmt::format("\"{}\" stands twice", fastener.id), "each id once");
+    std::set<std::string> plates;
     for (const auto& hole : fastener.between) {
       check_plate_exists(scene, hole);
       if (!used.emplace(hole.plate, hole.name).second)
         refuse(hole.where, fmt::format("hole \"{}:{}\" has a fastener already", hole.plate, hole.name),
                "one fastener per hole");
+      if (!plates.insert(hole.plate).second)
+        refuse(fastener.where + "/between", fmt::format("goes through plate \"{}\" twice", hole.plate),
+               "holes of different plates");
     }
-    if (fastener.between[0].plate == fastener.between[1].plate)
-      refuse(fastener.where + "/between", fmt::format("both holes are in plate \"{}\"", fastener.between[0].plate),
-             "holes of two plates");
   }
 }
 
 void check_plates_used(const JointScene& scene) {
-  for (const auto& plate : scene.plates) {
-    const auto uses = [&](const FastenerScene& f) {
-      return f.between[0].plate == plate.name || f.between[1].plate == plate.name;
-    };
-    if (std::none_of(scene.fasteners.begin(), scene.fasteners.end(), uses))
+  std::set<std::string> plates;
+  for (const auto& fastener : scene.fasteners)
+    for (const auto& hole : fastener.between) plates.insert(hole.plate);
+  for (const auto& plate : scene.plates)
+    if (!plates.contains(plate.name))
       refuse(plate.where, "no fastener holds this plate", "plates that a fastener names in \"between\"");
-  }
 }
 
 void check_loads(const JointScene& scene) {

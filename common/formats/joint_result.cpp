@@ -6,7 +6,22 @@ namespace {
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 1;
+constexpr int minor = 2;
+
+/// (steps, n a) as (steps, n, a).
+std::vector<Eigen::MatrixXd> unfolded(const Eigen::MatrixXd& table, Eigen::Index a) {
+  std::vector<Eigen::MatrixXd> stack;
+  for (Eigen::Index step = 0; step < table.rows(); ++step)
+    stack.emplace_back(table.row(step).reshaped(a, table.cols() / a).transpose());
+  return stack;
+}
+
+Eigen::MatrixXd folded(const std::vector<Eigen::MatrixXd>& stack, Eigen::Index columns) {
+  Eigen::MatrixXd table(static_cast<Eigen::Index>(stack.size()), columns);
+  for (std::size_t step = 0; step < stack.size(); ++step)
+    table.row(static_cast<Eigen::Index>(step)) = stack[step].transpose().reshaped().transpose();
+  return table;
+}
 
 /// (steps, n) twice as (steps, n, 2).
 std::vector<Eigen::MatrixXd> paired(const Eigen::MatrixXd& first, const Eigen::MatrixXd& second) {
@@ -24,6 +39,7 @@ void for_each_table(Rims& a, const Units& units, Each each) {
   const std::string force = unit(units, 0, 1);
   const std::string stress = unit(units, -2, 1);
   each("bearing_load", a.bearing_load, force, "force of the fastener along x on the plate, by bearing");
+  each("bearing_load_y", a.bearing_load_y, force, "the same along y");
   each("bearing_stress", a.bearing_stress, stress, "its amount over the projected area d t");
   each("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
   each("bypass_error", a.bypass_error, force, "estimated error of the bypass load");
@@ -107,9 +123,16 @@ void write(const std::string& path, const JointResult& a) {
   file.write("converged", a.converged, {"1", "1 where the increment converged"});
   file.write("iterations", a.iterations, {"1", "iterations of the nonlinear solver, failed tries included"});
   file.write("residual", a.residual, {"1", "largest residual, relative to the largest force"});
-  file.write("fastener/id", a.fastener_id, {"1", "fasteners in the order of the input"});
+  file.write("fastener/id", a.fastener_id, {"1", "fastener of each shear plane, in the order of the input"});
+  file.write("fastener/first", a.first_hole, {"1", "plate:hole on its first side"});
+  file.write("fastener/second", a.second_hole, {"1", "plate:hole on its second side"});
+  file.write("direction", a.direction, {"1", "directions of the discs"});
   file.write("delta", a.delta, {unit(units, 1, 0), "displacement of the first plate's disc relative to the second's"});
   file.write("F", a.F, {force, "bearing force, argument of the fastener's law"});
+  const auto n_directions = static_cast<Eigen::Index>(a.direction.size());
+  file.write("delta_vector", unfolded(a.delta_vector, n_directions), a.F.cols(), n_directions,
+             {unit(units, 1, 0), "components of delta"});
+  file.write("F_vector", unfolded(a.F_vector, n_directions), a.F.cols(), n_directions, {force, "components of F"});
   file.write("transferred", paired(a.transferred_first, a.transferred_second), a.F.cols(), 2,
              {force, "F + friction resultant on the first and on the second plate"});
   std::vector<std::string> names;
@@ -133,6 +156,12 @@ JointResult read_joint_result(const std::string& path) {
   a.residual = file.vector("residual", steps, "1");
   a.fastener_id = file.strings("fastener/id", h5::any);
   const auto n = static_cast<Eigen::Index>(a.fastener_id.size());
+  a.first_hole = file.strings("fastener/first", n);
+  a.second_hole = file.strings("fastener/second", n);
+  a.direction = file.strings("direction", h5::any);
+  const auto directions = static_cast<Eigen::Index>(a.direction.size());
+  a.delta_vector = folded(file.stack("delta_vector", steps, n, directions, unit(units, 1, 0)), n * directions);
+  a.F_vector = folded(file.stack("F_vector", steps, n, directions, unit(units, 0, 1)), n * directions);
   a.delta = file.matrix("delta", steps, n, unit(units, 1, 0));
   a.F = file.matrix("F", steps, n, unit(units, 0, 1));
   a.transferred_first.resize(steps, n);

@@ -13,6 +13,7 @@ namespace fastjoint::formats {
 struct RimHistory {
   std::vector<std::string> hole;   ///< (r); none if the plate's matrices hold no stresses at this degree
   Eigen::MatrixXd bearing_load;    ///< along x on the plate, 0 of an open hole, force
+  Eigen::MatrixXd bearing_load_y;  ///< along y
   Eigen::MatrixXd bearing_stress;  ///< |bearing load| / (d t), stress
   Eigen::MatrixXd peak_hoop;       ///< largest hoop stress, tension positive, stress
   Eigen::MatrixXd peak_angle;      ///< where, degrees counter-clockwise from x
@@ -41,15 +42,19 @@ struct PlateHistory {
 /// What a joint did under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
-  int p = 0;                                              ///< degree of the matrices
-  bool complete = false;                                  ///< every increment asked for converged
-  Eigen::VectorXd load_factor;                            ///< (steps)
-  Eigen::VectorXi converged;                              ///< (steps) 1
-  Eigen::VectorXi iterations;                             ///< (steps) of the nonlinear solver, failed tries included
-  Eigen::VectorXd residual;                               ///< (steps) largest, relative to the largest force
+  int p = 0;                    ///< degree of the matrices
+  bool complete = false;        ///< every increment asked for converged
+  Eigen::VectorXd load_factor;  ///< (steps)
+  Eigen::VectorXi converged;    ///< (steps) 1
+  Eigen::VectorXi iterations;   ///< (steps) of the nonlinear solver, failed tries included
+  Eigen::VectorXd residual;     ///< (steps) largest, relative to the largest force
+  // Of each of the n shear planes: one for each neighbouring pair of a fastener's plates, fastener after fastener.
   std::vector<std::string> fastener_id;                   ///< (n)
+  std::vector<std::string> first_hole, second_hole;       ///< (n) "plate:hole"
+  std::vector<std::string> direction;                     ///< (a) of the joint's discs: "x", "y"
   Eigen::MatrixXd delta;                                  ///< (steps, n) relative displacement of the discs, length
   Eigen::MatrixXd F;                                      ///< (steps, n) bearing force, argument of the law
+  Eigen::MatrixXd delta_vector, F_vector;                 ///< (steps, n a) their components, directions inner
   Eigen::MatrixXd transferred_first, transferred_second;  ///< (steps, n) F + friction resultant on each plate
   std::vector<PlateHistory> plates;
 };

@@ -131,6 +131,10 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.fastener_id = {"1", "2", "3"};
     a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
     a.transferred_second = 2 * a.F;
+    a.first_hole = {"top:1", "top:2", "top:3"};
+    a.second_hole = {"low:1", "low:2", "low:3"};
+    a.direction = {"x", "y"};
+    a.delta_vector = a.F_vector = Eigen::MatrixXd::Random(steps, 6);
     PlateHistory& plate = a.plates.emplace_back();
     plate.name = "top";
     plate.disc_hole = {"1"};
@@ -144,8 +148,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     rims.hole = {"1"};
     rims.sections = Eigen::VectorXi::Constant(1, 2);
     for (auto* table :
-         {&rims.bearing_load, &rims.bearing_stress, &rims.bypass_load, &rims.bypass_error, &rims.peak_hoop,
-          &rims.peak_angle, &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
+         {&rims.bearing_load, &rims.bearing_load_y, &rims.bearing_stress, &rims.bypass_load, &rims.bypass_error,
+          &rims.peak_hoop, &rims.peak_angle, &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
       *table = Eigen::MatrixXd::Random(steps, 1);
     write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));
@@ -154,6 +158,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.load_factor, a.load_factor);
     EXPECT_EQ(b.fastener_id, a.fastener_id);
     EXPECT_EQ(b.F, a.F);
+    EXPECT_EQ(b.F_vector, a.F_vector);
+    EXPECT_EQ(b.second_hole, a.second_hole);
     EXPECT_EQ(b.transferred_second, a.transferred_second);
     EXPECT_EQ(b.plates.at(0).D, plate.D);
     EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);

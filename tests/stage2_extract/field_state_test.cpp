@@ -120,8 +120,8 @@ class StateOfAJoint : public testing::Test {
     sheet.D = table(2, 3);
     sheet.Lambda = table(2, 4);
     sheet.traction = table(1, 5);
-    for (auto* rims : {&sheet.rims.bearing_load, &sheet.rims.bearing_stress, &sheet.rims.peak_hoop,
-                       &sheet.rims.peak_angle, &sheet.rims.peak_error, &sheet.rims.bypass_load,
+    for (auto* rims : {&sheet.rims.bearing_load, &sheet.rims.bearing_load_y, &sheet.rims.bearing_stress,
+                       &sheet.rims.peak_hoop, &sheet.rims.peak_angle, &sheet.rims.peak_error, &sheet.rims.bypass_load,
                        &sheet.rims.bypass_error, &sheet.rims.gross_concentration, &sheet.rims.net_concentration})
       rims->resize(2, 0);
     return sheet;
@@ -130,10 +130,12 @@ class StateOfAJoint : public testing::Test {
     formats::JointResult result;
     result.header.name = "lap";
     result.p = 3;
+    result.direction = {"x"};
     result.load_factor = Eigen::Vector2d(0.5, 1);
     result.converged = result.iterations = Eigen::VectorXi::Ones(2);
     result.residual = Eigen::Vector2d::Zero();
-    for (auto* table : {&result.delta, &result.F, &result.transferred_first, &result.transferred_second})
+    for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred_first,
+                        &result.transferred_second})
       table->setZero(2, 0);
     for (const auto& name : names) result.plates.push_back(history(name, 10 * static_cast<double>(name.size())));
     if (names.size() > 1) result.plates.back().disc_hole[0] = "other";

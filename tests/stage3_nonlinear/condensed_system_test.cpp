@@ -105,7 +105,7 @@ TEST(CondensedSystem, TractionActsThroughItsHoldingForces) {
       test::linear_law(2));
   joint.plates[0].T = Eigen::Vector3d(-0.2, -0.3, -0.4);
   joint.plates[0].traction_force = VectorXd::Constant(1, 50);
-  joint.plates[0].traction_in_x = VectorXd::Ones(1);
+  joint.plates[0].traction_axis = {0};
   const CondensedSystem with_traction = condense(joint);
   // Only the external can carry a load of its own: the part of T f on it.
   joint.plates[0].T = Eigen::Vector3d(0, 0, -0.4);
@@ -119,7 +119,7 @@ TEST(CondensedSystem, TractionActsThroughItsHoldingForces) {
   joint.plates[0].traction_force[0] = 50;
   const JointState state = joint_state(joint, with_traction, {1, F, F / 2, 1, 0, {}});
   EXPECT_LT(state.out_of_balance, 1e-14);
-  EXPECT_EQ(state.plates[0].applied, 50);
+  EXPECT_EQ(state.plates[0].applied[0], 50);
 }
 
 /// Parallel-sum form of theory.md section 5, for fasteners whose forces have the signs of `forces`.
@@ -207,9 +207,8 @@ TEST(CondensedSystem, TakesAnyStackOfPlates) {
   auto joint = test::joint_of({test::spring_plate(1, 1, {{0, 1, k}}), test::spring_plate(1, 0, {{0, ground, k}}), P},
                               test::linear_law(K));
   joint.plates.push_back(make_plate("s", "s.h5", test::spring_plate(2, 0, {{0, 1, k}}), 8));
-  joint.fasteners[0].ends[second_plate] = {2, 0, {}};
-  joint.fasteners.push_back(
-      {.id = "2", .ends = {FastenerEnd{2, 1, {}}, FastenerEnd{1, 0, {}}}, .law = test::linear_law(K)});
+  joint.fasteners[0].holes[1] = {2, 0, 0, {}};
+  test::add_fastener(joint, {{2, 1}, {1, 0}}, test::linear_law(K));
   const CondensedSystem system = condense(joint);
   const VectorXd F = linear_solution(system, K);
   EXPECT_NEAR(F[0], P, 1e-13 * P);

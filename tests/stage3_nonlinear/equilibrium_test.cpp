@@ -44,24 +44,25 @@ TEST(Equilibrium, ForcesOnAPlateAddUp) {
   const auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
   const JointEquations equations = make_equations(joint);
   const JointState state = states_of(joint, equations, follow(equations, {1}, {}))[0];
-  EXPECT_EQ(state.plates[0].applied, 100);
-  EXPECT_NEAR(state.plates[0].by_fasteners, -100, 1e-11);
-  EXPECT_NEAR(state.plates[0].by_supports, 0, 1e-11);
-  EXPECT_EQ(state.plates[1].applied, 0);
-  EXPECT_NEAR(state.plates[1].by_supports, -100, 1e-11);
+  EXPECT_EQ(state.plates[0].applied[0], 100);
+  EXPECT_NEAR(state.plates[0].by_fasteners[0], -100, 1e-11);
+  EXPECT_NEAR(state.plates[0].by_supports[0], 0, 1e-11);
+  EXPECT_EQ(state.plates[1].applied[0], 0);
+  EXPECT_NEAR(state.plates[1].by_supports[0], -100, 1e-11);
   EXPECT_EQ(state.plates[0].Pe[0], 100);
   // The support is the spring of 1000 at the first disc of b.
   EXPECT_NEAR(1000 * state.plates[1].D[0], 100, 1e-11);
   EXPECT_EQ(state.largest_force, 100);
 }
 
-TEST(Equilibrium, ForcesAlongYAreNoPartOfThatSum) {
+TEST(Equilibrium, ForcesAlongYHaveASumOfTheirOwn) {
   auto lap = test::two_fastener_lap();
   lap.a.external_direction = {"y"};
   const auto joint = test::joint_of(lap, test::linear_law(1000));
   const JointEquations equations = make_equations(joint);
   const JointState state = states_of(joint, equations, follow(equations, {1}, {}))[0];
-  EXPECT_EQ(state.plates[0].applied, 0);
+  EXPECT_EQ(state.plates[0].applied[0], 0);
+  EXPECT_EQ(state.plates[0].applied[1], 100);
   EXPECT_EQ(state.plates[0].Pe[0], 100);
 }
 
@@ -87,15 +88,16 @@ TEST(Equilibrium, FrictionHelpsToTransferOnTheSideThatBears) {
     // Pushed to +x, hole 2 of b bears on its odd side; pushed back, on the usual one.
     const double share = step == 0 ? 0.2 * 0.002 / 0.01 : 0.2 * cosine;
     EXPECT_NEAR(states[step].transferred_second[1], F[1] * (1 + share), 1e-11);
-    EXPECT_NEAR(states[step].plates[1].by_fasteners, states[step].transferred_second.sum(), 1e-11);
+    EXPECT_NEAR(states[step].plates[1].by_fasteners[0], states[step].transferred_second.sum(), 1e-11);
   }
 }
 
 TEST(Equilibrium, SharesAreOfTheSum) {
-  EXPECT_LT((shares(Vector2d(30, 10)) - Vector2d(75, 25)).norm(), 1e-13);
-  EXPECT_LT((shares(Vector2d(-30, -10)) - Vector2d(75, 25)).norm(), 1e-13);
-  EXPECT_TRUE(std::isnan(shares(Vector2d(10, -10 * (1 + 1e-13)))[0])) << "a doubler's forces have no sum";
-  EXPECT_TRUE(std::isnan(shares(Vector2d(0, 0))[1]));
+  const auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1));
+  EXPECT_LT((shares(joint, Vector2d(30, 10)) - Vector2d(75, 25)).norm(), 1e-13);
+  EXPECT_LT((shares(joint, Vector2d(-30, -10)) - Vector2d(75, 25)).norm(), 1e-13);
+  EXPECT_TRUE(std::isnan(shares(joint, Vector2d(10, -10 * (1 + 1e-13)))[0])) << "a doubler's forces have no sum";
+  EXPECT_TRUE(std::isnan(shares(joint, Vector2d(0, 0))[1]));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "stage3_nonlinear/cubic_law.hpp"
+#include "stage3_nonlinear/piecewise_linear_law.hpp"
 #include "stage3_nonlinear/power_law.hpp"
 
 namespace fastjoint::test {
@@ -109,28 +110,34 @@ stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::
   joint.p = 8;
   joint.plates = {stage3::make_plate("a", "a.h5", lap.a, 8), stage3::make_plate("b", "b.h5", lap.b, 8)};
   joint.plates[0].external_force[0] = lap.force;
-  for (Index j = 0; j < std::min(lap.a.n_discs(), lap.b.n_discs()); ++j)
-    joint.fasteners.push_back({.id = std::to_string(j + 1),
-                               .ends = {stage3::FastenerEnd{0, j, {}}, stage3::FastenerEnd{1, j, {}}},
-                               .law = law,
-                               .gap = law->delta0()});
+  for (Index j = 0; j < std::min(lap.a.n_discs(), lap.b.n_discs()); ++j) add_fastener(joint, {{0, j}, {1, j}}, law);
   return joint;
 }
 
+void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<std::size_t, Index>>& holes,
+                  const std::shared_ptr<const stage3::Law>& law) {
+  stage3::FastenerModel fastener{std::to_string(joint.fasteners.size() + 1), {}};
+  for (const auto& [plate, disc] : holes) fastener.holes.push_back({plate, disc, 0, {}});
+  for (std::size_t first = 0; first + 1 < holes.size(); ++first)
+    joint.planes.push_back({joint.fasteners.size(), first, law, "law", 0, false});
+  joint.fasteners.push_back(std::move(fastener));
+}
+
 void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu) {
-  for (const auto end : {stage3::first_plate, stage3::second_plate}) {
-    stage3::FastenerEnd& at = joint.fasteners[fastener].ends[end];
-    const stage3::PlateModel& plate = joint.plates[at.plate];
-    for (const auto sign : {stage3::positive_force, stage3::negative_force}) {
-      const bool plus = (end == stage3::second_plate) == (sign == stage3::positive_force);
-      const Index column = 2 * at.disc + (plus ? 0 : 1);
+  for (auto& hole : joint.fasteners[fastener].holes) {
+    const stage3::PlateModel& plate = joint.plates[hole.plate];
+    hole.mu = mu;
+    hole.friction.resize(1);
+    for (const auto side : {stage3::plus_side, stage3::minus_side}) {
+      const Index column = 2 * hole.disc + (side == stage3::plus_side ? 0 : 1);
       const double amplitude = mu / plate.friction_unit_force[column];
-      at.friction[sign] = {plate.R.col(column) * amplitude, std::abs(plate.friction_resultant[column]) * amplitude};
+      hole.friction[0][side] = {plate.R.col(column) * amplitude, std::abs(plate.friction_resultant[column]) * amplitude,
+                                column, amplitude};
     }
   }
 }
 
-std::shared_ptr<const stage3::Law> linear_law(double k) { return power_law(k, 1); }
+std::shared_ptr<const stage3::Law> linear_law(double k) { return stage3::linear_law(k); }
 
 std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0) {
   return std::make_shared<stage3::PowerLaw>(A, n, delta0);
@@ -151,11 +158,11 @@ stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
     add_friction(lap.b, random);
   }
   auto joint = joint_of(lap, linear_law(1));
-  for (std::size_t j = 0; j < joint.fasteners.size(); ++j) {
-    auto& fastener = joint.fasteners[j];
-    fastener.law = random_law(random, kind);
-    if (kind.clearances && uniform(random, 0, 1) < 0.6) fastener.gap = decades(random, 1e-4, 1e-1);
-    fastener.one_sided = kind.one_sided && uniform(random, 0, 1) < 0.5;
+  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+    auto& plane = joint.planes[j];
+    plane.law = random_law(random, kind);
+    if (kind.clearances && uniform(random, 0, 1) < 0.6) plane.clearance = decades(random, 1e-4, 1e-1);
+    plane.one_sided = kind.one_sided && uniform(random, 0, 1) < 0.5;
     if (kind.friction && uniform(random, 0, 1) < 0.7) set_friction(joint, j, uniform(random, 0, 0.4));
   }
   return joint;

@@ -4,6 +4,7 @@
 #include <map>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
@@ -39,7 +40,11 @@ struct Lap {
 /// A joint of those two without files, all fasteners with this law.
 [[nodiscard]] stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law);
 
-/// Gives a fastener of `joint` friction mu on both plates, from the friction cases of the plates.
+/// Adds a fastener through these holes (plate, disc), all its planes with one law.
+void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<std::size_t, Eigen::Index>>& holes,
+                  const std::shared_ptr<const stage3::Law>& law);
+
+/// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
 void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu);
 
 [[nodiscard]] std::shared_ptr<const stage3::Law> linear_law(double k);

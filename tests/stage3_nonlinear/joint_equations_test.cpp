@@ -3,6 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Eigenvalues>
+
+#include "stage3_nonlinear/cubic_law.hpp"
+#include "stage3_nonlinear/tangent_check.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -12,7 +16,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using testing::ElementsAre;
-using testing::IsEmpty;
 
 VectorXd residual_at(const JointEquations& equations, const VectorXd& c) {
   const ContactState state = contact_state(equations.contacts, c);
@@ -26,13 +29,14 @@ TEST(JointEquations, TangentIsTheDerivative) {
     const auto joint = test::random_joint(
         random, {.cubics = true, .friction = i % 2 == 0, .one_sided = i % 3 == 0, .floating = i % 5 == 0});
     const JointEquations equations = make_equations(joint);
-    const VectorXd c = VectorXd::NullaryExpr(equations.n_fasteners(), [&] { return coordinate(random); });
+    const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
     const MatrixXd J = tangent(equations.system, contact_state(equations.contacts, c));
     for (Index j = 0; j < c.size(); ++j) {
       // Far from a kink the functions are smooth: error of central differences ~ h^2 + eps / h, relative.
       const double h = 1e-5 * std::abs(c[j]);
       const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
-      if (std::abs(std::abs(c[j]) - contact.stiffness * contact.gap) < 2e-2 * std::abs(c[j])) continue;
+      if (std::abs(std::abs(c[j]) - contact.stiffness * contact.law->gap(contact.clearance)) < 2e-2 * std::abs(c[j]))
+        continue;
       VectorXd above = c, below = c;
       above[j] += h;
       below[j] -= h;
@@ -43,11 +47,22 @@ TEST(JointEquations, TangentIsTheDerivative) {
   }
 }
 
-TEST(JointEquations, ReferenceStiffnessIsThatOfThePlates) {
-  const auto lap = test::two_fastener_lap();
-  const JointEquations equations = make_equations(test::joint_of(lap, test::linear_law(5)));
-  for (Index j = 0; j < 2; ++j)
-    EXPECT_EQ(equations.contacts[static_cast<std::size_t>(j)].stiffness, equations.system.S_ud(j, j));
+/// K - S_ud > 0 and its inverse, whatever the joint: what the guarantee of damped Newton stands on.
+TEST(JointEquations, MetricIsPositiveDefinite) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 200; ++i) {
+    const JointEquations equations = make_equations(test::random_joint(random, {.floating = i % 3 == 0}));
+    MatrixXd W = -equations.system.S_ud;
+    for (Index j = 0; j < W.rows(); ++j) W(j, j) += equations.contacts[static_cast<std::size_t>(j)].stiffness;
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(W).eigenvalues()[0], 0.01 * W.diagonal().minCoeff()) << i;
+    EXPECT_LT((W * equations.metric - MatrixXd::Identity(W.rows(), W.rows())).norm(), 1e-9) << i;
+  }
+}
+
+/// A law that falls has no energy to descend on.
+TEST(JointEquations, MetricNeedsLawsThatRise) {
+  const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  EXPECT_EQ(make_equations(test::joint_of(test::two_fastener_lap(), falling)).metric.size(), 0);
 }
 
 TEST(JointEquations, ASheetOnOneFastenerStillHasAReferenceStiffness) {
@@ -63,14 +78,15 @@ TEST(JointEquations, TellsASheetThatNothingHolds) {
   lap.a = test::chain(2, 1, 1000, {{1, 2, 1000}, {0, test::ground, 1000}});
   lap.b = test::chain(2, 0, 1000, {});
   auto joint = test::joint_of(lap, test::linear_law(5));
-  for (auto& fastener : joint.fasteners) fastener.gap = 1;
+  for (auto& plane : joint.planes) plane.clearance = 1;
   const JointEquations equations = make_equations(joint);
   const auto open_at = [&](double c0, double c1) {
-    return undetermined(equations.system, contact_state(equations.contacts, Eigen::Vector2d(c0, c1)));
+    return check_tangent(equations, contact_state(equations.contacts, Eigen::Vector2d(c0, c1))).mechanism;
   };
-  EXPECT_THAT(open_at(0, 0), ElementsAre(0, 1));
-  EXPECT_THAT(open_at(1e5, 0), IsEmpty());
-  EXPECT_THAT(open_at(1e5, 1e5), IsEmpty());
+  ASSERT_TRUE(open_at(0, 0));
+  EXPECT_THAT(open_at(0, 0)->open, ElementsAre(0, 1));
+  EXPECT_FALSE(open_at(1e5, 0));
+  EXPECT_FALSE(open_at(1e5, 1e5));
 }
 
 }  // namespace

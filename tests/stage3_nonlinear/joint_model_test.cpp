@@ -47,10 +47,11 @@ TEST(JointModel, ResolvesNamesToIndices) {
   EXPECT_EQ(joint.units.length, "in");
   EXPECT_EQ(joint.plates[0].name, "a");
   EXPECT_EQ(joint.plates[0].external_force[0], 100);
-  EXPECT_EQ(joint.fasteners[0].ends[first_plate].plate, 1U);
-  EXPECT_EQ(joint.fasteners[0].ends[first_plate].disc, 1);
-  EXPECT_EQ(joint.fasteners[0].ends[second_plate].plate, 0U);
-  EXPECT_EQ(joint.fasteners[0].ends[second_plate].disc, 0);
+  ASSERT_EQ(joint.planes.size(), 1U);
+  EXPECT_EQ(joint.first_hole(joint.planes[0]).plate, 1U);
+  EXPECT_EQ(joint.first_hole(joint.planes[0]).disc, 1);
+  EXPECT_EQ(joint.second_hole(joint.planes[0]).plate, 0U);
+  EXPECT_EQ(joint.second_hole(joint.planes[0]).disc, 0);
   EXPECT_EQ(joint.n_unknowns(), 5);
   EXPECT_EQ(joint.offset(1), 3);
 }
@@ -60,26 +61,25 @@ TEST(JointModel, AddsClearanceToTheLawsGap) {
       load(test::two_fastener_lap(),
            {{"laws", R"({"lin": {"type": "power", "A": 1, "n": 1, "delta0": 0.01, "one_sided": true}})"},
             {"fasteners", R"([{"id": "f", "between": ["a:1", "b:1"], "law": "lin", "clearance": 0.02}])"}});
-  EXPECT_DOUBLE_EQ(joint.fasteners[0].gap, 0.03);
-  EXPECT_TRUE(joint.fasteners[0].one_sided);
+  EXPECT_DOUBLE_EQ(joint.planes[0].law->gap(joint.planes[0].clearance), 0.03);
+  EXPECT_TRUE(joint.planes[0].one_sided);
 }
 
 TEST(JointModel, TakesTheFrictionCaseOfTheSideThatBears) {
   const auto lap = rubbing_lap();
   const JointModel joint = load(lap, with_friction);
-  const auto& ends = joint.fasteners[0].ends;
-  // F > 0 pushes the second plate to +x (case 0 of its first hole) and the first to -x (case 1).
+  const auto& holes = joint.fasteners[0].holes;
   const auto expect = [](const FrictionLoad& load, const formats::PlateMatrices& plate, Eigen::Index column) {
     Eigen::VectorXd R(plate.n_discs() + plate.n_externals());
     R << plate.R_df[0].col(column), plate.R_ef[0].col(column);
     EXPECT_LT((load.load - R * 0.1 / plate.friction_unit_force[column]).norm(), 1e-15);
     EXPECT_NEAR(load.resultant, 0.1 * 2 / std::numbers::pi, 1e-15);
   };
-  expect(ends[second_plate].friction[positive_force], lap.b, 0);
-  expect(ends[second_plate].friction[negative_force], lap.b, 1);
-  expect(ends[first_plate].friction[positive_force], lap.a, 1);
-  expect(ends[first_plate].friction[negative_force], lap.a, 0);
-  EXPECT_EQ(joint.fasteners[1].ends[first_plate].friction[positive_force].load.size(), 0);
+  expect(holes[0].friction[0][plus_side], lap.a, 0);
+  expect(holes[0].friction[0][minus_side], lap.a, 1);
+  expect(holes[1].friction[0][plus_side], lap.b, 0);
+  expect(holes[1].friction[0][minus_side], lap.b, 1);
+  EXPECT_TRUE(joint.fasteners[1].holes[0].friction.empty());
 }
 
 TEST(JointModel, OneSidedFastenersNeedOneSideOfFriction) {
@@ -87,7 +87,7 @@ TEST(JointModel, OneSidedFastenersNeedOneSideOfFriction) {
   lap.b.friction_unit_force[1] = 0;  // hole 1 of b cannot bear on -x
   Members members = with_friction;
   members["laws"] = R"({"lin": {"type": "linear", "k": 1, "one_sided": true}})";
-  EXPECT_EQ(load(lap, members).fasteners[0].ends[second_plate].friction[negative_force].load.size(), 0);
+  EXPECT_EQ(load(lap, members).fasteners[0].holes[1].friction[0][minus_side].load.size(), 0);
   expect_refusal<InputError>(
       lap, with_friction,
       "b.h5:friction/unit_force: hole \"1\" has 0 on its side -x: no rim there can bear, so friction 0.1 "
@@ -145,8 +145,8 @@ TEST(JointModel, RefusesADisplacementOfATraction) {
       "an external of kind \"rigid\"");
   const JointModel joint = load(lap, {{"loads", R"([{"external": "a:T", "force": 7}])"}});
   EXPECT_EQ(joint.plates[0].traction_force[0], 7);
-  EXPECT_EQ(joint.plates[0].traction_in_x[0], 0);
-  EXPECT_EQ(joint.plates[0].external_in_x[0], 1);
+  EXPECT_EQ(joint.plates[0].traction_axis[0], 1);
+  EXPECT_EQ(joint.plates[0].external_axis[0], 0);
 }
 
 TEST(JointModel, RefusesUnitsThatDiffer) {
@@ -162,14 +162,24 @@ TEST(JointModel, RefusesUnitsThatDiffer) {
 TEST(JointModel, RefusesFrictionWithoutItsMatrices) {
   expect_refusal<InputError>(
       test::two_fastener_lap(), with_friction,
-      "a.h5:friction/hole: has no friction case for hole \"1\" bearing -x, but its fastener has friction "
+      "a.h5:friction/hole: has no friction case for hole \"1\" bearing +x, but its fastener has friction "
       "0.1; run stage 2 again, or set the friction to 0");
 }
 
-TEST(JointModel, RefusesDiscsThatMoveInY) {
+TEST(JointModel, RefusesPlatesWhoseDiscsMoveInOtherDirections) {
   auto lap = test::two_fastener_lap();
   lap.b.disc_direction = {"x", "y"};
-  expect_refusal<InputError>(lap, {}, "b.h5:disc/direction: hole \"2\" has the direction \"y\"; allowed: \"x\"");
+  expect_refusal<FileError>(
+      lap, {},
+      "b.h5:disc/direction: hole \"2\" has other directions than hole \"1\", expected the same of "
+      "every disc, hole after hole");
+  lap.b.disc_direction = {"x", "z"};
+  expect_refusal<FileError>(lap, {}, "b.h5:disc/direction: is \"z\", expected \"x\" or \"y\"");
+  lap.b.disc_direction = {"y", "y"};
+  expect_refusal<InputError>(lap, {}, "joint.json: /plates/b: the discs of ");
+  expect_refusal<InputError>(lap, {}, "b.h5 have the directions [\"y\"]; allowed: [\"x\"], as those of ");
+  expect_refusal<InputError>(lap, {},
+                             "a.h5: give both plates the same \"disc_directions\" and run stages 1 and 2 again");
 }
 
 TEST(JointModel, RefusesMatricesThatNoPlateHas) {

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/law.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
+#include <map>
 
 #include "common/errors.hpp"
 #include "stage3_nonlinear/cubic_law.hpp"
@@ -22,40 +25,170 @@ std::shared_ptr<const Law> read(const std::string& json) {
   return read_law(input::Value(document));
 }
 
-void expect_derivatives(const Law& law, double s, double k) {
-  const double h = 1e-6 * s;
-  const Branch at = law.beyond(s, k), above = law.beyond(s + h, k), below = law.beyond(s - h, k);
-  // Central differences of a smooth function: h^2 + eps / h, relative.
-  EXPECT_NEAR((above.F - below.F) / (2 * h), at.dF, 1e-8 * std::abs(at.dF) + 1e-10);
-  EXPECT_NEAR((above.stretch - below.stretch) / (2 * h), at.dstretch, 1e-8 * at.dstretch);
+/// A law by its numbers, and its curve F(delta) written down here once more, clearance included.
+struct Example {
+  const char* name;
+  std::string format;                    ///< JSON with {name} for each number
+  std::map<std::string, double> number;  ///< those that parameters() names, "F[0]" as "F0"
+  std::function<double(std::map<std::string, double>, double delta, double clearance)> F;
+  bool rises = true;
+};
+
+std::string json(const Example& example, const std::map<std::string, double>& number) {
+  std::string text = example.format;
+  for (const auto& [name, value] : number) {
+    const std::string mark = "<" + name + ">";
+    text.replace(text.find(mark), mark.size(), fmt::format("{}", value));
+  }
+  return text;
 }
 
-TEST(PowerLaw, IsEquation7) {
-  const PowerLaw law(200, 0.6, 0.02);
-  EXPECT_DOUBLE_EQ(law.delta0(), 0.02);
-  for (const double F : {1e-3, 1.0, 50.0, 1e4}) {
-    const Branch branch = law.beyond(law.coordinate(F, 7), 7);
-    EXPECT_DOUBLE_EQ(branch.F, F);
-    EXPECT_NEAR(200 * std::pow(branch.stretch, 0.6), F, 1e-14 * F);
-    expect_derivatives(law, F, 7);
-  }
-  EXPECT_FALSE(law.stiffness());
+double power(std::map<std::string, double> a, double delta, double clearance) {
+  return a["A"] * std::pow(std::max(0.0, delta - clearance - a["delta0"]), a["n"]);
 }
+
+double cubic(std::map<std::string, double> a, double delta, double clearance) {
+  const double d = std::max(0.0, delta - clearance);
+  const double d0 = 0.01, d1 = 0.02, d2 = 0.04;
+  return a["F0"] * (d - d1) * (d - d2) * d / ((d0 - d1) * (d0 - d2) * d0) +
+         a["F1"] * (d - d0) * (d - d2) * d / ((d1 - d0) * (d1 - d2) * d1) +
+         a["F2"] * (d - d0) * (d - d1) * d / ((d2 - d0) * (d2 - d1) * d2);
+}
+
+double bilinear(std::map<std::string, double> a, double delta, double clearance) {
+  const double d = std::max(0.0, delta - clearance), yield = a["F_yield"] / a["k"];
+  return d < yield ? a["k"] * d : a["F_yield"] + a["k_yield"] * (d - yield);
+}
+
+double four_stage(std::map<std::string, double> a, double d, double clearance) {
+  const double stuck = a["F_slip"] / a["k_stick"], slipped = stuck + a["slip"] + clearance;
+  const double yield = slipped + (a["F_yield"] - a["F_slip"]) / a["k_bearing"];
+  if (d < stuck) return a["k_stick"] * d;
+  if (d < slipped) return a["F_slip"];
+  if (d < yield) return a["F_slip"] + a["k_bearing"] * (d - slipped);
+  return a["F_yield"] + a["k_yield"] * (d - yield);
+}
+
+const std::string power_format = R"({"type": "power", "A": <A>, "n": <n>, "delta0": <delta0>})";
+const std::string cubic_format = R"({"type": "cubic", "delta": [0.01, 0.02, 0.04], "F": [<F0>, <F1>, <F2>]})";
+
+class EachLaw : public testing::TestWithParam<Example> {
+ protected:
+  static constexpr double k = 4e4;
+  const Example& example_ = GetParam();
+  std::shared_ptr<const Law> law_ = read(json(example_, example_.number));
+};
+
+TEST_P(EachLaw, IsItsCurve) {
+  EXPECT_EQ(law_->rises(), example_.rises);
+  for (const double clearance : {0.0, 0.013})
+    for (double c = 0; c < 8000; c += 61.3) {
+      const Branch on = law_->at(c, k, clearance);
+      EXPECT_NEAR(on.F, example_.F(example_.number, on.delta, clearance), 1e-9 * (1 + c)) << "c = " << c;
+      EXPECT_NEAR(example_.rises ? on.F + k * on.delta : k * on.delta, c, 1e-12 * (1 + c));
+      EXPECT_FALSE(on.spent);
+    }
+}
+
+/// Error of central differences ~ h^2 + eps / h, relative; kinks are left out.
+TEST_P(EachLaw, HasTheDerivativesOfItsCurve) {
+  for (const double clearance : {0.0, 0.013})
+    for (double c = 21; c < 8000; c += 61.3) {
+      constexpr double h = 1e-3;
+      const Branch on = law_->at(c, k, clearance), above = law_->at(c + h, k, clearance),
+                   below = law_->at(c - h, k, clearance);
+      if (std::abs(above.dF - below.dF) > 1e-4) continue;
+      EXPECT_NEAR((above.F - below.F) / (2 * h), on.dF, 1e-7) << "c = " << c;
+      EXPECT_NEAR((above.delta - below.delta) / (2 * h) * k, on.ddelta * k, 1e-7);
+      if (example_.rises) {
+        EXPECT_GE(on.dF, 0);
+        EXPECT_GE(on.ddelta, 0);
+        EXPECT_NEAR(on.dF + k * on.ddelta, 1, 1e-12);
+      }
+    }
+}
+
+TEST_P(EachLaw, HasTheSlopesOfItsNumbers) {
+  const auto parameters = law_->parameters();
+  ASSERT_EQ(parameters.size(), example_.number.size());
+  const double clearance = 0.013;
+  for (double c = 21; c < 8000; c += 61.3) {
+    const auto slopes = law_->slopes(c, k, clearance);
+    ASSERT_EQ(slopes.size(), 1 + parameters.size());
+    const Branch on = law_->at(c, k, clearance);
+    const auto expect = [&](const std::string& name, double h, const Slope& slope,
+                            const std::function<Branch(double)>& moved) {
+      const Branch above = moved(h), below = moved(-h);
+      if (std::abs(above.dF - on.dF) > 1e-3 || std::abs(below.dF - on.dF) > 1e-3) return;  // a kink passes
+      EXPECT_NEAR((above.F - below.F) / (2 * h), slope.F, 1e-5 * std::abs(slope.F) + 1e-9 / h) << name << " at " << c;
+      EXPECT_NEAR((above.delta - below.delta) / (2 * h), slope.delta, 1e-5 * std::abs(slope.delta) + 1e-13 / h)
+          << name << " at " << c;
+    };
+    expect("clearance", 1e-7, slopes[0], [&](double h) { return law_->at(c, k, clearance + h); });
+    for (std::size_t i = 0; i < parameters.size(); ++i) {
+      std::string name = parameters[i].name;
+      if (name[0] == 'F' && name[1] == '[') name = fmt::format("F{}", name[2]);
+      if (name == "n" && example_.number.at(name) == 1) continue;  // no law beyond it to compare with
+      expect(name, 1e-5 * std::max(1e-3, example_.number.at(name)), slopes[1 + i], [&](double h) {
+        auto number = example_.number;
+        number[name] += h;
+        return read(json(example_, number))->at(c, k, clearance);
+      });
+    }
+  }
+}
+
+TEST_P(EachLaw, FindsTheCoordinateOfAForce) {
+  if (!example_.rises || std::string(example_.name) == "cubic") return;  // by a secant only
+  for (const double F : {1.0, 30.0, 800.0, 1300.0}) {
+    const double c = law_->coordinate(F, k, 0.013);
+    EXPECT_NEAR(law_->at(c, k, 0.013).F, F, 1e-11 * F);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Of, EachLaw,
+    testing::Values(Example{"linear",
+                            R"({"type": "linear", "k": <k>})",
+                            {{"k", 7e4}},
+                            [](auto a, double d, double gap) { return a["k"] * std::max(0.0, d - gap); }},
+                    Example{"power", power_format, {{"A", 9000}, {"n", 0.6}, {"delta0", 0.004}}, power},
+                    Example{"power_one", power_format, {{"A", 9e4}, {"n", 1}, {"delta0", 0.004}}, power},
+                    Example{"bilinear",
+                            R"({"type": "bilinear", "k": <k>, "F_yield": <F_yield>, "k_yield": <k_yield>})",
+                            {{"k", 7e4}, {"F_yield", 900}, {"k_yield", 5e3}},
+                            bilinear},
+                    Example{"four_stage",
+                            R"({"type": "four stage", "k_stick": <k_stick>, "F_slip": <F_slip>, "slip": <slip>,
+                    "k_bearing": <k_bearing>, "F_yield": <F_yield>, "k_yield": <k_yield>})",
+                            {{"k_stick", 5e5},
+                             {"F_slip", 200},
+                             {"slip", 0.002},
+                             {"k_bearing", 6e4},
+                             {"F_yield", 1200},
+                             {"k_yield", 2e3}},
+                            four_stage},
+                    Example{"cubic", cubic_format, {{"F0", 900}, {"F1", 1500}, {"F2", 2300}}, cubic},
+                    Example{"cubic_that_falls", cubic_format, {{"F0", 900}, {"F1", 800}, {"F2", 2300}}, cubic, false}),
+    [](const auto& test) { return std::string(test.param.name); });
 
 TEST(PowerLaw, IsRigidAtFirstContact) {
-  const Branch contact = PowerLaw(200, 0.6, 0).beyond(0, 7);
+  const Branch contact = PowerLaw(200, 0.6, 0).at(0, 7, 0);
   EXPECT_EQ(contact.F, 0);
-  EXPECT_EQ(contact.stretch, 0);
+  EXPECT_EQ(contact.delta, 0);
   EXPECT_EQ(contact.dF, 1);
-  EXPECT_EQ(contact.dstretch, 0);
+  EXPECT_EQ(contact.ddelta, 0);
 }
 
-TEST(PowerLaw, WithExponentOneIsTheLinearLaw) {
-  const auto power = read(R"({"type": "power", "A": 500, "n": 1})");
-  const auto linear = read(R"({"type": "linear", "k": 500, "one_sided": true})");
-  EXPECT_EQ(power->stiffness().value(), 500);
-  EXPECT_EQ(linear->stiffness().value(), 500);
-  EXPECT_EQ(linear->beyond(5, 1).stretch, power->beyond(5, 1).stretch);
+/// From far below to far above the plates' stiffness, and for exponents far below practice.
+TEST(PowerLaw, IsFoundForAnyRatioOfStiffnesses) {
+  for (const double n : {0.05, 0.4, 0.7, 0.99})
+    for (double A = 1e-8; A < 1e9; A *= 10)
+      for (double c = 1e-6; c < 1e7; c *= 10) {
+        const Branch on = PowerLaw(A, n, 0).at(c, 1, 0);
+        EXPECT_NEAR(on.F + on.delta, c, 1e-13 * c) << A << " " << c;
+        EXPECT_NEAR(A * std::pow(on.delta, n), on.F, 1e-11 * on.F) << A << " " << c;
+      }
 }
 
 TEST(PowerLaw, WarnsBelowThePracticalRange) {
@@ -66,34 +199,25 @@ TEST(PowerLaw, WarnsBelowThePracticalRange) {
 TEST(CubicLaw, GoesThroughItsPointsInAnyOrder) {
   for (const CubicLaw& law :
        {CubicLaw({0.01, 0.02, 0.04}, {900, 1500, 2000}), CubicLaw({0.04, 0.01, 0.02}, {2000, 900, 1500})}) {
-    constexpr double k = 1e5;
-    EXPECT_NEAR(law.beyond(k * 0.01, k).F, 900, 1e-10);
-    EXPECT_NEAR(law.beyond(k * 0.02, k).F, 1500, 1e-10);
-    EXPECT_NEAR(law.beyond(k * 0.04, k).F, 2000, 1e-10);
-    EXPECT_EQ(law.beyond(0, k).F, 0);
-    EXPECT_EQ(law.last_stretch(), 0.04);
-    EXPECT_DOUBLE_EQ(law.beyond(k * 0.013, k).stretch, 0.013);
-    expect_derivatives(law, k * 0.013, k);
+    EXPECT_EQ(law.last_delta(0.5), 0.54);
+    const auto at = [&](double F, double delta) { return law.at(law.rises() ? F + 1e5 * delta : 1e5 * delta, 1e5, 0); };
+    EXPECT_NEAR(at(900, 0.01).F, 900, 1e-9);
+    EXPECT_NEAR(at(1500, 0.02).F, 1500, 1e-9);
+    EXPECT_NEAR(at(2000, 0.04).F, 2000, 1e-9);
   }
 }
 
-TEST(CubicLaw, IsEquation8) {
-  const double d0 = 0.01, d1 = 0.02, d2 = 0.04, F0 = 900, F1 = 1500, F2 = 2000, d = 0.031;
-  const double F = F0 * (d - d1) * (d - d2) * d / ((d0 - d1) * (d0 - d2) * d0) +
-                   F1 * (d - d0) * (d - d2) * d / ((d1 - d0) * (d1 - d2) * d1) +
-                   F2 * (d - d0) * (d - d1) * d / ((d2 - d0) * (d2 - d1) * d2);
-  EXPECT_NEAR(CubicLaw({d0, d1, d2}, {F0, F1, F2}).beyond(d, 1).F, F, 1e-9);
-}
-
 TEST(CubicLaw, NeverPushesOn) {
-  // x (1.1 - 0.1 x) is back at zero at x = 11.
+  // x (1.1 - 0.1 x) falls from 5.5 on and is back at zero at x = 11.
   const CubicLaw law({1, 2, 3}, {1, 1.8, 2.4});
-  EXPECT_NEAR(law.beyond(10, 1).F, 1, 1e-12);
-  EXPECT_FALSE(law.beyond(10, 1).spent);
-  EXPECT_TRUE(law.beyond(12, 1).spent);
-  EXPECT_EQ(law.beyond(12, 1).F, 0);
-  EXPECT_EQ(law.beyond(12, 1).dF, 0);
-  EXPECT_EQ(law.beyond(12, 1).stretch, 12);
+  EXPECT_FALSE(law.rises());
+  EXPECT_LE(law.least_slope(), -1.1 + 1e-12);
+  EXPECT_NEAR(law.at(10, 1, 0).F, 1, 1e-12);
+  EXPECT_FALSE(law.at(10, 1, 0).spent);
+  EXPECT_TRUE(law.at(12, 1, 0).spent);
+  EXPECT_EQ(law.at(12, 1, 0).F, 0);
+  EXPECT_EQ(law.at(12, 1, 0).dF, 0);
+  EXPECT_EQ(law.at(12, 1, 0).delta, 12);
 }
 
 TEST(CubicLaw, WarnsWhereItTurnsDown) {
@@ -103,6 +227,15 @@ TEST(CubicLaw, WarnsWhereItTurnsDown) {
   EXPECT_THAT(CubicLaw({1, 2, 3}, {2.75, 2, 3.75}).doubts(),
               ElementsAre(HasSubstr("slope at delta = 1.583 is -1.021; the joint may have more than one solution")));
   EXPECT_THAT(CubicLaw({1, 2, 3}, {1, 1.5, 1.2}).doubts(), ElementsAre(HasSubstr("slope at delta = 3 ")));
+}
+
+TEST(PiecewiseLinearLaw, KinksWhereItsSlopeJumps) {
+  const auto law = read(R"({"type": "bilinear", "k": 100, "F_yield": 10, "k_yield": 0})");
+  EXPECT_THAT(law->kinks(50, 0).value(), ElementsAre(15));
+  EXPECT_THAT(law->kinks(50, 0.2).value(), ElementsAre(10, 25));
+  EXPECT_EQ(law->at(1000, 50, 0).F, 10) << "perfectly plastic";
+  EXPECT_EQ(law->at(1000, 50, 0).dF, 0);
+  EXPECT_THAT(read(R"({"type": "linear", "k": 100})")->kinks(50, 0).value(), IsEmpty());
 }
 
 struct Refusal {
@@ -118,7 +251,7 @@ TEST_P(LawRefuses, WithPointerFoundAndAllowed) {
 INSTANTIATE_TEST_SUITE_P(
     Each, LawRefuses,
     testing::Values(
-        Refusal{R"({"type": "glue"})", R"(/type: "glue" is not allowed; allowed: "linear", "power", "cubic")"},
+        Refusal{R"({"type": "glue"})", R"(/type: "glue" is not allowed; allowed: "linear", "power", "cubic", )"},
         Refusal{R"({"k": 1})", R"(key "type" is missing)"},
         Refusal{R"({"type": "linear", "k": 0})", "/k: 0 is not allowed; allowed: a number > 0"},
         Refusal{R"({"type": "linear", "k": 1, "n": 1})", "/n: unknown key; allowed: type, k, one_sided"},
@@ -127,6 +260,13 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"type": "power", "A": 1, "n": 0})", "/n: 0 is not allowed; allowed: a number > 0 and <= 1"},
         Refusal{R"({"type": "power", "A": 1, "n": 1, "delta0": -1})",
                 "/delta0: -1 is not allowed; allowed: a number >= 0"},
+        Refusal{R"({"type": "bilinear", "k": 1, "F_yield": 0, "k_yield": 1})",
+                "/F_yield: 0 is not allowed; allowed: a number > 0"},
+        Refusal{R"({"type": "bilinear", "k": 1, "F_yield": 1, "k_yield": -1})",
+                "/k_yield: -1 is not allowed; allowed: a number >= 0"},
+        Refusal{R"({"type": "four stage", "k_stick": 1, "F_slip": 5, "slip": 0, "k_bearing": 1, "F_yield": 5,
+                    "k_yield": 0})",
+                "/F_yield: 5; allowed: more than F_slip = 5"},
         Refusal{R"({"type": "cubic", "delta": [1, 2], "F": [1, 2, 3]})", "/delta: array of 2; allowed: exactly 3"},
         Refusal{R"({"type": "cubic", "delta": [1, 2, 1], "F": [1, 2, 3]})",
                 "/delta: [1,2,1] is not allowed; allowed: three different displacements"},

@@ -57,15 +57,20 @@ TEST(LinearJoint, OneSolveServesAllIncrements) {
 }
 
 TEST(LinearJoint, OnlyPlainSpringsAreLinear) {
-  const Contact plain{.law = test::linear_law(5), .gap = 0};
-  EXPECT_DOUBLE_EQ(linear_flexibility({plain, plain}).value()[1], 0.2);
+  const auto flexibility = [](const std::vector<Contact>& contacts) {
+    JointEquations equations{{}, contacts, {}};
+    equations.system.q = VectorXd::Zero(static_cast<Index>(contacts.size()));
+    return linear_flexibility(equations);
+  };
+  const Contact plain{.law = test::linear_law(5)};
+  EXPECT_DOUBLE_EQ(flexibility({plain, plain}).value()[1], 0.2);
   Contact gap = plain, one_sided = plain, curved = plain;
-  gap.gap = 0.1;
+  gap.clearance = 0.1;
   one_sided.one_sided = true;
   curved.law = test::power_law(5, 0.9);
-  EXPECT_FALSE(linear_flexibility({plain, gap}));
-  EXPECT_FALSE(linear_flexibility({plain, one_sided}));
-  EXPECT_FALSE(linear_flexibility({plain, curved}));
+  EXPECT_FALSE(flexibility({plain, gap}));
+  EXPECT_FALSE(flexibility({plain, one_sided}));
+  EXPECT_FALSE(flexibility({plain, curved}));
 }
 
 TEST(LinearJoint, AgreesWithTheNonlinearPath) {
@@ -105,6 +110,8 @@ TEST(LinearJoint, LeavesToTheNonlinearPathWhatHasNoConsistentSigns) {
   // but without friction F = q < 0 and with it F (1 - 3) = q turns round again.
   CondensedSystem system{.q = VectorXd::Constant(1, -1),
                          .S_ud = Eigen::MatrixXd::Zero(1, 1),
+                         .friction = {{0, 0, 0}},
+                         .E = Eigen::MatrixXd::Identity(1, 1),
                          .H_plus = Eigen::MatrixXd::Constant(1, 1, 3),
                          .H_minus = Eigen::MatrixXd::Constant(1, 1, 3),
                          .D_load = {},

@@ -20,6 +20,7 @@ constexpr double degree = std::numbers::pi / 180;
 PlateModel plate(double from, double to, const std::function<double(double)>& hoop) {
   PlateModel model;
   model.holes = {"1"};
+  model.axes = {0};
   formats::PlateStresses& a = model.stresses;
   a.p = Eigen::VectorXi::LinSpaced(2, 7, 8);
   a.rim_hole = {"1"};

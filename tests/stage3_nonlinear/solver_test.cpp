@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/hybrid_solver.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
-
-#include "stage3_nonlinear/newton_solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -23,56 +22,62 @@ const RootProblem rosenbrock{
     [](const VectorXd& x) -> VectorXd { return Vector2d(1 - x[0], 10 * (x[1] - x[0] * x[0])); },
     [](const VectorXd& x) -> Eigen::MatrixXd {
       return Matrix2d{{-1, 0}, {-20 * x[0], 10}};
-    }};
+    },
+    {}};
 
-class Solver : public testing::TestWithParam<decltype(&hybrid_root)> {};
+class Solves : public testing::TestWithParam<Solver> {};
 
-TEST_P(Solver, FindsTheRootOfRosenbrock) {
-  const Root root = GetParam()(rosenbrock, Vector2d(-1.2, 1), options);
+TEST_P(Solves, FindsTheRootOfRosenbrock) {
+  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), options);
   EXPECT_TRUE(root.converged);
   EXPECT_GT(root.iterations, 0);
   EXPECT_LE(root.residual.cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_LT((root.x - Vector2d(1, 1)).norm(), 1e-11);
 }
 
-TEST_P(Solver, IsDoneAtTheRoot) {
-  const Root root = GetParam()(rosenbrock, Vector2d(1, 1), options);
+TEST_P(Solves, IsDoneAtTheRoot) {
+  const Root root = GetParam().solve(rosenbrock, Vector2d(1, 1), options);
   EXPECT_TRUE(root.converged);
   EXPECT_EQ(root.iterations, 0);
 }
 
-TEST_P(Solver, StopsAtTheCap) {
-  const Root root = GetParam()(rosenbrock, Vector2d(-1.2, 1), {.tolerance = 1e-12, .max_iterations = 1});
+TEST_P(Solves, StopsAtTheCap) {
+  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), {.tolerance = 1e-12, .max_iterations = 1});
   EXPECT_FALSE(root.converged);
   EXPECT_EQ(root.iterations, 1);
   EXPECT_TRUE(root.residual.allFinite());
 }
 
-TEST_P(Solver, SaysThatThereIsNoRoot) {
+TEST_P(Solves, SaysThatThereIsNoRoot) {
   const RootProblem none{[](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, 1 + x[0] * x[0]); },
-                         [](const VectorXd& x) -> Eigen::MatrixXd { return VectorXd::Constant(1, 2 * x[0]); }};
-  const Root root = GetParam()(none, VectorXd::Constant(1, 3), options);
+                         [](const VectorXd& x) -> Eigen::MatrixXd { return VectorXd::Constant(1, 2 * x[0]); },
+                         {}};
+  const Root root = GetParam().solve(none, VectorXd::Constant(1, 3), options);
   EXPECT_FALSE(root.converged);
   EXPECT_GE(root.residual[0], 1);
 }
 
-TEST_P(Solver, StopsWhereTheFunctionHasNoValue) {
+TEST_P(Solves, StopsWhereTheFunctionHasNoValue) {
   const RootProblem nan{[](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, std::sqrt(-1 - x[0])); },
-                        [](const VectorXd&) -> Eigen::MatrixXd { return VectorXd::Constant(1, 1); }};
-  const Root root = GetParam()(nan, VectorXd::Constant(1, 3), options);
+                        [](const VectorXd&) -> Eigen::MatrixXd { return VectorXd::Constant(1, 1); },
+                        {}};
+  const Root root = GetParam().solve(nan, VectorXd::Constant(1, 3), options);
   EXPECT_FALSE(root.converged);
   EXPECT_EQ(root.residual[0], std::numeric_limits<double>::infinity());
 }
 
-TEST_P(Solver, LetsExceptionsOut) {
-  const RootProblem throwing{[](const VectorXd&) -> VectorXd { throw std::runtime_error("from inside"); },
-                             rosenbrock.jacobian};
-  EXPECT_THAT([&] { (void)GetParam()(throwing, Vector2d(0, 0), options); },
+TEST_P(Solves, LetsExceptionsOut) {
+  const RootProblem throwing{
+      [](const VectorXd&) -> VectorXd { throw std::runtime_error("from inside"); }, rosenbrock.jacobian, {}};
+  EXPECT_THAT([&] { (void)GetParam().solve(throwing, Vector2d(0, 0), options); },
               ThrowsMessage<std::runtime_error>(HasSubstr("from inside")));
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Solver, testing::Values(hybrid_root, newton_root),
-                         [](const auto& which) { return which.index == 0 ? "Hybrid" : "Newton"; });
+INSTANTIATE_TEST_SUITE_P(Each, Solves, testing::ValuesIn(solvers()), [](const auto& which) {
+  std::string name = which.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
 
 }  // namespace
 }  // namespace fastjoint::stage3

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/hybrid_solver.hpp"
+#include "stage3_nonlinear/gsl_solver.hpp"
 
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_multiroots.h>
@@ -63,15 +63,36 @@ int evaluate_both(const gsl_vector* x, void* params, gsl_vector* f, gsl_matrix* 
   return status == GSL_SUCCESS ? differentiate(x, params, J) : status;
 }
 
-struct FreeSolver {
-  void operator()(gsl_multiroot_fdfsolver* solver) const noexcept { gsl_multiroot_fdfsolver_free(solver); }
+/// GSL's two families behind one set of names.
+template <const gsl_multiroot_fdfsolver_type*& type>
+struct WithDerivatives {
+  using Handle = gsl_multiroot_fdfsolver;
+  gsl_multiroot_function_fdf functions;
+
+  WithDerivatives(Payload& payload, std::size_t n) : functions{evaluate, differentiate, evaluate_both, n, &payload} {}
+  static Handle* alloc(std::size_t n) { return gsl_multiroot_fdfsolver_alloc(type, n); }
+  static void free(Handle* solver) { gsl_multiroot_fdfsolver_free(solver); }
+  int set(Handle* solver, const gsl_vector* x) { return gsl_multiroot_fdfsolver_set(solver, &functions, x); }
+  static int iterate(Handle* solver) { return gsl_multiroot_fdfsolver_iterate(solver); }
 };
-using Solver = std::unique_ptr<gsl_multiroot_fdfsolver, FreeSolver>;
+
+template <const gsl_multiroot_fsolver_type*& type>
+struct WithoutDerivatives {
+  using Handle = gsl_multiroot_fsolver;
+  gsl_multiroot_function functions;
+
+  WithoutDerivatives(Payload& payload, std::size_t n) : functions{evaluate, n, &payload} {}
+  static Handle* alloc(std::size_t n) { return gsl_multiroot_fsolver_alloc(type, n); }
+  static void free(Handle* solver) { gsl_multiroot_fsolver_free(solver); }
+  int set(Handle* solver, const gsl_vector* x) { return gsl_multiroot_fsolver_set(solver, &functions, x); }
+  static int iterate(Handle* solver) { return gsl_multiroot_fsolver_iterate(solver); }
+};
 
 double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
 
-void iterate(gsl_multiroot_fdfsolver* solver, const RootOptions& options, Root& root) {
-  for (int status = GSL_SUCCESS; status == GSL_SUCCESS; status = gsl_multiroot_fdfsolver_iterate(solver)) {
+template <class Family>
+void iterate(typename Family::Handle* solver, const RootOptions& options, Root& root) {
+  for (int status = GSL_SUCCESS; status == GSL_SUCCESS; status = Family::iterate(solver)) {
     root.x = copied(solver->x);
     root.residual = copied(solver->f);
     if (!root.residual.allFinite()) {  // at the start, where GSL does not ask
@@ -84,22 +105,36 @@ void iterate(gsl_multiroot_fdfsolver* solver, const RootOptions& options, Root& 
   }
 }
 
+template <class Family>
+Root solve(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
+  Payload payload{problem, nullptr};
+  const auto n = static_cast<std::size_t>(start.size());
+  Family family(payload, n);
+  const std::unique_ptr<typename Family::Handle, decltype(&Family::free)> solver(Family::alloc(n), &Family::free);
+  if (!solver) throw std::bad_alloc();
+  const gsl_vector_const_view x0 = gsl_vector_const_view_array(start.data(), n);
+  Root root{start, VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity())};
+  if (family.set(solver.get(), &x0.vector) == GSL_SUCCESS) iterate<Family>(solver.get(), options, root);
+  if (payload.thrown) std::rethrow_exception(payload.thrown);
+  return root;
+}
+
 }  // namespace
 
 void take_over_gsl_errors() { gsl_set_error_handler_off(); }
 
-Root hybrid_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
-  Payload payload{problem, nullptr};
-  const auto n = static_cast<std::size_t>(start.size());
-  const Solver solver(gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n));
-  if (!solver) throw std::bad_alloc();
-  gsl_multiroot_function_fdf functions{evaluate, differentiate, evaluate_both, n, &payload};
-  const gsl_vector_const_view x0 = gsl_vector_const_view_array(start.data(), n);
-  Root root{start, VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity())};
-  if (gsl_multiroot_fdfsolver_set(solver.get(), &functions, &x0.vector) == GSL_SUCCESS)
-    iterate(solver.get(), options, root);
-  if (payload.thrown) std::rethrow_exception(payload.thrown);
-  return root;
+const std::vector<Solver>& gsl_solvers() {
+  static const std::vector<Solver> solvers{
+      {"hybridsj", solve<WithDerivatives<gsl_multiroot_fdfsolver_hybridsj>>},
+      {"hybridj", solve<WithDerivatives<gsl_multiroot_fdfsolver_hybridj>>},
+      {"newton", solve<WithDerivatives<gsl_multiroot_fdfsolver_newton>>},
+      {"gnewton", solve<WithDerivatives<gsl_multiroot_fdfsolver_gnewton>>},
+      {"hybrids", solve<WithoutDerivatives<gsl_multiroot_fsolver_hybrids>>},
+      {"hybrid", solve<WithoutDerivatives<gsl_multiroot_fsolver_hybrid>>},
+      {"dnewton", solve<WithoutDerivatives<gsl_multiroot_fsolver_dnewton>>},
+      {"broyden", solve<WithoutDerivatives<gsl_multiroot_fsolver_broyden>>},
+  };
+  return solvers;
 }
 
 }  // namespace fastjoint::stage3
