@@ -178,6 +178,12 @@ def copied(folder, paths):
     return folder
 
 
+def example_copied(root, example):
+    """An example's folder, from which its Makefile finds the scripts."""
+    (root / "scripts").symlink_to(ROOT / "scripts")
+    return shutil.copytree(example, root / example.relative_to(ROOT), ignore=shutil.ignore_patterns("out", "*.h5"))
+
+
 def main():
     programs = Programs(*sys.argv[1:])
     problems = []
@@ -194,7 +200,7 @@ def main():
         kind = path.read_text().partition(".schema.json")[0].rpartition("/")[2]
         if kind in SCHEMAS:
             with tempfile.TemporaryDirectory() as name:
-                folder = copied(pathlib.Path(name), path.parent.glob("*.json"))
+                folder = example_copied(pathlib.Path(name), path.parent)
                 problems += check_examples(Judge(kind, folder, programs), folder, [path])
     print("\n".join(problems) or "schemas and programs agree")
     return bool(problems)

@@ -25,15 +25,19 @@ class Programs:
         return run(self.stage3, scene, "-o", output)
 
     def prepare_joint(self, scene, p):
-        """Makes the matrices that a joint names, [FOLDER/]NAME.*.h5, each from the NAME.json beside the joint."""
+        """Makes the matrices that a joint names, [FOLDER/]NAME.*.h5, from the NAME.json or else the Makefile beside it."""
         for plate in json.loads(scene.read_text())["plates"].values():
             output = scene.parent / plate
             source = scene.parent / f"{output.name.split('.')[0]}.json"
             solution = output.with_suffix(".solution")
             output.parent.mkdir(exist_ok=True)
-            if not output.exists():
+            if output.exists():
+                continue
+            if source.exists():
                 must(self.plate(source, solution, p))
                 must(self.matrices(solution, output))
+            else:
+                must(run("make", "-s", "-C", scene.parent, plate))
 
 
 def run(*command):
