@@ -21,7 +21,9 @@ SCHEMAS = {kind: json.loads((ROOT / f"schemas/{kind}.schema.json").read_text()) 
 P = 1  # the lowest degree is enough for a verdict
 
 # Places whose loss is a matter of meaning: something else refers to what stood there.
-REFERRED_TO = re.compile(r"/materials/[^/]+|/geometry/mesh/(arcs|edges(/[^/]+)?)|/laws/[^/]+")
+REFERRED_TO = re.compile(r"/materials/[^/]+|/geometry/mesh/(arcs|edges(/[^/]+)?)|/laws/[^/]+|/plates/[^/]+")
+# Words that change nothing else: each is tried in one good example.
+EACH_WORD = [("joint", "joint_stack", "/solver/method")]
 
 
 def recording(used):
@@ -136,6 +138,19 @@ def check_examples(judge, folder, paths):
         yield from (f"{path}: {problem}" for problem in judge.good(document))
 
 
+def check_words(judge, schema):
+    for kind, base, place in EACH_WORD:
+        if kind != judge.kind:
+            continue
+        good = json.loads((ROOT / f"tests/schemas/good/{base}.json").read_text())
+        node = schema
+        for key in place.split("/")[1:]:
+            node = node["properties"][key]
+        for word in node["enum"]:
+            document, _ = patched(good, place, word)
+            yield from (f"{base}: {place} = {word}: {problem}" for problem in judge.good(document))
+
+
 def check_bad(judge):
     for name, base, place, value in BAD_INPUTS:
         if not name.startswith(judge.kind):
@@ -193,6 +208,7 @@ def main():
             judge = Judge(kind, folder, programs)
             paths = [path for path in GOOD if path.name.startswith(kind)]
             problems += check_examples(judge, folder, paths)
+            problems += check_words(judge, schema)
             problems += check_schema(schema)
             problems += check_bad(judge)
             problems += check_mutants(judge, paths)
