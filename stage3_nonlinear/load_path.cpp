@@ -53,16 +53,20 @@ class Walk {
   }
 
   [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const {
-    const VectorXd F = here_.load_factor != 0 ? contact_state(equations_.contacts, here_.c).F
-                                              : guessed_forces(equations_, options_.initial, load_factor);
-    return {increment,         load_factor,
-            here_.load_factor, worst_row_ / directions(),
-            worst_residual_,   self_locking(equations_.system, F)};
+    return {increment,       load_factor,         here_.load_factor, worst_row_ / directions(),
+            worst_residual_, locking(load_factor)};
   }
 
  private:
   [[nodiscard]] Index directions() const {
     return equations_.n_unknowns() / static_cast<Index>(equations_.contacts.size());
+  }
+
+  /// On the sides that bear at the last load factor, or would with rigid fasteners without friction: the lower level.
+  [[nodiscard]] std::optional<double> locking(double load_factor) const {
+    const auto last = self_locking(equations_.system, contact_state(equations_.contacts, here_.c).F);
+    const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q);
+    return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
   }
 
   bool advance(double target, int halvings_left) {

@@ -30,7 +30,7 @@ struct PathFailure {
   double reached;                 ///< largest part of it that converged
   Eigen::Index plane;             ///< with the worst residual in the best try
   double residual;                ///< there, relative to the largest force; infinite if each try left it spent
-  std::optional<double> locking;  ///< TangentCheck's, at the last load factor that converged or the first guess
+  std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
 };
 
 struct LoadPath {

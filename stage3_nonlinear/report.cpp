@@ -224,7 +224,7 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.increment + 1, scene.load_factors.size(), failure.load_factor, max_halvings, failure.reached, at,
       joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
   const std::string locking =
-      failure.locking ? fmt::format("At the last state {}. ", locking_text(*failure.locking)) : "";
+      failure.locking ? fmt::format("On the sides that bear {}. ", locking_text(*failure.locking)) : "";
   const std::string advice = fmt::format(
       "Check the law and the clearance of that fastener (a cubic that turns down carries no more than its "
       "peak), take smaller increments, allow more than {} iterations or, if the residual is close to it, a "
