@@ -51,7 +51,7 @@ TEST(Drawing, HasThePointsWhereTheTicksSay) {
       const double where = (std::stod(at[1]) - delta.origin) / delta.scale;
       EXPECT_NEAR(std::stod(at[2]), F.at(force(fit, where)) - baseline, 1.5) << where;
     }
-    const auto last = curve.back();
+    const auto& last = curve.back();
     EXPECT_NEAR(std::stod(last[1]), delta.at(0.25), 0.02);
   }
 }

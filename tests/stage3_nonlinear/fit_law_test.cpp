@@ -252,7 +252,7 @@ TEST(FitCubic, RefusesOneThatIsBelowZeroAtItsPoints) {
             "two thirds and all of its last delta");
 }
 
-/// A hump has its least sum where contact meets a point, and no derivative there.
+/// The sum of this hump falls ever more steeply until contact meets the first point, past which only a step is left.
 TEST(FitPower, SaysWhenItsSearchDoesNotEnd) {
   EXPECT_THAT(
       [] {
