@@ -2,6 +2,7 @@
 #include <iostream>
 
 #include "common/program/program.hpp"
+#include "stage3_nonlinear/fit_run.hpp"
 #include "stage3_nonlinear/gsl_solver.hpp"
 #include "stage3_nonlinear/run.hpp"
 
@@ -15,9 +16,19 @@ const fastjoint::program::Command command{
     .input = "JOINT.json",
     .output = "RESULT.h5",
     .options = {{"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
-                {"--csv", "FILE", "also write one line per increment and fastener"}}};
+                {"--csv", "FILE", "also write one line per increment and fastener"}},
+    .alternatives = {
+        {.option = {"--fit", "TEST.csv",
+                    "fit a law to a test instead, lines of delta, F; -o then names a drawing (.svg) or is left out"},
+         .options = {{"--law", "KIND", "with --fit: power or cubic"}}}}};
 
 void body(const fastjoint::program::Arguments& arguments) {
+  if (arguments.flag("--fit"))
+    return fastjoint::stage3::run_fit({.data = arguments.input,
+                                       .law = arguments.text("--law"),
+                                       .drawing = arguments.output,
+                                       .quiet = arguments.quiet},
+                                      std::cout, std::cerr);
   fastjoint::stage3::run({.input = arguments.input,
                           .output = arguments.output,
                           .csv = arguments.text("--csv"),

@@ -42,6 +42,16 @@ def check_joint(readme):
             subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
 
 
+def check_fit(readme):
+    """The fit that the README shows is what its command prints, and it draws."""
+    command, printed = re.search(r"```\n(stage3_nonlinear --fit [^\n]*)\n```\n```\n(.*?)```", readme, re.S).groups()
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "examples/fit", Path(folder) / "examples/fit")
+        run = subprocess.run(command.split(), check=True, cwd=folder, capture_output=True, text=True)
+        assert run.stdout == printed, f"README.md shows another fit than:\n{run.stdout}"
+        assert (Path(folder) / command.split()[-1]).stat().st_size > 0
+
+
 def check_table(readme, name, timed=None):
     """A block of the README is what its script prints, but for a column of times."""
     shown = readme.split(f"<!-- {name} -->\n")[1].split(f"<!-- /{name} -->")[0]
@@ -64,6 +74,7 @@ def main(folder):
     check_links(readme)
     check_options(readme)
     check_joint(readme)
+    check_fit(readme)
     check_table(readme, "accuracy")
     check_table(readme, "verification", timed=5)
 

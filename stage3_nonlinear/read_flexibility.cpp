@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/read_flexibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "stage3_nonlinear/flexibility_formula.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+const FlexibilityFormula& read_formula(const input::Value& law) {
+  const auto formulas = flexibility_formulas();
+  std::vector<std::string> names;
+  names.reserve(formulas.size());
+  for (const auto& formula : formulas) names.emplace_back(formula.name);
+  const std::string name = law.at("formula").choice(names);
+  return formulas[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+}
+
+int read_shear(const input::Value& law, const FlexibilityFormula& formula) {
+  const auto shear = law.at("shear");
+  if (shear.choice({"single", "double"}) == "single") return 1;
+  if (!formula.knows_double_shear)
+    shear.not_allowed(fmt::format("\"single\", the only shear of the formula \"{}\"", formula.name));
+  return 2;
+}
+
+double read_nu(const input::Value& law, const FlexibilityFormula& formula) {
+  constexpr double incompressible = 0.5;
+  const input::Range poisson{.low = 0, .high = incompressible};
+  if (formula.uses_nu_f) return law.at("nu_f").number(poisson);
+  if (const auto nu = law.find("nu_f"))
+    nu->fail("unknown key", fmt::format("no \"nu_f\", the formula \"{}\" does not use it", formula.name));
+  return 0;
+}
+
+std::array<double, 2> read_pair(const input::Value& law, const char* key) {
+  const auto values = law.at(key).numbers(2, 2, input::positive);
+  return {values[0], values[1]};
+}
+
+}  // namespace
+
+Flexibility read_flexibility(const input::Value& law) {
+  law.only({"type", "formula", "mode", "shear", "t", "E", "d", "E_f", "nu_f", "one_sided"});
+  const auto& formula = read_formula(law);
+  const std::string mode = law.at("mode").choice({"total", "fastener only"});
+  const int n_shear = read_shear(law, formula);
+  const auto terms = formula.terms({.t = read_pair(law, "t"),
+                                    .E = read_pair(law, "E"),
+                                    .d = law.at("d").number(input::positive),
+                                    .E_f = law.at("E_f").number(input::positive),
+                                    .nu_f = read_nu(law, formula),
+                                    .n_shear = n_shear});
+  const double total = total_flexibility(terms), fastener = fastener_flexibility(terms);
+  const bool whole = mode == "total";
+  return {.stiffness = 1 / (whole ? total : fastener),
+          .mode = whole ? FlexibilityMode::total : FlexibilityMode::fastener_only,
+          .provenance =
+              fmt::format("{} in {} shear, {}: {}; flexibility {:.6g}, of which {:.6g} of the fastener, in the "
+                          "units of the joint",
+                          formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, total, fastener)};
+}
+
+}  // namespace fastjoint::stage3
