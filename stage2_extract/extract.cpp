@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/extract.hpp"
 
+#include <algorithm>
+
 #include "stage2_extract/condensed_stiffness.hpp"
 #include "stage2_extract/error_estimate.hpp"
 #include "stage2_extract/friction_constants.hpp"
@@ -18,6 +20,11 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   a.ndof = plate.ndof;
   a.disc_hole = plate.disc_hole;
   a.disc_direction = plate.disc_direction;
+  a.disc_modulus.resize(a.n_discs());
+  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i) {
+    const auto hole = std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.disc_hole[i]) - plate.hole_id.begin();
+    a.disc_modulus[static_cast<Eigen::Index>(i)] = plate.hole_spring[static_cast<std::size_t>(hole)].modulus;
+  }
   a.external_id = plate.external_id;
   a.external_direction = plate.external_direction;
   a.traction_id = plate.traction_id;

@@ -6,6 +6,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <utility>
+
+#include "stage3_nonlinear/rising_root.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -40,19 +43,10 @@ CubicLaw::CubicLaw(const std::array<double, 3>& delta, const std::array<double, 
 }
 
 double CubicLaw::stretch(double s, double k) const {
-  // Rising, but neither convex nor concave: Newton's method between bounds that close in.
-  constexpr int most = 200;
-  double low = 0, high = s / (k * last_);
-  double x = high;
-  for (int i = 0; i < most && low < high; ++i) {
-    const double excess = cubic_.force(x) + k * last_ * x - s;
-    (excess > 0 ? high : low) = x;
-    double next = x - excess / (cubic_.slope(x) + k * last_);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == x || next == low || next == high) break;
-    x = next;
-  }
-  return x;
+  const auto excess = [&](double x) {
+    return std::pair(cubic_.force(x) + k * last_ * x - s, cubic_.slope(x) + k * last_);
+  };
+  return rising_root(excess, 0, s / (k * last_));
 }
 
 Branch CubicLaw::at(double c, double k, double clearance) const {

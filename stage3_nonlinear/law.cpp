@@ -7,6 +7,7 @@
 #include "stage3_nonlinear/cubic_law.hpp"
 #include "stage3_nonlinear/piecewise_linear_law.hpp"
 #include "stage3_nonlinear/power_law.hpp"
+#include "stage3_nonlinear/table_law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -17,8 +18,13 @@ struct Kind {
 };
 
 constexpr std::array kinds{
-    Kind{"linear", read_linear_law},     Kind{"power", read_power_law},           Kind{"cubic", read_cubic_law},
-    Kind{"bilinear", read_bilinear_law}, Kind{"four stage", read_four_stage_law},
+    Kind{"linear", read_linear_law},          //
+    Kind{"power", read_power_law},            //
+    Kind{"cubic", read_cubic_law},            //
+    Kind{"bilinear", read_bilinear_law},      //
+    Kind{"four stage", read_four_stage_law},  //
+    Kind{"table", read_table_law},            //
+    Kind{"formula", read_formula_law},
 };
 
 }  // namespace

@@ -32,6 +32,12 @@ struct Parameter {
   double length, force;
 };
 
+/// Where the numbers of a law come from, if not from the input itself.
+struct Source {
+  std::string text;       ///< for the summary: formula, who and where
+  bool bearing_of_sheet;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too
+};
+
 /// What a fastener answers to the relative displacement of its discs, delta >= 0, its clearance included.
 ///
 /// The curve is given by a contact coordinate c >= 0 in force units. Of a law that never falls it is
@@ -68,6 +74,7 @@ class Law {
   [[nodiscard]] virtual std::vector<Parameter> parameters() const { return {}; }
   /// By the clearance, then by each of parameters().
   [[nodiscard]] virtual std::vector<Slope> slopes(double c, double k, double clearance) const = 0;
+  [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
   /// What the user should know of the parameters, one sentence each.
   [[nodiscard]] virtual std::vector<std::string> doubts() const { return {}; }
 };

@@ -7,11 +7,16 @@
 #include <cassert>
 #include <utility>
 
+#include "stage3_nonlinear/read_flexibility.hpp"
+
 namespace fastjoint::stage3 {
 
 PiecewiseLinearLaw::PiecewiseLinearLaw(Polyline curve, std::size_t first_moved,
-                                       std::vector<PolylineParameter> parameters)
-    : curve_(std::move(curve)), first_moved_(first_moved), parameters_(std::move(parameters)) {
+                                       std::vector<PolylineParameter> parameters, std::optional<Source> source)
+    : curve_(std::move(curve)),
+      first_moved_(first_moved),
+      parameters_(std::move(parameters)),
+      source_(std::move(source)) {
   assert(first_moved_ < curve_.vertices.size());
   assert(std::all_of(parameters_.begin(), parameters_.end(), [&](const PolylineParameter& each) {
     return each.derivative.vertices.size() == curve_.vertices.size();
@@ -105,9 +110,14 @@ std::vector<Slope> PiecewiseLinearLaw::slopes(double c, double k, double clearan
   return result;
 }
 
-std::shared_ptr<const Law> linear_law(double k) {
-  return std::make_shared<PiecewiseLinearLaw>(Polyline{{{0, 0}}, k}, 0,
-                                              std::vector<PolylineParameter>{{{"k", -1, 1}, {{{0, 0}}, 1}}});
+std::shared_ptr<const Law> linear_law(double k, std::optional<Source> source) {
+  return std::make_shared<PiecewiseLinearLaw>(
+      Polyline{{{0, 0}}, k}, 0, std::vector<PolylineParameter>{{{"k", -1, 1}, {{{0, 0}}, 1}}}, std::move(source));
+}
+
+std::shared_ptr<const Law> read_formula_law(const input::Value& law) {
+  const Flexibility flexibility = read_flexibility(law);
+  return linear_law(flexibility.stiffness, Source{flexibility.provenance, flexibility.mode == FlexibilityMode::total});
 }
 
 std::shared_ptr<const Law> read_linear_law(const input::Value& law) {

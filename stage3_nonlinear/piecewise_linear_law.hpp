@@ -27,13 +27,15 @@ struct PolylineParameter {
 /// The clearance moves the vertices from `first_moved` on along delta.
 class PiecewiseLinearLaw final : public Law {
  public:
-  PiecewiseLinearLaw(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters);
+  PiecewiseLinearLaw(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
+                     std::optional<Source> source = std::nullopt);
   [[nodiscard]] Branch at(double c, double k, double clearance) const override;
   [[nodiscard]] double coordinate(double F, double k, double clearance) const override;
   [[nodiscard]] double gap(double clearance) const override;
   [[nodiscard]] std::optional<std::vector<double>> kinks(double k, double clearance) const override;
   [[nodiscard]] std::vector<Parameter> parameters() const override;
   [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override;
+  [[nodiscard]] std::optional<Source> source() const override { return source_; }
 
  private:
   /// A piece of the curve in terms of c, from its first point on.
@@ -49,12 +51,15 @@ class PiecewiseLinearLaw final : public Law {
   Polyline curve_;
   std::size_t first_moved_;
   std::vector<PolylineParameter> parameters_;
+  std::optional<Source> source_;
 };
 
 /// {"type": "linear", "k": force / length}
 [[nodiscard]] std::shared_ptr<const Law> read_linear_law(const input::Value& law);
 /// A spring of stiffness k > 0.
-[[nodiscard]] std::shared_ptr<const Law> linear_law(double k);
+[[nodiscard]] std::shared_ptr<const Law> linear_law(double k, std::optional<Source> source = std::nullopt);
+/// {"type": "formula", ...}: a spring by a published formula (read_flexibility.hpp).
+[[nodiscard]] std::shared_ptr<const Law> read_formula_law(const input::Value& law);
 /// {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.
 [[nodiscard]] std::shared_ptr<const Law> read_bilinear_law(const input::Value& law);
 /// {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo, Figure 2.

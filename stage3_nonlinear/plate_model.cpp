@@ -129,7 +129,10 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   plate.name = name;
   plate.file = file;
   plate.axes = disc_axes(file, a);
-  for (std::size_t i = 0; i < a.disc_hole.size(); i += plate.axes.size()) plate.holes.push_back(a.disc_hole[i]);
+  for (std::size_t i = 0; i < a.disc_hole.size(); i += plate.axes.size()) {
+    plate.holes.push_back(a.disc_hole[i]);
+    plate.on_springs.push_back(a.disc_modulus[static_cast<Eigen::Index>(i)] > 0);
+  }
   check_once(file, "disc/hole", plate.holes);
   plate.externals = a.external_id;
   plate.tractions = a.traction_id;

@@ -21,6 +21,7 @@ struct PlateModel {
   std::string name, file;
   std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
   std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
+  std::vector<bool> on_springs;                              ///< (m / a) the sheet's own bearing is in S
   Eigen::MatrixXd S;                                         ///< (m+e, m+e), force / length
   Eigen::MatrixXd R;                                         ///< (m+e, h), length^2
   Eigen::MatrixXd T;                                         ///< (m+e, q), dimensionless

@@ -56,12 +56,13 @@ Flexibility read_flexibility(const input::Value& law) {
                                     .n_shear = n_shear});
   const double total = total_flexibility(terms), fastener = fastener_flexibility(terms);
   const bool whole = mode == "total";
-  return {.stiffness = 1 / (whole ? total : fastener),
+  return {.stiffness = 1 / (n_shear * (whole ? total : fastener)),
           .mode = whole ? FlexibilityMode::total : FlexibilityMode::fastener_only,
           .provenance =
-              fmt::format("{} in {} shear, {}: {}; flexibility {:.6g}, of which {:.6g} of the fastener, in the "
+              fmt::format("{} in {} shear, {}: {}; flexibility {:.6g}, of which {:.6g} of the fastener{}, in the "
                           "units of the joint",
-                          formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, total, fastener)};
+                          formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, total, fastener,
+                          n_shear == 1 ? "" : ", of both planes together; the law is that of one plane")};
 }
 
 }  // namespace fastjoint::stage3

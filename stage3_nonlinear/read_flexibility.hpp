@@ -15,7 +15,7 @@ enum class FlexibilityMode {
 
 /// A fastener by a published formula.
 struct Flexibility {
-  double stiffness;  ///< 1 / flexibility, force / length
+  double stiffness;  ///< of one shear plane, force / length: in double shear half of 1 / flexibility
   FlexibilityMode mode;
   std::string provenance;  ///< one sentence: formula, mode, shear, who and where, both flexibilities
 };

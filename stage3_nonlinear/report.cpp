@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
+#include <set>
 
 #include "stage3_nonlinear/rim_history.hpp"
 
@@ -44,6 +45,8 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
   std::string text = fmt::format("joint{}: {} plates, {} fasteners, p = {}, {}\n",
                                  scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name), joint.plates.size(),
                                  joint.fasteners.size(), joint.p, path.linear ? "linear" : scene.solver.method);
+  for (const auto& [name, law] : scene.laws)
+    if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)
     if (plate.relative_error)
       text += fmt::format("stiffness of {} known to {:.1e} of its largest entry\n", plate.name, *plate.relative_error);
@@ -141,6 +144,24 @@ std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) 
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// Once per law.
+void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& result) {
+  std::set<std::string> said;
+  for (const auto& plane : joint.planes) {
+    const auto source = plane.law->source();
+    if (!source || !source->bearing_of_sheet) continue;
+    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)}) {
+      const PlateModel& plate = joint.plates[hole->plate];
+      const bool twice = plate.on_springs[static_cast<std::size_t>(hole->disc / joint.n_directions())];
+      if (!twice || !said.insert(plane.law_name).second) continue;
+      result.push_back(fmt::format(
+          "{}: /laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole \"{}\" have "
+          "already: the joint comes out too soft; take \"fastener only\"",
+          joint.file, plane.law_name, joint.name(*hole)));
+    }
+  }
+}
+
 void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
   for (const auto& step : path.steps) {
     if (!step.check.mechanism) continue;
@@ -206,6 +227,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
   std::vector<std::string> result;
+  warn_of_bearing_twice(joint, result);
   warn_beyond_last_point(joint, path, result);
   warn_mechanism(joint, path, result);
   warn_of_other_solutions(joint, equations, path, result);

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 1;
+constexpr int minor = 2;
 
 /// A stack that is missing altogether is one of zero-width matrices.
 std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,
@@ -37,6 +37,8 @@ void write_names(h5::Writer& file, const PlateMatrices& a) {
   file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
   file.write("disc/hole", a.disc_hole, {"1", "hole of each disc unknown"});
   file.write("disc/direction", a.disc_direction, {"1", "direction of each disc unknown, x or y"});
+  file.write("disc/modulus", a.disc_modulus,
+             {unit(a.header.units, -3, 1), "modulus of the springs between disc and sheet, 0 where there are none"});
   file.write("external/id", a.external_id, {"1", "external boundaries that move as one"});
   file.write("external/direction", a.external_direction, {"1", "their directions, x or y"});
   file.write("traction/id", a.traction_id, {"1", "external boundaries under uniform traction"});
@@ -125,6 +127,8 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   a.disc_hole = file.strings("disc/hole", h5::any);
   const auto m = a.n_discs();
   a.disc_direction = file.strings("disc/direction", m);
+  a.disc_modulus = Eigen::VectorXd::Zero(m);
+  if (file.has("disc/modulus")) a.disc_modulus = file.vector("disc/modulus", m, expected_unit(a.header.units, -3, 1));
   a.external_id = strings_if_any(file, "external/id", h5::any);
   a.traction_id = strings_if_any(file, "traction/id", h5::any);
   a.friction_hole = strings_if_any(file, "friction/hole", h5::any);

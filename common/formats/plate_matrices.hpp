@@ -27,8 +27,11 @@ struct HoleContact {
 ///   (P, F) = S (D_e, D) + R Lambda + T f.
 struct PlateMatrices {
   Header header;
-  Eigen::VectorXi p, ndof;                                   ///< (np)
-  std::vector<std::string> disc_hole, disc_direction;        ///< (m)
+  Eigen::VectorXi p, ndof;                             ///< (np)
+  std::vector<std::string> disc_hole, disc_direction;  ///< (m)
+  /// (m) modulus of the distributed springs between disc and sheet, which hold the bearing of the sheet; 0 where the
+  /// file does not say, force / length^3.
+  Eigen::VectorXd disc_modulus;
   std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"
   std::vector<std::string> traction_id, traction_direction;  ///< (q)
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h); bearing is "+x", "-x", "+y", "-y"

@@ -58,6 +58,8 @@ class Value {
   /// The same for a value that is itself what was found.
   [[noreturn]] void not_allowed(const std::string& allowed) const;
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
+  /// Path of the document, for what it names relative to itself.
+  [[nodiscard]] const std::string& file() const { return file_; }
 
  private:
   Value(const Value& parent, const nlohmann::json& json, const std::string& key);

@@ -90,6 +90,7 @@ TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
     a.ndof = a.p;
     a.disc_hole = {"a"};
     a.disc_direction = {"x"};
+    a.disc_modulus = Eigen::VectorXd::Constant(1, 3e7);
     a.S_dd = {Eigen::MatrixXd::Identity(1, 1)};
     a.S_dd_error = Eigen::MatrixXd::Zero(1, 1);
     a.S_ed_error = Eigen::MatrixXd::Zero(0, 1);

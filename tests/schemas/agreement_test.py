@@ -17,6 +17,7 @@ from bad_inputs import BAD_INPUTS, MISSING
 from programs import ROOT, Programs
 
 GOOD = sorted((ROOT / "tests/schemas/good").glob("*.json"))
+TESTS_OF_FASTENERS = sorted((ROOT / "tests/schemas/good").glob("*.csv"))
 SCHEMAS = {kind: json.loads((ROOT / f"schemas/{kind}.schema.json").read_text()) for kind in ("plate", "joint")}
 P = 1  # the lowest degree is enough for a verdict
 
@@ -203,7 +204,7 @@ def main():
     programs = Programs(*sys.argv[1:])
     problems = []
     with tempfile.TemporaryDirectory() as name:
-        folder = copied(pathlib.Path(name), GOOD)
+        folder = copied(pathlib.Path(name), GOOD + TESTS_OF_FASTENERS)
         for kind, schema in SCHEMAS.items():
             judge = Judge(kind, folder, programs)
             paths = [path for path in GOOD if path.name.startswith(kind)]

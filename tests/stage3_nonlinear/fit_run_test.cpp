@@ -62,9 +62,9 @@ TEST_F(FitProgram, PrintsALawThatAJointReads) {
     ASSERT_NE(at, std::string::npos);
     const auto document = input::parse("joint.json", out.substr(at));
     const auto read = read_law(input::Value(document));
-    const Branch branch = read->beyond(read->coordinate(400, 2500), 2500);
+    const Branch branch = read->at(read->coordinate(400, 2500, 0), 2500, 0);
     EXPECT_NEAR(branch.F, 400, 1) << law;
-    EXPECT_NEAR(branch.stretch, 0.16, 1e-3) << law;
+    EXPECT_NEAR(branch.delta, 0.16, 1e-3) << law;
   }
 }
 

@@ -33,6 +33,7 @@ PlateMatrices from_stiffness(const MatrixXd& S, int n_discs, int n_externals) {
   a.ndof = Eigen::VectorXi::Constant(1, 1);
   for (int i = 1; i <= n_discs; ++i) a.disc_hole.push_back(std::to_string(i));
   a.disc_direction.assign(a.disc_hole.size(), "x");
+  a.disc_modulus = Eigen::VectorXd::Zero(n_discs);
   const std::vector<std::string> externals{"P", "Q"};
   a.external_id.assign(externals.begin(), externals.begin() + n_externals);
   a.external_direction.assign(a.external_id.size(), "x");

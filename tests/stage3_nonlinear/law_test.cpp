@@ -7,10 +7,13 @@
 #include <cmath>
 #include <functional>
 #include <map>
+#include <random>
 
 #include "common/errors.hpp"
 #include "stage3_nonlinear/cubic_law.hpp"
 #include "stage3_nonlinear/power_law.hpp"
+#include "stage3_nonlinear/table_law.hpp"
+#include "tests/support/files.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -238,6 +241,87 @@ TEST(PiecewiseLinearLaw, KinksWhereItsSlopeJumps) {
   EXPECT_THAT(read(R"({"type": "linear", "k": 100})")->kinks(50, 0).value(), IsEmpty());
 }
 
+/// Points of sin: the error of a cubic with continuous slope falls as h^3 at least (as h^4 where it may).
+TEST(TableLaw, ConvergesToTheCurveOfItsPoints) {
+  const auto error = [](int n) {
+    std::vector<std::array<double, 2>> points;
+    for (int i = 1; i <= n; ++i) points.push_back({1.5 * i / n, std::sin(1.5 * i / n)});
+    const TableLaw law(points);
+    double worst = 0;
+    for (double c = 0.01; c < 2; c += 0.01) {
+      const Branch on = law.at(c, 0.7, 0);
+      EXPECT_NEAR(on.F + 0.7 * on.delta, c, 1e-14);
+      if (on.delta < 1.2) worst = std::max(worst, std::abs(on.F - std::sin(on.delta)));
+    }
+    return worst;
+  };
+  for (const int n : {10, 20, 40}) EXPECT_LT(error(2 * n) / error(n), 0.14) << n;
+  EXPECT_LT(error(80), 2e-6);
+}
+
+TEST(TableLaw, GoesThroughItsPointsAndNeverFalls) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> step(0, 1);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<std::array<double, 2>> points{{0.1 + step(random), step(random)}};
+    for (int j = 0; j < 6; ++j)  // level pieces too
+      points.push_back({points.back()[0] + 0.01 + step(random),
+                        points.back()[1] + (step(random) < 0.3 ? 0 : step(random) * step(random))});
+    const TableLaw law(points);
+    const double k = std::pow(10, 6 * step(random) - 3), gap = step(random);
+    for (const auto& [x, F] : points) EXPECT_NEAR(law.at(F + k * (gap + x), k, gap).F, F, 1e-13);
+    double before = 0;
+    for (double c = 0; c < 20 * (1 + k); c += 0.05 * (1 + k)) {
+      const Branch on = law.at(c, k, gap);
+      EXPECT_GE(on.F, before - 1e-14);
+      EXPECT_NEAR(on.F + k * on.delta, c, 1e-12 * (c + k));
+      EXPECT_GE(on.dF, 0);
+      before = on.F;
+    }
+    EXPECT_DOUBLE_EQ(law.last_delta(gap), gap + points.back()[0]);
+  }
+}
+
+TEST(TableLaw, ReadsTheSamePointsFromAFile) {
+  const test::TemporaryFolder folder;
+  folder.write("rivet.csv", "delta, F\n0, 0\n0.1, 300\n0.2, 500 # last\n");
+  const auto document = input::parse(folder.path("joint.json"), R"({"type": "table", "file": "rivet.csv"})");
+  const auto from_file = read_law(input::Value(document));
+  const auto inside = read(R"({"type": "table", "delta": [0.1, 0.2], "F": [300, 500]})");
+  for (const double c : {10.0, 400.0, 2000.0}) {
+    EXPECT_EQ(from_file->at(c, 1e3, 0.01).F, inside->at(c, 1e3, 0.01).F);
+    EXPECT_EQ(from_file->slopes(c, 1e3, 0.01)[0].F, inside->slopes(c, 1e3, 0.01)[0].F);
+  }
+}
+
+TEST(TableLaw, NamesAFileThatIsMissing) {
+  EXPECT_THAT([] { (void)read(R"({"type": "table", "file": "nope.csv"})"); },
+              ThrowsMessage<FileError>(HasSubstr("nope.csv: cannot be opened: No such file")));
+}
+
+TEST(TableLaw, HasDerivatives) {
+  const auto law = read(R"({"type": "table", "delta": [0.1, 0.2, 0.5], "F": [300, 500, 600]})");
+  constexpr double h = 1e-4, k = 1000;
+  for (double c = 20; c < 2000; c += 33) {
+    const Branch on = law->at(c, k, 0.01), above = law->at(c + h, k, 0.01), below = law->at(c - h, k, 0.01);
+    EXPECT_NEAR((above.F - below.F) / (2 * h), on.dF, 1e-6) << c;
+    EXPECT_NEAR((above.delta - below.delta) / (2 * h) * k, on.ddelta * k, 1e-6) << c;
+    const Branch wider = law->at(c, k, 0.01 + 1e-7), tighter = law->at(c, k, 0.01 - 1e-7);
+    EXPECT_NEAR((wider.F - tighter.F) / 2e-7, law->slopes(c, k, 0.01)[0].F, 1e-2) << c;
+  }
+}
+
+TEST(FormulaLaw, IsASpringThatSaysWhereItComesFrom) {
+  const auto law = read(R"({"type": "formula", "formula": "huth bolt", "mode": "total", "shear": "single", "t": [2, 3],
+                            "E": [72000, 72000], "d": 5, "E_f": 110000})");
+  const Branch on = law->at(1000, 1e4, 0);
+  EXPECT_NEAR(on.delta / on.F, 2.903227e-5, 5e-12);
+  ASSERT_TRUE(law->source());
+  EXPECT_TRUE(law->source()->bearing_of_sheet);
+  EXPECT_THAT(law->source()->text, HasSubstr("huth bolt in single shear, total"));
+  EXPECT_FALSE(read(R"({"type": "linear", "k": 1})")->source());
+}
+
 struct Refusal {
   const char* json;
   const char* message;
@@ -267,6 +351,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"type": "four stage", "k_stick": 1, "F_slip": 5, "slip": 0, "k_bearing": 1, "F_yield": 5,
                     "k_yield": 0})",
                 "/F_yield: 5; allowed: more than F_slip = 5"},
+        Refusal{R"({"type": "table", "delta": [1, 2], "F": [1, 2, 3]})", "/F: array of 3; allowed: exactly 2"},
+        Refusal{R"({"type": "table", "delta": [1, 1], "F": [1, 2]})",
+                "delta = 1 after 1; allowed: displacements that rise"},
+        Refusal{R"({"type": "table", "delta": [1, 2], "F": [2, 1]})",
+                "F = 1 at delta = 2 after 2; allowed: forces that do not fall: smooth the data, or fit a law to it "
+                "(--fit)"},
+        Refusal{R"({"type": "table", "delta": [0, 2], "F": [0, 1]})", "1 point(s) beyond (0, 0); allowed: at least 2"},
+        Refusal{R"({"type": "table", "delta": [0, 1, 2], "F": [5, 6, 7]})",
+                "F = 5 at delta = 0; allowed: 0 there: stiff contact is a power law"},
+        Refusal{R"({"type": "table", "delta": [1, 2], "F": [0, 0]})", "no force at any point; allowed: a force > 0"},
+        Refusal{R"({"type": "table", "file": "a.csv", "F": [1]})", "/F: unknown key"},
         Refusal{R"({"type": "cubic", "delta": [1, 2], "F": [1, 2, 3]})", "/delta: array of 2; allowed: exactly 3"},
         Refusal{R"({"type": "cubic", "delta": [1, 2, 1], "F": [1, 2, 3]})",
                 "/delta: [1,2,1] is not allowed; allowed: three different displacements"},
