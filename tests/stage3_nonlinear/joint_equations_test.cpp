@@ -89,5 +89,20 @@ TEST(JointEquations, TellsASheetThatNothingHolds) {
   EXPECT_FALSE(open_at(1e5, 1e5));
 }
 
+/// F = x (1.1 - 0.1 x) in parallel with plates of 0.5: 1.6 x - 0.1 x^2 rises to x = 8 and falls beyond.
+TEST(JointEquations, TellsASolutionPastTheLargestLoad) {
+  const test::Lap lap{test::spring_plate(1, 1, {{0, 1, 1000}, {0, test::ground, 0.5}}),
+                      test::spring_plate(1, 0, {{0, test::ground, 1e6}}), 1};
+  const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const JointEquations equations = make_equations(test::joint_of(lap, falling));
+  const auto turned_at = [&](double delta) {
+    const double c = equations.contacts[0].stiffness * delta;
+    return check_tangent(equations, contact_state(equations.contacts, VectorXd::Constant(1, c))).turned;
+  };
+  EXPECT_FALSE(turned_at(7.9));
+  EXPECT_TRUE(turned_at(8.1));
+  EXPECT_THAT(planes_that_may_snap(equations), ElementsAre(0));
+}
+
 }  // namespace
 }  // namespace fastjoint::stage3

@@ -233,6 +233,50 @@ TEST_F(Run, WarnsOfDoubtfulLawsAndOpenPlaces) {
   EXPECT_THAT(out_.str(), HasSubstr("         -\n")) << "no sum, no shares";
 }
 
+const Members by_formula{{"laws", R"({"lin": {"type": "formula", "formula": "swift", "mode": "total", "shear": "single",
+                                               "t": [2, 3], "E": [72000, 72000], "d": 5, "E_f": 110000}})"}};
+
+TEST_F(Run, PrintsWhereAStiffnessComesFrom) {
+  write(by_formula);
+  run();
+  EXPECT_THAT(out_.str(), HasSubstr("law lin: swift in single shear, total: "));
+  EXPECT_THAT(out_.str(), HasSubstr("flexibility 1.83502e-05, of which "));
+  EXPECT_EQ(log_.str(), "") << "matrices made by hand say nothing of springs";
+}
+
+TEST_F(Run, WarnsOfBearingThatCountsTwice) {
+  auto lap = test::two_fastener_lap();
+  lap.b.disc_modulus = Eigen::Vector2d(0, 3e7);
+  write(by_formula, lap);
+  run();
+  EXPECT_THAT(log_.str(), HasSubstr("joint.json: /laws/lin: mode \"total\" holds the bearing of the sheets, which the "
+                                    "springs around hole \"b:2\" have already: the joint comes out too soft; take "
+                                    "\"fastener only\"\n"));
+  Members members = by_formula;
+  members["laws"].replace(members["laws"].find("total"), 5, "fastener only");
+  write(members, lap);
+  log_.str("");
+  run();
+  EXPECT_EQ(log_.str(), "");
+}
+
+TEST_F(Run, WarnsWhereTheSolutionMayBeOneOfSeveral) {
+  Members members = overloaded;
+  members["increments"] = "[1, 2]";
+  const test::Lap soft{test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, test::ground, 1000}})};
+  write(members, soft);
+  run();
+  EXPECT_THAT(log_.str(), HasSubstr("joint.json: the law of fastener \"left bolt\" falls more steeply than the plates "
+                                    "hold against: the solution may be one of several; the one given is followed from "
+                                    "the load before\n"));
+  // Plates that hold themselves with more than the law's steepest fall, 1.21 per length, leave one solution.
+  members["laws"] = R"({"weak": {"type": "cubic", "delta": [1, 2, 3], "F": [1, 1.8, 2.4]}})";
+  write(members, {test::spring_plate(1, 1, {{0, 1, 1000}, {0, test::ground, 100}}), soft.b});
+  log_.str("");
+  run();
+  EXPECT_EQ(log_.str(), "");
+}
+
 /// The program itself: exit statuses and the streams.
 class Program : public Run {
  protected:
