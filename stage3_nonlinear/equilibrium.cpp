@@ -118,6 +118,21 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
   return worst;
 }
 
+/// Of a plane, in ascending order.
+std::array<std::size_t, 2> plates_of(const JointModel& joint, Index plane) {
+  const ShearPlane& at = joint.planes[static_cast<std::size_t>(plane)];
+  const auto [lower, higher] = std::minmax(joint.first_hole(at).plate, joint.second_hole(at).plate);
+  return {lower, higher};
+}
+
+/// Forces of the planes with the sign that they have when the lower plate comes first; amounts have none.
+VectorXd from_lower_plate(const JointModel& joint, VectorXd forces) {
+  for (Index j = 0; j < forces.size() && joint.n_directions() == 1; ++j)
+    if (joint.first_hole(joint.planes[static_cast<std::size_t>(j)]).plate != plates_of(joint, j)[0])
+      forces[j] = -forces[j];
+  return forces;
+}
+
 double largest(const VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0; }
 
 }  // namespace
@@ -145,20 +160,17 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
 
 VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   constexpr double rounding = 1e-9;
-  const auto plates = [&](Index j) {
-    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
-    return std::array{joint.first_hole(plane).plate, joint.second_hole(plane).plate};
-  };
-  VectorXd result(transferred.size());
+  const VectorXd passed = from_lower_plate(joint, transferred);
+  VectorXd result(passed.size());
   for (Index j = 0; j < result.size(); ++j) {
     double sum = 0, amount = 0;
     for (Index i = 0; i < result.size(); ++i) {
-      if (plates(i) != plates(j)) continue;
-      sum += transferred[i];
-      amount += std::abs(transferred[i]);
+      if (plates_of(joint, i) != plates_of(joint, j)) continue;
+      sum += passed[i];
+      amount += std::abs(passed[i]);
     }
     const bool known = std::abs(sum) > rounding * amount;
-    result[j] = known ? 100 / sum * transferred[j] : std::numeric_limits<double>::quiet_NaN();
+    result[j] = known ? 100 / sum * passed[j] : std::numeric_limits<double>::quiet_NaN();
   }
   return result;
 }

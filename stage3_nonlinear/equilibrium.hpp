@@ -35,8 +35,8 @@ struct JointState {
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 
-/// Per cent of the sum over all planes between the same two plates, shape (n); NaN where the sum is nothing but
-/// rounding.
+/// Per cent of the sum over all planes between the same two plates, whichever their fasteners name first, shape (n);
+/// NaN where the sum is nothing but rounding.
 [[nodiscard]] Eigen::VectorXd shares(const JointModel& joint, const Eigen::VectorXd& transferred);
 
 }  // namespace fastjoint::stage3

@@ -47,6 +47,23 @@ std::string field(const std::string& text) {
   return quoted + "\"";
 }
 
+/// Columns for the components of delta and F, each with a comma before it; none where there is one direction.
+std::string component_names(const JointModel& joint) {
+  std::string text;
+  for (const char* vector : {"delta", "F"})
+    for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
+      text += fmt::format(",{}_{}", vector, joint.axis_name(d));
+  return text;
+}
+
+std::string component_fields(const JointModel& joint, const formats::JointResult& result, Index step, Index plane) {
+  std::string text;
+  const Index a = joint.n_directions();
+  for (const auto* vectors : {&result.delta_vector, &result.F_vector})
+    for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(",{}", (*vectors)(step, plane * a + d));
+  return text;
+}
+
 }  // namespace
 
 formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
@@ -82,7 +99,7 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     result.first_hole.push_back(joint.name(joint.first_hole(plane)));
     result.second_hole.push_back(joint.name(joint.second_hole(plane)));
   }
-  for (const int axis : joint.axes) result.direction.emplace_back(axis_names[static_cast<std::size_t>(axis)]);
+  for (std::size_t d = 0; d < joint.axes.size(); ++d) result.direction.emplace_back(joint.axis_name(d));
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
     result.plates.push_back(plate_history(joint.plates[i], states, i));
   return result;
@@ -92,6 +109,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text =
       "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,residual,first,"
       "second";
+  text += component_names(joint);
   for (const char* end : {"first", "second"}) text += rim_csv_names(end);
   text += "\n";
   for (Index i = 0; i < a.F.rows(); ++i) {
@@ -101,6 +119,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[at]),
                           a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j), share[j],
                           a.iterations[i], a.residual[i], field(a.first_hole[at]), field(a.second_hole[at]));
+      text += component_fields(joint, a, i, j);
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
         text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
       text += "\n";

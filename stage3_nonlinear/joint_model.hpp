@@ -63,6 +63,8 @@ struct JointModel {
 
   [[nodiscard]] Eigen::Index n_directions() const { return static_cast<Eigen::Index>(axes.size()); }
   [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(planes.size()); }
+  /// "x" or "y": direction d of the discs.
+  [[nodiscard]] const char* axis_name(std::size_t d) const { return axis_names[static_cast<std::size_t>(axes[d])]; }
   /// First unknown of a plate in the joint's list, plate after plate.
   [[nodiscard]] Eigen::Index offset(std::size_t plate) const;
   [[nodiscard]] Eigen::Index n_unknowns() const { return offset(plates.size()); }

@@ -53,21 +53,37 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
   return text;
 }
 
+/// Heads of the columns for the components of F, where there are two.
+std::string component_heads(const JointModel& joint, const std::string& force) {
+  std::string text;
+  for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
+    text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
+  return text;
+}
+
+std::string components(const JointModel& joint, const Eigen::VectorXd& F, Index plane, double largest) {
+  std::string text;
+  const Index a = joint.n_directions();
+  for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(" {:>14.6g}", rounded(F[plane * a + d], largest));
+  return text;
+}
+
 std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
   const bool differ = !state.transferred_first.isApprox(state.transferred_second, 1e-9);  // beyond rounding
   const std::string length = formats::unit(joint.units, 1, 0);
   const std::string force = formats::unit(joint.units, 0, 1);
-  std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}", "fastener", width, head("delta", length),
-                                 head("F", force), head(differ ? "to 1st" : "transferred", force));
+  std::string text =
+      fmt::format("  {:<{}} {:>16} {:>16}{} {:>20}", "fastener", width, head("delta", length), head("F", force),
+                  component_heads(joint, force), head(differ ? "to 1st" : "transferred", force));
   if (differ) text += fmt::format(" {:>20}", head("to 2nd", force));
   text += fmt::format(" {:>9}\n", "share [%]");
   const Eigen::VectorXd share = shares(joint, state.transferred_first);
   const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
   const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
   for (Index j = 0; j < F.size(); ++j) {
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}",
+    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}",
                         row_name(joint, joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
-                        state.transferred_first[j]);
+                        components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
     if (differ) text += fmt::format(" {:>20.8g}", state.transferred_second[j]);
     text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
   }
@@ -139,7 +155,7 @@ std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) 
         if (const double u = motion[joint.offset(i) + disc]; std::abs(u) > std::abs(largest)) largest = u;
       if (std::abs(largest) > moves)
         parts.push_back(fmt::format("plate \"{}\" by {:.3g} along {}", joint.plates[i].name, largest,
-                                    axis_names[static_cast<std::size_t>(joint.axes[static_cast<std::size_t>(d)])]));
+                                    joint.axis_name(static_cast<std::size_t>(d))));
     }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

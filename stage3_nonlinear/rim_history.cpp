@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -41,6 +42,21 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
   for (std::size_t i = 0; i < a.section_hole.size(); ++i)
     if (a.section_hole[i] == hole && a.section_side[i].back() == 'x') ++n;
   return n;
+}
+
+/// {plate, rim} of the rims of which `what` holds at some step.
+std::vector<std::pair<std::size_t, std::size_t>> rims_that(const JointModel& joint,
+                                                           const std::vector<JointState>& states,
+                                                           bool RimState::*what) {
+  std::vector<std::pair<std::size_t, std::size_t>> result;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (std::size_t rim = 0; rim < joint.plates[i].stresses.rim_hole.size(); ++rim) {
+      const auto holds = [&](const JointState& state) {
+        return rim < state.plates[i].rims.size() && state.plates[i].rims[rim].*what;
+      };
+      if (std::any_of(states.begin(), states.end(), holds)) result.emplace_back(i, rim);
+    }
+  return result;
 }
 
 std::string stress_row(const PlateModel& plate, std::size_t rim, const RimState& state) {
@@ -96,19 +112,23 @@ std::string rim_csv_fields(const RimHistory& rims, const std::string& hole, Inde
 
 std::vector<std::string> pulled_rims(const JointModel& joint, const std::vector<JointState>& states) {
   std::vector<std::string> result;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    for (std::size_t rim = 0; rim < joint.plates[i].stresses.rim_hole.size(); ++rim) {
-      const auto pulls = [&](const JointState& state) {
-        return rim < state.plates[i].rims.size() && state.plates[i].rims[rim].pulls;
-      };
-      if (std::any_of(states.begin(), states.end(), pulls))
-        result.push_back(
-            fmt::format("{}: rim/sigma_rr: the springs of hole \"{}\" pull the sheet instead of pushing it: they act "
-                        "on the arc that "
-                        "does not bear under these loads; give its spring the other \"arc\" in PLATE.json",
-                        joint.plates[i].file, joint.plates[i].stresses.rim_hole[rim]));
-    }
+  for (const auto& [plate, rim] : rims_that(joint, states, &RimState::pulls))
+    result.push_back(fmt::format(
+        "{}: rim/sigma_rr: the springs of hole \"{}\" pull the sheet instead of pushing it: they act on the "
+        "arc that does not bear under these loads; give its spring the other \"arc\" in PLATE.json",
+        joint.plates[plate].file, joint.plates[plate].stresses.rim_hole[rim]));
   return result;
+}
+
+std::vector<std::string> friction_off_axes(const JointModel& joint, const std::vector<JointState>& states) {
+  std::vector<std::string> holes;
+  for (const auto& [plate, rim] : rims_that(joint, states, &RimState::by_components))
+    holes.push_back(fmt::format("{}:{}", joint.plates[plate].name, joint.plates[plate].stresses.rim_hole[rim]));
+  if (holes.empty()) return {};
+  return {
+      fmt::format("{}: friction acts off the axes, by its components along x and y, at {}: the loads hold, but peak "
+                  "hoop stresses there may lack what friction adds to them, most of it at 45 degrees",
+                  joint.file, fmt::join(holes, ", "))};
 }
 
 std::string rim_table(const JointModel& joint, const JointState& state) {

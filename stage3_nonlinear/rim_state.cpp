@@ -19,6 +19,10 @@ constexpr double unknown = std::numeric_limits<double>::infinity();
 /// Half width of what is left out around a jump of friction, degrees: the point itself and its neighbours.
 constexpr double left_out = 7.5;
 
+/// Friction whose peak is below this share of the bearing stress is no jump to speak of: of a force almost along one
+/// axis the other's friction must not hide the peak beside the hole.
+constexpr double least_jump = 0.01;
+
 /// A maximum between points.
 struct Peak {
   double value = 0, angle = 0;
@@ -27,10 +31,17 @@ struct Peak {
 
 double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 
+/// The components of friction that jump to speak of, else 0.
+Eigen::Vector2d jumping(const Eigen::Vector2d& friction, const Eigen::Vector2d& bearing) {
+  // The cosine distribution's peak stress over F / (d t) is twice its resultant over F.
+  const double negligible = least_jump / 2 * bearing.norm();
+  return (friction.array().abs() > negligible).select(friction, 0);
+}
+
 /// Points of one rim.
 class Rim {
  public:
-  /// @param friction Resultants along x and y: each jumps at its bearing direction.
+  /// @param friction Resultants along x and y that jump, each at its bearing direction, else 0.
   Rim(const formats::PlateStresses& a, Index rim, const Eigen::Vector2d& friction)
       : first_(a.rim_start[rim]), angle_(a.angle.segment(first_, a.rim_start[rim + 1] - first_)) {
     const auto jumps = [&](double angle, int axis) {
@@ -184,7 +195,9 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
     state.bearing_load = bearing[0];
     state.bearing_load_y = bearing[1];
     state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(rim).transpose()).norm();
-    const Rim points(a, rim, friction);
+    const Eigen::Vector2d jumps = jumping(friction, bearing);
+    state.by_components = jumps[0] != 0 && jumps[1] != 0;
+    const Rim points(a, rim, jumps);
     read_peak(a, points, level, loading.amounts, state);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest &&

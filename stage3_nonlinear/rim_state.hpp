@@ -20,6 +20,8 @@ struct RimState {
   double peak_error = 0;      ///< estimated; infinite where there is no degree below, stress
   /// The springs pull instead of pushing: they act on the side that does not bear.
   bool pulls = false;
+  /// Friction of both components acts: its stresses are not those of friction along the force.
+  bool by_components = false;
   double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
 };
 
@@ -37,7 +39,8 @@ struct PlateLoading {
 ///
 /// Bypass, along x: of the force that comes over the section beside the hole towards the loaded side of the hole, what
 /// leaves over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at
-/// the bearing directions, where the friction jumps: points within 7.5 degrees of them are no candidates for the peak.
+/// the bearing directions, where the friction jumps: points within 7.5 degrees of them are no candidates for the peak,
+/// if the jump is more than 1 % of the bearing stress.
 [[nodiscard]] std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& loading);
 
 }  // namespace fastjoint::stage3

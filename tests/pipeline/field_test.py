@@ -110,8 +110,14 @@ def check_arrows(script):
         f["plates/center/rim/hole"] = ["1", "3"]
         f["plates/center/rim/bearing_load"] = [[1.0, 2], [3, 4], [5, 0]]
         f["plates/center/rim/bearing_load"].attrs["unit"] = "lbf"
-        assert script.bearing_loads(field, f, None) == ({"1": 5, "3": 0}, "lbf")
-        assert script.bearing_loads(field, f, 2) == ({"1": 3, "3": 4}, "lbf")
+        f["plates/center/rim/bearing_load_y"] = [[0.0, 0], [0, -7], [0, 0]]
+
+        def drawn(increment):
+            loads, unit = script.bearing_loads(field, f, increment)
+            return {hole: tuple(load) for hole, load in loads.items()}, unit
+
+        assert drawn(None) == ({"1": (5, 0), "3": (0, 0)}, "lbf")
+        assert drawn(2) == ({"1": (3, 0), "3": (4, -7)}, "lbf")
     assert {hole: tuple(c) for hole, c in field.holes().items()} == {"1": (2.3, 0), "2": (1.3, 0), "3": (0.3, 0)}
     done(DRAW, "center.vtu", "--joint", "hand_made.h5", "--increment", "2", "-o", "hand_made.png")
 

@@ -92,6 +92,57 @@ TEST(RimState, NeverReportsTheJumpOfFriction) {
   EXPECT_DOUBLE_EQ(state(plate(0, 360, spike(180)), 1, 0.1).peak_hoop, 200) << "friction is on the other side";
 }
 
+/// A plate as above whose disc also moves along y.
+PlateModel plane_plate(const std::function<double(double)>& hoop) {
+  PlateModel model = plate(0, 360, hoop);
+  model.axes = {0, 1};
+  return model;
+}
+
+RimState plane_state(const PlateModel& model, const Eigen::Vector2d& bearing, double friction_share) {
+  return rim_states(model, {Eigen::Vector2d(2, 1), bearing, friction_share * bearing}).at(0);
+}
+
+TEST(RimState, BearingLoadsOfBothDirections) {
+  const auto s = plane_state(plane_plate([](double) { return 4.0; }), {3, -4}, 0);
+  EXPECT_DOUBLE_EQ(s.bearing_load, 3);
+  EXPECT_DOUBLE_EQ(s.bearing_load_y, -4);
+  EXPECT_DOUBLE_EQ(s.bearing_stress, 5 / 0.5);
+}
+
+/// Bypass is along x: what the fastener takes along y leaves over no section across x.
+TEST(RimState, BypassLeavesOutTheForceAlongY) {
+  PlateModel one = plane_plate([](double) { return 4.0; });
+  EXPECT_DOUBLE_EQ(plane_state(one, {2, 7}, 0).bypass_load, 3);
+  EXPECT_DOUBLE_EQ(plane_state(one, {0, 7}, 0).bypass_load, 4);
+  one.stresses.section_side[0] = "+y";
+  EXPECT_DOUBLE_EQ(plane_state(one, {1.5, 7}, 1.0 / 3).bypass_load, 5 - 2);
+}
+
+/// Each component's friction jumps at its own bearing direction.
+TEST(RimState, FrictionJumpsAtBothBearingDirections) {
+  const auto spike = [](double at) {
+    return [at](double t) { return std::abs(std::remainder(t / degree - at, 360)) < 2 ? 100.0 : 1.0; };
+  };
+  const auto found = [&](double at, double x, double y) {
+    return plane_state(plane_plate(spike(at)), {x, y}, 0.1).peak_hoop > 100;
+  };
+  for (const double x : {1.0, -1.0})
+    for (const double y : {2.0, -2.0})
+      for (const double at : {0.0, 90.0, 180.0, 270.0, 45.0}) {
+        const bool jumps = at == (x > 0 ? 0 : 180) || at == (y > 0 ? 90 : 270);
+        EXPECT_EQ(found(at, x, y), !jumps) << at << " under " << x << ", " << y;
+      }
+}
+
+/// A force along x but for rounding, or nearly, has its peak beside the hole, where y would bear.
+TEST(RimState, HardlyAnyFrictionHidesNoPeak) {
+  const PlateModel model = plane_plate([](double t) { return std::sin(t) * std::sin(t); });
+  for (const double y : {0.0, 1e-14, -1e-14, 0.03})
+    EXPECT_DOUBLE_EQ(std::abs(plane_state(model, {1, y}, 0.1).peak_angle), 90) << y;
+  EXPECT_NEAR(plane_state(model, {1, 0.2}, 0.1).peak_angle, -90, 1e-9) << "the other side";
+}
+
 TEST(RimState, BypassIsWhatLeavesOnTheBearingSide) {
   const auto flat = [](double) { return 4.0; };
   EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), 2, 0).bypass_load, 3);

@@ -1,0 +1,197 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A bracket on six bolts in double shear, loaded off their centre: bolt_group_test.py BIN_FOLDER."""
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+LOAD, AT = 15000, 300  # on the right edge of each bracket, downward
+BOLTS = np.array([(40, -70), (110, -70), (40, 0), (110, 0), (40, 70), (110, 70)], dtype=float)
+
+
+def call(*words):
+    result = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    return result.stdout
+
+
+def handbook():
+    """Of rigid plates: on the web, P / n and P e r / sum r^2 across r, shape (bolts, 2)."""
+    r = BOLTS - BOLTS.mean(axis=0)
+    turning = LOAD * (AT - BOLTS[:, 0].mean()) / (r**2).sum()
+    return np.array([0, -LOAD / len(r)]) + turning * np.column_stack([r[:, 1], -r[:, 0]])
+
+
+def solve(change=lambda scene: None, *words):
+    """Forces on the web and on the back bracket, each (bolts, 2), of the joint after a change of its scene."""
+    scene = json.loads(Path("tight.json").read_text())
+    change(scene)
+    Path("changed.json").write_text(json.dumps(scene))
+    call("stage3_nonlinear", "changed.json", "-o", "changed.h5", "--quiet", *words)
+    with h5py.File("changed.h5") as f:
+        F = f["F_vector"][-1].reshape(6, 2, 2)
+    return F[:, 0], F[:, 1]
+
+
+def check_balance():
+    """Each bracket in equilibrium under its load and its bolts: by forces to rounding, by moments as p rises."""
+    for name in ("joint", "tight"):
+        with h5py.File(f"{name}.h5") as f:
+            rim = f["plates/front/rim"]
+            assert list(rim["hole"].asstr()) == list("123456")
+            for step, factor in enumerate(f["load_factor"]):
+                F = np.column_stack([rim["bearing_load"][step], rim["bearing_load_y"][step]])
+                P = f["plates/front/Pe"][step, 0]
+                assert np.isclose(P, -LOAD * factor)
+                assert np.abs(F.sum(axis=0) + [0, P]).max() < 1e-8 * LOAD, F
+                moment = BOLTS[:, 0] @ F[:, 1] - BOLTS[:, 1] @ F[:, 0] + AT * P
+                assert abs(moment) < 1e-7 * LOAD * AT, moment
+                # Two equal brackets: the web bears on F1 - F2 = 2 F1.
+                web = f["plates/web/rim"]
+                on_web = np.column_stack([web["bearing_load"][step], web["bearing_load_y"][step]])
+                assert np.allclose(on_web, -2 * F, atol=1e-8 * LOAD)
+    left = []
+    for p in (1, 2, 3, 4, 6):
+        F, _ = solve(lambda scene: None, "--p", p)
+        left.append(abs(BOLTS[:, 0] @ F[:, 1] - BOLTS[:, 1] @ F[:, 0] + LOAD * AT) / (LOAD * AT))
+    print("moment out of balance at p = 1, 2, 3, 4, 6:", left)
+    assert all(b < 0.2 * a for a, b in zip(left, left[1:4])), "turning is no polynomial on arcs: exponentially small"
+    assert 0.05 < left[0] < 0.06 and left[2] < 3e-6 and left[-1] < 1e-11, "what the README says"
+
+
+def check_handbook(page):
+    """Bolts soft against their plates share as the handbook says: order 1 in the ratio of stiffness."""
+    expected = handbook()
+    error = []
+    for k in (1e4, 1e3, 1e2):
+        def soften(scene):
+            scene["laws"]["bolt"]["k"] = k
+        front, back = solve(soften)
+        assert np.allclose(back, -front, atol=1e-8 * LOAD)
+        error.append(np.abs(front - expected).max() / np.abs(expected).max())
+    order = np.log10(np.array(error[:-1]) / error[1:])
+    print("difference from the handbook:", error, "order:", order)
+    assert (np.abs(order - 1) < 0.02).all() and error[-1] < 2e-4
+    rows = [np.hypot(*expected.T)]
+    for name in ("tight", "joint"):
+        with h5py.File(f"{name}.h5") as f:
+            rows.append(f["F"][-1, ::2])
+    for row in rows:
+        assert f"| {' | '.join(f'{force:.0f}' for force in row)} |" in page, "the example's page has these numbers"
+    assert rows[2].max() / rows[0].max() > 1.135 and rows[2][2] == 0, "what the page says of clearance"
+
+
+def check_csv():
+    with h5py.File("joint.h5") as f:
+        rows = list(csv.DictReader(open("joint.csv", encoding="utf-8")))
+        assert len(rows) == 3 * 12
+        F = np.array([[float(row[f"F_{d}"]) for d in "xy"] for row in rows])
+        assert np.array_equal(F.ravel(), f["F_vector"][:].ravel())
+        assert np.array_equal([float(row["F"]) for row in rows], f["F"][:].ravel())
+
+
+def check_field():
+    """The field of a sheet of the stack: its hoop stress at rims is near that which stage 3 superposes."""
+    loader = SourceFileLoader("draw_stress", str(ROOT / "scripts/draw_stress"))
+    script = module_from_spec(spec_from_loader("draw_stress", loader))
+    loader.exec_module(script)
+    for plate in ("front", "web"):
+        field = script.Field(f"{plate}.vtu")
+        with h5py.File("joint.h5") as f:
+            rim = f[f"plates/{plate}/rim"]
+            holes, peaks = rim["hole"].asstr()[:], rim["peak_hoop"][-1]
+            loads, _ = script.bearing_loads(field, f, None)
+            assert np.array_equal([loads[hole] for hole in holes],
+                                  np.column_stack([rim["bearing_load"][-1], rim["bearing_load_y"][-1]]))
+        nodes = field.points["points"][..., :2].reshape(-1, 2)
+        x, y, xy = (field.points[f"stress_{c}"].ravel() for c in ("xx", "yy", "xy"))
+        for hole, peak in zip(holes, peaks):
+            r = nodes - field.holes()[hole]
+            on_rim = np.abs(np.hypot(*r.T) - 8) < 1e-6
+            c, s = (r[on_rim] / 8).T
+            hoop = (s**2 * x[on_rim] + c**2 * y[on_rim] - 2 * c * s * xy[on_rim]).max()
+            assert abs(hoop - peak) < 0.02 * peaks.max(), (plate, hole, hoop, peak)
+    which = subprocess.run(["stage2_extract", "bracket.plate.h5", "--field", "joint.h5", "-o", "no.vtu"],
+                           capture_output=True, text=True)
+    assert which.returncode == 2 and "tell which by --plate: " in which.stderr, which.stderr
+
+
+def write_row(directions, upright):
+    """Matrices of two sheets with two holes on their line of symmetry, which lies along x, or along y."""
+    ends = {"left": "bottom", "right": "top"} if upright else {"left": "left", "right": "right"}
+    along = "y" if upright else "x"
+    for name, lines, more in (
+            ("upper", [40, 60, 80, 120], {"external": [{"id": "P", "on": ends["right"], "direction": along, "kind": "rigid"}]}),
+            ("lower", [0, 40, 60, 80], {"supports": [{"on": ends["left"], "fix": ["x", "y"]}]})):
+        spring = {"disk": {"E": 71000, "nu": 0.33}}
+        x, y = ([-10, 10], lines) if upright else (lines, [-10, 10])
+        holes = [{"id": str(i), "center": [0, 50 + 20 * i] if upright else [50 + 20 * i, 0], "radius": 2.4, "spring": spring}
+                 for i in (0, 1)]
+        Path(f"{name}.json").write_text(json.dumps({
+            "format": "plate", "version": 1, "analysis": "plane stress", "materials": {"a": {"E": 72400, "nu": 0.33}},
+            "geometry": {"grid": {"x": x, "y": y, "thickness": 1.6}}, "disc_directions": directions, "p": [7, 8],
+            "holes": holes, **more}))
+        call("stage1_plate", f"{name}.json", "-o", f"{name}.h5", "--quiet")
+        call("stage2_extract", f"{name}.h5", "-o", f"{name}.matrices.h5", "--quiet")
+
+
+def solve_row():
+    """F (fasteners, directions) and the peaks of all four holes."""
+    Path("row.json").write_text(json.dumps({
+        "format": "joint", "version": 1, "plates": {"upper": "upper.matrices.h5", "lower": "lower.matrices.h5"},
+        "laws": {"rivet": {"type": "power", "A": 9000, "n": 0.8}}, "loads": [{"external": "upper:P", "force": 2000}],
+        "fasteners": [{"id": str(i), "between": [f"upper:{i}", f"lower:{i}"], "law": "rivet", "friction": 0.1,
+                       "clearance": 0.01 * i} for i in (0, 1)]}))
+    run = subprocess.run(["stage3_nonlinear", "row.json", "-o", "row.h5", "--quiet"], capture_output=True, text=True, check=True)
+    assert run.stderr == "", run.stderr
+    with h5py.File("row.h5") as f:
+        peaks = [f[f"plates/{name}/rim/peak_hoop"][-1] for name in ("upper", "lower")]
+        return f["F_vector"][-1].reshape(2, -1), np.concatenate(peaks)
+
+
+def check_row():
+    """Load along a line of symmetry: discs along x and y move along it only, and along y all is as along x."""
+    write_row(["x"], upright=False)
+    F, peaks = solve_row()
+    assert F.shape == (2, 1) and abs(F[0, 0] - F[1, 0]) > 10
+    for directions, upright in ((["x", "y"], False), (["y"], True), (["x", "y"], True)):
+        write_row(directions, upright)
+        vectors, here = solve_row()
+        along = directions.index("y" if upright else "x")
+        assert np.allclose(vectors[:, along], F[:, 0], rtol=1e-6), (directions, upright, vectors, F)
+        assert np.abs(np.delete(vectors, along, axis=1)).max(initial=0) < 1e-8 * 2000, vectors
+        assert np.allclose(here, peaks, rtol=1e-3 if upright else 1e-6), "rounding across hides no peak"
+
+
+def main(bin_folder):
+    os.environ["PATH"] = os.path.abspath(bin_folder) + os.pathsep + os.environ["PATH"]
+    sys.dont_write_bytecode = True
+    with tempfile.TemporaryDirectory() as folder:
+        shutil.copytree(ROOT / "scripts", Path(folder) / "scripts")
+        shutil.copytree(ROOT / "examples/bolt_group", Path(folder) / "examples/bolt_group",
+                        ignore=shutil.ignore_patterns("*.h5", "*.vtu", "*.csv", "pictures"))
+        os.chdir(Path(folder) / "examples/bolt_group")
+        call("make", "-s")
+        call("make", "-q")
+        call("make", "-s", "pictures/stress.png")
+        assert Path("pictures/stress.png").read_bytes()[1:4] == b"PNG"
+        check_balance()
+        check_handbook(Path("README.md").read_text(encoding="utf-8"))
+        check_csv()
+        check_field()
+        check_row()
+        os.chdir("/")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

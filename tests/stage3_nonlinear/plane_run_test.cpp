@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Joints in files whose discs move along x and y, or along y alone.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "common/errors.hpp"
+#include "common/formats/joint_result.hpp"
+#include "stage3_nonlinear/run.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+const std::vector<std::string> xy{"x", "y"};
+
+/// Two plates of two holes in files, their discs along these directions: a is pulled along the last of them.
+class PlaneRun : public testing::Test {
+ protected:
+  [[nodiscard]] static formats::PlateMatrices plate(bool pulled, const std::vector<std::string>& directions) {
+    const auto a = static_cast<int>(directions.size());
+    std::vector<test::Spring> springs;
+    for (int d = 0; d < a; ++d) {
+      springs.push_back({d, a + d, 1000});
+      if (pulled) springs.push_back({a + d, 2 * a, d + 1 == a ? 1000.0 : 1e-9});
+      if (!pulled) springs.push_back({d, test::ground, 1000});
+    }
+    auto plate = test::spring_plate(2 * a, pulled ? 1 : 0, springs);
+    for (std::size_t i = 0; i < plate.disc_hole.size(); ++i) {
+      plate.disc_hole[i] = std::to_string(i / directions.size() + 1);
+      plate.disc_direction[i] = directions[i % directions.size()];
+    }
+    if (pulled) plate.external_direction = {directions.back()};
+    return plate;
+  }
+  void write(const std::vector<std::string>& a, const std::vector<std::string>& b,
+             const std::map<std::string, std::string>& members = {}) {
+    options_ = {.input = test::write_joint(folder_, {plate(true, a), plate(false, b)}, members),
+                .output = folder_.path("result.h5"),
+                .csv = folder_.path("result.csv"),
+                .generator = "test 1"};
+  }
+  formats::JointResult run() {
+    stage3::run(options_, out_, log_);
+    return formats::read_joint_result(options_.output);
+  }
+  void expect_refusal(const std::string& message) {
+    EXPECT_THAT([&] { (void)run(); }, ThrowsMessage<InputError>(HasSubstr(message)));
+  }
+
+  test::TemporaryFolder folder_;
+  RunOptions options_;
+  std::ostringstream out_, log_;
+};
+
+TEST_F(PlaneRun, AlongYAloneIsAsAlongX) {
+  write({"x"}, {"x"});
+  const auto along_x = run();
+  out_.str("");
+  write({"y"}, {"y"});
+  const auto along_y = run();
+  EXPECT_EQ(along_y.F, along_x.F);
+  EXPECT_THAT(along_y.direction, testing::ElementsAre("y"));
+  EXPECT_THAT(along_y.plates[0].disc_direction, testing::Each("y"));
+  EXPECT_THAT(out_.str(), HasSubstr("  a                         100             -100                    0\n"));
+}
+
+TEST_F(PlaneRun, ShowsTheDirectionOfForces) {
+  write(xy, xy, {{"increments", "[0.5]"}});
+  const auto a = run();
+  EXPECT_THAT(a.direction, testing::ElementsAre("x", "y"));
+  EXPECT_NEAR(a.F_vector(0, 1), 25, 1e-9) << "F_y of f1";
+  EXPECT_NEAR(a.F(0, 1), 25, 1e-9);
+  EXPECT_THAT(out_.str(), HasSubstr("  fastener           delta [in]          F [lbf]      F_x [lbf]      F_y [lbf]    "
+                                    "transferred [lbf] share [%]\n"
+                                    "  f1                      0.025               25              0             25"));
+  EXPECT_THAT(out_.str(), HasSubstr("  a x                         0                0                    0\n"
+                                    "  a y                        50              -50                    0\n"));
+  std::istringstream csv(test::read_file(options_.csv));
+  std::string header, line;
+  std::getline(csv, header);
+  std::getline(csv, line);
+  EXPECT_THAT(header, HasSubstr(",first,second,delta_x,delta_y,F_x,F_y,bearing_load_first,"));
+  std::vector<std::string> cells;
+  std::istringstream row(line);
+  for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);
+  EXPECT_EQ(std::stod(cells.at(13)), a.delta_vector(0, 1));
+  EXPECT_EQ(std::stod(cells.at(14)), a.F_vector(0, 0));
+  EXPECT_EQ(std::stod(cells.at(15)), a.F_vector(0, 1));
+  EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ','));
+}
+
+TEST_F(PlaneRun, RefusesPlatesWhoseDiscsMoveOtherwise) {
+  write({"x"}, xy);
+  expect_refusal("joint.json: /plates/b: the discs of ");
+  expect_refusal("b.h5 have the directions [\"x\", \"y\"]; allowed: [\"x\"], as those of ");
+  expect_refusal("a.h5: give both plates the same \"disc_directions\" and run stages 1 and 2 again");
+  write(xy, {"y", "x"});
+  expect_refusal("b.h5 have the directions [\"y\", \"x\"]; allowed: [\"x\", \"y\"], as those of ");
+}
+
+TEST_F(PlaneRun, RefusesOneSidedLawsInThePlane) {
+  const std::map<std::string, std::string> one_sided{
+      {"laws", R"({"lin": {"type": "linear", "k": 1000, "one_sided": true}})"}};
+  write(xy, xy, one_sided);
+  expect_refusal(
+      "joint.json: /fasteners/0/law: law \"lin\" is one_sided, but the discs move along x and y; allowed: laws that "
+      "bear all around, or plates whose discs have one direction");
+  write({"y"}, {"y"}, one_sided);
+  EXPECT_NEAR(run().F(0, 0), 50, 1e-9);
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3

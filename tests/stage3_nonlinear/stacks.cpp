@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/stage3_nonlinear/stacks.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+namespace fastjoint::test {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+formats::PlateMatrices disc_plate(const MatrixXd& S, const std::vector<std::string>& directions) {
+  auto plate = spring_plate(static_cast<int>(S.rows()), 0, {});
+  plate.S_dd[0] = S;
+  const auto a = static_cast<int>(directions.size());
+  for (int i = 0; i < S.rows(); ++i) {
+    plate.disc_hole[static_cast<std::size_t>(i)] = std::to_string(i / a + 1);
+    plate.disc_direction[static_cast<std::size_t>(i)] = directions[static_cast<std::size_t>(i % a)];
+  }
+  return plate;
+}
+
+stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates) {
+  stage3::JointModel joint;
+  joint.file = "joint.json";
+  joint.units = plates[0].header.units;
+  joint.p = 8;
+  for (std::size_t i = 0; i < plates.size(); ++i) {
+    const std::string name(1, static_cast<char>('a' + i));
+    joint.plates.push_back(stage3::make_plate(name, name + ".h5", plates[i], 8));
+  }
+  joint.axes = joint.plates[0].axes;
+  return joint;
+}
+
+void load_discs(stage3::JointModel& joint, std::size_t plate, const VectorXd& forces) {
+  joint.plates[plate].T = -forces;
+  joint.plates[plate].traction_force = VectorXd::Ones(1);
+  joint.plates[plate].traction_axis = {joint.axes[0]};
+}
+
+stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions) {
+  std::uniform_real_distribution<double> number(-1, 1);
+  const std::vector<std::string> directions =
+      n_directions == 1 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"};
+  std::vector<formats::PlateMatrices> plates;
+  for (int i = 0; i < n_plates; ++i)
+    plates.push_back(disc_plate(100 * random_stiffness(random, n_holes * n_directions), directions));
+  auto joint = joint_of(plates);
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    load_discs(joint, i, VectorXd::NullaryExpr(n_holes * n_directions, [&] { return 10 * number(random); }));
+  std::vector<std::size_t> order(joint.plates.size());
+  std::iota(order.begin(), order.end(), 0U);
+  for (int hole = 0; hole < n_holes; ++hole) {
+    std::shuffle(order.begin(), order.end(), random);
+    const auto count = hole == 0 ? order.size() : std::uniform_int_distribution<std::size_t>(2, order.size())(random);
+    std::vector<std::pair<std::size_t, Index>> holes;
+    for (std::size_t i = 0; i < count; ++i) holes.emplace_back(order[i], hole * n_directions);
+    add_fastener(joint, holes, linear_law(std::exp(3 + 3 * number(random))));
+  }
+  return joint;
+}
+
+stage3::PathStep solved(const stage3::JointModel& joint) {
+  const auto path = stage3::follow(stage3::make_equations(joint), {1}, {.initial = {}, .solver = {.tolerance = 1e-13}});
+  EXPECT_FALSE(path.failure);
+  return path.steps.at(0);
+}
+
+stage3::JointState state_of(const stage3::JointModel& joint, const stage3::PathStep& step) {
+  return stage3::joint_state(joint, stage3::condense(joint), step);
+}
+
+}  // namespace fastjoint::test

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "stage3_nonlinear/equilibrium.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::test {
+
+/// A plate without externals: holes "1", "2", ..., their discs along each of `directions`, directions inner.
+///
+/// @param S Shape (m, m), force / length.
+[[nodiscard]] formats::PlateMatrices disc_plate(const Eigen::MatrixXd& S,
+                                                const std::vector<std::string>& directions = {"x"});
+
+/// A joint of plates "a", "b", ... without fasteners and loads.
+[[nodiscard]] stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates);
+
+/// Forces on the discs of a plate themselves, in place of those before, shape (m).
+void load_discs(stage3::JointModel& joint, std::size_t plate, const Eigen::VectorXd& forces);
+
+/// Random plates, stiff in every motion, with discs in a directions and fasteners through 2 to all of them: the first
+/// through all, in a random order.
+[[nodiscard]] stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions);
+
+/// The state at load factor 1, to a residual of 1e-13.
+[[nodiscard]] stage3::PathStep solved(const stage3::JointModel& joint);
+[[nodiscard]] stage3::JointState state_of(const stage3::JointModel& joint, const stage3::PathStep& step);
+
+}  // namespace fastjoint::test
