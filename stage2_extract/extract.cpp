@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/extract.hpp"
 
-#include <algorithm>
-
 #include "stage2_extract/condensed_stiffness.hpp"
 #include "stage2_extract/error_estimate.hpp"
 #include "stage2_extract/friction_constants.hpp"
@@ -12,6 +10,16 @@
 namespace fastjoint::stage2 {
 namespace {
 
+/// None of what line springs hold, (m).
+Eigen::VectorXd disc_modulus(const formats::PlateSolution& plate) {
+  Eigen::VectorXd modulus = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(plate.disc_hole.size()));
+  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i)
+    for (std::size_t hole = 0; hole < plate.hole_id.size(); ++hole)
+      if (plate.hole_id[hole] == plate.disc_hole[i])
+        modulus[static_cast<Eigen::Index>(i)] = plate.hole_spring[hole].modulus;
+  return modulus;
+}
+
 formats::PlateMatrices names(const formats::PlateSolution& plate, const std::string& generator) {
   formats::PlateMatrices a;
   a.header = plate.header;
@@ -20,11 +28,7 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   a.ndof = plate.ndof;
   a.disc_hole = plate.disc_hole;
   a.disc_direction = plate.disc_direction;
-  a.disc_modulus.resize(a.n_discs());
-  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i) {
-    const auto hole = std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.disc_hole[i]) - plate.hole_id.begin();
-    a.disc_modulus[static_cast<Eigen::Index>(i)] = plate.hole_spring[static_cast<std::size_t>(hole)].modulus;
-  }
+  a.disc_modulus = disc_modulus(plate);
   a.external_id = plate.external_id;
   a.external_direction = plate.external_direction;
   a.traction_id = plate.traction_id;
