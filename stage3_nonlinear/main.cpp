@@ -14,14 +14,18 @@ const fastjoint::program::Command command{
     .summary = "Finds the loads of the fasteners of a joint from its plates' matrices.",
     .input = "JOINT.json",
     .output = "RESULT.h5",
-    .options = {{"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
-                {"--csv", "FILE", "also write one line per increment and fastener"}}};
+    .options = {
+        {"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
+        {"--csv", "FILE", "also write one line per increment and fastener"},
+        {"--sensitivities", "",
+         "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}}};
 
 void body(const fastjoint::program::Arguments& arguments) {
   fastjoint::stage3::run({.input = arguments.input,
                           .output = arguments.output,
                           .csv = arguments.text("--csv"),
                           .p = arguments.integer("--p", 1, highest_p, 0),
+                          .sensitivities = arguments.flag("--sensitivities"),
                           .quiet = arguments.quiet,
                           .generator = fastjoint::program::generator(command.name)},
                          std::cout, std::cerr);
