@@ -132,13 +132,6 @@ MatrixXd right_hand_sides(const Rows& rows) {
   return rhs;
 }
 
-/// Zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to the
-/// largest.
-VectorXd without_rounding(const VectorXd& q, double largest_load) {
-  constexpr double rounding = 1e-12;
-  return (q.array().abs() > rounding * largest_load).select(q, 0);
-}
-
 CondensedSystem unpack(const Rows& rows, const MatrixXd& rhs, const MatrixXd& solution) {
   const Index n = rows.B.cols();
   const Index n_friction = rows.G_plus.cols();
@@ -184,6 +177,11 @@ VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta
   if (!has_friction()) return D;
   const VectorXd b = E * F;
   return D + D_plus * b.cwiseMax(0) + D_minus * (-b).cwiseMax(0);
+}
+
+VectorXd without_rounding(const VectorXd& q, double largest_load) {
+  constexpr double rounding = 1e-12;
+  return (q.array().abs() > rounding * largest_load).select(q, 0);
 }
 
 CondensedSystem condense(const JointModel& joint) {

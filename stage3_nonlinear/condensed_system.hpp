@@ -45,6 +45,9 @@ struct CondensedSystem {
                                               double load_factor) const;
 };
 
+/// Zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to the largest.
+[[nodiscard]] Eigen::VectorXd without_rounding(const Eigen::VectorXd& q, double largest_load);
+
 /// @throws NumericalError naming the plates that can move if nothing holds them.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint);
 

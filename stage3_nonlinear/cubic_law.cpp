@@ -80,7 +80,7 @@ std::vector<Parameter> CubicLaw::parameters() const { return {{"F[0]", 0, 1}, {"
 
 std::vector<Slope> CubicLaw::slopes(double c, double k, double clearance) const {
   const Branch on = at(c, k, clearance);
-  if (on.delta <= clearance || on.spent) return std::vector<Slope>(4, {0, 0});
+  if (c < k * clearance || on.spent) return std::vector<Slope>(4, {0, 0});
   const double x = (on.delta - clearance) / last_;
   // What the force gains where it is: at constant c = F + k delta part of it shortens delta.
   const auto slope = [&](double gain) {

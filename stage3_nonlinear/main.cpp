@@ -15,8 +15,11 @@ const fastjoint::program::Command command{
     .summary = "Finds the loads of the fasteners of a joint from its plates' matrices.",
     .input = "JOINT.json",
     .output = "RESULT.h5",
-    .options = {{"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
-                {"--csv", "FILE", "also write one line per increment and fastener"}},
+    .options =
+        {{"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
+         {"--csv", "FILE", "also write one line per increment and shear plane"},
+         {"--sensitivities", "",
+          "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}},
     .alternatives = {
         {.option = {"--fit", "TEST.csv",
                     "fit a law to a test instead, lines of delta, F; -o then names a drawing (.svg) or is left out"},
@@ -33,6 +36,7 @@ void body(const fastjoint::program::Arguments& arguments) {
                           .output = arguments.output,
                           .csv = arguments.text("--csv"),
                           .p = arguments.integer("--p", 1, highest_p, 0),
+                          .sensitivities = arguments.flag("--sensitivities"),
                           .quiet = arguments.quiet,
                           .generator = fastjoint::program::generator(command.name)},
                          std::cout, std::cerr);

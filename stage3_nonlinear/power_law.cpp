@@ -53,11 +53,12 @@ std::vector<Parameter> PowerLaw::parameters() const { return {{"A", -n_, 1}, {"n
 
 std::vector<Slope> PowerLaw::slopes(double c, double k, double clearance) const {
   const Branch on = at(c, k, clearance);
-  if (!(on.F > 0)) return std::vector<Slope>(4, {0, 0});
+  if (c < k * gap(clearance)) return std::vector<Slope>(4, {0, 0});
   // The curve as delta(F): F + k delta stays c while delta(F) moves.
   const auto slope = [&](double moves) { return Slope{-k * moves * on.dF, moves * on.dF}; };
   const double x = stretch(on.F);
-  return {slope(1), slope(-x / (n_ * A_)), slope(-x * std::log(on.F / A_) / (n_ * n_)), slope(1)};
+  const double x_log = on.F > 0 ? x * std::log(on.F / A_) : 0;  // its limit at first contact
+  return {slope(1), slope(-x / (n_ * A_)), slope(-x_log / (n_ * n_)), slope(1)};
 }
 
 std::vector<std::string> PowerLaw::doubts() const {

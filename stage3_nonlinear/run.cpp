@@ -13,6 +13,7 @@
 #include "stage3_nonlinear/joint_history.hpp"
 #include "stage3_nonlinear/report.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
+#include "stage3_nonlinear/sensitivity_history.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -53,6 +54,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   warn(log, friction_off_axes(joint, states));
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};
+  if (options.sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);
   formats::write(options.output, result);
   if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
   if (!options.quiet) out << summary(scene, joint, path, states);

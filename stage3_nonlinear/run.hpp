@@ -8,10 +8,11 @@ namespace fastjoint::stage3 {
 
 /// What the command line says.
 struct RunOptions {
-  std::string input;   ///< JOINT.json
-  std::string output;  ///< RESULT.h5
-  std::string csv;     ///< empty: none
-  int p = 0;           ///< 0: the highest degree that all plates have
+  std::string input;           ///< JOINT.json
+  std::string output;          ///< RESULT.h5
+  std::string csv;             ///< empty: none
+  int p = 0;                   ///< 0: the highest degree that all plates have
+  bool sensitivities = false;  ///< also write derivatives of the forces
   bool quiet = false;
   std::string generator;  ///< program and version, for the file's header
 };

@@ -16,18 +16,6 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 using Lu = Eigen::PartialPivLU<MatrixXd>;
 
-constexpr double singular = 1e-10;
-
-/// A with columns of largest entry 1, and what they were divided by.
-VectorXd scale_columns(MatrixXd& A) {
-  VectorXd scale(A.cols());
-  for (Index j = 0; j < A.cols(); ++j) {
-    scale[j] = std::max(A.col(j).cwiseAbs().maxCoeff(), 1e-300);
-    A.col(j) /= scale[j];
-  }
-  return scale;
-}
-
 /// From the signs of U's diagonal: the determinant itself may overflow.
 bool is_negative(const Lu& lu) {
   const Index flips = (lu.matrixLU().diagonal().array() < 0).count();
@@ -47,6 +35,15 @@ Mechanism mechanism(const CondensedSystem& system, const ContactState& state, co
 }
 
 }  // namespace
+
+VectorXd scale_columns(MatrixXd& A) {
+  VectorXd scale(A.cols());
+  for (Index j = 0; j < A.cols(); ++j) {
+    scale[j] = std::max(A.col(j).cwiseAbs().maxCoeff(), 1e-300);
+    A.col(j) /= scale[j];
+  }
+  return scale;
+}
 
 std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F) {
   if (!system.has_friction()) return std::nullopt;
@@ -71,7 +68,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   std::vector<Index> open;
   for (Index j = 0; j < state.dF.along.size(); ++j)
     if (state.dF.along[j] == 0) open.push_back(j);
-  if (!open.empty() && !(lu.rcond() > singular)) {
+  if (!open.empty() && !(lu.rcond() > singular_tangent)) {
     check.mechanism = mechanism(equations.system, state, J, scale, std::move(open));
     return check;
   }

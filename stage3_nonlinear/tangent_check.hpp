@@ -9,6 +9,12 @@
 
 namespace fastjoint::stage3 {
 
+/// Reciprocal condition, with columns scaled, below which a tangent is singular.
+inline constexpr double singular_tangent = 1e-10;
+
+/// Gives A columns of largest entry 1 and returns what they were divided by.
+Eigen::VectorXd scale_columns(Eigen::MatrixXd& A);
+
 /// A way for the joint to move that meets no stiffness at a solution: open fasteners alone hold some plate, whose
 /// place within their gaps is not determined.
 struct Mechanism {

@@ -10,13 +10,13 @@
 namespace fastjoint::formats {
 namespace {
 
-std::string power(const std::string& label, int exponent) {
-  return exponent == 1 ? label : fmt::format("{}^{}", label, exponent);
+std::string power(const std::string& label, double exponent) {
+  return exponent == 1 ? label : fmt::format("{}^{:.6g}", label, exponent);
 }
 
 }  // namespace
 
-std::string unit(const Units& units, int length_power, int force_power) {
+std::string unit(const Units& units, double length_power, double force_power) {
   const std::string length = units.length.empty() ? "length" : units.length;
   const std::string force = units.force.empty() ? "force" : units.force;
   std::vector<std::string> above;

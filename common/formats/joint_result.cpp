@@ -110,6 +110,53 @@ PlateHistory read_plate(const h5::Reader& file, const std::string& name, Eigen::
   return plate;
 }
 
+void write_sensitivity(h5::Writer& file, const SensitivityHistory& a, const Units& units) {
+  const std::string group = "sensitivity/";
+  const std::string force = unit(units, 0, 1), stiffness = unit(units, -1, 1);
+  const Eigen::Index n = a.load_factor.cols();
+  const auto tables = [&](const char* name, const std::vector<Eigen::MatrixXd>& stack, Eigen::Index columns,
+                          const std::string& each_unit, const char* what) {
+    file.write(group + name, stack, n, columns, {each_unit, what});
+  };
+  file.write(group + "load_factor", a.load_factor, {force, "dF by the load factor"});
+  tables("clearance", a.clearance, n, stiffness, "dF by the clearance of each shear plane");
+  file.write(group + "mu_hole", a.mu_hole, {"1", "plate:hole, each with friction"});
+  tables("mu", a.mu, std::ssize(a.mu_hole), force, "dF by the coefficient of friction of each hole");
+  file.write(group + "law_name", a.law_name, {"1", "law of each number"});
+  file.write(group + "law_number", a.law_number, {"1", "its name in the law"});
+  file.write(group + "law_unit", a.law_unit, {"1", "unit of the derivative by it"});
+  tables("law", a.law, std::ssize(a.law_name), "law_unit", "dF by each number of the laws");
+  file.write(group + "force_external", a.force_external, {"1", "plate:external that may carry a force"});
+  tables("force", a.force, std::ssize(a.force_external), "1", "dF by the force on each at load factor 1");
+  file.write(group + "displacement_external", a.displacement_external,
+             {"1", "plate:external with a given displacement"});
+  tables("displacement", a.displacement, std::ssize(a.displacement_external), stiffness,
+         "dF by the displacement of each at load factor 1");
+}
+
+SensitivityHistory read_sensitivity(const h5::Reader& file, Eigen::Index steps, Eigen::Index n, const Units& units) {
+  const std::string group = "sensitivity/";
+  const std::string force = unit(units, 0, 1), stiffness = unit(units, -1, 1);
+  SensitivityHistory a;
+  const auto strings = [&](const char* name) { return file.strings(group + name, h5::any); };
+  const auto tables = [&](const char* name, Eigen::Index columns, const std::string& each_unit) {
+    return file.stack(group + name, steps, n, columns, each_unit, h5::Infinite::allowed);
+  };
+  a.load_factor = file.matrix(group + "load_factor", steps, n, force, h5::Infinite::allowed);
+  a.clearance = tables("clearance", n, stiffness);
+  a.mu_hole = strings("mu_hole");
+  a.mu = tables("mu", std::ssize(a.mu_hole), force);
+  a.law_name = strings("law_name");
+  a.law_number = file.strings(group + "law_number", std::ssize(a.law_name));
+  a.law_unit = file.strings(group + "law_unit", std::ssize(a.law_name));
+  a.law = tables("law", std::ssize(a.law_name), "law_unit");
+  a.force_external = strings("force_external");
+  a.force = tables("force", std::ssize(a.force_external), "1");
+  a.displacement_external = strings("displacement_external");
+  a.displacement = tables("displacement", std::ssize(a.displacement_external), stiffness);
+  return a;
+}
+
 }  // namespace
 
 void write(const std::string& path, const JointResult& a) {
@@ -136,9 +183,11 @@ void write(const std::string& path, const JointResult& a) {
   file.write("transferred", paired(a.transferred_first, a.transferred_second), a.F.cols(), 2,
              {force, "F + friction resultant on the first and on the second plate"});
   std::vector<std::string> names;
+  names.reserve(a.plates.size());
   for (const auto& plate : a.plates) names.push_back(plate.name);
   file.write("plate/name", names, {"1", "plates of the joint; group plates/<name> holds what each did"});
   for (const auto& plate : a.plates) write_plate(file, plate, units);
+  if (a.sensitivity) write_sensitivity(file, *a.sensitivity, units);
   file.commit();
 }
 
@@ -172,6 +221,7 @@ JointResult read_joint_result(const std::string& path) {
     a.transferred_second.row(step++) = pair.col(1).transpose();
   }
   for (const auto& name : file.strings("plate/name", h5::any)) a.plates.push_back(read_plate(file, name, steps, units));
+  if (file.has("sensitivity")) a.sensitivity = read_sensitivity(file, steps, n, units);
   return a;
 }
 

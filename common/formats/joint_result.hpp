@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,21 @@ struct PlateHistory {
   RimHistory rims;
 };
 
+/// Derivatives of the bearing forces F by what the input gives, one matrix of n rows per increment; infinite where the
+/// joint has none.
+struct SensitivityHistory {
+  Eigen::MatrixXd load_factor;                              ///< (steps, n) force
+  std::vector<Eigen::MatrixXd> clearance;                   ///< (steps) (n, n) by that of each plane, force / length
+  std::vector<std::string> mu_hole;                         ///< (f) "plate:hole", each with friction
+  std::vector<Eigen::MatrixXd> mu;                          ///< (steps) (n, f) force
+  std::vector<std::string> law_name, law_number, law_unit;  ///< (l) numbers of the laws; units of the derivatives
+  std::vector<Eigen::MatrixXd> law;                         ///< (steps) (n, l) law_unit
+  std::vector<std::string> force_external;                  ///< (u) "plate:external", loaded by a force or by none
+  std::vector<Eigen::MatrixXd> force;                       ///< (steps) (n, u) by the force at load factor 1
+  std::vector<std::string> displacement_external;           ///< (v) "plate:external" whose displacement is given
+  std::vector<Eigen::MatrixXd> displacement;                ///< (steps) (n, v) by it at load factor 1, force / length
+};
+
 /// What a joint did under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
@@ -57,6 +73,7 @@ struct JointResult {
   Eigen::MatrixXd delta_vector, F_vector;                 ///< (steps, n a) their components, directions inner
   Eigen::MatrixXd transferred_first, transferred_second;  ///< (steps, n) F + friction resultant on each plate
   std::vector<PlateHistory> plates;
+  std::optional<SensitivityHistory> sensitivity;  ///< if it was asked for
 };
 
 /// Throws FileError; what was at `path` before survives.

@@ -226,9 +226,9 @@ Eigen::MatrixXd Reader::matrix(const std::string& dataset, Eigen::Index rows, Ei
 }
 
 std::vector<Eigen::MatrixXd> Reader::stack(const std::string& dataset, Eigen::Index n, Eigen::Index rows,
-                                           Eigen::Index cols, const std::string& unit) const {
+                                           Eigen::Index cols, const std::string& unit, Infinite infinite) const {
   std::vector<double> values;
-  const Shape shape = impl_->doubles(dataset, {n, rows, cols}, unit, values);
+  const Shape shape = impl_->doubles(dataset, {n, rows, cols}, unit, values, infinite);
   std::vector<Eigen::MatrixXd> result;
   for (Eigen::Index i = 0; i < shape[0]; ++i)
     result.emplace_back(Eigen::Map<RowMajorXd>(values.data() + i * shape[1] * shape[2], shape[1], shape[2]));

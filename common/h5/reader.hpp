@@ -37,7 +37,8 @@ class Reader {
                                        const std::string& unit, Infinite infinite = Infinite::refused) const;
   /// Shape (n, rows, cols) as n matrices.
   [[nodiscard]] std::vector<Eigen::MatrixXd> stack(const std::string& dataset, Eigen::Index n, Eigen::Index rows,
-                                                   Eigen::Index cols, const std::string& unit) const;
+                                                   Eigen::Index cols, const std::string& unit,
+                                                   Infinite infinite = Infinite::refused) const;
   /// Inverse of Writer::write_transposed: a dataset of shape (cols, rows) as a matrix of (rows, cols).
   [[nodiscard]] Eigen::MatrixXd transposed(const std::string& dataset, Eigen::Index cols, Eigen::Index rows,
                                            const std::string& unit) const;

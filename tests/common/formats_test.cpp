@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <limits>
 
 #include "common/errors.hpp"
 #include "common/formats/joint_result.hpp"
@@ -26,6 +27,7 @@ TEST(Units, AreWrittenAsEngineersDo) {
   EXPECT_EQ(unit(units, -1, 0), "1/in");
   EXPECT_EQ(unit(units, 0, 0), "1");
   EXPECT_EQ(unit({}, -1, 1), "force/length");
+  EXPECT_EQ(unit({"in", "lbf"}, -0.7, 1), "lbf/in^0.7");
 }
 
 /// Matrices as a laboratory would write them: only what must be there.
@@ -153,6 +155,21 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
           &rims.peak_hoop, &rims.peak_angle, &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
       *table = Eigen::MatrixXd::Random(steps, 1);
     write(folder.path("r.h5"), a);
+    EXPECT_FALSE(read_joint_result(folder.path("r.h5")).sensitivity);
+    SensitivityHistory& by = a.sensitivity.emplace();
+    const auto tables = [&](Eigen::Index columns) {
+      return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), Eigen::MatrixXd::Random(3, columns));
+    };
+    by.load_factor = Eigen::MatrixXd::Constant(steps, 3, std::numeric_limits<double>::infinity());
+    by.clearance = tables(3);
+    by.mu = tables(0);
+    by.law_name = by.law_number = by.law_unit = {"k"};
+    by.law = tables(1);
+    by.force_external = {"top:P", "low:Q"};
+    by.force = tables(2);
+    by.displacement_external = {"top:D"};
+    by.displacement = tables(1);
+    write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));
     EXPECT_EQ(b.header.units, a.header.units);
     EXPECT_EQ(b.complete, a.complete);
@@ -168,6 +185,14 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.plates[0].rims.sections, rims.sections);
     EXPECT_EQ(b.plates[0].rims.peak_hoop, rims.peak_hoop);
     EXPECT_EQ(b.plates[0].rims.net_concentration, rims.net_concentration);
+    EXPECT_EQ(b.sensitivity->load_factor, by.load_factor) << "infinite where there is none";
+    EXPECT_EQ(b.sensitivity->clearance, by.clearance);
+    EXPECT_EQ(b.sensitivity->mu, by.mu);
+    EXPECT_EQ(b.sensitivity->law_unit, by.law_unit);
+    EXPECT_EQ(b.sensitivity->law, by.law);
+    EXPECT_EQ(b.sensitivity->force_external, by.force_external);
+    EXPECT_EQ(b.sensitivity->force, by.force);
+    EXPECT_EQ(b.sensitivity->displacement, by.displacement);
   }
 }
 

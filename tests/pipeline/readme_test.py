@@ -40,6 +40,16 @@ def check_joint(readme):
             shutil.copy(path, folder)
         for command in commands:
             subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
+        check_what_if(readme, folder)
+
+
+def check_what_if(readme, folder):
+    """Its command, its script and what that prints."""
+    command = re.search(r"`(stage3_nonlinear [^`]*--sensitivities)`", readme)[1]
+    script, printed = re.search(r"```python\n(.*?)```\n\n```\n(.*?)```", readme, re.S).groups()
+    subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
+    result = subprocess.run([sys.executable, "-c", script], check=True, cwd=folder, capture_output=True, text=True)
+    assert result.stdout == printed, result.stdout
 
 
 def check_fit(readme):

@@ -20,7 +20,8 @@ JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
     "laws": {"bolt": {"type": "power", "A": 1000, "n": 0.7}},
-    "fasteners": [{"id": "1", "between": ["center:1", "doubler:1"], "law": "bolt", "clearance": 0.001}],
+    "fasteners": [{"id": "1", "between": ["center:1", "doubler:1"], "law": "bolt", "clearance": 0.001,
+                   "friction": 0.1}],
     "loads": [{"external": "center:P", "force": 100}],
     "increments": 5,
 }
@@ -163,7 +164,7 @@ def main():
             problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)
         (folder / "joint.json").write_text(json.dumps(JOINT))
         result = folder / "joint.h5"
-        must(programs.joint(folder / "joint.json", result))
+        must(programs.joint(folder / "joint.json", result, "--sensitivities"))
         problems += check(result_page, result, labels)
         os.chdir(folder)
         for page, path, reader_name in zip(pages, (solution, matrices, result), ("PLATE.h5", "MATRICES.h5", "RESULT.h5")):

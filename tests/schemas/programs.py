@@ -21,8 +21,8 @@ class Programs:
     def matrices(self, solution, output):
         return run(self.stage2, solution, "-o", output)
 
-    def joint(self, scene, output):
-        return run(self.stage3, scene, "-o", output)
+    def joint(self, scene, output, *options):
+        return run(self.stage3, scene, "-o", output, *options)
 
     def prepare_joint(self, scene, p):
         """Makes the matrices that a joint names, [FOLDER/]NAME.*.h5, from the NAME.json or else the Makefile beside it."""

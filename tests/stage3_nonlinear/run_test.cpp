@@ -145,6 +145,28 @@ TEST_F(Run, WritesACsvWithAllDigits) {
   EXPECT_EQ(std::count(header.begin(), header.end(), ','), std::count(line.begin(), line.end(), ',') - 1);
 }
 
+TEST_F(Run, WritesSensitivitiesIfAsked) {
+  write({{"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"},
+                           {"id": "f2", "between": ["a:2", "b:2"], "law": "pow"}])"},
+         {"laws", R"({"lin": {"type": "linear", "k": 1000}, "pow": {"type": "power", "A": 300, "n": 0.25}})"},
+         {"increments", "3"}});
+  run();
+  EXPECT_FALSE(result().sensitivity);
+  options_.sensitivities = true;
+  run();
+  const auto by = result().sensitivity.value();
+  EXPECT_THAT(by.law_name, ElementsAre("lin", "pow", "pow", "pow"));
+  EXPECT_THAT(by.law_number, ElementsAre("k", "A", "n", "delta0"));
+  EXPECT_THAT(by.law_unit, ElementsAre("in", "in^0.25", "lbf", "lbf/in"));
+  EXPECT_THAT(by.force_external, ElementsAre("a:P"));
+  EXPECT_THAT(by.displacement_external, IsEmpty());
+  EXPECT_THAT(by.mu_hole, IsEmpty());
+  ASSERT_EQ(by.force.size(), 3U);
+  EXPECT_NEAR(by.force[1].sum(), 2. / 3, 1e-9) << "together they carry what is pulled, at load factor 2/3";
+  EXPECT_NEAR(by.load_factor.row(2).sum(), 100, 1e-7);
+  EXPECT_LT(by.clearance[2](1, 1), 0) << "a loose fastener carries less";
+}
+
 TEST_F(Run, RefusesACsvInTheWay) {
   write({});
   options_.csv = options_.input;
@@ -297,6 +319,9 @@ TEST_F(Program, Succeeds) {
   EXPECT_THAT(result().header.generator, StartsWith("stage3_nonlinear "));
   EXPECT_TRUE(std::filesystem::exists(options_.csv));
   EXPECT_EQ(call_here("--quiet --p 8").out, "");
+  EXPECT_FALSE(result().sensitivity);
+  EXPECT_EQ(call_here("--sensitivities").status, 0);
+  EXPECT_TRUE(result().sensitivity);
   EXPECT_THAT(call("--help").out, AllOf(HasSubstr("--csv FILE"), HasSubstr("--p N"), HasSubstr("JOINT.json")));
 }
 

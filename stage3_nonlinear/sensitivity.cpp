@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/sensitivity.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <limits>
+#include <map>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What all numbers do at fixed c, one column each: load factor, clearances, laws, mu, forces, displacements.
+struct Changes {
+  MatrixXd F;         ///< (n a, columns)
+  MatrixXd residual;  ///< (n a, columns)
+};
+
+/// Derivatives of F as vectors, and what of them does not exist.
+struct Slopes {
+  MatrixXd F;                            ///< (n a, columns)
+  std::vector<Index> no_column, no_row;  ///< not determined
+};
+
+/// From F and delta the coordinate is exact, whatever the law.
+VectorXd coordinates(const std::vector<Contact>& contacts, const PathStep& step) {
+  const Index a = step.F.size() / static_cast<Index>(contacts.size());
+  VectorXd c(step.F.size());
+  for (Index j = 0; j < c.size() / a; ++j) {
+    const Contact& contact = contacts[static_cast<std::size_t>(j)];
+    c.segment(j * a, a) = contact.stiffness * step.delta.segment(j * a, a);
+    if (contact.law->rises()) c.segment(j * a, a) += step.F.segment(j * a, a);
+  }
+  return c;
+}
+
+/// dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (n a, n + l).
+std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const JointNumbers& numbers,
+                                          const ContactState& state, const VectorXd& c) {
+  const Index a = state.direction.rows(), n = state.direction.cols();
+  MatrixXd F = MatrixXd::Zero(n * a, n + std::ssize(numbers.law));
+  MatrixXd delta = F;
+  for (Index j = 0; j < n; ++j) {
+    const auto at = static_cast<std::size_t>(j);
+    const Contact& contact = equations.contacts[at];
+    const VectorXd here = c.segment(j * a, a);
+    if (here.isZero(0) || (contact.one_sided && here[0] < 0)) continue;
+    const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
+    for (std::size_t i = 0; i < slopes.size(); ++i) {
+      const Index column = i == 0 ? j : n + numbers.first_of_law[at] + static_cast<Index>(i) - 1;
+      F.block(j * a, column, a, 1) = slopes[i].F * state.direction.col(j);
+      delta.block(j * a, column, a, 1) = slopes[i].delta * state.direction.col(j);
+    }
+  }
+  return {F, delta};
+}
+
+/// Friction is proportional to mu; (n a, f).
+MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
+  MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
+  const VectorXd b = system.E * F;
+  for (Index i = 0; i < changes.cols(); ++i) {
+    const FrictionHole& hole = holes[static_cast<std::size_t>(i)];
+    for (const Index row : hole.rows)
+      changes.col(i) += (b[row] < 0 ? system.H_minus : system.H_plus).col(row) * (std::abs(b[row]) / hole.mu);
+  }
+  return changes;
+}
+
+Changes changes(const JointEquations& equations, const JointNumbers& numbers, const ContactState& state,
+                const VectorXd& c, double load_factor) {
+  const CondensedSystem& system = equations.system;
+  const auto [F, delta] = law_changes(equations, numbers, state, c);
+  MatrixXd by_law = F + system.S_ud * delta;
+  if (system.has_friction()) by_law += system.friction_matrix(state.F) * F;
+  const MatrixXd by_mu = friction_changes(system, numbers.friction, state.F);
+  const UnitLoads& loads = numbers.loads;
+  Changes all;
+  all.residual.resize(c.size(), 1 + by_law.cols() + by_mu.cols() + loads.q_force.cols() + loads.q_displacement.cols());
+  all.residual << -system.q, by_law, by_mu, -load_factor * loads.q_force, -load_factor * loads.q_displacement;
+  all.F = MatrixXd::Zero(c.size(), all.residual.cols());
+  all.F.middleCols(1, F.cols()) = F;
+  return all;
+}
+
+/// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
+/// free motions N of the unknowns change have no derivative.
+Slopes solve_singular(const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rhs) {
+  constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
+  Eigen::BDCSVD<MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(singular_tangent);
+  const MatrixXd dc = svd.solve(rhs);
+  Slopes slopes{F_c * dc, {}, {}};
+  const MatrixXd rest = J * dc - rhs;
+  for (Index i = 0; i < rhs.cols(); ++i)
+    if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
+  const MatrixXd F_free = F_c * svd.matrixV().rightCols(J.cols() - svd.rank());
+  for (Index i = 0; i < F_free.rows(); ++i)
+    if (F_free.row(i).norm() > left) slopes.no_row.push_back(i);
+  return slopes;
+}
+
+/// dF = F_c dc with J dc = -residual.
+Slopes solve(const CondensedSystem& system, const ContactState& state, const MatrixXd& residual) {
+  MatrixXd J = tangent(system, state);
+  MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
+  const VectorXd scale = scale_columns(J);
+  F_c *= scale.cwiseInverse().asDiagonal();
+  const Eigen::PartialPivLU<MatrixXd> lu(J);
+  if (lu.rcond() > singular_tangent) return {-F_c * lu.solve(residual), {}, {}};
+  return solve_singular(J, F_c, -residual);
+}
+
+/// Without load no rim bears yet: its forces are replaced by those of a small load, by whose sides friction acts.
+void bear(const JointEquations& equations, ContactState& state) {
+  constexpr int most_tries = 8;
+  const CondensedSystem& system = equations.system;
+  for (int i = 0; i < most_tries; ++i) {
+    const VectorXd before = system.E * state.F;
+    state.F = solve(system, state, -system.q).F;
+    if (i > 0 && ((system.E * state.F).array() * before.array() >= 0).all()) return;
+  }
+}
+
+/// Of the forces' amounts, (n, columns).
+MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const VectorXd& c) {
+  const Index a = state.direction.rows();
+  MatrixXd result = slopes.F;
+  if (a > 1) {
+    result.resize(state.direction.cols(), slopes.F.cols());
+    for (Index j = 0; j < result.rows(); ++j) {
+      const auto block = slopes.F.middleRows(j * a, a);
+      // Without load there is no direction; the amount then grows whatever the direction is.
+      if (c.segment(j * a, a).isZero(0)) {
+        result.row(j) = block.colwise().norm();
+      } else {
+        result.row(j) = state.direction.col(j).transpose() * block;
+      }
+    }
+  }
+  constexpr double none = std::numeric_limits<double>::infinity();
+  for (const Index i : slopes.no_column) result.col(i).setConstant(none);
+  for (const Index i : slopes.no_row) result.row(i / a).setConstant(none);
+  return result;
+}
+
+}  // namespace
+
+JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
+  JointNumbers numbers;
+  numbers.loads = unit_loads(joint, system);
+  for (std::size_t i = 0; i < system.friction.size(); ++i) {
+    const FrictionRow& row = system.friction[i];
+    const HoleModel& hole = joint.fasteners[row.fastener].holes[row.hole];
+    if (row.direction == 0) numbers.friction.push_back({joint.name(hole), hole.mu, {}});
+    numbers.friction.back().rows.push_back(static_cast<Index>(i));
+  }
+  std::map<std::string, Index> first;
+  for (const auto& plane : joint.planes) {
+    const auto [at, is_new] = first.try_emplace(plane.law_name, std::ssize(numbers.law));
+    numbers.first_of_law.push_back(at->second);
+    if (!is_new) continue;
+    for (const auto& parameter : plane.law->parameters()) numbers.law.push_back({plane.law_name, parameter});
+  }
+  return numbers;
+}
+
+Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
+  const VectorXd c = coordinates(equations.contacts, step);
+  ContactState state = contact_state(equations.contacts, c);
+  const Changes all = changes(equations, numbers, state, c, step.load_factor);
+  if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
+  Slopes slopes = solve(equations.system, state, all.residual);
+  slopes.F += all.F;
+  const MatrixXd dF = of_amounts(slopes, state, c);
+  Index column = 0;
+  const auto next = [&](Index count) -> MatrixXd {
+    column += count;
+    return dF.middleCols(column - count, count);
+  };
+  Sensitivity result;
+  result.load_factor = next(1);
+  result.clearance = next(std::ssize(equations.contacts));
+  result.law = next(std::ssize(numbers.law));
+  result.mu = next(std::ssize(numbers.friction));
+  result.force = next(numbers.loads.q_force.cols());
+  result.displacement = next(numbers.loads.q_displacement.cols());
+  return result;
+}
+
+}  // namespace fastjoint::stage3

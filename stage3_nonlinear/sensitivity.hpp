@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "stage3_nonlinear/load_path.hpp"
+#include "stage3_nonlinear/unit_loads.hpp"
+
+namespace fastjoint::stage3 {
+
+/// A hole with friction: its rows among CondensedSystem::friction.
+struct FrictionHole {
+  std::string name;  ///< "plate:hole"
+  double mu;
+  std::vector<Eigen::Index> rows;
+};
+
+/// A number of a law, which all planes with that law share.
+struct LawNumber {
+  std::string law;
+  Parameter parameter;
+};
+
+/// The input's numbers that bearing forces are differentiated by, besides the load factor and every plane's clearance.
+struct JointNumbers {
+  std::vector<FrictionHole> friction;      ///< (f)
+  std::vector<LawNumber> law;              ///< (l) laws in the order of the planes
+  std::vector<Eigen::Index> first_of_law;  ///< (n) where the numbers of each plane's law begin
+  UnitLoads loads;
+};
+
+[[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system);
+
+/// Derivatives of the n bearing forces by each number: with one direction of the signed forces, with two of their
+/// amounts.
+struct Sensitivity {
+  Eigen::VectorXd load_factor;   ///< (n) force
+  Eigen::MatrixXd clearance;     ///< (n, n) column: by the clearance of that plane, force / length
+  Eigen::MatrixXd law;           ///< (n, l) force per unit of the number
+  Eigen::MatrixXd mu;            ///< (n, f) force
+  Eigen::MatrixXd force;         ///< (n, u) by UnitLoads::force at load factor 1, dimensionless
+  Eigen::MatrixXd displacement;  ///< (n, v) by UnitLoads::displacement at load factor 1, force / length
+};
+
+/// By the implicit function theorem for the residual r(c, number) of the condensed system: J dc = -dr/dnumber and
+/// dF = F_c dc + dF/dnumber at fixed c, one factorisation of J for all numbers.
+///
+/// Where F has a kink, derivatives are one-sided: at first contact and at corners of a law of the side that the law
+/// takes from there on (larger c), without load of a load that grows from 0, and by the clearance of a plane whose
+/// discs are where they were built 0, since a gap opened there is not met. Where the gaps leave a sheet free
+/// (TangentCheck::mechanism) J is singular and the forces are differentiable by all that leaves it in balance, for them
+/// its place does not matter; infinite are those by a load that would make it fly, and those of forces at a limit
+/// point.
+[[nodiscard]] Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers,
+                                      const PathStep& step);
+
+}  // namespace fastjoint::stage3

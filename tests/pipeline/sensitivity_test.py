@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""--sensitivities against runs of a changed JOINT.json: sensitivity_test.py BIN_FOLDER."""
+import copy
+import json
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+STEP = 1e-4  # of each number: truncation about its square, rounding 1e-12 / STEP
+
+
+def run(*words):
+    subprocess.run([str(word) for word in words], check=True, capture_output=True)
+
+
+def solve(scene):
+    """F at every increment."""
+    Path("changed.json").write_text(json.dumps(scene))
+    run("stage3_nonlinear", "changed.json", "-o", "changed.h5")
+    with h5py.File("changed.h5") as f:
+        assert "sensitivity" not in f, "only if asked for"
+        return f["F"][:]
+
+
+def difference(scene, change, step):
+    """Central difference of F by a number that change(scene, h) adds h to."""
+    F = []
+    for h in (step, -step):
+        changed = copy.deepcopy(scene)
+        change(changed, h)
+        F.append(solve(changed))
+    return (F[0] - F[1]) / (2 * step)
+
+
+def expect(by, scene, change, value):
+    by_difference = difference(scene, change, STEP * value)
+    assert np.abs(by - by_difference).max() < 1e-6 * np.abs(by_difference).max(), (by, by_difference)
+
+
+def sensitivities(scene):
+    Path("joint.json").write_text(json.dumps(scene))
+    run("stage3_nonlinear", "joint.json", "-o", "joint.h5", "--sensitivities")
+    with h5py.File("joint.h5") as f:
+        group = f["sensitivity"]
+        return {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[:] for name, item in group.items()}
+
+
+def check_lap_joint():
+    """Power law, clearance, friction; the numbers that the README shows."""
+    for path in (ROOT / "examples/lap_joint").glob("*.json"):
+        shutil.copy(path, ".")
+    for sheet in ("upper", "lower"):
+        run("stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5", "--p", 4, "--loads-only")
+        run("stage2_extract", f"{sheet}.h5", "-o", f"{sheet}.matrices.h5")
+    scene = json.loads(Path("joint.json").read_text())
+    scene["solver"] = {"tolerance": 1e-13}
+    for fastener in scene["fasteners"]:
+        fastener["friction"] = {"upper": 0.15, "lower": 0.15}
+    by = sensitivities(scene)
+    factors = np.arange(1, 5) / 4
+
+    def add_clearance(changed, h):
+        changed["fasteners"][1]["clearance"] += h
+
+    expect(by["clearance"][:, :, 1], scene, add_clearance, 0.02)
+    assert list(zip(by["law_name"], by["law_number"], by["law_unit"])) == [
+        ("rivet", "A", "mm^0.8"), ("rivet", "n", "N"), ("rivet", "delta0", "N/mm")]
+    for i, (number, value) in enumerate((("A", 9000), ("n", 0.8))):
+        def add_number(changed, h):
+            changed["laws"]["rivet"][number] += h
+
+        expect(by["law"][:, :, i], scene, add_number, value)
+    assert sorted(by["mu_hole"]) == sorted(f"{sheet}:{hole}" for sheet in ("upper", "lower") for hole in "abcd")
+    for i, name in enumerate(by["mu_hole"]):
+        sheet, hole = name.split(":")
+
+        def add_friction(changed, h):
+            changed["fasteners"]["abcd".index(hole)]["friction"][sheet] += h
+
+        expect(by["mu"][:, :, i], scene, add_friction, 0.15)
+
+    def add_force(changed, h):
+        changed["loads"][0]["force"] += h
+
+    assert list(by["force_external"]) == ["upper:P"]
+    expect(by["force"][:, :, 0], scene, add_force, 4000)
+    assert by["displacement"].shape == (4, 4, 0)
+    assert np.allclose(by["load_factor"] * factors[:, None], by["force"][:, :, 0] * 4000, rtol=1e-9)
+
+
+def check_linear_chains():
+    """The linear path too, under given displacements; without labels of units."""
+    for name, left, right in (("a", "external:Q=300", "external:P=600"), ("b", "ground=100", "free")):
+        run(ROOT / "scripts/chain_matrices", "-o", f"{name}.h5", "--segments", 500, "--left", left, "--right", right)
+    scene = {"format": "joint", "version": 1, "plates": {"a": "a.h5", "b": "b.h5"},
+             "laws": {"soft": {"type": "linear", "k": 100}, "hard": {"type": "linear", "k": 700}},
+             "fasteners": [{"id": "1", "between": ["a:1", "b:1"], "law": "soft"},
+                           {"id": "2", "between": ["a:2", "b:2"], "law": "hard"}],
+             "loads": [{"external": "a:P", "displacement": 1}, {"external": "a:Q", "displacement": 0}], "increments": 2}
+    by = sensitivities(scene)
+    assert list(by["displacement_external"]) == ["a:Q", "a:P"] and by["force"].shape == (2, 2, 0)
+    assert list(by["law_unit"]) == ["length", "length"]
+    for i, load in enumerate((1, 0)):
+        def add_displacement(changed, h):
+            changed["loads"][load]["displacement"] += h
+
+        expect(by["displacement"][:, :, i], scene, add_displacement, 1)
+    for i, (law, k) in enumerate((("soft", 100), ("hard", 700))):
+        def add_stiffness(changed, h):
+            changed["laws"][law]["k"] += h
+
+        expect(by["law"][:, :, i], scene, add_stiffness, k)
+
+
+def main(bin_folder):
+    os.environ["PATH"] = str(Path(bin_folder).resolve()) + os.pathsep + os.environ["PATH"]
+    with tempfile.TemporaryDirectory() as work:
+        for check in (check_lap_joint, check_linear_chains):
+            folder = Path(work) / check.__name__
+            folder.mkdir()
+            os.chdir(folder)
+            check()
+        os.chdir(ROOT)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
