@@ -119,6 +119,17 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
   return sides;
 }
 
+/// A half hole stands for a whole one on a line of symmetry, which its disc must not leave; but half a rim pushes it
+/// off.
+void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
+  for (std::size_t i = 0; i < plate.friction_hole.size(); ++i)
+    if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[static_cast<Eigen::Index>(i)] > 0))
+      throw InputError(fmt::format(
+          "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, "
+          "off its line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
+          plate.file, hole, plate.friction_bearing[i]));
+}
+
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, std::size_t at) {
   const Reference& hole = fastener.between[at];
   const auto is_named = [&](const PlateModel& plate) { return plate.name == hole.plate; };
@@ -127,6 +138,7 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   if (!index)
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate->file),
            fmt::format("{}", fmt::join(plate->holes, ", ")));
+  if (model.n_directions() > 1) check_rim_all_around(*plate, hole.name);
   const double mu = fastener.friction[at];
   HoleModel result{static_cast<std::size_t>(plate - model.plates.begin()), *index * model.n_directions(), mu, {}};
   if (mu == 0) return result;

@@ -103,6 +103,21 @@ TEST_F(PlaneRun, RefusesPlatesWhoseDiscsMoveOtherwise) {
   expect_refusal("b.h5 have the directions [\"y\", \"x\"]; allowed: [\"x\", \"y\"], as those of ");
 }
 
+TEST_F(PlaneRun, RefusesHalfHoles) {
+  auto half = plate(false, xy);
+  half.friction_hole = {"1", "1"};
+  half.friction_bearing = {"+y", "-y"};
+  half.friction_unit_force = half.friction_resultant = Eigen::Vector2d(0.01, 0);
+  half.R_df = {Eigen::MatrixXd::Zero(4, 2)};
+  half.R_ef = {Eigen::MatrixXd::Zero(0, 2)};
+  write(xy, xy);
+  formats::write(folder_.path("b.h5"), half);
+  expect_refusal(
+      "b.h5:friction/unit_force: hole \"1\" has no rim on its side -y, but its disc moves along x and y, off its line "
+      "of "
+      "symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone");
+}
+
 TEST_F(PlaneRun, RefusesOneSidedLawsInThePlane) {
   const std::map<std::string, std::string> one_sided{
       {"laws", R"({"lin": {"type": "linear", "k": 1000, "one_sided": true}})"}};

@@ -47,11 +47,12 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
   const std::vector<std::string> directions =
       n_directions == 1 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"};
   std::vector<formats::PlateMatrices> plates;
+  plates.reserve(static_cast<std::size_t>(n_plates));
   for (int i = 0; i < n_plates; ++i)
     plates.push_back(disc_plate(100 * random_stiffness(random, n_holes * n_directions), directions));
   auto joint = joint_of(plates);
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    load_discs(joint, i, VectorXd::NullaryExpr(n_holes * n_directions, [&] { return 10 * number(random); }));
+    load_discs(joint, i, VectorXd::NullaryExpr(joint.plates[i].n_discs(), [&] { return 10 * number(random); }));
   std::vector<std::size_t> order(joint.plates.size());
   std::iota(order.begin(), order.end(), 0U);
   for (int hole = 0; hole < n_holes; ++hole) {
