@@ -40,8 +40,8 @@ MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts)
 ///
 /// Where laws rise, dF + k ddelta = 1 stays, and with it W^-1 J = W^-1 - ddelta > 0 (newton_solver.hpp).
 void add_trace(const JointEquations& equations, double residual, ContactState& state) {
-  constexpr double share = 1e-6;
-  constexpr double least = 1e-12;  // rounding over this is still a small step
+  constexpr double share = 1e-7;
+  constexpr double least = 1e-11;  // rounding over this is still a small step
   const double trace = std::clamp(share * residual, least, share);
   for (Index j = 0; j < state.dF.along.size(); ++j) {
     const double k = equations.contacts[static_cast<std::size_t>(j)].stiffness;
