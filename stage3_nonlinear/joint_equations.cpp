@@ -34,6 +34,27 @@ MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts)
   return W.llt().solve(MatrixXd::Identity(W.rows(), W.rows()));
 }
 
+/// Gives open and yielded fasteners a trace of stiffness, in the direction of search only: a sheet that none of the
+/// others holds has no other, and the solvers divide by what is left. It goes with the residual, so that the last steps
+/// are quick also where springs as weak as the trace hold a sheet.
+///
+/// Where laws rise, dF + k ddelta = 1 stays, and with it W^-1 J = W^-1 - ddelta > 0 (newton_solver.hpp).
+void add_trace(const JointEquations& equations, double residual, ContactState& state) {
+  constexpr double share = 1e-7;
+  constexpr double least = 1e-11;  // rounding over this is still a small step
+  const double trace = std::clamp(share * residual, least, share);
+  for (Index j = 0; j < state.dF.along.size(); ++j) {
+    const double k = equations.contacts[static_cast<std::size_t>(j)].stiffness;
+    const auto add = [&](double& dF, double& ddelta) {
+      if (std::abs(dF) >= trace) return;
+      dF = trace;
+      if (equations.metric.size() > 0) ddelta = (1 - trace) / k;
+    };
+    add(state.dF.along[j], state.ddelta.along[j]);
+    add(state.dF.across[j], state.ddelta.across[j]);
+  }
+}
+
 }  // namespace
 
 JointEquations make_equations(const JointModel& joint) {
@@ -69,13 +90,9 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
     if (friction) r += equations.system.friction_forces(state.F);
     return r / scale;
   };
-  problem.jacobian = [&equations, scale, friction](const VectorXd& x) -> MatrixXd {
-    // A trace of stiffness for open fasteners, in the direction of search only: a sheet that none of them touches has
-    // no other, and the solvers divide by what is left.
-    constexpr double trace = 1e-9;
+  problem.jacobian = [&equations, residual = problem.residual, scale, friction](const VectorXd& x) -> MatrixXd {
     auto state = contact_state(equations.contacts, scale * x);
-    state.dF.along = (state.dF.along.array() == 0).select(trace, state.dF.along);
-    state.dF.across = (state.dF.across.array() == 0).select(trace, state.dF.across);
+    add_trace(equations, residual(x).cwiseAbs().maxCoeff(), state);
     if (friction) return tangent(equations.system, state);
     return state.times(equations.system.S_ud, state.ddelta) +
            state.times(MatrixXd::Identity(x.size(), x.size()), state.dF);
