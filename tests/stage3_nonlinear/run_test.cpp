@@ -154,7 +154,9 @@ TEST_F(Run, WritesSensitivitiesIfAsked) {
   EXPECT_FALSE(result().sensitivity);
   options_.sensitivities = true;
   run();
-  const auto by = result().sensitivity.value();
+  const auto with = result();
+  if (!with.sensitivity) FAIL() << "no group sensitivity";
+  const auto& by = *with.sensitivity;
   EXPECT_THAT(by.law_name, ElementsAre("lin", "pow", "pow", "pow"));
   EXPECT_THAT(by.law_number, ElementsAre("k", "A", "n", "delta0"));
   EXPECT_THAT(by.law_unit, ElementsAre("in", "in^0.25", "lbf", "lbf/in"));
