@@ -70,6 +70,7 @@ int chosen_degree(const JointScene& scene, const std::vector<PlateMatrices>& all
 std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateModel>& plates) {
   const auto names = [](const PlateModel& plate) {
     std::vector<std::string> result;
+    result.reserve(plate.axes.size());
     for (const int axis : plate.axes)
       result.push_back(fmt::format("\"{}\"", axis_names[static_cast<std::size_t>(axis)]));
     return fmt::format("[{}]", fmt::join(result, ", "));
@@ -212,7 +213,7 @@ std::string JointModel::name(const HoleModel& hole) const {
 
 std::string JointModel::name(const ShearPlane& plane) const {
   const FastenerModel& fastener = fasteners[plane.fastener];
-  const std::string id = fmt::format("fastener \"{}\"", fastener.id);
+  std::string id = fmt::format("fastener \"{}\"", fastener.id);
   if (fastener.holes.size() == 2) return id;
   return fmt::format("{} between \"{}\" and \"{}\"", id, plates[first_hole(plane).plate].name,
                      plates[second_hole(plane).plate].name);
