@@ -67,7 +67,8 @@ TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
   for (int i = 0; i < 100; ++i) {
     const JointEquations equations =
         make_equations(test::random_joint(random, {.cubics = true, .one_sided = i % 2 == 0, .floating = i % 3 != 0}));
-    const auto problem = root_problem(equations, 1, equations.system.q.cwiseAbs().maxCoeff());
+    const double load = equations.system.q.cwiseAbs().maxCoeff();  // 0 at a floating sheet with one fastener
+    const auto problem = root_problem(equations, 1, load > 0 ? load : 1);
     const double size = i % 4 == 0 ? 0 : 10;  // at 0 all are open or begin to bear
     const VectorXd x = size * VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
     const MatrixXd H = equations.metric * problem.jacobian(x);
