@@ -91,7 +91,7 @@ stage3::CondensedSystem three_plates(std::mt19937& random, int n_planes) {
 
 /// Eigenvalues over three decades, in one joint of two a plate that floats in x and y.
 stage3::CondensedSystem discs_in_x_and_y(std::mt19937& random, int n_planes) {
-  const Index n = 2 * std::max(2, n_planes / 2);
+  const Index n = 2 * static_cast<Index>(std::max(2, n_planes / 2));
   const auto normal = [&] { return std::normal_distribution<double>()(random); };
   const Eigen::HouseholderQR<MatrixXd> qr(MatrixXd::NullaryExpr(n, n, normal));
   const MatrixXd Q = qr.householderQ();

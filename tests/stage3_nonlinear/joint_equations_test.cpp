@@ -59,6 +59,25 @@ TEST(JointEquations, MetricIsPositiveDefinite) {
   }
 }
 
+/// W^-1 J, the Hessian behind damped Newton (newton_solver.hpp), also where all fasteners of a sheet that nothing else
+/// holds are open: the trace of stiffness in the Jacobian sees to that.
+TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int i = 0; i < 100; ++i) {
+    const JointEquations equations =
+        make_equations(test::random_joint(random, {.cubics = true, .one_sided = i % 2 == 0, .floating = i % 3 != 0}));
+    const double load = equations.system.q.cwiseAbs().maxCoeff();  // 0 at a floating sheet with one fastener
+    const auto problem = root_problem(equations, 1, load > 0 ? load : 1);
+    const double size = i % 4 == 0 ? 0 : 10;  // at 0 all are open or begin to bear
+    const VectorXd x = size * VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
+    const MatrixXd H = equations.metric * problem.jacobian(x);
+    EXPECT_LT((H - H.transpose()).norm(), 1e-10 * H.norm()) << i;
+    // The trace is at least 1e-11 of the reference stiffness; rounding takes a little.
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(H).eigenvalues()[0], 1e-12 * equations.metric.norm()) << i;
+  }
+}
+
 /// A law that falls has no energy to descend on.
 TEST(JointEquations, MetricNeedsLawsThatRise) {
   const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
