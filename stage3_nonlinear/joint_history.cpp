@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "stage3_nonlinear/contact_event.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
 
 namespace fastjoint::stage3 {
@@ -70,6 +71,7 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     result.load_factor[i] = step.load_factor;
     result.iterations[i] = step.iterations;
     result.residual[i] = step.residual;
+    result.event.push_back(event_text(joint, step.events));
     result.delta_vector.row(i) = step.delta.transpose();
     result.F_vector.row(i) = step.F.transpose();
     result.delta.row(i) = amounts(step.delta, a).transpose();
@@ -93,7 +95,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,residual,first,"
       "second";
   for (const char* end : {"first", "second"}) text += rim_csv_names(end);
-  text += "\n";
+  text += ",event\n";
   for (Index i = 0; i < a.F.rows(); ++i) {
     const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {
@@ -103,7 +105,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
                           a.iterations[i], a.residual[i], field(a.first_hole[at]), field(a.second_hole[at]));
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
         text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
-      text += "\n";
+      text += fmt::format(",{}\n", field(a.event[static_cast<std::size_t>(i)]));
     }
   }
   return text;
