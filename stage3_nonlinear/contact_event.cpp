@@ -58,7 +58,7 @@ ContactMarks::ContactMarks(const std::vector<Contact>& contacts) {
 }
 
 double ContactMarks::nearness(const VectorXd& c, double at) {
-  constexpr double of_mark = 1e-9, of_largest = 1e-12;
+  constexpr double of_mark = 1e-9, of_largest = 1e-10;
   return of_mark * at + of_largest * c.cwiseAbs().maxCoeff();
 }
 

@@ -56,13 +56,12 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   std::vector<EventPlace> events;
   std::optional<double> failed;
   std::vector<ExactPath> exact;
-  if (options.solver.exact_path != ExactPathUse::never && is_piecewise_linear(equations))
-    exact.push_back(exact_path(equations, 1));
+  if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
   Walk walk(equations, options, scale, exact);
   if (!exact.empty() && exact[0].reach() >= 1) {
     events = events_of(exact[0], marks);
   } else {
-    failed = search_events(equations, marks, scale, walk, events);
+    failed = search_events(equations, options, marks, scale, walk, events);
   }
   std::optional<PathFailure> failure;
   if (failed) failure = walk.failure(events.size(), *failed);

@@ -36,13 +36,13 @@ struct Crossing {
 
 class Search {
  public:
-  Search(const JointEquations& equations, const ContactMarks& marks, double scale, Walk& walk,
-         std::vector<EventPlace>& events)
-      : equations_(equations), marks_(marks), scale_(scale), walk_(walk), events_(events) {}
+  Search(const JointEquations& equations, const PathOptions& options, const ContactMarks& marks, double scale,
+         Walk& walk, std::vector<EventPlace>& events)
+      : equations_(equations), options_(options), marks_(marks), scale_(scale), walk_(walk), events_(events) {}
 
   std::optional<double> run() {
     constexpr int intervals = 8;
-    auto here = solved(first_load_factor);
+    auto here = start();
     for (int i = 1; here && i <= intervals; ++i) {
       auto next = solved(static_cast<double>(i) / intervals);
       if (!next || !between(*here, *next, 0)) break;
@@ -53,8 +53,16 @@ class Search {
   }
 
  private:
-  std::optional<Sample> solved(double load) {
-    if (walk_.reach(load)) return Sample{load, walk_.here().c, marks_.stages(walk_.here().c)};
+  /// The first state, its residuals relative to its own small load.
+  std::optional<Sample> start() {
+    Walk first(equations_, options_, first_load_factor * scale_);
+    const bool found = first.reach(first_load_factor);
+    if (found) walk_.put(first.here(), 0);
+    return solved(first_load_factor, found);
+  }
+
+  std::optional<Sample> solved(double load, bool there = false) {
+    if (there || walk_.reach(load)) return Sample{load, walk_.here().c, marks_.stages(walk_.here().c)};
     failed_ = load;
     return std::nullopt;
   }
@@ -136,7 +144,12 @@ class Search {
     const Root root = newton_root(problem, start, {tolerance, most_iterations});
     if (!(root.residual.cwiseAbs().maxCoeff() <= enough)) return std::nullopt;
     VectorXd c = scale_ * root.x.head(rows);
-    c(own) *= mark / position(c);  // exactly on it: then nothing bears yet
+    // Exactly on it: then nothing bears yet.
+    if (a_directions == 1) {
+      c[plane] = mark;
+    } else {
+      c(own) *= mark / position(c);
+    }
     return Crossing{root.x[rows], std::move(c), root.iterations};
   }
 
@@ -211,6 +224,7 @@ class Search {
   }
 
   const JointEquations& equations_;
+  const PathOptions& options_;
   const ContactMarks& marks_;
   double scale_;
   Walk& walk_;
@@ -234,9 +248,10 @@ void join_events(std::vector<EventPlace>& events) {
 
 }  // namespace
 
-std::optional<double> search_events(const JointEquations& equations, const ContactMarks& marks, double scale,
-                                    Walk& walk, std::vector<EventPlace>& events) {
-  const auto failed = Search(equations, marks, scale, walk, events).run();
+std::optional<double> search_events(const JointEquations& equations, const PathOptions& options,
+                                    const ContactMarks& marks, double scale, Walk& walk,
+                                    std::vector<EventPlace>& events) {
+  const auto failed = Search(equations, options, marks, scale, walk, events).run();
   join_events(events);
   return failed;
 }

@@ -21,7 +21,8 @@ struct EventPlace {
 /// @param scale  Force that residuals are relative to.
 /// @param events Takes what is found, ascending.
 /// @return       A load factor that `walk` could not reach; then events before it only are sure.
-[[nodiscard]] std::optional<double> search_events(const JointEquations& equations, const ContactMarks& marks,
-                                                  double scale, Walk& walk, std::vector<EventPlace>& events);
+[[nodiscard]] std::optional<double> search_events(const JointEquations& equations, const PathOptions& options,
+                                                  const ContactMarks& marks, double scale, Walk& walk,
+                                                  std::vector<EventPlace>& events);
 
 }  // namespace fastjoint::stage3

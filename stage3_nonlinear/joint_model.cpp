@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/errors.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -222,7 +223,7 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (std::size_t i = 0; i < all.size(); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, all[i], model.p));
   model.axes = common_axes(scene, model.plates);
-  if (scene.solver.exact_path == ExactPathUse::always && model.n_directions() > 1)
+  if (scene.solver.method == exact_path_name && model.n_directions() > 1)
     refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",
            "another method, or plates whose discs have one direction");
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);

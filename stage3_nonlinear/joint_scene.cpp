@@ -17,7 +17,6 @@ namespace {
 
 using input::Value;
 
-constexpr const char* exact_path_name = "exact path";
 constexpr int most_increments = 100000;
 constexpr int most_iterations = 1000000;
 /// Rounding sets the lower end; a joint known to less than the upper end is not solved.
@@ -165,13 +164,8 @@ SolverScene read_solver(const Value& value, const JointScene& scene) {
   value.only({"method", "tolerance", "max_iterations"});
   SolverScene solver;
   if (const auto method = value.find("method")) {
-    auto names = solver_names();
-    names.emplace_back(exact_path_name);
-    const std::string name = method->choice(names);
-    const bool exact = name == exact_path_name;
-    if (exact) check_exact_path(scene, *method);
-    if (!exact) solver.method = name;
-    solver.exact_path = exact ? ExactPathUse::always : ExactPathUse::never;
+    solver.method = method->choice(method_names());
+    if (solver.method == exact_path_name) check_exact_path(scene, *method);
   }
   if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
   if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);

@@ -53,14 +53,10 @@ struct InitialScene {
   std::optional<double> stiffness;  ///< of {"linear": K}, force / length
 };
 
-/// When the exact path of a piecewise linear joint is taken (exact_path.hpp).
-enum class ExactPathUse { never, where_it_applies, always };
-
 struct SolverScene {
-  std::string method = "hybridsj";                           ///< of solver_names()
-  ExactPathUse exact_path = ExactPathUse::where_it_applies;  ///< before it
-  double tolerance = 1e-10;                                  ///< largest residual, relative to the largest force
-  int max_iterations = 200;                                  ///< of one try
+  std::string method{};      ///< of method_names(); empty: the exact path where it applies, else the default solver
+  double tolerance = 1e-10;  ///< largest residual, relative to the largest force
+  int max_iterations = 200;  ///< of one try
 };
 
 /// JOINT.json as it stands (schemas/joint.schema.json).

@@ -79,7 +79,7 @@ LoadPath follow_nonlinear(const JointEquations& equations, const std::vector<dou
 
 LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors, const PathOptions& options) {
   if (auto path = follow_linear(equations, load_factors, options.solver.tolerance)) return *std::move(path);
-  const bool exact = options.solver.exact_path != ExactPathUse::never && is_piecewise_linear(equations);
+  const bool exact = may_be_exact(options.solver.method) && is_piecewise_linear(equations);
   return walk_along(equations, load_factors, options,
                     exact ? exact_paths(equations, load_factors) : std::vector<ExactPath>{});
 }

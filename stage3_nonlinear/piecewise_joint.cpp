@@ -71,14 +71,15 @@ bool is_piecewise_linear(const JointEquations& equations) {
 PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equations.system) {
   assert(is_piecewise_linear(equations));
   std::vector<bool> alone(equations.contacts.size(), false);
-  for (Index rim = 0; rim < system_->E.rows(); ++rim) {
-    if ((system_->E.row(rim).array() != 0).count() > 1) {
-      shared_rims_.push_back(rim);
-      continue;
+  for (Index at = 0; at < system_->E.rows(); ++at) {
+    Rim& rim = rims_.emplace_back(Rim{at, {}});
+    for (Index plane = 0; plane < system_->E.cols(); ++plane)
+      if (const double sign = system_->E(at, plane); sign != 0) rim.planes.emplace_back(plane, sign);
+    if (rim.planes.size() > 1) {
+      shared_rims_.push_back(at);
+    } else {
+      alone[static_cast<std::size_t>(rim.planes[0].first)] = true;
     }
-    Index plane = 0;
-    system_->E.row(rim).cwiseAbs().maxCoeff(&plane);
-    alone[static_cast<std::size_t>(plane)] = true;
   }
   for (std::size_t j = 0; j < alone.size(); ++j) curves_.push_back(make_curve(equations.contacts[j], alone[j]));
 }
@@ -92,24 +93,24 @@ Cell PiecewiseJoint::start() const {
 }
 
 void PiecewiseJoint::follow_signs(Cell& cell) const {
-  for (Index rim = 0; rim < system_->E.rows(); ++rim) {
-    if (std::find(shared_rims_.begin(), shared_rims_.end(), rim) != shared_rims_.end()) continue;
-    Index plane = 0;
-    system_->E.row(rim).cwiseAbs().maxCoeff(&plane);
+  for (const Rim& rim : rims_) {
+    if (rim.planes.size() > 1) continue;
+    const auto& [plane, sign] = rim.planes[0];
     const auto j = static_cast<std::size_t>(plane);
     const int of_force = curves_[j].sign[static_cast<Index>(cell.piece[j])];
-    cell.side[static_cast<std::size_t>(rim)] = system_->E(rim, plane) > 0 ? of_force : -of_force;
+    cell.side[static_cast<std::size_t>(rim.at)] = sign > 0 ? of_force : -of_force;
   }
 }
 
 CellEquations PiecewiseJoint::equations(const Cell& cell) const {
   const auto n = static_cast<Index>(curves_.size());
   Eigen::MatrixXd on_forces = Eigen::MatrixXd::Identity(n, n);
-  for (Index rim = 0; rim < system_->E.rows(); ++rim) {
-    const bool plus = cell.side[static_cast<std::size_t>(rim)] > 0;
-    const VectorXd H = plus ? system_->H_plus.col(rim) : VectorXd(-system_->H_minus.col(rim));
-    on_forces += H * system_->E.row(rim);
-  }
+  for (const Rim& rim : rims_)
+    for (const auto& [plane, sign] : rim.planes) {
+      const bool plus = cell.side[static_cast<std::size_t>(rim.at)] > 0;
+      const auto H = plus ? system_->H_plus.col(rim.at) : system_->H_minus.col(rim.at);
+      on_forces.col(plane) += (plus ? sign : -sign) * H;
+    }
   const auto of = [&](VectorXd CornerCurve::*values) {
     return picked(cell, [&, values](std::size_t j) -> const VectorXd& { return curves_[j].*values; });
   };
@@ -118,13 +119,21 @@ CellEquations PiecewiseJoint::equations(const Cell& cell) const {
 }
 
 double PiecewiseJoint::rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const {
-  const VectorXd dF = picked(cell, [&](std::size_t j) -> const VectorXd& { return curves_[j].dF; });
-  return system_->E.row(rim).dot(dF.cwiseProduct(rate));
+  double sum = 0;
+  for (const auto& [plane, sign] : rims_[static_cast<std::size_t>(rim)].planes) {
+    const auto j = static_cast<std::size_t>(plane);
+    sum += sign * curves_[j].dF[static_cast<Index>(cell.piece[j])] * rate[plane];
+  }
+  return sum;
 }
 
 double PiecewiseJoint::rim_force(const Cell& cell, Index rim, const VectorXd& c) const {
-  const VectorXd F0 = picked(cell, [&](std::size_t j) -> const VectorXd& { return curves_[j].F0; });
-  return system_->E.row(rim).dot(F0) + rim_rate(cell, rim, c);
+  double sum = rim_rate(cell, rim, c);
+  for (const auto& [plane, sign] : rims_[static_cast<std::size_t>(rim)].planes) {
+    const auto j = static_cast<std::size_t>(plane);
+    sum += sign * curves_[j].F0[static_cast<Index>(cell.piece[j])];
+  }
+  return sum;
 }
 
 }  // namespace fastjoint::stage3

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "stage3_nonlinear/joint_equations.hpp"
@@ -50,11 +51,16 @@ class PiecewiseJoint {
   [[nodiscard]] double rim_rate(const Cell& cell, Eigen::Index rim, const Eigen::VectorXd& rate) const;
   /// Sets the sides of the rims that one plane alone bears on.
   void follow_signs(Cell& cell) const;
-  [[nodiscard]] const CondensedSystem& system() const { return *system_; }
 
  private:
+  /// A rim that friction acts on: b = sum of signs times F of its one or two planes.
+  struct Rim {
+    Eigen::Index at;  ///< row of E
+    std::vector<std::pair<Eigen::Index, double>> planes;
+  };
   const CondensedSystem* system_;
   std::vector<CornerCurve> curves_;
+  std::vector<Rim> rims_;
   std::vector<Eigen::Index> shared_rims_;
 };
 

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "stage3_nonlinear/rim_history.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -38,8 +39,10 @@ std::string method(const JointScene& scene, const LoadPath& path) {
   if (path.linear) return "linear";
   const auto is_exact = [](const PathStep& step) { return step.exact; };
   const auto exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
-  if (exact == 0) return scene.solver.method;
-  return exact == static_cast<Index>(path.n_increments) ? "exact path" : "exact path, " + scene.solver.method;
+  const std::string iterative = iterative_method(scene.solver.method);
+  if (exact == 0) return iterative;
+  return exact == static_cast<Index>(path.n_increments) ? exact_path_name
+                                                        : fmt::format("{}, {}", exact_path_name, iterative);
 }
 
 const char* counted(const LoadPath& path, const PathStep& step) {

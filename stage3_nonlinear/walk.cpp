@@ -30,7 +30,7 @@ double force_scale(const CondensedSystem& system, const std::vector<double>& loa
 Walk::Walk(const JointEquations& equations, const PathOptions& options, double scale, std::vector<ExactPath> exact)
     : equations_(equations),
       options_(options),
-      solver_(solver_named(options.solver.method)),
+      solver_(solver_named(iterative_method(options.solver.method))),
       scale_(scale),
       exact_(std::move(exact)),
       here_{0, VectorXd::Zero(equations.n_unknowns())} {}

@@ -10,6 +10,7 @@
 #include "stage3_nonlinear/exact_path.hpp"
 #include "stage3_nonlinear/gsl_solver.hpp"
 #include "stage3_nonlinear/load_path.hpp"
+#include "stage3_nonlinear/solver.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace {
@@ -59,12 +60,12 @@ int main() {
       for (const int increments : {1, 10, 100}) {
         std::vector<double> factors;
         for (int i = 1; i <= increments; ++i) factors.push_back(static_cast<double>(i) / increments);
-        const auto follow_by = [&](ExactPathUse use) {
-          return milliseconds([&] { (void)follow(equations, factors, {{}, {.exact_path = use}}); });
+        const auto follow_by = [&](const char* method) {
+          return milliseconds([&] { (void)follow(equations, factors, {{}, {.method = method}}); });
         };
         fmt::print("{:>4} {:>8} {:>8} {:>10} {:>12.2f} {:>12.2f}\n", n, friction,
-                   exact_path(equations, 1).pieces.size() - 1, increments, follow_by(ExactPathUse::always),
-                   follow_by(ExactPathUse::never));
+                   exact_path(equations, 1).pieces.size() - 1, increments, follow_by(exact_path_name),
+                   follow_by(default_solver));
       }
     }
 }
