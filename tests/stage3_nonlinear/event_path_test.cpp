@@ -108,10 +108,11 @@ TEST(Events, LostContactIsAnEventToo) {
 }
 
 /// At each event the planes named are on a mark; between events no stage changes, by states solved in between.
-void expect_all_events(const JointEquations& equations, const LoadPath& path, int samples, int joint) {
+void expect_all_events(const JointEquations& equations, const LoadPath& path, bool floats, int samples, int joint) {
   ASSERT_FALSE(path.failure) << "joint " << joint;
   const ContactMarks marks(equations.contacts);
-  Walk walk(equations, tight, force_scale(equations.system, {1}));
+  const double scale = force_scale(equations.system, {1});
+  Walk walk(equations, tight, scale);
   double begin = first_load_factor;
   for (const auto& step : path.steps) {
     EXPECT_LE(step.residual, 1e-10) << "joint " << joint;
@@ -120,8 +121,10 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, in
       if (event.corner != Corner::contact || step.check.mechanism) continue;
       const double gap = contact.law->gap(contact.clearance);
       EXPECT_NEAR(std::abs(step.delta[event.plane]), gap, 1e-9 * gap + 1e-15) << "joint " << joint;
+      // A sheet that floats jumps to its hold, to the resolution of the search.
       const bool is_curved = !contact.law->kinks(1, 0);
-      EXPECT_LE(is_curved ? std::abs(step.F[event.plane]) : 0, 0) << step.load_factor << " of " << force_scale(equations.system, {1}) << "joint " << joint;
+      const double most = !is_curved ? step.F.cwiseAbs().maxCoeff() : floats ? 1e-9 * scale : 0;
+      EXPECT_LE(std::abs(step.F[event.plane]), most) << "joint " << joint;
     }
     std::optional<Eigen::VectorXi> stages;
     const double length = step.load_factor - begin;
@@ -147,7 +150,7 @@ TEST_P(RandomEvents, AreAllFound) {
     const JointEquations equations = make_equations(test::random_joint(random, GetParam()));
     const LoadPath path = follow_events(equations, tight);
     events += path.steps.size() - 1;
-    expect_all_events(equations, path, samples, i);
+    expect_all_events(equations, path, GetParam().floating, samples, i);
   }
   std::cout << "events " << events << "\n";
   EXPECT_GT(events, joints / 2U);
@@ -178,6 +181,22 @@ TEST(Events, OfPiecewiseLinearJointsAreFoundBothWays) {
       EXPECT_EQ(late[k]->events, found.steps[k].events) << "joint " << i;
       EXPECT_FALSE(found.steps[k].exact);
     }
+  }
+}
+
+/// One plane with a circle of clearance g and S = diag(s_x, s_y): it bears where |(q_x / s_x, q_y / s_y)| lambda = g.
+TEST(Events, ClearanceOfDiscsWithTwoDirectionsIsACircle) {
+  constexpr double s_x = 1000, s_y = 500, q_x = 30, q_y = 40, g = 0.05;
+  for (const auto& law : {test::linear_law(2000), test::power_law(300, 0.5)}) {
+    CondensedSystem system;
+    system.q = Eigen::Vector2d(q_x, q_y);
+    system.S_ud = Eigen::Vector2d(s_x, s_y).asDiagonal();
+    const LoadPath path = follow_events(make_equations(system, {{law, g}}), tight);
+    ASSERT_EQ(path.steps.size(), 2U);
+    EXPECT_THAT(path.steps[0].events, ElementsAre(closes(0)));
+    EXPECT_NEAR(path.steps[0].load_factor, g / std::hypot(q_x / s_x, q_y / s_y), 1e-10);
+    EXPECT_NEAR(path.steps[0].delta.norm(), g, 1e-12 * g);
+    EXPECT_FALSE(path.steps[0].exact) << "a circle has no corners in x and y";
   }
 }
 

@@ -141,8 +141,45 @@ INSTANTIATE_TEST_SUITE_P(
                     test::RandomJoint{.floating = true, .piecewise = true},
                     test::RandomJoint{.friction = true, .one_sided = true, .floating = true, .piecewise = true}));
 
-/// R of the sign that makes a joint lock itself, which those of random_joint() never do (mu < 0 turns it): where the path goes to the end it is a solution, where it
-/// turns back it ends, and follow() goes on by the solvers.
+/// Three plates with friction on the middle one too, whose rims two planes share: their sides are corners of their own.
+TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
+  std::mt19937 random(83);
+  for (int i = 0; i < 100; ++i) {
+    auto laws = test::random_joint(random, {.piecewise = true});
+    const int n = static_cast<int>(laws.planes.size());
+    test::Lap lap{test::chain(n, 1, 1e4, {{n - 1, n, 1e4}, {0, ground, 1e3}}),
+                  test::chain(n, 0, 2e4, {{0, ground, 2e4}}), 1000};
+    test::add_friction(lap.a, random);
+    test::add_friction(lap.b, random);
+    auto joint = test::joint_of(lap, test::linear_law(1));
+    joint.plates.push_back(make_plate("c", "c.h5", lap.a, 8));
+    joint.plates[2].external_force[0] = std::uniform_real_distribution<double>(-1000, 1000)(random);
+    joint.fasteners.clear();
+    joint.planes.clear();
+    for (int j = 0; j < n; ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      test::add_fastener(joint, {{0, j}, {1, j}, {2, j}}, laws.planes[at].law);
+      joint.planes[2 * at].clearance = laws.planes[at].clearance;
+      joint.planes[2 * at + 1].law = laws.planes[static_cast<std::size_t>(n - 1 - j)].law;
+      test::set_friction(joint, at, 0.2);
+    }
+    const JointEquations equations = make_equations(joint);
+    EXPECT_EQ(PiecewiseJoint(equations).shared_rims().size(), static_cast<std::size_t>(n));
+    for (const double sign : {1.0, -1.0}) {
+      const ExactPath path = exact_path(equations, sign);
+      ASSERT_EQ(path.reach(), 1) << "joint " << i;
+      for (const auto& piece : path.pieces) EXPECT_LE(residual(equations, path, sign * piece.end), 1e-12);
+      const LoadPath solved = follow_nonlinear(equations, {0.3 * sign, 0.7 * sign, sign}, tight);
+      for (const auto& step : solved.steps) {
+        const auto state = contact_state(equations.contacts, path.at(step.load_factor));
+        EXPECT_LT((state.F - step.F).cwiseAbs().maxCoeff(), 1e-9 * force_scale(equations.system, {1})) << "joint " << i;
+      }
+    }
+  }
+}
+
+/// R of the sign that makes a joint lock itself, which those of random_joint() never do (mu < 0 turns it): where the
+/// path goes to the end it is a solution, where it turns back it ends, and follow() goes on by the solvers.
 TEST(ExactPath, EndsWhereFrictionTurnsItBackAndHandsOver) {
   int turned = 0, went_on = 0;
   for (const double mu : {0.5, 1.0, 2.0, 4.0}) {
