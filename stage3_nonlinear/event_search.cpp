@@ -42,12 +42,14 @@ class Search {
 
   std::optional<double> run() {
     constexpr int intervals = 8;
-    auto here = start();
-    for (int i = 1; here && i <= intervals; ++i) {
-      auto next = solved(static_cast<double>(i) / intervals);
-      if (!next || !between(*here, *next, 0)) break;
+    const auto first = start();
+    if (!first) return failed_;
+    Sample here = *first;
+    for (int i = 1; i <= intervals; ++i) {
+      const auto next = solved(static_cast<double>(i) / intervals);
+      if (!next || !between(here, *next, 0)) break;
       walk_.put({next->load, next->c}, 0);
-      here = std::move(next);
+      here = *next;
     }
     return failed_;
   }

@@ -15,10 +15,9 @@ using Eigen::VectorXd;
 
 /// @param zero Whether c = 0 counts as a corner.
 std::vector<double> corners(const Contact& contact, bool zero) {
-  const auto kinks = contact.law->kinks(contact.stiffness, contact.clearance);
-  assert(kinks);
-  std::vector<double> result(kinks->begin(), kinks->end());
-  if (!contact.one_sided) std::transform(kinks->begin(), kinks->end(), std::back_inserter(result), std::negate<>());
+  const std::vector<double> kinks = contact.law->kinks(contact.stiffness, contact.clearance).value();
+  std::vector<double> result = kinks;
+  if (!contact.one_sided) std::transform(kinks.begin(), kinks.end(), std::back_inserter(result), std::negate<>());
   if (zero) result.push_back(0);
   std::sort(result.begin(), result.end());
   return result;

@@ -152,7 +152,6 @@ TEST_P(RandomEvents, AreAllFound) {
     events += path.steps.size() - 1;
     expect_all_events(equations, path, GetParam().floating, samples, i);
   }
-  std::cout << "events " << events << "\n";
   EXPECT_GT(events, joints / 2U);
 }
 
