@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "stage3_nonlinear/contact_event.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
 
 namespace fastjoint::stage3 {
@@ -87,6 +88,7 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     result.load_factor[i] = step.load_factor;
     result.iterations[i] = step.iterations;
     result.residual[i] = step.residual;
+    result.event.push_back(event_text(joint, step.events));
     result.delta_vector.row(i) = step.delta.transpose();
     result.F_vector.row(i) = step.F.transpose();
     result.delta.row(i) = amounts(step.delta, a).transpose();
@@ -111,7 +113,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       "second";
   text += component_names(joint);
   for (const char* end : {"first", "second"}) text += rim_csv_names(end);
-  text += "\n";
+  text += ",event\n";
   for (Index i = 0; i < a.F.rows(); ++i) {
     const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {
@@ -122,7 +124,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       text += component_fields(joint, a, i, j);
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
         text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
-      text += "\n";
+      text += fmt::format(",{}\n", field(a.event[static_cast<std::size_t>(i)]));
     }
   }
   return text;

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/errors.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -219,6 +220,13 @@ std::string JointModel::name(const ShearPlane& plane) const {
                      plates[second_hole(plane).plate].name);
 }
 
+std::string JointModel::short_name(const ShearPlane& plane) const {
+  const FastenerModel& fastener = fasteners[plane.fastener];
+  if (fastener.holes.size() == 2) return fastener.id;
+  return fmt::format("{} ({}-{})", fastener.id, plates[first_hole(plane).plate].name,
+                     plates[second_hole(plane).plate].name);
+}
+
 JointModel load_joint(const JointScene& scene, int p) {
   const auto all = read_all(scene);
   JointModel model;
@@ -228,6 +236,9 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (std::size_t i = 0; i < all.size(); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, all[i], model.p));
   model.axes = common_axes(scene, model.plates);
+  if (scene.solver.method == exact_path_name && model.n_directions() > 1)
+    refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",
+           "another method, or plates whose discs have one direction");
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
   for (const auto& load : scene.loads) apply_load(model, load);
   return model;

@@ -74,6 +74,8 @@ struct JointModel {
   [[nodiscard]] std::string name(const HoleModel& hole) const;
   /// For messages: fastener "1", and of one with several planes also the plates: fastener "1" between "a" and "b".
   [[nodiscard]] std::string name(const ShearPlane& plane) const;
+  /// For tables: 1, and of one with several planes 1 (a-b).
+  [[nodiscard]] std::string short_name(const ShearPlane& plane) const;
 };
 
 /// Reads the matrices of all plates and resolves every name.

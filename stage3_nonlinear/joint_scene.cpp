@@ -122,6 +122,14 @@ LoadScene read_load(const std::string& file, const Value& value) {
   return load;
 }
 
+bool is_at_events(const Value& increments) {
+  if (!increments.is_string()) return false;
+  if (increments.text() != "events")
+    increments.not_allowed(
+        fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", most_increments));
+  return true;
+}
+
 std::vector<double> read_increments(const Value& value) {
   std::vector<double> factors;
   if (value.is_array()) {
@@ -142,10 +150,23 @@ InitialScene read_initial(const Value& value) {
   return {value.choice({"rigid", "equal"}) == "rigid" ? Guess::rigid : Guess::equal, std::nullopt};
 }
 
-SolverScene read_solver(const Value& value) {
+/// The exact path needs laws that are linear between corners.
+void check_exact_path(const JointScene& scene, const Value& method) {
+  for (const auto& fastener : scene.fasteners)
+    for (const auto& name : fastener.law)
+      if (!scene.laws.at(name).law->kinks(1, 0))
+        method.fail(
+            fmt::format("\"{}\", but law \"{}\" of fastener \"{}\" is curved", exact_path_name, name, fastener.id),
+            "another method, or linear, bilinear and four stage laws and power laws with n = 1");
+}
+
+SolverScene read_solver(const Value& value, const JointScene& scene) {
   value.only({"method", "tolerance", "max_iterations"});
   SolverScene solver;
-  if (const auto method = value.find("method")) solver.method = method->choice(solver_names());
+  if (const auto method = value.find("method")) {
+    solver.method = method->choice(method_names());
+    if (solver.method == exact_path_name) check_exact_path(scene, *method);
+  }
   if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
   if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);
   return solver;
@@ -171,9 +192,12 @@ JointScene read_joint_scene(const input::Document& document) {
   read_laws(root.at("laws"), scene);
   for (const auto& item : root.at("fasteners").items(1)) scene.fasteners.push_back(read_fastener(item, scene));
   for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(scene.file, item));
-  if (const auto increments = root.find("increments")) scene.load_factors = read_increments(*increments);
+  if (const auto increments = root.find("increments")) {
+    scene.at_events = is_at_events(*increments);
+    if (!scene.at_events) scene.load_factors = read_increments(*increments);
+  }
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
-  if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
+  if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver, scene);
   check_scene(scene);
   return scene;
 }

@@ -54,9 +54,9 @@ struct InitialScene {
 };
 
 struct SolverScene {
-  std::string method = "hybridsj";  ///< of solver_names()
-  double tolerance = 1e-10;         ///< largest residual, relative to the largest force
-  int max_iterations = 200;         ///< of one try
+  std::string method{};      ///< of method_names(); empty: the exact path where it applies, else the default solver
+  double tolerance = 1e-10;  ///< largest residual, relative to the largest force
+  int max_iterations = 200;  ///< of one try
 };
 
 /// JOINT.json as it stands (schemas/joint.schema.json).
@@ -68,6 +68,7 @@ struct JointScene {
   std::vector<FastenerScene> fasteners;
   std::vector<LoadScene> loads;
   std::vector<double> load_factors{1};  ///< one per increment
+  bool at_events = false;               ///< increments at every contact event instead, and at load factor 1
   InitialScene initial;
   SolverScene solver;
   std::vector<std::string> warnings;  ///< one sentence each, with file and pointer

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "stage3_nonlinear/contact_event.hpp"
 #include "stage3_nonlinear/joint_equations.hpp"
 #include "stage3_nonlinear/joint_scene.hpp"
 #include "stage3_nonlinear/tangent_check.hpp"
@@ -18,9 +19,11 @@ inline constexpr int max_halvings = 6;
 struct PathStep {
   double load_factor;
   Eigen::VectorXd F, delta;  ///< (n a) force, length
-  int iterations;            ///< of all tries
+  int iterations;            ///< of all tries; on an exact path its pieces from no load on
   double residual;           ///< largest, relative to the largest force
   TangentCheck check;
+  bool exact = false;                     ///< on an exact path
+  std::vector<ContactEvent> events = {};  ///< what happens exactly here
 };
 
 /// Where a path ended early.
@@ -37,6 +40,7 @@ struct LoadPath {
   bool linear = false;  ///< linear solves did it
   /// What residuals are relative to: the largest |q| at the largest load factor, force.
   double force_scale = 1;
+  std::size_t n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
 };
@@ -47,13 +51,14 @@ struct PathOptions {
 };
 
 /// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap, linear
-/// solves do it. Else the chosen solver in the contact coordinates; what does not converge is tried from the first
-/// guesses in turn, then by damped Newton from the same, with friction also by turns of damped Newton under the
-/// friction of the turn before, then in half steps.
+/// solves do it; if all are linear between corners, their exact path as far as it goes, unless the options are against
+/// it. Else the chosen solver in the contact coordinates; what does not converge is tried from the first guesses in
+/// turn, then by damped Newton from the same, with friction also by turns of damped Newton under the friction of the
+/// turn before, then in half steps.
 [[nodiscard]] LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors,
                               const PathOptions& options);
 
-/// The same, by the nonlinear solvers even if linear solves would do.
+/// The same, by the nonlinear solvers even if linear solves or an exact path would do.
 [[nodiscard]] LoadPath follow_nonlinear(const JointEquations& equations, const std::vector<double>& load_factors,
                                         const PathOptions& options);
 

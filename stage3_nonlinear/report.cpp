@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
 #include "stage3_nonlinear/rim_history.hpp"
+#include "stage3_nonlinear/solver.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -16,18 +18,10 @@ using Eigen::Index;
 
 constexpr std::size_t least_name = 12;
 
-/// Of a plane in the table of fasteners: its fastener, and of one with several planes the plates of this one.
-std::string row_name(const JointModel& joint, const ShearPlane& plane) {
-  const std::string& id = joint.fasteners[plane.fastener].id;
-  if (joint.fasteners[plane.fastener].holes.size() == 2) return id;
-  return fmt::format("{} ({}-{})", id, joint.plates[joint.first_hole(plane).plate].name,
-                     joint.plates[joint.second_hole(plane).plate].name);
-}
-
 /// Width of the column of names: fasteners and plates share it.
 std::size_t name_width(const JointModel& joint) {
   std::size_t width = least_name;
-  for (const auto& plane : joint.planes) width = std::max(width, row_name(joint, plane).size());
+  for (const auto& plane : joint.planes) width = std::max(width, joint.short_name(plane).size());
   for (const auto& plate : joint.plates) width = std::max(width, plate.name.size());
   return width;
 }
@@ -41,10 +35,25 @@ double rounded(double force, double largest) {
   return std::abs(force) <= rounding * largest ? 0 : force;
 }
 
+/// What solved the increments.
+std::string method(const JointScene& scene, const LoadPath& path) {
+  if (path.linear) return "linear";
+  const auto is_exact = [](const PathStep& step) { return step.exact; };
+  const auto exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
+  const std::string iterative = iterative_method(scene.solver.method);
+  if (exact == 0) return iterative;
+  return exact == static_cast<Index>(path.n_increments) ? exact_path_name
+                                                        : fmt::format("{}, {}", exact_path_name, iterative);
+}
+
+const char* counted(const LoadPath& path, const PathStep& step) {
+  return path.linear ? "linear solves" : step.exact ? "pieces" : "iterations";
+}
+
 std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   std::string text = fmt::format("joint{}: {} plates, {} fasteners, p = {}, {}\n",
                                  scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name), joint.plates.size(),
-                                 joint.fasteners.size(), joint.p, path.linear ? "linear" : scene.solver.method);
+                                 joint.fasteners.size(), joint.p, method(scene, path));
   for (const auto& [name, law] : scene.laws)
     if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)
@@ -82,7 +91,7 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
   const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
   for (Index j = 0; j < F.size(); ++j) {
     text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}",
-                        row_name(joint, joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
+                        joint.short_name(joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
                         components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
     if (differ) text += fmt::format(" {:>20.8g}", state.transferred_second[j]);
     text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
@@ -233,8 +242,8 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   for (std::size_t i = 0; i < states.size(); ++i) {
     const PathStep& step = path.steps[i];
     text += fmt::format("increment {} of {}: load factor {:.6g}, {} {}, residual {:.1e} of the largest force\n", i + 1,
-                        scene.load_factors.size(), step.load_factor, step.iterations,
-                        path.linear ? "linear solves" : "iterations", step.residual);
+                        path.n_increments, step.load_factor, step.iterations, counted(path, step), step.residual);
+    if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }
   if (!states.empty()) text += stress_table(joint, states.back());
@@ -251,15 +260,16 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   return result;
 }
 
-std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
+std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
                             const std::string& output) {
+  const PathFailure& failure = path.failure.value();
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the largest force, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
   const std::string what = fmt::format(
       "increment {} of {} (load factor {:.6g}) did not converge from the last increment, from any first "
       "guess, or after {} halvings of the step; load factor {:.6g} was reached; {} {}",
-      failure.increment + 1, scene.load_factors.size(), failure.load_factor, max_halvings, failure.reached, at,
+      failure.increment + 1, path.n_increments, failure.load_factor, max_halvings, failure.reached, at,
       joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear {}. ", locking_text(*failure.locking)) : "";

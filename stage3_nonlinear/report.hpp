@@ -22,9 +22,9 @@ namespace fastjoint::stage3 {
 
 /// Why the path ended, where, and what to check.
 ///
-/// @param failure Of the path that ended.
-/// @param output  File that holds the increments before.
-[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
+/// @param path   One that failed.
+/// @param output File that holds the increments before.
+[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
                                           const std::string& output);
 
 }  // namespace fastjoint::stage3

@@ -10,6 +10,7 @@
 #include "common/h5/whole_file.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
+#include "stage3_nonlinear/event_path.hpp"
 #include "stage3_nonlinear/joint_history.hpp"
 #include "stage3_nonlinear/report.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
@@ -44,7 +45,9 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   warn(log, scene.warnings);
   const JointModel joint = load_joint(scene, options.p);
   const JointEquations equations = make_equations(joint);
-  const LoadPath path = follow(equations, scene.load_factors, {scene.initial, scene.solver});
+  const PathOptions solving{scene.initial, scene.solver};
+  const LoadPath path =
+      scene.at_events ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
   warn(log, warnings(joint, equations, path));
 
   std::vector<JointState> states;
@@ -58,7 +61,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   formats::write(options.output, result);
   if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
   if (!options.quiet) out << summary(scene, joint, path, states);
-  if (path.failure) throw NumericalError(failure_message(scene, joint, *path.failure, options.output));
+  if (path.failure) throw NumericalError(failure_message(scene, joint, path, options.output));
 }
 
 }  // namespace fastjoint::stage3

@@ -24,6 +24,16 @@ std::vector<std::string> solver_names() {
   return names;
 }
 
+std::vector<std::string> method_names() {
+  auto names = solver_names();
+  names.emplace_back(exact_path_name);
+  return names;
+}
+
+bool may_be_exact(const std::string& method) { return method.empty() || method == exact_path_name; }
+
+std::string iterative_method(const std::string& method) { return may_be_exact(method) ? default_solver : method; }
+
 SolveFunction solver_named(const std::string& name) {
   for (const auto& solver : solvers())
     if (name == solver.name) return solver.solve;

@@ -168,8 +168,11 @@ void write(const std::string& path, const JointResult& a) {
   file.attribute("p", a.p);
   file.write("load_factor", a.load_factor, {"1", "share of the loads that acts at this increment"});
   file.write("converged", a.converged, {"1", "1 where the increment converged"});
-  file.write("iterations", a.iterations, {"1", "iterations of the nonlinear solver, failed tries included"});
+  file.write(
+      "iterations", a.iterations,
+      {"1", "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on"});
   file.write("residual", a.residual, {"1", "largest residual, relative to the largest force"});
+  file.write("event", a.event, {"1", "fasteners that close, open, slip or yield exactly there"});
   file.write("fastener/id", a.fastener_id, {"1", "fastener of each shear plane, in the order of the input"});
   file.write("fastener/first", a.first_hole, {"1", "plate:hole on its first side"});
   file.write("fastener/second", a.second_hole, {"1", "plate:hole on its second side"});
@@ -203,6 +206,7 @@ JointResult read_joint_result(const std::string& path) {
   a.converged = file.integers("converged", steps);
   a.iterations = file.integers("iterations", steps);
   a.residual = file.vector("residual", steps, "1");
+  a.event = file.strings("event", steps);
   a.fastener_id = file.strings("fastener/id", h5::any);
   const auto n = static_cast<Eigen::Index>(a.fastener_id.size());
   a.first_hole = file.strings("fastener/first", n);

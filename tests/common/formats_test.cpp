@@ -131,6 +131,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.load_factor = Eigen::VectorXd::LinSpaced(steps, 0.5, 1);
     a.converged = a.iterations = Eigen::VectorXi::Ones(steps);
     a.residual = Eigen::VectorXd::Zero(steps);
+    a.event.assign(static_cast<std::size_t>(steps), "1 closes");
     a.fastener_id = {"1", "2", "3"};
     a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
     a.transferred_second = 2 * a.F;
@@ -174,6 +175,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.header.units, a.header.units);
     EXPECT_EQ(b.complete, a.complete);
     EXPECT_EQ(b.load_factor, a.load_factor);
+    EXPECT_EQ(b.event, a.event);
     EXPECT_EQ(b.fastener_id, a.fastener_id);
     EXPECT_EQ(b.F, a.F);
     EXPECT_EQ(b.F_vector, a.F_vector);

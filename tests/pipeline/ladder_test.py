@@ -38,7 +38,8 @@ def solve(scene, *words):
     Path("scene.json").write_text(json.dumps(scene))
     subprocess.run(["stage3_nonlinear", "scene.json", "-o", "result.h5", "--quiet", *words], check=True)
     with h5py.File("result.h5") as f:
-        return {name: f[name][:] for name in ("F", "delta", "plates/sheet/Pe", "plates/sheet/D", "plates/doubler/D")}
+        names = ("load_factor", "event", "F", "delta", "plates/sheet/Pe", "plates/sheet/D", "plates/doubler/D")
+        return {name: f[name][:] for name in names}
 
 
 def check_recurrence(F, load, clearance_of_1):
@@ -77,6 +78,10 @@ def check_contact(scene, page):
     open_, closed = ((load + by) / P for by in (-1, 1))
     result = solve({**scene, "increments": [open_, closed]})
     (F_open, F_closed), (gap, _) = result["F"], result["delta"][:, 0]
+    events = solve({**scene, "increments": "events"})
+    assert list(events["event"]) == [b"1 closes", b""] and events["load_factor"][1] == 1
+    assert abs(events["load_factor"][0] * P - load) < 0.5, events["load_factor"]
+    assert abs(events["delta"][0, 0] - CLEARANCE) < 1e-12 * CLEARANCE and abs(events["F"][0, 0]) < 1e-12 * P
     assert F_open[0] == 0 and 0 < F_closed[0] < 1 and 0 < CLEARANCE - gap < 1e-3 * CLEARANCE, (F_open, gap)
     check_recurrence(F_open, load - 1, gap)
     check_recurrence(F_closed, load + 1, CLEARANCE)

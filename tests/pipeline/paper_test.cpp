@@ -52,6 +52,20 @@ TEST_F(Paper, LoadAtContact) {
   }
 }
 
+/// The same loads, found as events.
+TEST_F(Paper, LoadAtContactIsAnIncrement) {
+  for (const auto& [clearance, expected] : {std::pair{0.06, 653.9}, {0.12, 1307.8}, {0.18, 1961.7}}) {
+    const auto result =
+        solve(test::replaced(test::three_fastener_joint(1000, 3000, fmt::format(R"(, "clearance": {})", clearance)),
+                             "\"increments\": 1", "\"increments\": \"events\""));
+    ASSERT_EQ(result.load_factor.size(), 2);
+    EXPECT_NEAR(3000 * result.load_factor[0], expected, 0.05);
+    EXPECT_THAT(result.event, testing::ElementsAre("1 closes", ""));
+    EXPECT_NEAR(result.delta(0, 0), clearance, 1e-12);
+    EXPECT_NEAR(result.F(0, 0), 0, 1e-9);
+  }
+}
+
 TEST_F(Paper, FrictionRaisesTheTransferredLoad) {
   const double without = solve(test::three_fastener_joint(1000, 1000)).transferred_second(0, 0);
   for (const auto& [mu, expected] : {std::pair{0.1, 5.33}, {0.2, 10.56}, {0.3, 15.69}}) {

@@ -268,6 +268,7 @@ BAD_INPUTS = [
     ("joint_increments_zero", "joint_minimal", "/increments", 0),
     ("joint_increments_fraction", "joint_minimal", "/increments", 2.5),
     ("joint_increments_too_many", "joint_minimal", "/increments", 100001),
+    ("joint_increments_word", "joint_stack", "/increments", "event"),
     ("joint_increments_text", "joint_minimal", "/increments", "six"),
     ("joint_factors_none", "joint_laws", "/increments", []),
     ("joint_factors_too_many", "joint_laws", "/increments", [1] * 100001),

@@ -132,6 +132,7 @@ class StateOfAJoint : public testing::Test {
     result.p = 3;
     result.direction = {"x"};
     result.load_factor = Eigen::Vector2d(0.5, 1);
+    result.event.resize(static_cast<std::size_t>(result.load_factor.size()));
     result.converged = result.iterations = Eigen::VectorXi::Ones(2);
     result.residual = Eigen::Vector2d::Zero();
     for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred_first,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -51,7 +53,23 @@ PlateMatrices from_stiffness(const MatrixXd& S, int n_discs, int n_externals) {
   return a;
 }
 
+/// Linear, bilinear (perfectly plastic too) or in four stages.
+std::shared_ptr<const stage3::Law> random_piecewise_law(std::mt19937& random) {
+  const double k = decades(random, 100, 100000);
+  const double F = decades(random, 30, 3000);
+  const double yielding = uniform(random, 0, 1) < 0.2 ? 0.0 : k * uniform(random, 0.01, 0.5);
+  const double kind = uniform(random, 0, 1);
+  if (kind < 0.4) return linear_law(k);
+  const std::string text =
+      kind < 0.7 ? fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})", k, F, yielding)
+                 : fmt::format(R"({{"type": "four stage", "k_stick": {}, "F_slip": {}, "slip": {}, "k_bearing": {},
+                                    "F_yield": {}, "k_yield": {}}})",
+                               3 * k, 0.1 * F, decades(random, 1e-4, 1e-1), k, F, yielding);
+  return stage3::read_law(input::Value(input::parse("law", text)));
+}
+
 std::shared_ptr<const stage3::Law> random_law(std::mt19937& random, const RandomJoint& kind) {
+  if (kind.piecewise) return random_piecewise_law(random);
   if (kind.cubics && uniform(random, 0, 1) < 0.4) {
     // Rises for all delta: a cubic that turns down carries no more than its peak.
     const double F = decades(random, 30, 3000);

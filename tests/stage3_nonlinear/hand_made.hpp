@@ -57,7 +57,8 @@ struct RandomJoint {
   bool clearances = true;
   bool friction = false;
   bool one_sided = false;
-  bool floating = false;  ///< plate b is held by the fasteners only
+  bool floating = false;   ///< plate b is held by the fasteners only
+  bool piecewise = false;  ///< laws that are linear between corners
 };
 
 /// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.

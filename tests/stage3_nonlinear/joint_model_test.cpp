@@ -182,6 +182,19 @@ TEST(JointModel, RefusesPlatesWhoseDiscsMoveInOtherDirections) {
                              "a.h5: give both plates the same \"disc_directions\" and run stages 1 and 2 again");
 }
 
+TEST(JointModel, RefusesAnExactPathInTwoDirections) {
+  auto lap = test::two_fastener_lap();
+  for (auto* plate : {&lap.a, &lap.b}) {
+    plate->disc_hole = {"1", "1"};
+    plate->disc_direction = {"x", "y"};
+  }
+  expect_refusal<InputError>(lap,
+                             {{"solver", R"({"method": "exact path"})"},
+                              {"fasteners", R"([{"id": "1", "between": ["a:1", "b:1"], "law": "lin"}])"}},
+                             "joint.json: /solver/method: \"exact path\", but the discs move along x and y; allowed: "
+                             "another method, or plates whose discs have one direction");
+}
+
 TEST(JointModel, RefusesMatricesThatNoPlateHas) {
   auto lap = test::two_fastener_lap();
   lap.b.S_dd[0](0, 1) *= 1.001;

@@ -77,6 +77,10 @@ TEST(JointScene, HasDefaults) {
   EXPECT_FALSE(scene.units);
   EXPECT_THAT(scene.load_factors, ElementsAre(0.25, 0.5, 0.75, 1));
   EXPECT_THAT(read({{"increments", ""}}).load_factors, ElementsAre(1)) << "left out";
+  EXPECT_FALSE(scene.at_events);
+  EXPECT_TRUE(read({{"increments", R"("events")"}}).at_events);
+  EXPECT_EQ(scene.solver.method, "") << "the exact path where it applies";
+  EXPECT_EQ(read({{"solver", R"({"method": "exact path"})"}}).solver.method, "exact path");
   EXPECT_EQ(scene.initial.guess, Guess::linear);
   EXPECT_FALSE(scene.initial.stiffness);
   EXPECT_EQ(scene.solver.tolerance, 1e-10);
@@ -152,6 +156,9 @@ INSTANTIATE_TEST_SUITE_P(
                 R"(/loads/0: both "force" and "displacement"; allowed: exactly one of them)"},
         Refusal{{{"increments", "0"}}, "/increments: 0 is not allowed; allowed: an integer from 1 to 100000"},
         Refusal{{{"increments", "2.5"}}, "/increments: 2.5 is not allowed; allowed: an integer from 1 to 100000"},
+        Refusal{{{"increments", R"("six")"}},
+                R"(/increments: "six" is not allowed; allowed: an integer from 1 to 100000, a list of load factors, )"
+                R"(or "events")"},
         Refusal{{{"increments", "[]"}}, "/increments: array of 0; allowed: 1 to 100000"},
         Refusal{{{"initial", R"("guess")"}}, R"(/initial: "guess" is not allowed; allowed: "rigid", "equal")"},
         Refusal{{{"initial", "3"}},
@@ -165,6 +172,10 @@ INSTANTIATE_TEST_SUITE_P(
                 "/fasteners/0/clearance: array of 2; allowed: exactly 1"},
         Refusal{{{"solver", R"({"method": "guess"})"}},
                 R"(/solver/method: "guess" is not allowed; allowed: "hybridsj", "hybridj", "newton", "gnewton", )"},
+        Refusal{
+            {{"laws", R"({"lin": {"type": "power", "A": 1, "n": 0.5}})"}, {"solver", R"({"method": "exact path"})"}},
+            R"(/solver/method: "exact path", but law "lin" of fastener "f1" is curved; allowed: another method, or )"
+            "linear, bilinear and four stage laws and power laws with n = 1"},
         Refusal{{{"solver", R"({"max_iterations": 0})"}}, "/solver/max_iterations: 0 is not allowed"},
         Refusal{{{"units", R"({"length": "in"})"}}, R"(/units: key "force" is missing)"}));
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/run.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <filesystem>
@@ -105,6 +106,35 @@ TEST_F(Run, UnloadedHasNoRoundingToCompareWith) {
   run();
   EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 0, 0 iterations, residual 0.0e+00"));
   EXPECT_THAT(out_.str(), EndsWith("equilibrium: worst row out of balance by 0.0e+00 of the largest force\n"));
+}
+
+TEST_F(Run, EventsStandInAllThatItWrites) {
+  write({{"fasteners", R"([{"id": "f,1", "between": ["a:1", "b:1"], "law": "lin"},
+                           {"id": "f2", "between": ["a:2", "b:2"], "law": "lin", "clearance": 0.05}])"},
+         {"increments", R"("events")"}});
+  run();  // load_path_test.cpp: at 0.05 / (1 / 1000 + 1 / 1000) = 25 of 100
+  EXPECT_THAT(out_.str(), StartsWith("joint: 2 plates, 2 fasteners, p = 8, exact path\n"));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 1 of 2: load factor 0.25, 1 pieces, residual "));
+  EXPECT_THAT(out_.str(), HasSubstr("of the largest force\n  f2 closes\n"));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 2 pieces, residual "));
+  EXPECT_THAT(result().event, ElementsAre("f2 closes", ""));
+  const std::string csv = test::read_file(options_.csv);
+  EXPECT_THAT(csv, HasSubstr(",event\n1,0.25"));
+  EXPECT_THAT(csv, HasSubstr(",f2 closes\n1,0.25"));
+  EXPECT_THAT(csv, EndsWith(",\n"));
+}
+
+TEST_F(Run, NamedSolverIsUsed) {
+  const Members loose{{"fasteners", R"([{"id": "1", "between": ["a:1", "b:1"], "law": "lin"},
+                                        {"id": "2", "between": ["a:2", "b:2"], "law": "lin", "clearance": 0.05}])"}};
+  for (const char* name : {"exact path", "hybridsj", "damped newton"}) {
+    auto members = loose;
+    members["solver"] = fmt::format(R"({{"method": "{}"}})", name);
+    write(members);
+    out_.str("");
+    run();
+    EXPECT_THAT(out_.str(), HasSubstr(fmt::format("p = 8, {}\n", name)));
+  }
 }
 
 TEST_F(Run, QuietPrintsNothing) {
