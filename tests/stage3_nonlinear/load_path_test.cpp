@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "stage3_nonlinear/cubic_law.hpp"
+#include "stage3_nonlinear/piecewise_linear_law.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -182,6 +183,19 @@ TEST(LoadPath, StopsAfterHalvingsAndKeepsWhatConverged) {
   EXPECT_GE(path.failure->reached, 3.025 - 0.5 / 64) << "halved six times";
   EXPECT_LE(path.failure->reached, 3.025);
   EXPECT_EQ(path.failure->plane, 0);
+  EXPECT_GT(path.failure->residual, 1e-10);
+}
+
+/// Two fasteners that yield at 30 each and do not harden hold a sheet that nothing else holds: 100 is too much.
+TEST(LoadPath, PerfectlyPlasticFastenersEndAtTheirLimitLoad) {
+  const auto law =
+      std::make_shared<PiecewiseLinearLaw>(Polyline{{{0, 0}, {0.03, 30}}, 0}, 0, std::vector<PolylineParameter>{});
+  const LoadPath path = follow(make_equations(test::joint_of(test::two_fastener_lap(), law)), {0.59, 1}, {});
+  ASSERT_EQ(path.steps.size(), 1U);
+  EXPECT_NEAR(path.steps[0].F.sum(), 59, 1e-7);
+  ASSERT_TRUE(path.failure);
+  EXPECT_LE(path.failure->reached, 0.6 + 1e-9);
+  EXPECT_GE(path.failure->reached, 0.6 - 0.41 / 64);
   EXPECT_GT(path.failure->residual, 1e-10);
 }
 
