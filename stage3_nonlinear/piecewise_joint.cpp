@@ -15,7 +15,8 @@ using Eigen::VectorXd;
 
 /// @param zero Whether c = 0 counts as a corner.
 std::vector<double> corners(const Contact& contact, bool zero) {
-  const std::vector<double> kinks = contact.law->kinks(contact.stiffness, contact.clearance).value();
+  const std::vector<double> kinks =
+      contact.law->kinks(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
   std::vector<double> result = kinks;
   if (!contact.one_sided) std::transform(kinks.begin(), kinks.end(), std::back_inserter(result), std::negate<>());
   if (zero) result.push_back(0);

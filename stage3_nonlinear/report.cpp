@@ -40,14 +40,14 @@ std::string method(const JointScene& scene, const LoadPath& path) {
   if (path.linear) return "linear";
   const auto is_exact = [](const PathStep& step) { return step.exact; };
   const auto exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
-  const std::string iterative = iterative_method(scene.solver.method);
+  std::string iterative = iterative_method(scene.solver.method);
   if (exact == 0) return iterative;
   return exact == static_cast<Index>(path.n_increments) ? exact_path_name
                                                         : fmt::format("{}, {}", exact_path_name, iterative);
 }
 
 const char* counted(const LoadPath& path, const PathStep& step) {
-  return path.linear ? "linear solves" : step.exact ? "pieces" : "iterations";
+  return path.linear ? "linear solves" : step.exact ? "pieces without iterations" : "iterations";
 }
 
 std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
@@ -260,16 +260,15 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   return result;
 }
 
-std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                            const std::string& output) {
-  const PathFailure& failure = path.failure.value();
+std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
+                            std::size_t n_increments, const std::string& output) {
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the largest force, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
   const std::string what = fmt::format(
       "increment {} of {} (load factor {:.6g}) did not converge from the last increment, from any first "
       "guess, or after {} halvings of the step; load factor {:.6g} was reached; {} {}",
-      failure.increment + 1, path.n_increments, failure.load_factor, max_halvings, failure.reached, at,
+      failure.increment + 1, n_increments, failure.load_factor, max_halvings, failure.reached, at,
       joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear {}. ", locking_text(*failure.locking)) : "";

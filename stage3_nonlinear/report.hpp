@@ -22,9 +22,9 @@ namespace fastjoint::stage3 {
 
 /// Why the path ended, where, and what to check.
 ///
-/// @param path   One that failed.
-/// @param output File that holds the increments before.
-[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                                          const std::string& output);
+/// @param n_increments That were asked for.
+/// @param output       File that holds the increments before.
+[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
+                                          std::size_t n_increments, const std::string& output);
 
 }  // namespace fastjoint::stage3

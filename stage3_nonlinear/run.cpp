@@ -61,7 +61,8 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   formats::write(options.output, result);
   if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
   if (!options.quiet) out << summary(scene, joint, path, states);
-  if (path.failure) throw NumericalError(failure_message(scene, joint, path, options.output));
+  if (path.failure)
+    throw NumericalError(failure_message(scene, joint, *path.failure, path.n_increments, options.output));
 }
 
 }  // namespace fastjoint::stage3

@@ -205,6 +205,7 @@ TEST(Events, GivenLoadFactorsThatHitOneSaySo) {
   const double first = 200 * 0.01 / 300;
   const LoadPath path = follow(equations, {0.5 * first, first, 2 * first, first, -first}, {});
   std::vector<std::string> texts;
+  texts.reserve(path.steps.size());
   for (const auto& step : path.steps) texts.push_back(event_text(joint, step.events));
   EXPECT_THAT(texts, ElementsAre("", "2 closes", "", "2 opens", "2 closes"));
 }

@@ -114,9 +114,9 @@ TEST_F(Run, EventsStandInAllThatItWrites) {
          {"increments", R"("events")"}});
   run();  // load_path_test.cpp: at 0.05 / (1 / 1000 + 1 / 1000) = 25 of 100
   EXPECT_THAT(out_.str(), StartsWith("joint: 2 plates, 2 fasteners, p = 8, exact path\n"));
-  EXPECT_THAT(out_.str(), HasSubstr("increment 1 of 2: load factor 0.25, 1 pieces, residual "));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 1 of 2: load factor 0.25, 1 pieces without iterations, residual "));
   EXPECT_THAT(out_.str(), HasSubstr("of the largest force\n  f2 closes\n"));
-  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 2 pieces, residual "));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 2 pieces without iterations, residual "));
   EXPECT_THAT(result().event, ElementsAre("f2 closes", ""));
   const std::string csv = test::read_file(options_.csv);
   EXPECT_THAT(csv, HasSubstr(",event\n1,0.25"));
