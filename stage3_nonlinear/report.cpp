@@ -274,7 +274,7 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.locking ? fmt::format("On the sides that bear {}. ", locking_text(*failure.locking)) : "";
   const std::string advice = fmt::format(
       "Check the law and the clearance of that fastener (a cubic that turns down carries no more than its "
-      "peak), take smaller increments, allow more than {} iterations or, if the residual is close to it, a "
+      "peak, a law that ends level no more than its last force), take smaller increments, allow more than {} iterations or, if the residual is close to it, a "
       "larger tolerance than {:.0e}; and see that each plate is held in the sense of its load: one that "
       "only fasteners hold has no stiffness while all of them are open, and one-sided fasteners cannot "
       "pull it",

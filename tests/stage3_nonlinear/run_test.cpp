@@ -220,7 +220,8 @@ TEST_F(Run, KeepsWhatConvergedAndSaysWhatToCheck) {
                     "increment, from any first guess, or after 6 halvings of the step; load factor 3."),
           HasSubstr("was reached; worst residual "), HasSubstr("of the largest force, at fastener \"left bolt\"."),
           HasSubstr("result.h5 holds the 2 increments before (complete = 0). Check the law and the clearance of "
-                    "that fastener (a cubic that turns down carries no more than its peak), take smaller "
+                    "that fastener (a cubic that turns down carries no more than its peak, a law that ends level "
+                    "no more than its last force), take smaller "
                     "increments, allow more than 200 iterations or, if the residual is close to it, a larger "
                     "tolerance than 1e-10; and see that each plate is held in the sense of its load: one that "
                     "only fasteners hold has no stiffness while all of them are open, and one-sided fasteners "
