@@ -113,15 +113,12 @@ class Search {
     return std::copysign(marks_.of(plane)[static_cast<std::size_t>(std::abs(number) - 1)].at, number);
   }
 
-  [[nodiscard]] Index directions() const { return equations_.n_unknowns() / marks_count(); }
-  [[nodiscard]] Index marks_count() const { return static_cast<Index>(equations_.contacts.size()); }
-
   /// Solves for the load factor and all c with one plane on its mark.
   [[nodiscard]] std::optional<Crossing> crossing(const Sample& a, const Sample& b, Index plane, double mark) const {
-    const Index a_directions = directions();
+    const Index n_directions = equations_.n_directions();
     const Index rows = equations_.n_unknowns();
-    const auto own = Eigen::seqN(plane * a_directions, a_directions);
-    const auto position = [&](const VectorXd& c) { return amounts(c(own), a_directions)[0]; };
+    const auto own = Eigen::seqN(plane * n_directions, n_directions);
+    const auto position = [&](const VectorXd& c) { return amounts(c(own), n_directions)[0]; };
     RootProblem problem;
     problem.residual = [&](const VectorXd& x) -> VectorXd {
       VectorXd r(rows + 1);
@@ -133,7 +130,7 @@ class Search {
       J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], scale_).jacobian(x.head(rows));
       J.col(rows).head(rows) = -equations_.system.q / scale_;
       const VectorXd c = x(own);
-      J.row(rows)(own) = a_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
+      J.row(rows)(own) = n_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
       return J;
     };
     const double from = position(a.c), to = position(b.c);
@@ -147,7 +144,7 @@ class Search {
     if (!(root.residual.cwiseAbs().maxCoeff() <= enough)) return std::nullopt;
     VectorXd c = scale_ * root.x.head(rows);
     // Exactly on it: then nothing bears yet.
-    if (a_directions == 1) {
+    if (n_directions == 1) {
       c[plane] = mark;
     } else {
       c(own) *= mark / position(c);
@@ -182,7 +179,7 @@ class Search {
   }
 
   [[nodiscard]] bool is_on_mark(const VectorXd& c, Index plane, double mark) const {
-    const double x = amounts(c, directions())[plane];
+    const double x = amounts(c, equations_.n_directions())[plane];
     return std::abs(x - mark) <= marks_.nearness(c, std::abs(mark));
   }
 

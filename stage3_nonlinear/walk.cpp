@@ -58,7 +58,7 @@ PathStep Walk::step() const {
 }
 
 PathFailure Walk::failure(std::size_t increment, double load_factor) const {
-  return {increment, load_factor, here_.load_factor, worst_row_ / directions(), worst_residual_, locking(load_factor)};
+  return {increment, load_factor, here_.load_factor, worst_row_ / equations_.n_directions(), worst_residual_, locking(load_factor)};
 }
 
 std::optional<double> Walk::locking(double load_factor) const {
@@ -66,8 +66,6 @@ std::optional<double> Walk::locking(double load_factor) const {
   const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q);
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
-
-Index Walk::directions() const { return equations_.n_unknowns() / static_cast<Index>(equations_.contacts.size()); }
 
 bool Walk::advance(double target, int halvings_left) {
   if (solve(target)) return true;
@@ -140,7 +138,7 @@ bool Walk::take(const Root& root, double target) {
   }
   const VectorXd c = scale_ * root.x;
   if (const auto spent = contact_state(equations_.contacts, c).spent) {
-    if (std::isinf(worst_residual_)) worst_row_ = *spent * directions();
+    if (std::isinf(worst_residual_)) worst_row_ = *spent * equations_.n_directions();
     return false;
   }
   here_ = {target, c};
