@@ -141,7 +141,7 @@ class Search {
     constexpr double tolerance = 1e-13, enough = 1e-11;
     constexpr int most_iterations = 60;
     const Root root = newton_root(problem, start, {tolerance, most_iterations});
-    if (!(root.residual.cwiseAbs().maxCoeff() <= enough)) return std::nullopt;
+    if (!(root.residual.lpNorm<Eigen::Infinity>() <= enough)) return std::nullopt;
     VectorXd c = scale_ * root.x.head(rows);
     // Exactly on it: then nothing bears yet.
     if (n_directions == 1) {

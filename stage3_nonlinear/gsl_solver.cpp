@@ -88,8 +88,6 @@ struct WithoutDerivatives {
   static int iterate(Handle* solver) { return gsl_multiroot_fsolver_iterate(solver); }
 };
 
-double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
-
 template <class Family>
 void iterate(typename Family::Handle* solver, const RootOptions& options, Root& root) {
   for (int status = GSL_SUCCESS; status == GSL_SUCCESS; status = Family::iterate(solver)) {
@@ -99,7 +97,7 @@ void iterate(typename Family::Handle* solver, const RootOptions& options, Root& 
       root.residual.setConstant(std::numeric_limits<double>::infinity());
       return;
     }
-    root.converged = largest(root.residual) <= options.tolerance;
+    root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance;
     if (root.converged || root.iterations == options.max_iterations) return;
     ++root.iterations;
   }
