@@ -46,7 +46,7 @@ std::array<double, 2> TableLaw::force_and_slope(double x) const {
 
 Branch TableLaw::at(double c, double k, double clearance) const {
   const double s = c - k * clearance;
-  if (s < 0) return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k};
+  if (s < 0) return Branch::open(c, k);
   // Between the two points around s = F + k x.
   std::size_t i = 0;
   while (i + 1 < x_.size() && F_[i + 1] + k * x_[i + 1] < s) ++i;
