@@ -9,7 +9,8 @@ namespace fastjoint::stage3 {
 
 /// The cubic through (0, 0) and three measured points: Bortman & Szabo, equation (8).
 ///
-/// It may lose monotonicity. Where it is negative the fastener is spent: none pushes on in the direction of its stretch.
+/// It may lose monotonicity. Where it is negative the fastener is spent: none pushes on in the direction of its
+/// stretch.
 class CubicLaw final : public Law {
  public:
   /// @param delta Three different stretches > 0, length.
