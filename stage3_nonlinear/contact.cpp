@@ -22,8 +22,6 @@ VectorXd along(const VectorXd& v) {
   return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));
 }
 
-bool is_open(const Contact& contact, const VectorXd& c) { return contact.one_sided && c[0] < 0; }
-
 }  // namespace
 
 VectorXd amounts(const VectorXd& vectors, Index n_directions) {
@@ -59,8 +57,8 @@ ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd&
     const VectorXd e = along(here);
     const double k = contact.stiffness;
     const double length = here.norm();
-    const bool open = is_open(contact, here);
-    const Branch on = open ? Branch{0, length / k, 0, 1 / k} : contact.law->at(length, k, contact.clearance);
+    const Branch on =
+        contact.is_pulled_open(here) ? Branch::open(length, k) : contact.law->at(length, k, contact.clearance);
     if (on.spent) state.spent = j;
     state.direction.col(j) = e;
     state.F.segment(j * a, a) = on.F * e;
@@ -82,7 +80,7 @@ VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorX
     const auto at = static_cast<Index>(j) * a;
     const VectorXd here = F.segment(at, a);
     const double force = here.norm();
-    const bool carries = force > 0 && !is_open(contact, here);
+    const bool carries = force > 0 && !contact.is_pulled_open(here);
     c.segment(at, a) =
         carries ? VectorXd(along(here) * contact.law->coordinate(force, contact.stiffness, contact.clearance)) : here;
   }

@@ -18,6 +18,9 @@ struct Contact {
   double clearance = 0;    ///< length
   double stiffness = 1;    ///< k, force / length: of the plates at this plane, so that F and k delta balance
   bool one_sided = false;  ///< open for every c < 0; one direction only
+
+  /// Whether it is one-sided and c, shape (a), is on its other side.
+  [[nodiscard]] bool is_pulled_open(const Eigen::VectorXd& c) const { return one_sided && c[0] < 0; }
 };
 
 /// Derivative of a vector by c for each plane: `along` c and `across` it (of one direction only `along` counts).

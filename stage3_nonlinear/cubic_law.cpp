@@ -51,7 +51,7 @@ double CubicLaw::stretch(double s, double k) const {
 
 Branch CubicLaw::at(double c, double k, double clearance) const {
   const double s = c - k * clearance;
-  if (s < 0) return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k};
+  if (s < 0) return Branch::open(c, k);
   if (!rises_) {
     const double x = s / (k * last_);
     // Far beyond its points a cubic may turn round; on the other side it would then hold like a fastener.

@@ -133,8 +133,6 @@ VectorXd from_lower_plate(const JointModel& joint, VectorXd forces) {
   return forces;
 }
 
-double largest(const VectorXd& v) { return v.size() > 0 ? v.cwiseAbs().maxCoeff() : 0.0; }
-
 }  // namespace
 
 JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
@@ -144,15 +142,15 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   const Bearing bearing = bearing_forces(joint, step.F);
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
-  state.largest_force = largest(step.F);
+  state.largest_force = step.F.lpNorm<Eigen::Infinity>();
   double worst = 0;
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
     const auto forces = plate_forces(joint, i, u, step.load_factor, bearing);
     worst = std::max(worst, fill(state.plates[i], plate, forces, u, step.load_factor));
-    const double traction = std::abs(step.load_factor) * largest(plate.traction_force);
-    state.largest_force = std::max({state.largest_force, largest(state.plates[i].Pe), traction});
+    const double traction = std::abs(step.load_factor) * plate.traction_force.lpNorm<Eigen::Infinity>();
+    state.largest_force = std::max({state.largest_force, state.plates[i].Pe.lpNorm<Eigen::Infinity>(), traction});
   }
   state.out_of_balance = state.largest_force > 0 ? worst / state.largest_force : worst;
   return state;

@@ -36,43 +36,35 @@ std::vector<EventPlace> events_of(const ExactPath& path, const ContactMarks& mar
   return events;
 }
 
-LoadPath path_through(const std::vector<EventPlace>& events, Walk& walk, double scale) {
-  LoadPath path{.force_scale = scale, .steps = {}, .failure = {}};
-  for (const auto& event : events) {
-    walk.put(event.place, event.iterations);
-    path.steps.push_back(walk.step());
-    path.steps.back().events = event.events;
-  }
-  return path;
+/// Those of the exact path if it reaches the full load, else what a search by `walk` finds.
+FoundEvents find_events(const JointEquations& equations, const PathOptions& options,
+                        const std::vector<ExactPath>& exact, double scale, Walk& walk) {
+  const ContactMarks marks(equations.contacts);
+  if (!exact.empty() && exact[0].reach() >= 1) return {events_of(exact[0], marks), std::nullopt};
+  return search_events(equations, options, marks, scale, walk);
 }
 
 }  // namespace
 
 LoadPath follow_events(const JointEquations& equations, const PathOptions& options) {
+  constexpr double at_end = 1 - 1e-10;
   const std::vector<double> end{1};
   if (linear_flexibility(equations)) return follow(equations, end, options);
-  const double scale = force_scale(equations.system, end);
-  const ContactMarks marks(equations.contacts);
-  std::vector<EventPlace> events;
-  std::optional<double> failed;
+  LoadPath path{.force_scale = force_scale(equations.system, end), .steps = {}, .failure = {}};
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
-  Walk walk(equations, options, scale, exact);
-  if (!exact.empty() && exact[0].reach() >= 1) {
-    events = events_of(exact[0], marks);
-  } else {
-    failed = search_events(equations, options, marks, scale, walk, events);
+  Walk walk(equations, options, path.force_scale, exact);
+  const auto [events, failed] = find_events(equations, options, exact, path.force_scale, walk);
+  if (failed) path.failure = walk.failure(events.size(), *failed);
+  for (const auto& event : events) {
+    walk.put(event.place, event.iterations);
+    path.steps.push_back(walk.step());
+    path.steps.back().events = event.events;
   }
-  std::optional<PathFailure> failure;
-  if (failed) failure = walk.failure(events.size(), *failed);
-  LoadPath path = path_through(events, walk, scale);
-  path.n_increments = events.size() + 1;
-  path.failure = failure;
-  if (failed) return path;
-  constexpr double at_end = 1 - 1e-10;
-  if (!events.empty() && events.back().place.load_factor >= at_end) {
-    --path.n_increments;
-  } else if (walk.reach(1)) {
+  const bool ends_there = !failed && !events.empty() && events.back().place.load_factor >= at_end;
+  path.n_increments = events.size() + (ends_there ? 0 : 1);
+  if (failed || ends_there) return path;
+  if (walk.reach(1)) {
     path.steps.push_back(walk.step());
   } else {
     path.failure = walk.failure(events.size(), 1);

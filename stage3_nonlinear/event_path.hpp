@@ -5,9 +5,6 @@
 
 namespace fastjoint::stage3 {
 
-/// Load factors below this are not searched for events of curved laws: what happens there is there from the start.
-inline constexpr double first_load_factor = 1e-6;
-
 /// Follows the joint to load factor 1 with an increment at every load factor in (0, 1] at which a fastener passes a
 /// mark of its law (contact_event.hpp), and one at 1.
 ///

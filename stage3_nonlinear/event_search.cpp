@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "stage3_nonlinear/event_path.hpp"
 #include "stage3_nonlinear/newton_solver.hpp"
 
 namespace fastjoint::stage3 {
@@ -37,21 +36,19 @@ struct Crossing {
 class Search {
  public:
   Search(const JointEquations& equations, const PathOptions& options, const ContactMarks& marks, double scale,
-         Walk& walk, std::vector<EventPlace>& events)
-      : equations_(equations), options_(options), marks_(marks), scale_(scale), walk_(walk), events_(events) {}
+         Walk& walk)
+      : equations_(equations), options_(options), marks_(marks), scale_(scale), walk_(walk) {}
 
-  std::optional<double> run() {
+  FoundEvents run() {
     constexpr int intervals = 8;
-    const auto first = start();
-    if (!first) return failed_;
-    Sample here = *first;
-    for (int i = 1; i <= intervals; ++i) {
+    auto here = start();
+    for (int i = 1; here && i <= intervals; ++i) {
       const auto next = solved(static_cast<double>(i) / intervals);
-      if (!next || !between(here, *next, 0)) break;
+      if (!next || !between(*here, *next, 0)) break;
       walk_.put({next->load, next->c}, 0);
-      here = *next;
+      here = next;
     }
-    return failed_;
+    return std::move(found_);
   }
 
  private:
@@ -65,7 +62,7 @@ class Search {
 
   std::optional<Sample> solved(double load, bool there = false) {
     if (there || walk_.reach(load)) return Sample{load, walk_.here().c, marks_.stages(walk_.here().c)};
-    failed_ = load;
+    found_.failed = load;
     return std::nullopt;
   }
 
@@ -93,7 +90,7 @@ class Search {
   }
 
   void note(double load, const VectorXd& c, int iterations, std::vector<ContactEvent> what) {
-    EventPlace& event = events_.emplace_back();
+    EventPlace& event = found_.events.emplace_back();
     event.place.load_factor = load;
     event.place.c = c;
     event.iterations = iterations;
@@ -113,15 +110,12 @@ class Search {
     return std::copysign(marks_.of(plane)[static_cast<std::size_t>(std::abs(number) - 1)].at, number);
   }
 
-  [[nodiscard]] Index directions() const { return equations_.n_unknowns() / marks_count(); }
-  [[nodiscard]] Index marks_count() const { return static_cast<Index>(equations_.contacts.size()); }
-
   /// Solves for the load factor and all c with one plane on its mark.
   [[nodiscard]] std::optional<Crossing> crossing(const Sample& a, const Sample& b, Index plane, double mark) const {
-    const Index a_directions = directions();
+    const Index n_directions = equations_.n_directions();
     const Index rows = equations_.n_unknowns();
-    const auto own = Eigen::seqN(plane * a_directions, a_directions);
-    const auto position = [&](const VectorXd& c) { return amounts(c(own), a_directions)[0]; };
+    const auto own = Eigen::seqN(plane * n_directions, n_directions);
+    const auto position = [&](const VectorXd& c) { return amounts(c(own), n_directions)[0]; };
     RootProblem problem;
     problem.residual = [&](const VectorXd& x) -> VectorXd {
       VectorXd r(rows + 1);
@@ -133,7 +127,7 @@ class Search {
       J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], scale_).jacobian(x.head(rows));
       J.col(rows).head(rows) = -equations_.system.q / scale_;
       const VectorXd c = x(own);
-      J.row(rows)(own) = a_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
+      J.row(rows)(own) = n_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
       return J;
     };
     const double from = position(a.c), to = position(b.c);
@@ -144,10 +138,10 @@ class Search {
     constexpr double tolerance = 1e-13, enough = 1e-11;
     constexpr int most_iterations = 60;
     const Root root = newton_root(problem, start, {tolerance, most_iterations});
-    if (!(root.residual.cwiseAbs().maxCoeff() <= enough)) return std::nullopt;
+    if (!(root.residual.lpNorm<Eigen::Infinity>() <= enough)) return std::nullopt;
     VectorXd c = scale_ * root.x.head(rows);
     // Exactly on it: then nothing bears yet.
-    if (a_directions == 1) {
+    if (n_directions == 1) {
       c[plane] = mark;
     } else {
       c(own) *= mark / position(c);
@@ -166,7 +160,7 @@ class Search {
       if (!found || found->load < a.load + at_start || found->load > b.load + together) return std::nullopt;
       if (!first || found->load < first->load) first = found;
     }
-    if (!first || equations_has_spent(first->c)) return std::nullopt;
+    if (!first || contact_state(equations_.contacts, first->c).spent) return std::nullopt;
     const VectorXi here = marks_.stages(first->c);
     for (Index j = 0; j < here.size(); ++j) {
       if (here[j] == a.stages[j] ||
@@ -177,12 +171,8 @@ class Search {
     return first;
   }
 
-  [[nodiscard]] bool equations_has_spent(const VectorXd& c) const {
-    return contact_state(equations_.contacts, c).spent.has_value();
-  }
-
   [[nodiscard]] bool is_on_mark(const VectorXd& c, Index plane, double mark) const {
-    const double x = amounts(c, directions())[plane];
+    const double x = amounts(c, equations_.n_directions())[plane];
     return std::abs(x - mark) <= marks_.nearness(c, std::abs(mark));
   }
 
@@ -212,13 +202,13 @@ class Search {
       const VectorXd c = s * s * (1 + 2 * t) * a.c + t * t * (1 + 2 * s) * b.c + s * t * (s * rate_a - t * rate_b);
       const VectorXi stages = marks_.stages(c);
       for (Index j = 0; j < stages.size(); ++j)
-        if (stages[j] != a.stages[j] && !begins_on_a_mark(a.c, j) && !begins_on_a_mark(b.c, j)) return true;
+        if (stages[j] != a.stages[j] && !is_on_a_mark(a.c, j) && !is_on_a_mark(b.c, j)) return true;
     }
     return false;
   }
 
   /// There the rate is that of one side only.
-  [[nodiscard]] bool begins_on_a_mark(const VectorXd& c, Index plane) const {
+  [[nodiscard]] bool is_on_a_mark(const VectorXd& c, Index plane) const {
     const auto& marks = marks_.of(plane);
     return std::any_of(marks.begin(), marks.end(), [&](const Mark& mark) {
       return is_on_mark(c, plane, mark.at) || is_on_mark(c, plane, -mark.at);
@@ -230,8 +220,7 @@ class Search {
   const ContactMarks& marks_;
   double scale_;
   Walk& walk_;
-  std::vector<EventPlace>& events_;
-  std::optional<double> failed_;
+  FoundEvents found_;
 };
 
 /// Events that are one at a time within rounding become one.
@@ -250,12 +239,11 @@ void join_events(std::vector<EventPlace>& events) {
 
 }  // namespace
 
-std::optional<double> search_events(const JointEquations& equations, const PathOptions& options,
-                                    const ContactMarks& marks, double scale, Walk& walk,
-                                    std::vector<EventPlace>& events) {
-  const auto failed = Search(equations, options, marks, scale, walk, events).run();
-  join_events(events);
-  return failed;
+FoundEvents search_events(const JointEquations& equations, const PathOptions& options, const ContactMarks& marks,
+                          double scale, Walk& walk) {
+  FoundEvents found = Search(equations, options, marks, scale, walk).run();
+  join_events(found.events);
+  return found;
 }
 
 }  // namespace fastjoint::stage3

@@ -9,6 +9,9 @@
 
 namespace fastjoint::stage3 {
 
+/// Load factors below this are not searched: what happens there is there from the start.
+inline constexpr double first_load_factor = 1e-6;
+
 /// Something happens here.
 struct EventPlace {
   Place place;
@@ -16,13 +19,16 @@ struct EventPlace {
   std::vector<ContactEvent> events;
 };
 
-/// Searches the load factors between first_load_factor (event_path.hpp) and 1 for events by states that `walk` solves.
+/// What a search found.
+struct FoundEvents {
+  std::vector<EventPlace> events;  ///< ascending
+  std::optional<double> failed;    ///< a load factor that could not be reached; the events are those before it
+};
+
+/// Searches the load factors between first_load_factor and 1 for events by states that `walk` solves.
 ///
-/// @param scale  Force that residuals are relative to.
-/// @param events Takes what is found, ascending.
-/// @return       A load factor that `walk` could not reach; then events before it only are sure.
-[[nodiscard]] std::optional<double> search_events(const JointEquations& equations, const PathOptions& options,
-                                                  const ContactMarks& marks, double scale, Walk& walk,
-                                                  std::vector<EventPlace>& events);
+/// @param scale Force that residuals are relative to.
+[[nodiscard]] FoundEvents search_events(const JointEquations& equations, const PathOptions& options,
+                                        const ContactMarks& marks, double scale, Walk& walk);
 
 }  // namespace fastjoint::stage3

@@ -18,9 +18,8 @@ VectorXd guessed_forces(const JointEquations& equations, const InitialScene& ini
   }
   VectorXd rigid = linear_forces(system, VectorXd::Zero(rows), load_factor).F;
   if (initial.guess == Guess::rigid) return rigid;
-  const auto n = static_cast<Eigen::Index>(equations.contacts.size());
-  const Eigen::VectorXd mean = rigid.reshaped(rows / n, n).rowwise().mean();
-  return mean.replicate(n, 1);
+  const VectorXd mean = rigid.reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
+  return mean.replicate(equations.n_planes(), 1);
 }
 
 std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial, double load_factor) {

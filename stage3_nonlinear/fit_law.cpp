@@ -203,8 +203,8 @@ Fit fit_cubic(const TestPoints& points) {
   Eigen::MatrixXd J(s.x.size(), 3);
   for (Index i = 0; i < J.rows(); ++i) J.row(i) = cubic_gradient(s.x[i]).transpose();
   const LeastSquares found = linear_least_squares(J, s.y);
-  const Vector3d scale = s.greatest * cubic_gradient(1 / s.last);
-  Fit fit{.kind = Fit::Kind::cubic, .constants = scale.cwiseProduct(found.x), .last_delta = s.last};
+  const Vector3d unit = cubic_gradient(1 / s.last);  // derivatives of a, b, c by the scaled constants, over the force
+  Fit fit{.kind = Fit::Kind::cubic, .constants = s.greatest * unit.cwiseProduct(found.x), .last_delta = s.last};
   const auto deltas = cubic_deltas(fit);
   std::array<double, 3> forces{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -215,7 +215,6 @@ Fit fit_cubic(const TestPoints& points) {
                       "cubic is above 0 at a third, two thirds and all of its last delta",
                       forces[i], deltas[i]));
   }
-  const Vector3d unit = cubic_gradient(1 / s.last);
   weigh(fit, points, unit.asDiagonal() * found.inverse * unit.asDiagonal(), 3);
   for (auto& doubt : CubicLaw(deltas, forces).doubts()) fit.warnings.push_back(std::move(doubt));
   return fit;

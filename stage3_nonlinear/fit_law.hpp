@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "stage3_nonlinear/test_points.hpp"
+
 namespace fastjoint::stage3 {
 
 /// A law fitted to the points of a test by least squares of the force.
@@ -26,8 +28,6 @@ struct Fit {
   int n_points = 0;
   std::vector<std::string> warnings = {};  ///< one sentence each
 };
-
-using TestPoints = std::vector<std::array<double, 2>>;  // (delta, F), length and force
 
 /// 0 < n <= 1 and delta0 >= 0; points before the first force only say that delta0 is not less. Throws InputError for
 /// points that no such law fits, NumericalError if the search fails.

@@ -10,7 +10,6 @@
 #include "common/h5/whole_file.hpp"
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/fit_drawing.hpp"
-#include "stage3_nonlinear/test_points.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

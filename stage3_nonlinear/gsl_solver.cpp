@@ -9,6 +9,8 @@
 #include <memory>
 #include <new>
 
+#include "stage3_nonlinear/c_callback.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -24,15 +26,10 @@ struct Payload {
   std::exception_ptr thrown;
 };
 
-/// Nothing may be thrown through C.
+/// GSL's status of a body that says whether what it evaluated is finite.
 template <class Body>
-int guarded(Payload& payload, Body body) noexcept {
-  try {
-    return body() ? GSL_SUCCESS : GSL_EBADFUNC;
-  } catch (...) {
-    payload.thrown = std::current_exception();
-    return GSL_EBADFUNC;
-  }
+int status(Payload& payload, Body body) noexcept {
+  return without_throwing(payload.thrown, body) ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 VectorXd copied(const gsl_vector* v) {
@@ -42,7 +39,7 @@ VectorXd copied(const gsl_vector* v) {
 
 int evaluate(const gsl_vector* x, void* params, gsl_vector* f) noexcept {
   auto& payload = *static_cast<Payload*>(params);
-  return guarded(payload, [&] {
+  return status(payload, [&] {
     const VectorXd value = payload.problem.residual(copied(x));
     VectorView(f->data, value.size()) = value;
     return value.allFinite();
@@ -51,7 +48,7 @@ int evaluate(const gsl_vector* x, void* params, gsl_vector* f) noexcept {
 
 int differentiate(const gsl_vector* x, void* params, gsl_matrix* J) noexcept {
   auto& payload = *static_cast<Payload*>(params);
-  return guarded(payload, [&] {
+  return status(payload, [&] {
     const Eigen::MatrixXd value = payload.problem.jacobian(copied(x));
     MatrixView(J->data, value.rows(), value.cols(), Eigen::OuterStride<>(static_cast<Eigen::Index>(J->tda))) = value;
     return value.allFinite();
@@ -59,8 +56,8 @@ int differentiate(const gsl_vector* x, void* params, gsl_matrix* J) noexcept {
 }
 
 int evaluate_both(const gsl_vector* x, void* params, gsl_vector* f, gsl_matrix* J) noexcept {
-  const int status = evaluate(x, params, f);
-  return status == GSL_SUCCESS ? differentiate(x, params, J) : status;
+  const int evaluated = evaluate(x, params, f);
+  return evaluated == GSL_SUCCESS ? differentiate(x, params, J) : evaluated;
 }
 
 /// GSL's two families behind one set of names.
@@ -88,8 +85,6 @@ struct WithoutDerivatives {
   static int iterate(Handle* solver) { return gsl_multiroot_fsolver_iterate(solver); }
 };
 
-double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
-
 template <class Family>
 void iterate(typename Family::Handle* solver, const RootOptions& options, Root& root) {
   for (int status = GSL_SUCCESS; status == GSL_SUCCESS; status = Family::iterate(solver)) {
@@ -99,7 +94,7 @@ void iterate(typename Family::Handle* solver, const RootOptions& options, Root& 
       root.residual.setConstant(std::numeric_limits<double>::infinity());
       return;
     }
-    root.converged = largest(root.residual) <= options.tolerance;
+    root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance;
     if (root.converged || root.iterations == options.max_iterations) return;
     ++root.iterations;
   }

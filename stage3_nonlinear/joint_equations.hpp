@@ -19,6 +19,10 @@ struct JointEquations {
   /// length / force (newton_solver.hpp).
   Eigen::MatrixXd metric;
 
+  [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(contacts.size()); }
+  /// a
+  [[nodiscard]] Eigen::Index n_directions() const { return n_unknowns() / n_planes(); }
+  /// n a
   [[nodiscard]] Eigen::Index n_unknowns() const { return system.q.size(); }
 };
 

@@ -13,7 +13,7 @@ namespace fastjoint::stage3 {
 [[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
                                                 const std::vector<JointState>& states);
 
-/// One line per increment and fastener under a line of names; all digits, RFC 4180. What a plate's matrices do not
+/// One line per increment and shear plane under a line of names; all digits, RFC 4180. What a plate's matrices do not
 /// tell, stresses and bypass loads, is left empty.
 [[nodiscard]] std::string csv(const JointModel& joint, const formats::JointResult& result);
 

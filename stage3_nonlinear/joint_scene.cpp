@@ -157,7 +157,7 @@ void check_exact_path(const JointScene& scene, const Value& method) {
       if (!scene.laws.at(name).law->kinks(1, 0))
         method.fail(
             fmt::format("\"{}\", but law \"{}\" of fastener \"{}\" is curved", exact_path_name, name, fastener.id),
-            "another method, or linear, bilinear and four stage laws and power laws with n = 1");
+            "another method, or linear, formula, bilinear and four stage laws and power laws with n = 1");
 }
 
 SolverScene read_solver(const Value& value, const JointScene& scene) {

@@ -68,14 +68,13 @@ struct JointScene {
   std::vector<FastenerScene> fasteners;
   std::vector<LoadScene> loads;
   std::vector<double> load_factors{1};  ///< one per increment
-  bool at_events = false;               ///< increments at every contact event instead, and at load factor 1
+  bool at_events = false;               ///< increments at every event instead (event_path.hpp)
   InitialScene initial;
   SolverScene solver;
   std::vector<std::string> warnings;  ///< one sentence each, with file and pointer
 };
 
-/// Reads types and ranges strictly, then checks what one file alone can tell (check_scene). Throws
-/// InputError.
+/// Reads types and ranges strictly, then checks what one file alone can tell (check_scene). Throws InputError.
 [[nodiscard]] JointScene read_joint_scene(const input::Document& document);
 
 /// Throws InputError "WHERE: FOUND; allowed: ALLOWED".

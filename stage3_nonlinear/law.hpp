@@ -18,6 +18,9 @@ struct Branch {
   double dF;           ///< dF / dc, dimensionless
   double ddelta;       ///< d delta / dc, length / force
   bool spent = false;  ///< past all that the fastener can carry: no place for a solution
+
+  /// Where nothing bears: all of c moves the discs.
+  static Branch open(double c, double k) { return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k}; }
 };
 
 /// What a number of the law does to the point with the coordinate c, c and k being fixed.

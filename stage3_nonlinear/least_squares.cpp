@@ -8,6 +8,8 @@
 #include <memory>
 #include <new>
 
+#include "stage3_nonlinear/c_callback.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -31,25 +33,20 @@ struct Payload {
   std::exception_ptr thrown;
 };
 
-/// Nothing may be thrown through C.
+/// GSL's status of a body that says whether what it evaluated is finite.
 template <class Body>
-int guarded(Payload& payload, Body body) noexcept {
-  try {
-    return body() ? GSL_SUCCESS : GSL_EBADFUNC;
-  } catch (...) {
-    payload.thrown = std::current_exception();
-    return GSL_EBADFUNC;
-  }
+int status(Payload& payload, Body body) noexcept {
+  return without_throwing(payload.thrown, body) ? GSL_SUCCESS : GSL_EBADFUNC;
 }
 
 int evaluate(const gsl_vector* x, void* params, gsl_vector* f) noexcept {
   auto& payload = *static_cast<Payload*>(params);
-  return guarded(payload, [&] { return (view(f) = payload.problem.residual(copied(x))).allFinite(); });
+  return status(payload, [&] { return (view(f) = payload.problem.residual(copied(x))).allFinite(); });
 }
 
 int differentiate(const gsl_vector* x, void* params, gsl_matrix* J) noexcept {
   auto& payload = *static_cast<Payload*>(params);
-  return guarded(payload, [&] { return (view(J) = payload.problem.jacobian(copied(x))).allFinite(); });
+  return status(payload, [&] { return (view(J) = payload.problem.jacobian(copied(x))).allFinite(); });
 }
 
 struct FreeWorkspace {

@@ -25,8 +25,7 @@ LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexib
 }
 
 std::optional<VectorXd> linear_flexibility(const JointEquations& equations) {
-  const auto n = static_cast<Index>(equations.contacts.size());
-  const Index a = equations.n_unknowns() / n;
+  const Index n = equations.n_planes(), a = equations.n_directions();
   VectorXd flexibility(n * a);
   for (Index j = 0; j < n; ++j) {
     const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];

@@ -15,8 +15,6 @@ namespace {
 
 using Eigen::VectorXd;
 
-double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
-
 /// Solutions for load factors 1 and -1 serve all others: with friction the two senses differ.
 std::optional<LoadPath> follow_linear(const JointEquations& equations, const std::vector<double>& load_factors,
                                       double tolerance) {
@@ -33,7 +31,7 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
     if (!forces) forces = linear_forces(equations.system, *flexibility, factor < 0 ? -1 : 1);
     const VectorXd F = std::abs(factor) * forces->F;
     const VectorXd delta = flexibility->cwiseProduct(F);
-    const double residual = largest(equations.system.residual(F, delta, factor)) / path.force_scale;
+    const double residual = equations.system.residual(F, delta, factor).lpNorm<Eigen::Infinity>() / path.force_scale;
     if (!forces->consistent || !(residual <= tolerance)) return std::nullopt;
     const auto state = contact_state(equations.contacts, contact_coordinates(equations.contacts, F));
     path.steps.push_back({factor, F, delta, forces->solves, residual, check_tangent(equations, state)});

@@ -132,7 +132,7 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
     return root;
   }
   double least_norm = std::numeric_limits<double>::infinity();
-  while (!(root.converged = root.residual.cwiseAbs().maxCoeff() <= options.tolerance) &&
+  while (!(root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) &&
          root.iterations < options.max_iterations) {
     ++root.iterations;
     least_norm = std::min(least_norm, root.residual.norm());

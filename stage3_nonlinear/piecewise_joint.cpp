@@ -63,9 +63,9 @@ std::size_t CornerCurve::piece_of(double c) const {
 
 bool is_piecewise_linear(const JointEquations& equations) {
   const auto& contacts = equations.contacts;
-  return equations.n_unknowns() == static_cast<Index>(contacts.size()) &&
-         std::all_of(contacts.begin(), contacts.end(),
-                     [](const Contact& c) { return c.law->kinks(c.stiffness, c.clearance).has_value(); });
+  return equations.n_directions() == 1 && std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) {
+           return c.law->kinks(c.stiffness, c.clearance).has_value();
+         });
 }
 
 PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equations.system) {

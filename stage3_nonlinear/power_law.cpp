@@ -31,7 +31,7 @@ double PowerLaw::force(double s, double k) const {
 
 Branch PowerLaw::at(double c, double k, double clearance) const {
   const double s = c - k * gap(clearance);
-  if (s < 0) return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k};
+  if (s < 0) return Branch::open(c, k);
   if (s == 0 && n_ < 1) return {.F = 0, .delta = c / k, .dF = 1, .ddelta = 0};
   const double F = force(s, k);
   const double x = stretch(F);

@@ -8,125 +8,10 @@
 #include <cmath>
 #include <set>
 
-#include "stage3_nonlinear/rim_history.hpp"
-#include "stage3_nonlinear/solver.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::Index;
-
-constexpr std::size_t least_name = 12;
-
-/// Width of the column of names: fasteners and plates share it.
-std::size_t name_width(const JointModel& joint) {
-  std::size_t width = least_name;
-  for (const auto& plane : joint.planes) width = std::max(width, joint.short_name(plane).size());
-  for (const auto& plate : joint.plates) width = std::max(width, plate.name.size());
-  return width;
-}
-
-/// A column head with its unit, "delta [in]".
-std::string head(const std::string& name, const std::string& unit) { return fmt::format("{} [{}]", name, unit); }
-
-/// Zero instead of rounding.
-double rounded(double force, double largest) {
-  constexpr double rounding = 1e-10;
-  return std::abs(force) <= rounding * largest ? 0 : force;
-}
-
-/// What solved the increments.
-std::string method(const JointScene& scene, const LoadPath& path) {
-  if (path.linear) return "linear";
-  const auto is_exact = [](const PathStep& step) { return step.exact; };
-  const auto exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
-  std::string iterative = iterative_method(scene.solver.method);
-  if (exact == 0) return iterative;
-  return exact == static_cast<Index>(path.n_increments) ? exact_path_name
-                                                        : fmt::format("{}, {}", exact_path_name, iterative);
-}
-
-const char* counted(const LoadPath& path, const PathStep& step) {
-  return path.linear ? "linear solves" : step.exact ? "pieces without iterations" : "iterations";
-}
-
-std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
-  std::string text = fmt::format("joint{}: {} plates, {} fasteners, p = {}, {}\n",
-                                 scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name), joint.plates.size(),
-                                 joint.fasteners.size(), joint.p, method(scene, path));
-  for (const auto& [name, law] : scene.laws)
-    if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
-  for (const auto& plate : joint.plates)
-    if (plate.relative_error)
-      text += fmt::format("stiffness of {} known to {:.1e} of its largest entry\n", plate.name, *plate.relative_error);
-  return text;
-}
-
-/// Heads of the columns for the components of F, where there are two.
-std::string component_heads(const JointModel& joint, const std::string& force) {
-  std::string text;
-  for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
-    text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
-  return text;
-}
-
-std::string components(const JointModel& joint, const Eigen::VectorXd& F, Index plane, double largest) {
-  std::string text;
-  const Index a = joint.n_directions();
-  for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(" {:>14.6g}", rounded(F[plane * a + d], largest));
-  return text;
-}
-
-std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
-  const bool differ = !state.transferred_first.isApprox(state.transferred_second, 1e-9);  // beyond rounding
-  const std::string length = formats::unit(joint.units, 1, 0);
-  const std::string force = formats::unit(joint.units, 0, 1);
-  std::string text =
-      fmt::format("  {:<{}} {:>16} {:>16}{} {:>20}", "fastener", width, head("delta", length), head("F", force),
-                  component_heads(joint, force), head(differ ? "to 1st" : "transferred", force));
-  if (differ) text += fmt::format(" {:>20}", head("to 2nd", force));
-  text += fmt::format(" {:>9}\n", "share [%]");
-  const Eigen::VectorXd share = shares(joint, state.transferred_first);
-  const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
-  const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
-  for (Index j = 0; j < F.size(); ++j) {
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}",
-                        joint.short_name(joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
-                        components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
-    if (differ) text += fmt::format(" {:>20.8g}", state.transferred_second[j]);
-    text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
-  }
-  return text;
-}
-
-std::string plate_table(const JointModel& joint, const JointState& state, std::size_t width) {
-  const std::string force = formats::unit(joint.units, 0, 1);
-  std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}\n", "on plate", width, head("applied", force),
-                                 head("fasteners", force), head("supports", force));
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    for (const int axis : joint.axes) {
-      const PlateState& plate = state.plates[i];
-      const std::string& name = joint.plates[i].name;
-      const char* along = axis_names[static_cast<std::size_t>(axis)];
-      text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n",
-                          joint.n_directions() == 1 ? name : fmt::format("{} {}", name, along), width,
-                          rounded(plate.applied[axis], state.largest_force),
-                          rounded(plate.by_fasteners[axis], state.largest_force),
-                          rounded(plate.by_supports[axis], state.largest_force));
-    }
-  return text +
-         fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force\n", state.out_of_balance);
-}
-
-std::string stress_table(const JointModel& joint, const JointState& state) {
-  std::string text;
-  for (const auto& plate : joint.plates)
-    if (!plate.stress_level && plate.stresses.p.size() > 0)
-      text += fmt::format("no stresses of {}: {} holds them at p = {} only\n", plate.name, plate.file,
-                          fmt::join(plate.stresses.p, ", "));
-  const std::string table = rim_table(joint, state);
-  return table.empty() ? text : fmt::format("{}stresses at the last increment\n{}", text, table);
-}
 
 /// Named with the first increment at which it happens, once per plane.
 void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
@@ -234,21 +119,6 @@ void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vecto
 }
 
 }  // namespace
-
-std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                    const std::vector<JointState>& states) {
-  const std::size_t width = name_width(joint);
-  std::string text = title(scene, joint, path);
-  for (std::size_t i = 0; i < states.size(); ++i) {
-    const PathStep& step = path.steps[i];
-    text += fmt::format("increment {} of {}: load factor {:.6g}, {} {}, residual {:.1e} of the largest force\n", i + 1,
-                        path.n_increments, step.load_factor, step.iterations, counted(path, step), step.residual);
-    if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
-    text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
-  }
-  if (!states.empty()) text += stress_table(joint, states.back());
-  return text;
-}
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
   std::vector<std::string> result;

@@ -13,7 +13,7 @@ namespace fastjoint::stage3 {
 [[nodiscard]] formats::RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states,
                                               std::size_t at);
 
-/// Columns of the CSV for one end of a fastener ("first" or "second" plate), each with a comma before it.
+/// Columns of the CSV for one side of a shear plane ("first" or "second"), each with a comma before it.
 [[nodiscard]] std::string rim_csv_names(const std::string& end);
 
 /// Their values for a hole at a step.

@@ -15,6 +15,7 @@
 #include "stage3_nonlinear/report.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
 #include "stage3_nonlinear/sensitivity_history.hpp"
+#include "stage3_nonlinear/summary.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

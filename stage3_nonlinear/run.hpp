@@ -17,11 +17,10 @@ struct RunOptions {
   std::string generator;  ///< program and version, for the file's header
 };
 
-/// The whole stage: reads the joint and its matrices, solves, writes RESULT.h5 and the CSV, prints the
-/// summary to `out` and warnings to `log`.
+/// The whole stage: reads the joint and its matrices, solves, writes RESULT.h5 and the CSV, prints the summary to `out`
+/// and warnings to `log`.
 ///
-/// If an increment does not converge, the files hold those before it, marked incomplete, and NumericalError
-/// says why.
+/// If an increment does not converge, the files hold those before it, marked incomplete, and NumericalError says why.
 void run(const RunOptions& options, std::ostream& out, std::ostream& log);
 
 }  // namespace fastjoint::stage3

@@ -11,19 +11,19 @@ namespace fastjoint::stage3 {
 class Saddle {
  public:
   /// @param S Symmetric, positive semi-definite, shape (N, N), force / length.
-  /// @param B Shape (N, n): +1 at the first disc of each fastener, -1 at its second.
+  /// @param B Shape (N, n a): of each shear plane and direction, +1 at the first disc, -1 at the second.
   Saddle(const Eigen::MatrixXd& S, const Eigen::MatrixXd& B);
 
   /// False if some motion meets no stiffness while B^T holds.
   [[nodiscard]] bool is_regular() const;
-  /// @param rhs Shape (N + n, columns): forces (force), then relative displacements (length).
+  /// @param rhs Shape (N + n a, columns): forces (force), then relative displacements (length).
   /// @return    Same shape: displacements (length), then forces (force).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
   /// Motions D that meet no stiffness, one per column, shape (N, count), largest entry 1.
   [[nodiscard]] Eigen::MatrixXd free_motions() const;
 
  private:
-  Eigen::VectorXd scale_;  ///< (N + n)
+  Eigen::VectorXd scale_;  ///< (N + n a)
   Eigen::MatrixXd matrix_;
   Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   Eigen::Index n_displacements_;

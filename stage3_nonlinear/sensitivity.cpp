@@ -48,7 +48,7 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
     const auto at = static_cast<std::size_t>(j);
     const Contact& contact = equations.contacts[at];
     const VectorXd here = c.segment(j * a, a);
-    if (here.isZero(0) || (contact.one_sided && here[0] < 0)) continue;
+    if (here.isZero(0) || contact.is_pulled_open(here)) continue;
     const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
       const Index column = i == 0 ? j : n + numbers.first_of_law[at] + static_cast<Index>(i) - 1;

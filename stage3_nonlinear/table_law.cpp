@@ -11,9 +11,27 @@
 #include <utility>
 
 #include "stage3_nonlinear/rising_root.hpp"
-#include "stage3_nonlinear/test_points.hpp"
 
 namespace fastjoint::stage3 {
+namespace {
+
+TestPoints points_of(const input::Value& law) {
+  const auto file = law.find("file");
+  if (file) {
+    law.only({"type", "file", "one_sided"});
+    return read_points((std::filesystem::path(law.file()).parent_path() / file->text()).string());
+  }
+  law.only({"type", "delta", "F", "one_sided"});
+  constexpr std::size_t most = 100000;
+  const auto delta = law.at("delta").numbers(2, most, input::not_negative);
+  const auto F = law.at("F").numbers(delta.size(), delta.size(), input::not_negative);
+  TestPoints points;
+  points.reserve(delta.size());
+  for (std::size_t i = 0; i < delta.size(); ++i) points.push_back({delta[i], F[i]});
+  return points;
+}
+
+}  // namespace
 
 struct TableLaw::Spline {
   struct Free {
@@ -22,7 +40,7 @@ struct TableLaw::Spline {
   std::unique_ptr<gsl_interp, Free> interp;
 };
 
-TableLaw::TableLaw(const std::vector<std::array<double, 2>>& points) : x_{0}, F_{0} {
+TableLaw::TableLaw(const TestPoints& points) : x_{0}, F_{0} {
   assert(points.size() >= 2);
   for (const auto& [delta, F] : points) {
     assert(delta > x_.back() && F >= F_.back());
@@ -46,7 +64,7 @@ std::array<double, 2> TableLaw::force_and_slope(double x) const {
 
 Branch TableLaw::at(double c, double k, double clearance) const {
   const double s = c - k * clearance;
-  if (s < 0) return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k};
+  if (s < 0) return Branch::open(c, k);
   // Between the two points around s = F + k x.
   std::size_t i = 0;
   while (i + 1 < x_.size() && F_[i + 1] + k * x_[i + 1] < s) ++i;
@@ -76,26 +94,6 @@ std::vector<Slope> TableLaw::slopes(double c, double k, double clearance) const 
   if (on.delta <= clearance) return {{0, 0}};
   return {{-k * on.dF, on.dF}};  // of the curve moved along delta, at constant F + k delta
 }
-
-namespace {
-
-std::vector<std::array<double, 2>> points_of(const input::Value& law) {
-  const auto file = law.find("file");
-  if (file) {
-    law.only({"type", "file", "one_sided"});
-    return read_points((std::filesystem::path(law.file()).parent_path() / file->text()).string());
-  }
-  law.only({"type", "delta", "F", "one_sided"});
-  constexpr std::size_t most = 100000;
-  const auto delta = law.at("delta").numbers(2, most, input::not_negative);
-  const auto F = law.at("F").numbers(delta.size(), delta.size(), input::not_negative);
-  std::vector<std::array<double, 2>> points;
-  points.reserve(delta.size());
-  for (std::size_t i = 0; i < delta.size(); ++i) points.push_back({delta[i], F[i]});
-  return points;
-}
-
-}  // namespace
 
 std::shared_ptr<const Law> read_table_law(const input::Value& law) {
   auto points = points_of(law);

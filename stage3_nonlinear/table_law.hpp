@@ -4,6 +4,7 @@
 #include <array>
 
 #include "stage3_nonlinear/law.hpp"
+#include "stage3_nonlinear/test_points.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -12,7 +13,7 @@ namespace fastjoint::stage3 {
 class TableLaw final : public Law {
  public:
   /// @param points (delta, F), at least two: delta > 0 rises, F > 0 does not fall.
-  explicit TableLaw(const std::vector<std::array<double, 2>>& points);
+  explicit TableLaw(const TestPoints& points);
   ~TableLaw() override;
   [[nodiscard]] Branch at(double c, double k, double clearance) const override;
   [[nodiscard]] double coordinate(double F, double k, double clearance) const override;

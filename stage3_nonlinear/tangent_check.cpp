@@ -80,8 +80,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
 std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
   std::vector<Index> falling;
   MatrixXd S = equations.system.S_ud;
-  const auto n = static_cast<Index>(equations.contacts.size());
-  const Index a = S.rows() / n;
+  const Index n = equations.n_planes(), a = equations.n_directions();
   for (Index j = 0; j < n; ++j) {
     const Law& law = *equations.contacts[static_cast<std::size_t>(j)].law;
     if (law.rises()) continue;

@@ -62,11 +62,11 @@ double checked(std::string_view field, const std::string& place) {
 
 }  // namespace
 
-std::vector<std::array<double, 2>> read_points(const std::string& path) {
+TestPoints read_points(const std::string& path) {
   const std::string text = program::read_text_file(path);
   std::string_view rest = text;
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
-  std::vector<std::array<double, 2>> points;
+  TestPoints points;
   bool first = true;
   for (int n_line = 1; !rest.empty(); ++n_line) {
     const auto end = std::min(rest.find('\n'), rest.size());

@@ -14,16 +14,10 @@ namespace fastjoint::stage3 {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-namespace {
-
-double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
-
-}  // namespace
-
 double force_scale(const CondensedSystem& system, const std::vector<double>& load_factors) {
   double factor = 0;
   for (const double each : load_factors) factor = std::max(factor, std::abs(each));
-  const double scale = factor * largest(system.q);
+  const double scale = factor * system.q.lpNorm<Eigen::Infinity>();
   return scale > 0 ? scale : 1;
 }
 
@@ -52,13 +46,14 @@ PathStep Walk::step() const {
           .F = state.F,
           .delta = state.delta,
           .iterations = iterations_,
-          .residual = largest(r) / scale_,
+          .residual = r.lpNorm<Eigen::Infinity>() / scale_,
           .check = check_tangent(equations_, state),
           .exact = here_.exact};
 }
 
 PathFailure Walk::failure(std::size_t increment, double load_factor) const {
-  return {increment, load_factor, here_.load_factor, worst_row_ / directions(), worst_residual_, locking(load_factor)};
+  return {increment,       load_factor,         here_.load_factor, worst_row_ / equations_.n_directions(),
+          worst_residual_, locking(load_factor)};
 }
 
 std::optional<double> Walk::locking(double load_factor) const {
@@ -66,8 +61,6 @@ std::optional<double> Walk::locking(double load_factor) const {
   const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q);
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
-
-Index Walk::directions() const { return equations_.n_unknowns() / static_cast<Index>(equations_.contacts.size()); }
 
 bool Walk::advance(double target, int halvings_left) {
   if (solve(target)) return true;
@@ -102,8 +95,8 @@ bool Walk::take_exact(double target) {
     if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
     const VectorXd c = path.at(target);
     const auto state = contact_state(equations_.contacts, c);
-    if (!(largest(equations_.system.residual(state.F, state.delta, target)) <= options_.solver.tolerance * scale_))
-      return false;
+    const VectorXd r = equations_.system.residual(state.F, state.delta, target);
+    if (!(r.lpNorm<Eigen::Infinity>() <= options_.solver.tolerance * scale_)) return false;
     iterations_ += static_cast<int>(path.piece_of(target)) + 1;
     here_ = {target, c, true};
     return true;
@@ -140,7 +133,7 @@ bool Walk::take(const Root& root, double target) {
   }
   const VectorXd c = scale_ * root.x;
   if (const auto spent = contact_state(equations_.contacts, c).spent) {
-    if (std::isinf(worst_residual_)) worst_row_ = *spent * directions();
+    if (std::isinf(worst_residual_)) worst_row_ = *spent * equations_.n_directions();
     return false;
   }
   here_ = {target, c};

@@ -36,7 +36,6 @@ class Walk {
  private:
   /// On the sides that bear at the last load factor, or would with rigid fasteners without friction: the lower level.
   [[nodiscard]] std::optional<double> locking(double load_factor) const;
-  [[nodiscard]] Eigen::Index directions() const;
   bool advance(double target, int halvings_left);
   bool solve(double target);
   bool take_exact(double target);

@@ -65,7 +65,7 @@ RimHistory read_rims(const h5::Reader& file, const std::string& group, Eigen::In
   const auto r = static_cast<Eigen::Index>(rims.hole.size());
   rims.sections = file.integers(group + "sections", r);
   for_each_table(rims, units, [&](const char* name, Eigen::MatrixXd& table, const std::string& unit, const char*) {
-    const bool may_be_unknown = &table == &rims.peak_error;
+    const bool may_be_unknown = &table == &rims.peak_error || &table == &rims.bypass_error;
     table = file.matrix(group + name, steps, r, unit, may_be_unknown ? h5::Infinite::allowed : h5::Infinite::refused);
   });
   return rims;

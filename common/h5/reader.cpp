@@ -75,7 +75,7 @@ struct Reader::Impl {
     const int rank = H5Sget_simple_extent_ndims(space.get());
     std::vector<hsize_t> extents(static_cast<std::size_t>(std::max(rank, 0)));
     H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
-    const Shape found(extents.begin(), extents.end());
+    Shape found(extents.begin(), extents.end());
     bool fits = found.size() == expected.size();
     for (std::size_t i = 0; fits && i < found.size(); ++i) fits = expected[i] == any || found[i] == expected[i];
     if (!fits) fail(name, fmt::format("shape is {}, expected {}", shape_text(found), shape_text(expected)));
@@ -98,7 +98,7 @@ struct Reader::Impl {
              std::vector<Scalar>& values) const {
     const auto set = open(name);
     check_class(set, name, cls, cls == H5T_FLOAT ? "floating point" : "integer");
-    const Shape found = shape(set, name, expected);
+    Shape found = shape(set, name, expected);
     values.resize(count(found));
     if (!values.empty() && H5Dread(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
       fail(name, fmt::format("cannot be read: {}", last_error()));
@@ -107,7 +107,7 @@ struct Reader::Impl {
 
   Shape doubles(const std::string& name, const Shape& expected, const std::string& unit, std::vector<double>& values,
                 Infinite infinite = Infinite::refused) const {
-    const Shape found = read(name, expected, H5T_FLOAT, H5T_NATIVE_DOUBLE, values);
+    Shape found = read(name, expected, H5T_FLOAT, H5T_NATIVE_DOUBLE, values);
     check_unit(open(name), name, unit);
     for (const double v : values) {
       if (std::isnan(v)) fail(name, "holds a NaN");

@@ -24,9 +24,10 @@ enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, num
 
 CLI::Option* add(CLI::App& app, const Option& option, Arguments& arguments) {
   const auto keep = [&arguments, name = option.name](const std::string& text) { arguments.options[name] = text; };
-  if (option.value.empty())
-    return app.add_flag_callback(
-        option.name, [keep] { keep("given"); }, option.help);
+  if (option.value.empty()) {
+    const auto note = [keep] { keep("given"); };
+    return app.add_flag_callback(option.name, note, option.help)->option_text(" ");
+  }
   return app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
 }
 

@@ -155,6 +155,9 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
          {&rims.bearing_load, &rims.bearing_load_y, &rims.bearing_stress, &rims.bypass_load, &rims.bypass_error,
           &rims.peak_hoop, &rims.peak_angle, &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
       *table = Eigen::MatrixXd::Random(steps, 1);
+    // As of one degree alone.
+    for (auto* error : {&rims.bypass_error, &rims.peak_error})
+      error->setConstant(std::numeric_limits<double>::infinity());
     write(folder.path("r.h5"), a);
     EXPECT_FALSE(read_joint_result(folder.path("r.h5")).sensitivity);
     SensitivityHistory& by = a.sensitivity.emplace();
@@ -185,6 +188,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);
     EXPECT_EQ(b.plates[0].friction_bearing, plate.friction_bearing);
     EXPECT_EQ(b.plates[0].rims.sections, rims.sections);
+    EXPECT_EQ(b.plates[0].rims.bypass_error, rims.bypass_error);
+    EXPECT_EQ(b.plates[0].rims.peak_error, rims.peak_error);
     EXPECT_EQ(b.plates[0].rims.peak_hoop, rims.peak_hoop);
     EXPECT_EQ(b.plates[0].rims.net_concentration, rims.net_concentration);
     const SensitivityHistory by_file = b.sensitivity.value();

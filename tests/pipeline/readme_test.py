@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The README says what the programs do: readme_test.py BIN_FOLDER. Options against --help, tables against their script."""
+import json
 import os
 import re
 import shutil
@@ -27,6 +28,18 @@ def check_options(readme):
         helped = set(re.findall(r"(?<!\w)-{1,2}[a-z][a-z-]*", output(program, "--help").split("Options:")[1])) - COMMON
         assert options_in_readme(readme, program) == helped, (program, helped)
     assert options_in_readme(readme, "all") == COMMON - {"-h"}
+
+
+def check_names(readme):
+    """Laws, formulas and solvers of the schema, with which the programs agree, all have their place."""
+    schema = json.loads((ROOT / "schemas/joint.schema.json").read_text())
+    laws = {each["properties"]["type"]["const"] for each in schema["definitions"].values()
+            if "type" in each.get("properties", {})}
+    assert set(re.findall(r"^\| `([a-z ]+)` \|", readme.split("| law | ")[1].split("\n\n")[0], re.M)) == laws, laws
+    for row, names in (("formula", schema["definitions"]["formula"]["properties"]["formula"]["enum"]),
+                       ("solver", schema["properties"]["solver"]["properties"]["method"]["enum"])):
+        shown = re.findall(r"`([^`]+)`", re.search(rf"^\| `{row}` \| (.*) \|$", readme, re.M)[1])
+        assert set(names) <= set(shown), (row, names)
 
 
 def check_joint(readme):
@@ -83,6 +96,7 @@ def main(folder):
     readme = (ROOT / "README.md").read_text()
     check_links(readme)
     check_options(readme)
+    check_names(readme)
     check_joint(readme)
     check_fit(readme)
     check_table(readme, "accuracy")

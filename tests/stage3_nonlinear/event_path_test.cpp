@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "stage3_nonlinear/cubic_law.hpp"
+#include "stage3_nonlinear/event_search.hpp"
 #include "stage3_nonlinear/walk.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 

@@ -175,7 +175,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{
             {{"laws", R"({"lin": {"type": "power", "A": 1, "n": 0.5}})"}, {"solver", R"({"method": "exact path"})"}},
             R"(/solver/method: "exact path", but law "lin" of fastener "f1" is curved; allowed: another method, or )"
-            "linear, bilinear and four stage laws and power laws with n = 1"},
+            "linear, formula, bilinear and four stage laws and power laws with n = 1"},
         Refusal{{{"solver", R"({"max_iterations": 0})"}}, "/solver/max_iterations: 0 is not allowed"},
         Refusal{{{"units", R"({"length": "in"})"}}, R"(/units: key "force" is missing)"}));
 

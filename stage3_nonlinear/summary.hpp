@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage3_nonlinear/equilibrium.hpp"
+#include "stage3_nonlinear/joint_scene.hpp"
+
+namespace fastjoint::stage3 {
+
+/// The summary on stdout: per increment the fasteners, the plates and how well all of it balances.
+///
+/// @param states One per step of the path.
+[[nodiscard]] std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
+                                  const std::vector<JointState>& states);
+
+}  // namespace fastjoint::stage3
