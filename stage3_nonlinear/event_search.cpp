@@ -41,12 +41,14 @@ class Search {
 
   FoundEvents run() {
     constexpr int intervals = 8;
-    auto here = start();
-    for (int i = 1; here && i <= intervals; ++i) {
+    const auto first = start();
+    if (!first) return std::move(found_);
+    Sample here = *first;
+    for (int i = 1; i <= intervals; ++i) {
       const auto next = solved(static_cast<double>(i) / intervals);
-      if (!next || !between(*here, *next, 0)) break;
+      if (!next || !between(here, *next, 0)) break;
       walk_.put({next->load, next->c}, 0);
-      here = next;
+      here = *next;
     }
     return std::move(found_);
   }
@@ -151,16 +153,18 @@ class Search {
 
   /// The first crossing of those that the stages tell of, if nothing else has happened before.
   [[nodiscard]] std::optional<Crossing> first_crossing(const Sample& a, const Sample& b) const {
-    std::optional<Crossing> first;
+    std::vector<Crossing> all;
     for (Index j = 0; j < a.stages.size(); ++j) {
       if (a.stages[j] == b.stages[j]) continue;
       const double mark = next_mark(j, a.stages[j], b.stages[j]);
       const auto found = crossing(a, b, j, mark);
       const double at_start = is_on_mark(a.c, j, mark) ? together : -together;
       if (!found || found->load < a.load + at_start || found->load > b.load + together) return std::nullopt;
-      if (!first || found->load < first->load) first = found;
+      all.push_back(*found);
     }
-    if (!first || contact_state(equations_.contacts, first->c).spent) return std::nullopt;
+    const auto first =
+        std::min_element(all.begin(), all.end(), [](const Crossing& x, const Crossing& y) { return x.load < y.load; });
+    if (first == all.end() || contact_state(equations_.contacts, first->c).spent) return std::nullopt;
     const VectorXi here = marks_.stages(first->c);
     for (Index j = 0; j < here.size(); ++j) {
       if (here[j] == a.stages[j] ||
@@ -168,7 +172,7 @@ class Search {
         continue;
       return std::nullopt;
     }
-    return first;
+    return *first;
   }
 
   [[nodiscard]] bool is_on_mark(const VectorXd& c, Index plane, double mark) const {

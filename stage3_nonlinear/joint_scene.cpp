@@ -65,6 +65,7 @@ std::vector<double> read_friction(const Value& value, const std::vector<Referenc
     const auto hole = std::find_if(between.begin(), between.end(), is_named);
     if (hole == between.end()) {
       std::vector<std::string> plates;
+      plates.reserve(between.size());
       for (const auto& each : between) plates.push_back(each.plate);
       mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
     }
@@ -77,9 +78,8 @@ std::vector<double> read_friction(const Value& value, const std::vector<Referenc
 template <class Read>
 auto for_each_plane(const Value& value, std::size_t n_planes, Read read) {
   if (!value.is_array()) return std::vector(n_planes, read(value));
-  const auto n = static_cast<int>(n_planes);
   std::vector<decltype(read(value))> result;
-  for (const auto& item : value.items(n, n)) result.push_back(read(item));
+  for (const auto& item : value.items(n_planes, n_planes)) result.push_back(read(item));
   return result;
 }
 
