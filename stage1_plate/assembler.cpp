@@ -23,7 +23,7 @@ Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns)
   ff_.reserve(static_cast<std::size_t>(numbering.function.cols()) * n_modes * (2 * n_modes + 1));
 }
 
-void Assembler::add_stiffness(int element, const Eigen::MatrixXd& K) {
+void Assembler::add_stiffness(int element, const Eigen::MatrixXd& K, double factor) {
   const auto n = numbering_.function.rows();
   std::vector<int> to(static_cast<std::size_t>(2 * n));
   Eigen::VectorXd sign(2 * n);
@@ -36,7 +36,7 @@ void Assembler::add_stiffness(int element, const Eigen::MatrixXd& K) {
       const int row = to[static_cast<std::size_t>(i)];
       const int col = to[static_cast<std::size_t>(j)];
       if (row == Unknowns::fixed || col == Unknowns::fixed) continue;
-      const double value = sign[i] * sign[j] * K(i, j);
+      const double value = factor * sign[i] * sign[j] * K(i, j);
       if (Unknowns::is_free(row) && Unknowns::is_free(col)) {
         if (row >= col) ff_.emplace_back(row, col, value);
       } else if (Unknowns::is_free(row)) {

@@ -19,8 +19,8 @@ class Assembler {
  public:
   Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns);
 
-  /// K, shape (2 n_modes, 2 n_modes), first all of u_x, local signs.
-  void add_stiffness(int element, const Eigen::MatrixXd& K);
+  /// factor K, shape (2 n_modes, 2 n_modes), first all of u_x, local signs.
+  void add_stiffness(int element, const Eigen::MatrixXd& K, double factor = 1);
   /// Stiffness between an element's coefficients and a controlled displacement.
   void add_coupling(int element, const ElementVector& g, int controlled);
   /// A spring between a coefficient of the plate, by its target, and a controlled displacement.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/plate_problem.hpp"
 
-#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/congruent_stiffness.hpp"
 #include "stage1_plate/assembler.hpp"
 #include "stage1_plate/line_springs.hpp"
 #include "stage1_plate/loads.hpp"
@@ -14,12 +14,9 @@ PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   Assembler assembler(problem.numbering, problem.unknowns);
-  const pfem::ElementStiffness stiffness(scene.p_high);
-  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
-    const auto& D = scene.elasticity[static_cast<std::size_t>(plate.mesh.material[element])];
-    assembler.add_stiffness(
-        element, stiffness(pfem::ElementMap(plate.mesh, plate.edges, element), D, plate.mesh.thickness[element]));
-  }
+  pfem::CongruentStiffness stiffness(plate.mesh, plate.edges, scene.elasticity, scene.p_high);
+  for (int element = 0; element < plate.mesh.n_elements(); ++element)
+    assembler.add_stiffness(element, stiffness(element), plate.mesh.thickness[element]);
   add_springs(scene, plate, problem.numbering, problem.unknowns, assembler);
   add_line_springs(scene, plate, problem.unknowns, assembler);
   problem.K_ff = assembler.K_ff();

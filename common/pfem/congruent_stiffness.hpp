@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "common/pfem/element_stiffness.hpp"
+
+namespace fastjoint::pfem {
+
+/// Stiffness matrices of a mesh's elements, integrated once for all that are congruent: of the same shape up to
+/// translation (to 1e-12 of the element's size, far above the rounding of coordinates and far below what a stiffness
+/// shows) and of the same material. A panel of riveted cells has eight different elements, not thousands.
+class CongruentStiffness {
+ public:
+  /// @param elasticity Of each material of the mesh, (3, 3), stress.
+  CongruentStiffness(const Mesh& mesh, const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity, int p);
+
+  /// Of unit thickness, shape (2 n_modes, 2 n_modes) as ElementStiffness has it, force / length^2.
+  [[nodiscard]] const Eigen::MatrixXd& operator()(int element);
+  [[nodiscard]] std::size_t n_different() const { return integrated_.size(); }
+
+ private:
+  using Shape = std::vector<std::int64_t>;
+  [[nodiscard]] Shape shape(int element) const;
+
+  const Mesh& mesh_;
+  const Edges& edges_;
+  const std::vector<Eigen::Matrix3d>& elasticity_;
+  ElementStiffness stiffness_;
+  std::map<Shape, Eigen::MatrixXd> integrated_;
+};
+
+}  // namespace fastjoint::pfem
