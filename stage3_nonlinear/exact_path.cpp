@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "stage3_nonlinear/condition.hpp"
 #include "stage3_nonlinear/piecewise_joint.hpp"
 
 namespace fastjoint::stage3 {
@@ -130,7 +131,7 @@ class Tracer {
     const auto [J, offset] = joint_.equations(cell_);
     const Eigen::PartialPivLU<MatrixXd> lu(J);
     constexpr double singular = 1e-13;
-    if (lu.rcond() > singular) return Line{lu.solve(-offset), lu.solve(q_)};
+    if (reciprocal_condition(lu) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
     return line_without_stiffness(J);
   }
 

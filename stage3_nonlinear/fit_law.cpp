@@ -45,12 +45,26 @@ Scaled scaled(const TestPoints& points, double contact) {
   return s;
 }
 
-void require_three_loaded(const TestPoints& points) {
+/// Squares and powers of what is outside overflow.
+void require_range(const char* name, double largest) {
+  constexpr double low = 1e-60, high = 1e60;
+  if (!(largest >= low && largest <= high))
+    throw InputError(fmt::format("the largest {} is {}; allowed: {} to {}, in other units", name, largest, low, high));
+}
+
+void require_enough(const TestPoints& points) {
   std::set<double> loaded;
+  double last = 0, greatest = 0;
   for (const auto& [delta, F] : points)
-    if (delta > 0 && F > 0) loaded.insert(delta);
+    if (delta > 0 && F > 0) {
+      loaded.insert(delta);
+      last = std::max(last, delta);
+      greatest = std::max(greatest, F);
+    }
   if (loaded.size() < 3)
     throw InputError(fmt::format("forces > 0 at {} different delta > 0; allowed: at 3 or more of them", loaded.size()));
+  require_range("delta", last);
+  require_range("F", greatest);
 }
 
 /// The last displacement without force before the first with one, or 0.
@@ -180,7 +194,7 @@ void weigh(Fit& fit, const TestPoints& points, const Matrix3d& inverse, int n_fr
 }  // namespace
 
 Fit fit_power(const TestPoints& points) {
-  require_three_loaded(points);
+  require_enough(points);
   const double contact = last_unloaded(points);
   const Scaled s = scaled(points, contact);
   const ScaledFit found = search_power(s, contact / s.last);
@@ -198,7 +212,7 @@ Fit fit_power(const TestPoints& points) {
 }
 
 Fit fit_cubic(const TestPoints& points) {
-  require_three_loaded(points);
+  require_enough(points);
   const Scaled s = scaled(points, 0);
   Eigen::MatrixXd J(s.x.size(), 3);
   for (Index i = 0; i < J.rows(); ++i) J.row(i) = cubic_gradient(s.x[i]).transpose();

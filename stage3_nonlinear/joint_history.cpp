@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "stage3_nonlinear/contact_event.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
 
@@ -119,8 +121,9 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
     for (Index j = 0; j < a.F.cols(); ++j) {
       const auto at = static_cast<std::size_t>(j);
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[at]),
-                          a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j), share[j],
-                          a.iterations[i], a.residual[i], field(a.first_hole[at]), field(a.second_hole[at]));
+                          a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j),
+                          std::isfinite(share[j]) ? fmt::to_string(share[j]) : "", a.iterations[i], a.residual[i],
+                          field(a.first_hole[at]), field(a.second_hole[at]));
       text += component_fields(joint, a, i, j);
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
         text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);

@@ -47,7 +47,9 @@ std::vector<PlateScene> read_plates(const std::string& file, const Value& plates
 
 void read_laws(const Value& laws, JointScene& scene) {
   for (const auto& [name, value] : laws.members()) {
-    LawScene law{read_law(value), false};
+    LawScene law{read_law(value)};
+    if (const auto file = value.find("file"))
+      law.file = (std::filesystem::path(scene.file).parent_path() / file->text()).string();
     if (const auto one_sided = value.find("one_sided")) law.one_sided = one_sided->boolean();
     for (const auto& doubt : law.law->doubts())
       scene.warnings.push_back(fmt::format("{}: {}", where(scene.file, value), doubt));
@@ -123,8 +125,8 @@ LoadScene read_load(const std::string& file, const Value& value) {
 }
 
 bool is_at_events(const Value& increments) {
-  if (!increments.is_string()) return false;
-  if (increments.text() != "events")
+  if (increments.is_array() || increments.is_number()) return false;
+  if (!increments.is_string() || increments.text() != "events")
     increments.not_allowed(
         fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", most_increments));
   return true;

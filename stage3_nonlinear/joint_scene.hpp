@@ -27,6 +27,7 @@ struct PlateScene {
 struct LawScene {
   std::shared_ptr<const Law> law;
   bool one_sided = false;
+  std::string file{};  ///< path of its points if they stand in a file of their own
 };
 
 /// A fastener through h >= 2 holes in their order along its axis: h - 1 shear planes, each between neighbours.

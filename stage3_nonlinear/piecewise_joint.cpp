@@ -24,6 +24,9 @@ std::vector<double> corners(const Contact& contact, bool zero) {
   return result;
 }
 
+/// To a point inside the first or last piece: as far out again as its corner is, so that no unit of force loses digits.
+double outward(double corner) { return corner != 0 ? std::abs(corner) : 1.0; }
+
 CornerCurve make_curve(const Contact& contact, bool friction) {
   const bool bears_at_once = contact.law->at(0, contact.stiffness, contact.clearance).dF > 0;
   CornerCurve curve{corners(contact, friction || (contact.one_sided && bears_at_once)), {}, {}, {}, {}, {}};
@@ -33,9 +36,8 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
   curve.sign.resize(m);
   for (Index i = 0; i < m; ++i) {
     const auto end = static_cast<std::size_t>(i);
-    // A point inside: of the first and last piece, as far out again as the corner is.
-    const double low = i == 0 ? (at.empty() ? 0 : at[0] - std::max(std::abs(at[0]), 1.0)) : at[end - 1];
-    const double high = i == m - 1 ? low + std::max(std::abs(low), 1.0) : at[end];
+    const double low = i == 0 ? (at.empty() ? 0 : at[0] - outward(at[0])) : at[end - 1];
+    const double high = i == m - 1 ? low + outward(low) : at[end];
     const double c = 0.5 * (low + high);
     const auto state = contact_state({contact}, VectorXd::Constant(1, c));
     curve.dF[i] = state.dF.along[0];

@@ -121,6 +121,7 @@ MatrixXd stiffness(const std::string& file, const formats::PlateMatrices& a, std
 }  // namespace
 
 PlateModel make_plate(const std::string& name, const std::string& file, const formats::PlateMatrices& a, int p) {
+  if (a.disc_hole.empty()) throw FileError(fmt::format("{}:disc/hole: is empty, expected at least one disc", file));
   std::vector<std::string> boundaries = a.external_id;
   boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
   check_once(file, "external/id", boundaries);

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <ostream>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
@@ -33,6 +34,19 @@ void check_csv(const RunOptions& options) {
   h5::check_can_write(options.csv);
 }
 
+/// The results must not take the place of what they are made of.
+void check_results_spare(const RunOptions& options, const JointScene& scene) {
+  const auto check = [&](const std::string& input) {
+    std::error_code ignored;
+    for (const auto& [option, path] : {std::pair("-o", options.output), std::pair("--csv", options.csv)})
+      if (!input.empty() && fs::equivalent(path, input, ignored))
+        throw InputError(
+            fmt::format("{} {}: is a file that {} reads; choose another name", option, path, options.input));
+  };
+  for (const auto& plate : scene.plates) check(plate.file);
+  for (const auto& [name, law] : scene.laws) check(law.file);
+}
+
 void warn(std::ostream& log, const std::vector<std::string>& sentences) {
   for (const auto& sentence : sentences) log << "stage3_nonlinear: warning: " << program::one_line(sentence) << "\n";
 }
@@ -43,6 +57,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   check_csv(options);
   const auto document = input::parse(options.input, program::read_text_file(options.input));
   const JointScene scene = read_joint_scene(document);
+  check_results_spare(options, scene);
   warn(log, scene.warnings);
   const JointModel joint = load_joint(scene, options.p);
   const JointEquations equations = make_equations(joint);

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "stage3_nonlinear/condition.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -32,7 +34,7 @@ Saddle::Saddle(const Eigen::MatrixXd& S, const Eigen::MatrixXd& B)
   lu_.compute(matrix_);
 }
 
-bool Saddle::is_regular() const { return lu_.rcond() > singular; }
+bool Saddle::is_regular() const { return reciprocal_condition(lu_) > singular; }
 
 Eigen::MatrixXd Saddle::solve(const Eigen::MatrixXd& rhs) const {
   return scale_.asDiagonal() * lu_.solve(scale_.asDiagonal() * rhs);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <map>
 
+#include "stage3_nonlinear/condition.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -111,7 +113,7 @@ Slopes solve(const CondensedSystem& system, const ContactState& state, const Mat
   const VectorXd scale = scale_columns(J);
   F_c *= scale.cwiseInverse().asDiagonal();
   const Eigen::PartialPivLU<MatrixXd> lu(J);
-  if (lu.rcond() > singular_tangent) return {-F_c * lu.solve(residual), {}, {}};
+  if (reciprocal_condition(lu) > singular_tangent) return {-F_c * lu.solve(residual), {}, {}};
   return solve_singular(J, F_c, -residual);
 }
 

@@ -73,7 +73,7 @@ Branch TableLaw::at(double c, double k, double clearance) const {
     const auto [F, slope] = force_and_slope(x);
     return std::pair(F + k * x - s, slope + k);
   };
-  const double x = rising_root(excess, low, high);
+  const double x = s > 0 ? rising_root(excess, low, high) : 0;
   const auto [F, slope] = force_and_slope(x);
   return {.F = F, .delta = clearance + x, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
 }

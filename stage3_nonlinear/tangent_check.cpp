@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stage3_nonlinear/condition.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -68,7 +70,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   std::vector<Index> open;
   for (Index j = 0; j < state.dF.along.size(); ++j)
     if (state.dF.along[j] == 0) open.push_back(j);
-  if (!open.empty() && !(lu.rcond() > singular_tangent)) {
+  if (!open.empty() && !(reciprocal_condition(lu) > singular_tangent)) {
     check.mechanism = mechanism(equations.system, state, J, scale, std::move(open));
     return check;
   }

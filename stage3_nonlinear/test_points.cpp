@@ -41,6 +41,7 @@ Fields split(std::string_view line) {
 
 std::optional<double> number(std::string_view field) {
   double value = 0;
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars knows no plus
   const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
   if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
   return value;

@@ -15,12 +15,17 @@ namespace {
 
 using nlohmann::json;
 
-/// Watches the keys of the objects that are open, since the parser would silently keep the last of two.
-class DuplicateKeys {
+/// Watches the keys of the objects that are open, since the parser would silently keep the last of two, and strings.
+class Watch {
  public:
-  explicit DuplicateKeys(const std::string& file) : file_(file) {}
+  explicit Watch(const std::string& file) : file_(file) {}
 
   bool operator()(int /*depth*/, json::parse_event_t event, const json& value) {
+    if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos)
+      throw InputError(
+          fmt::format("{}: the string {} holds the character \\u0000, which would end it in other files; "
+                      "allowed: any other character",
+                      file_, value.dump()));
     if (event == json::parse_event_t::object_start) {
       open_.emplace_back();
     } else if (event == json::parse_event_t::object_end) {
@@ -56,7 +61,7 @@ std::string reason(const std::string& what) {
 
 Document parse(const std::string& file, const std::string& text) {
   try {
-    DuplicateKeys watch(file);
+    Watch watch(file);
     auto root = std::make_shared<json>(json::parse(text, std::ref(watch), true, true));
     return {file, text, std::move(root)};
   } catch (const json::parse_error& e) {

@@ -35,6 +35,13 @@ TEST(Json, SyntaxErrorsNameLineAndColumn) {
   EXPECT_THAT(message(std::string("{\"a\": \"\xff\"}"), nothing), StartsWith("f.json: not valid JSON"));
 }
 
+TEST(Json, RefusesACharacterThatEndsStringsElsewhere) {
+  const char* what = "\\u0000, which would end it in other files; allowed: any other character";
+  EXPECT_THAT(message(R"({"a": "x\u0000y"})", nothing),
+              AllOf(HasSubstr(R"(the string "x\u0000y" holds the character )"), HasSubstr(what)));
+  EXPECT_THAT(message(R"({"x\u0000": 1})", nothing), HasSubstr(what));
+}
+
 TEST(Json, DuplicateKeysAreRefusedAtEveryDepth) {
   EXPECT_THAT(message(R"({"a": 1, "a": 2})", nothing), HasSubstr("key \"a\" stands twice"));
   EXPECT_THAT(message(R"({"a": [{"b": 1, "c": {"d": 1}, "b": 2}]})", nothing), HasSubstr("key \"b\" stands twice"));

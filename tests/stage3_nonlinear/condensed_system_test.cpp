@@ -227,6 +227,14 @@ TEST(CondensedSystem, NamesThePlatesThatCanMove) {
                   "external with \"displacement\": 0")));
 }
 
+TEST(CondensedSystem, NamesAPlateWithoutStiffness) {
+  // Its rows are exactly 0, those of its external too.
+  const auto joint = test::joint_of(
+      {test::spring_plate(2, 1, {}), test::chain(2, 0, 1000, {{0, test::ground, 1000}}), 10}, test::linear_law(1));
+  EXPECT_THAT([&] { (void)condense(joint); },
+              ThrowsMessage<NumericalError>(HasSubstr("the joint is a mechanism: plate \"a\" can move freely")));
+}
+
 TEST(CondensedSystem, IsHeldByAnImposedDisplacement) {
   auto joint =
       test::joint_of({test::chain(2, 1, 1000, {{1, 2, 1000}}), test::chain(2, 0, 1000, {}), 0}, test::linear_law(1));

@@ -57,6 +57,21 @@ JointModel strands(const std::shared_ptr<const Law>& law, const std::array<doubl
   return joint;
 }
 
+TEST(Events, AreToldByName) {
+  const auto joint =
+      test::joint_of({test::chain(2, 1, 1000, {{1, 2, 1000}}), test::chain(2, 0, 1000, {}), 0}, test::linear_law(1));
+  const auto text = [&](Corner corner, bool back) {
+    return event_text(joint, {{0, corner, back}}) + ", " + event_text(joint, {{0, corner, back}, {1, corner, back}});
+  };
+  EXPECT_EQ(text(Corner::slip, false), "1 slips, 1, 2 slip");
+  EXPECT_EQ(text(Corner::slip, true), "1 sticks again, 1, 2 stick again");
+  EXPECT_EQ(text(Corner::contact, false), "1 closes, 1, 2 close");
+  EXPECT_EQ(text(Corner::contact, true), "1 opens, 1, 2 open");
+  EXPECT_EQ(text(Corner::yield, false), "1 yields, 1, 2 yield");
+  EXPECT_EQ(text(Corner::yield, true), "1 is elastic again, 1, 2 are elastic again");
+  EXPECT_EQ(event_text(joint, {{1, Corner::contact, true}, {0, Corner::yield, false}}), "1 yields; 2 opens");
+}
+
 TEST(Events, EqualGapsCloseTogetherAndSmallerOnesBefore) {
   for (const auto& law : {test::linear_law(3000), test::power_law(3000, 0.7)}) {
     const LoadPath together = follow_events(make_equations(strands(law, {0.01, 0.01, 0.01})), tight);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/exact_path.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -98,6 +99,26 @@ TEST(ExactPath, EndsAtTheLoadThatPlasticFastenersCannotCarry) {
   ASSERT_EQ(handed_over.steps.size(), 1U);
   EXPECT_TRUE(handed_over.steps[0].exact);
   EXPECT_EQ(handed_over.failure->load_factor, 0.5);
+}
+
+TEST(ExactPath, IsTheSameInAnyUnitOfForce) {
+  // A fastener that yields beside a loose one, in newtons and in units of 1e20 N and of 1e-20 N.
+  const auto solved = [](double unit) {
+    auto joint =
+        test::joint_of({test::chain(2, 1, 1000 * unit, {{1, 2, 1000 * unit}}),
+                        test::chain(2, 0, 1000 * unit, {{0, ground, 1000 * unit}}), 100 * unit},
+                       read_law(input::Value(input::parse(
+                           "law", fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})",
+                                              2000 * unit, 30 * unit, 50 * unit)))));
+    joint.planes[1].clearance = 0.01;
+    const JointEquations equations = make_equations(joint);
+    const ExactPath path = exact_path(equations, 1);
+    EXPECT_EQ(path.pieces.size(), 4U) << unit;
+    EXPECT_LT(residual(equations, path, 1), 1e-14) << unit;
+    return VectorXd(path.at(1) / unit);
+  };
+  const VectorXd newtons = solved(1);
+  for (const double unit : {1e-20, 1e20}) EXPECT_TRUE(solved(unit).isApprox(newtons, 1e-13)) << unit;
 }
 
 /// Against the nonlinear solvers at random load factors, also reversed, and at the corners themselves.

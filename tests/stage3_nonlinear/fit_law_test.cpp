@@ -239,6 +239,22 @@ TEST(FitLaw, RefusesTooFewPoints) {
   }
 }
 
+TEST(FitLaw, RefusesNumbersWhoseSquaresOverflow) {
+  const auto points = [](double length, double force) {
+    return TestPoints{{1 * length, 1 * force}, {2 * length, 1.5 * force}, {3 * length, 1.8 * force}};
+  };
+  EXPECT_THAT(
+      [&] { (void)fit_power(points(1e200, 1)); },
+      ThrowsMessage<InputError>(HasSubstr("the largest delta is 3e+200; allowed: 1e-60 to 1e+60, in other units")));
+  EXPECT_THAT(
+      [&] { (void)fit_cubic(points(1, 1e-200)); },
+      ThrowsMessage<InputError>(HasSubstr("the largest F is 1.8e-200; allowed: 1e-60 to 1e+60, in other units")));
+  for (const double unit : {1e-59, 1e59}) {
+    EXPECT_NEAR(fit_power(points(unit, 1)).constants[1], fit_power(points(1, 1)).constants[1], 1e-9);
+    EXPECT_TRUE(fit_cubic(points(1 / unit, unit)).constants.allFinite());
+  }
+}
+
 TEST(FitPower, RefusesForcesThatDoNotGrow) {
   EXPECT_EQ(refusal(fit_power, {{1, 4}, {2, 2}, {4, 1}}),
             "the force does not grow with delta, the power law that fits best has n = -1; allowed: a test whose force "

@@ -206,6 +206,9 @@ TEST(JointModel, RefusesMatricesThatNoPlateHas) {
   lap = test::two_fastener_lap();
   lap.b.disc_hole = {"1", "1"};
   expect_refusal<FileError>(lap, {}, "b.h5:disc/hole: \"1\" stands twice, expected each name once");
+  lap = test::two_fastener_lap();
+  lap.b = test::chain(0, 0, 1000, {});
+  expect_refusal<FileError>(lap, {}, "b.h5:disc/hole: is empty, expected at least one disc");
 }
 
 TEST(JointModel, RefusesFilesThatAreMissing) {

@@ -159,6 +159,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{{"increments", R"("six")"}},
                 R"(/increments: "six" is not allowed; allowed: an integer from 1 to 100000, a list of load factors, )"
                 R"(or "events")"},
+        Refusal{{{"increments", "{}"}},
+                "/increments: {} is not allowed; allowed: an integer from 1 to 100000, a list of load factors, "},
         Refusal{{{"increments", "[]"}}, "/increments: array of 0; allowed: 1 to 100000"},
         Refusal{{{"initial", R"("guess")"}}, R"(/initial: "guess" is not allowed; allowed: "rigid", "equal")"},
         Refusal{{{"initial", "3"}},

@@ -294,6 +294,13 @@ TEST(TableLaw, ReadsTheSamePointsFromAFile) {
   }
 }
 
+TEST(TableLaw, IsExactlyAtRestWithoutForce) {
+  const auto law = read(R"({"type": "table", "delta": [0.1, 0.2], "F": [300, 310]})");
+  EXPECT_EQ(law->at(0, 1e5, 0).F, 0);
+  EXPECT_EQ(law->at(0, 1e5, 0).delta, 0);
+  EXPECT_EQ(law->at(1e5 * 0.03, 1e5, 0.03).delta, 0.03) << "at first contact";
+}
+
 TEST(TableLaw, NamesAFileThatIsMissing) {
   EXPECT_THAT([] { (void)read(R"({"type": "table", "file": "nope.csv"})"); },
               ThrowsMessage<FileError>(HasSubstr("nope.csv: cannot be opened: No such file")));

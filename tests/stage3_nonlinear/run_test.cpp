@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/formats/joint_result.hpp"
+#include "stage3_nonlinear/report.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -199,6 +200,28 @@ TEST_F(Run, WritesSensitivitiesIfAsked) {
   EXPECT_LT(by.clearance[2](1, 1), 0) << "a loose fastener carries less";
 }
 
+TEST(Warnings, TellOfASolutionPastTheLargestLoad) {
+  const JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1));
+  PathStep step{.load_factor = 0.5,
+                .F = Eigen::Vector2d::Zero(),
+                .delta = Eigen::Vector2d::Zero(),
+                .iterations = 1,
+                .residual = 0,
+                .check = {}};
+  step.check.turned = true;
+  LoadPath path;
+  path.steps = {step, step};
+  EXPECT_THAT(warnings(joint, make_equations(joint), path),
+              ElementsAre("joint.json: at load factor 0.5 the tangent of the joint has lost its sign: the solution "
+                          "balances, but is not stable; a load beyond it snaps through"));
+}
+
+TEST_F(Run, LeavesTheShareOfNoLoadEmpty) {
+  write({{"loads", R"([{"external": "a:P", "force": 0}])"}});
+  run();
+  EXPECT_THAT(test::read_file(options_.csv), HasSubstr("\n1,1,f1,0,0,0,0,,"));
+}
+
 TEST_F(Run, RefusesACsvInTheWay) {
   write({});
   options_.csv = options_.input;
@@ -209,6 +232,19 @@ TEST_F(Run, RefusesACsvInTheWay) {
   options_.csv = folder_.path("nowhere/a.csv");
   EXPECT_THAT([&] { run(); }, ThrowsMessage<FileError>(HasSubstr("a.csv: cannot be written: No such file")));
   EXPECT_FALSE(std::filesystem::exists(options_.output)) << "found before the work";
+}
+
+TEST_F(Run, NeverWritesOverWhatItReads) {
+  write({{"laws", R"({"lin": {"type": "table", "file": "points.csv"}})"}});
+  const std::string points = folder_.write("points.csv", "0.1, 100\n0.2, 150\n");
+  options_.csv = points;
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<InputError>(AllOf(
+                                  HasSubstr("--csv " + points + ": is a file that " + options_.input + " reads; "),
+                                  EndsWith("choose another name"))));
+  options_.csv = "";
+  options_.output = folder_.path("b.h5");
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<InputError>(HasSubstr("-o " + options_.output + ": is a file that ")));
+  EXPECT_EQ(test::read_file(points), "0.1, 100\n0.2, 150\n");
 }
 
 TEST_F(Run, KeepsWhatConvergedAndSaysWhatToCheck) {

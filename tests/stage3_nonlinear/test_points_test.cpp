@@ -34,6 +34,7 @@ TEST_F(TestPoints, OfAnySeparatorHeaderAndComment) {
   EXPECT_THAT(read("0\t0\n0.1\t200\n0.25\t350\n\n"), points);
   EXPECT_THAT(read("delta, F\n0, 0\n 0.1 , 200 \n0.25,350"), points);
   EXPECT_THAT(read("\xEF\xBB\xBF\"delta [mm]\";\"F [N]\"\r\n0;0\r\n0.1;200\r\n0.25;350\r\n"), points);
+  EXPECT_THAT(read("+0,+0\n+0.1,+200\n+2.5E-01,+350\n"), points);
   EXPECT_THAT(read("# bolt 7\n\n0,0 # start\n0.1,200\n  # pause\n0.25,350\n"), points);
 }
 
@@ -44,6 +45,7 @@ TEST_F(TestPoints, KeepsTheOrderOfTheFile) {
 TEST_F(TestPoints, RefusesWithFileAndLine) {
   const std::string number = "allowed: a number >= 0 with a decimal point";
   EXPECT_THAT(refusal("delta,F\n0,0\n0.1,-3\n"), EndsWith("test.csv:3: '-3' is not allowed; " + number));
+  EXPECT_THAT(refusal("+-0.1,3\n"), EndsWith("test.csv:1: '+-0.1' is not allowed; " + number));
   EXPECT_THAT(refusal("-0.1,3\n"), EndsWith("test.csv:1: '-0.1' is not allowed; " + number));
   EXPECT_THAT(refusal("0,0\n0.1,nan\n"), EndsWith("test.csv:2: 'nan' is not allowed; " + number));
   EXPECT_THAT(refusal("nan,nan\n"), EndsWith("test.csv:1: 'nan' is not allowed; " + number));
