@@ -13,18 +13,32 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 /// K, one entry for each plane.
-VectorXd reference_stiffnesses(const MatrixXd& S, Index n) {
+///
+/// @param contacts With the stiffnesses of the plates themselves: a sheet that one fastener holds leaves of S rounding
+///        only, with which c could not tell one displacement from another.
+VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& contacts) {
   constexpr double more = 1.05;
-  constexpr double negligible = 1e-9;  // a sheet that one fastener holds leaves rounding only
+  constexpr double negligible = 1e-9, rounding = 1e-12;
+  const auto n = static_cast<Index>(contacts.size());
   const Index a = S.rows() / n;
   const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
   const double largest = rows.maxCoeff();
   VectorXd k(n);
   for (Index j = 0; j < n; ++j) {
     const double row = rows.segment(j * a, a).maxCoeff();
-    k[j] = row > negligible * largest ? row : largest > 0 ? largest : 1.0;
+    const double own = contacts[static_cast<std::size_t>(j)].stiffness;
+    k[j] = largest <= rounding * own ? own : row > negligible * largest ? row : largest;
   }
   return k;
+}
+
+/// Of the softer of the two plates at its discs.
+double plate_stiffness(const JointModel& joint, const ShearPlane& plane) {
+  const auto at = [&](const HoleModel& hole) {
+    return joint.plates[hole.plate].S.diagonal().segment(hole.disc, joint.n_directions()).maxCoeff();
+  };
+  const auto [softer, stiffer] = std::minmax({at(joint.first_hole(plane)), at(joint.second_hole(plane))});
+  return softer > 0 ? softer : stiffer > 0 ? stiffer : 1.0;
 }
 
 MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts) {
@@ -60,12 +74,13 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
 JointEquations make_equations(const JointModel& joint) {
   std::vector<Contact> contacts;
   contacts.reserve(joint.planes.size());
-  for (const auto& plane : joint.planes) contacts.push_back({plane.law, plane.clearance, 1, plane.one_sided});
+  for (const auto& plane : joint.planes)
+    contacts.push_back({plane.law, plane.clearance, plate_stiffness(joint, plane), plane.one_sided});
   return make_equations(condense(joint), std::move(contacts));
 }
 
 JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts) {
-  const VectorXd k = reference_stiffnesses(system.S_ud, static_cast<Index>(contacts.size()));
+  const VectorXd k = reference_stiffnesses(system.S_ud, contacts);
   for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j].stiffness = k[static_cast<Index>(j)];
   const bool rise = std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.law->rises(); });
   MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();

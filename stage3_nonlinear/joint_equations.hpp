@@ -27,8 +27,9 @@ struct JointEquations {
 };
 
 /// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in
-/// its row of S_ud: then K - S_ud is positive definite (Gershgorin).
+/// its row of S_ud: then K - S_ud is positive definite (Gershgorin). Where S_ud is rounding, the plate's own stiffness.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
+/// @param contacts Their stiffness is that of the plate itself, and replaced.
 [[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
 
 /// d residual / d c, shape (n a, n a), at the state of the contact coordinates c.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/event_path.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -55,6 +56,29 @@ JointModel strands(const std::shared_ptr<const Law>& law, const std::array<doubl
                               law);
   for (std::size_t j = 0; j < 3; ++j) joint.planes[j].clearance = gaps[j];
   return joint;
+}
+
+TEST(Events, OfOneFastenerAreToldApartThoughItsPlatesFloat) {
+  // S_ud is what rounding leaves of the first plate's stiffness, in any units.
+  for (const double force : {1.0, 1e-6, 1e6})
+    for (const double length : {1.0, 1e-4, 1e4}) {
+      const double k = force / length;
+      const auto law = read_law(input::Value(input::parse(
+          "law", fmt::format(R"({{"type": "four stage", "k_stick": {}, "F_slip": {}, "slip": {}, "k_bearing": {},
+                                  "F_yield": {}, "k_yield": {}}})",
+                             2e6 * k, 350 * force, 2.5e-4 * length, 4e5 * k, 700 * force, 1e4 * k))));
+      const auto joint =
+          test::joint_of({test::spring_plate(1, 2, {{0, 1, 123456.7 * k}, {1, 2, 7890.1 * k}, {0, 2, 3333.3 * k}}),
+                          test::spring_plate(1, 0, {{0, ground, 54321 * k}}), 1000 * force},
+                         law);
+      const JointEquations equations = make_equations(joint);
+      EXPECT_GT(equations.contacts[0].stiffness, 1e4 * k);
+      const LoadPath path = follow_events(equations, {});
+      ASSERT_EQ(path.steps.size(), 3U);
+      EXPECT_EQ(event_text(joint, path.steps[0].events), "1 slips; 1 closes");
+      EXPECT_EQ(event_text(joint, path.steps[1].events), "1 yields");
+      EXPECT_NEAR(path.steps[1].load_factor, 0.7, 1e-12);
+    }
 }
 
 TEST(Events, AreToldByName) {
