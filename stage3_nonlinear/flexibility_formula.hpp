@@ -7,6 +7,15 @@
 
 namespace fastjoint::stage3 {
 
+/// What only a formula with correlations for the row of fasteners asks for.
+struct FastenerRows {
+  std::array<double, 2> E_z;  ///< Young's modulus of the sheets through the thickness, force / length^2
+  double d_head;              ///< diameter of the head, length
+  double pitch, row_pitch;    ///< between fasteners of a row, between rows, length
+  double rows;                ///< how many
+  double c_f;                 ///< factor of the kind of fastener
+};
+
 /// What a published formula knows of one fastener and the sheets that it joins, in any consistent units.
 ///
 /// In double shear sheet 1 is the one in the middle and sheet 2 one of the two equal straps around it.
@@ -17,6 +26,7 @@ struct FastenerGeometry {
   double E_f;               ///< Young's modulus of the fastener, force / length^2
   double nu_f = 0;          ///< its Poisson's ratio, where the formula uses it
   int n_shear = 1;          ///< shear planes: 1, or 2 where the formula knows them
+  FastenerRows rows{};      ///< where the formula uses them
 };
 
 /// One term of a formula: the bearing of a sheet, which the springs around a modelled hole have already, or what
@@ -34,6 +44,7 @@ struct FlexibilityFormula {
   bool knows_double_shear;
   bool uses_nu_f;
   const char* provenance;  ///< who, where, when
+  bool uses_rows = false;
 };
 
 /// All that the program knows; a new one is one function and one line in the table of the .cpp.

@@ -41,10 +41,26 @@ std::array<double, 2> read_pair(const input::Value& law, const char* key) {
   return {values[0], values[1]};
 }
 
+FastenerRows read_rows(const input::Value& law, const FlexibilityFormula& formula) {
+  constexpr int most_rows = 100;
+  if (formula.uses_rows)
+    return {.E_z = read_pair(law, "E_z"),
+            .d_head = law.at("d_head").number(input::positive),
+            .pitch = law.at("pitch").number(input::positive),
+            .row_pitch = law.at("row_pitch").number(input::positive),
+            .rows = static_cast<double>(law.at("rows").integer(1, most_rows)),
+            .c_f = law.at("c_f").number(input::positive)};
+  for (const char* key : {"E_z", "d_head", "pitch", "row_pitch", "rows", "c_f"})
+    if (const auto value = law.find(key))
+      value->fail("unknown key", fmt::format("no \"{}\", the formula \"{}\" does not use it", key, formula.name));
+  return {};
+}
+
 }  // namespace
 
 Flexibility read_flexibility(const input::Value& law) {
-  law.only({"type", "formula", "mode", "shear", "t", "E", "d", "E_f", "nu_f", "one_sided"});
+  law.only({"type", "formula", "mode", "shear", "t", "E", "d", "E_f", "nu_f", "E_z", "d_head", "pitch", "row_pitch",
+            "rows", "c_f", "one_sided"});
   const auto& formula = read_formula(law);
   const std::string mode = law.at("mode").choice({"total", "fastener only"});
   const int n_shear = read_shear(law, formula);
@@ -53,7 +69,8 @@ Flexibility read_flexibility(const input::Value& law) {
                                     .d = law.at("d").number(input::positive),
                                     .E_f = law.at("E_f").number(input::positive),
                                     .nu_f = read_nu(law, formula),
-                                    .n_shear = n_shear});
+                                    .n_shear = n_shear,
+                                    .rows = read_rows(law, formula)});
   const double total = total_flexibility(terms), fastener = fastener_flexibility(terms);
   const bool whole = mode == "total";
   return {.stiffness = 1 / (n_shear * (whole ? total : fastener)),
