@@ -19,32 +19,21 @@ Eigen::SparseMatrix<double> compressed(const std::vector<Eigen::Triplet<double>>
 Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns)
     : numbering_(numbering), unknowns_(unknowns), K_cc_(unknowns.n_controlled, unknowns.n_controlled) {
   K_cc_.setZero();
-  const auto n_modes = static_cast<std::size_t>(numbering.function.rows());
-  ff_.reserve(static_cast<std::size_t>(numbering.function.cols()) * n_modes * (2 * n_modes + 1));
 }
 
-void Assembler::add_stiffness(int element, const Eigen::MatrixXd& K, double factor) {
-  const auto n = numbering_.function.rows();
-  std::vector<int> to(static_cast<std::size_t>(2 * n));
-  Eigen::VectorXd sign(2 * n);
-  for (Eigen::Index i = 0; i < 2 * n; ++i) {
-    to[static_cast<std::size_t>(i)] = target(numbering_, unknowns_, element, i % n, i < n ? 0 : 1);
-    sign[i] = numbering_.sign(i % n, element);
-  }
-  for (Eigen::Index j = 0; j < 2 * n; ++j)
+void Assembler::add_stiffness(int element, const std::vector<int>& modes, const Eigen::MatrixXd& K, double factor) {
+  const auto n = static_cast<Eigen::Index>(modes.size());
+  const auto mode = [&](Eigen::Index i) { return modes[static_cast<std::size_t>(i % n)]; };
+  const auto to = [&](Eigen::Index i) { return target(numbering_, unknowns_, element, mode(i), i < n ? 0 : 1); };
+  for (Eigen::Index j = 0; j < 2 * n; ++j) {
+    if (!Unknowns::is_controlled(to(j))) continue;
+    const int controlled = Unknowns::controlled_index(to(j));
     for (Eigen::Index i = 0; i < 2 * n; ++i) {
-      const int row = to[static_cast<std::size_t>(i)];
-      const int col = to[static_cast<std::size_t>(j)];
-      if (row == Unknowns::fixed || col == Unknowns::fixed) continue;
-      const double value = factor * sign[i] * sign[j] * K(i, j);
-      if (Unknowns::is_free(row) && Unknowns::is_free(col)) {
-        if (row >= col) ff_.emplace_back(row, col, value);
-      } else if (Unknowns::is_free(row)) {
-        fc_.emplace_back(row, Unknowns::controlled_index(col), value);
-      } else if (!Unknowns::is_free(col)) {
-        K_cc_(Unknowns::controlled_index(row), Unknowns::controlled_index(col)) += value;
-      }
+      const double value = factor * numbering_.sign(mode(i), element) * numbering_.sign(mode(j), element) * K(i, j);
+      if (Unknowns::is_free(to(i))) fc_.emplace_back(to(i), controlled, value);
+      if (Unknowns::is_controlled(to(i))) K_cc_(Unknowns::controlled_index(to(i)), controlled) += value;
     }
+  }
 }
 
 void Assembler::add_coupling(int element, const ElementVector& g, int controlled) {
@@ -65,7 +54,6 @@ void Assembler::add_coupling(int element, const ElementVector& g, int controlled
 void Assembler::add_spring(int target, int controlled, double stiffness) {
   K_cc_(controlled, controlled) += stiffness;
   if (Unknowns::is_free(target)) {
-    ff_.emplace_back(target, target, stiffness);
     fc_.emplace_back(target, controlled, -stiffness);
   } else if (target != Unknowns::fixed) {
     const int other = Unknowns::controlled_index(target);
@@ -73,10 +61,6 @@ void Assembler::add_spring(int target, int controlled, double stiffness) {
     K_cc_(other, controlled) -= stiffness;
     K_cc_(controlled, other) -= stiffness;
   }
-}
-
-Eigen::SparseMatrix<double> Assembler::K_ff() const {
-  return compressed(ff_, unknowns_.n_free.back(), unknowns_.n_free.back());
 }
 
 Eigen::SparseMatrix<double> Assembler::K_fc() const {

@@ -14,27 +14,27 @@ struct ElementVector {
   Eigen::Matrix2Xd values;  ///< (2, n) for u_x and u_y of each, local signs
 };
 
-/// Collects element matrices and vectors into the blocks of free (f) and controlled (c) unknowns.
+/// Collects what couples free (f) and controlled (c) unknowns, and controlled ones with each other.
 class Assembler {
  public:
   Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns);
 
-  /// factor K, shape (2 n_modes, 2 n_modes), first all of u_x, local signs.
-  void add_stiffness(int element, const Eigen::MatrixXd& K, double factor = 1);
+  /// factor K over some modes of an element, shape (2n, 2n), first all of u_x, local signs. What it has between free
+  /// unknowns is left out.
+  void add_stiffness(int element, const std::vector<int>& modes, const Eigen::MatrixXd& K, double factor);
   /// Stiffness between an element's coefficients and a controlled displacement.
   void add_coupling(int element, const ElementVector& g, int controlled);
   /// A spring between a coefficient of the plate, by its target, and a controlled displacement.
   void add_spring(int target, int controlled, double stiffness);
   void add_controlled(int i, int j, double value) { K_cc_(i, j) += value; }
 
-  [[nodiscard]] Eigen::SparseMatrix<double> K_ff() const;
   [[nodiscard]] Eigen::SparseMatrix<double> K_fc() const;
   [[nodiscard]] const Eigen::MatrixXd& K_cc() const { return K_cc_; }
 
  private:
   const pfem::Numbering& numbering_;
   const Unknowns& unknowns_;
-  std::vector<Eigen::Triplet<double>> ff_, fc_;
+  std::vector<Eigen::Triplet<double>> fc_;
   Eigen::MatrixXd K_cc_;
 };
 

@@ -25,7 +25,8 @@ std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mes
   return nodes;
 }
 
-void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns, Assembler& assembler) {
+std::vector<PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  std::vector<PointTie> ties;
   for (std::size_t i = 0; i < scene.points.size(); ++i)
     for (std::size_t a = 0; a < scene.disc_directions.size(); ++a) {
       const std::string& direction = scene.disc_directions[a];
@@ -35,9 +36,11 @@ void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unk
         reject(scene, fmt::format("/points/{}/at", i),
                fmt::format("a support holds the vertex along {}, so that the spring cannot load the plate", direction),
                "vertices that are free to move along every one of \"disc_directions\"");
-      assembler.add_spring(target, unknowns.controlled_of_disc(unknowns.disc_of_point[i] + static_cast<int>(a)),
-                           scene.points[i].stiffness);
+      ties.push_back({plate.point_nodes[i], target,
+                      unknowns.controlled_of_disc(unknowns.disc_of_point[i] + static_cast<int>(a)),
+                      scene.points[i].stiffness});
     }
+  return ties;
 }
 
 }  // namespace fastjoint::stage1

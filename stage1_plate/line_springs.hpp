@@ -1,16 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "stage1_plate/assembler.hpp"
+#include <vector>
+
 #include "stage1_plate/plate_mesh.hpp"
+#include "stage1_plate/unknowns.hpp"
 
 namespace fastjoint::stage1 {
 
 /// Vertex of every point spring, shape (points). Throws InputError, which names the nearest vertex, if none is there.
 [[nodiscard]] std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mesh);
 
+/// A spring between a coefficient of a vertex, by its target, and a controlled displacement.
+struct PointTie {
+  int vertex, target, controlled;
+  double stiffness;  ///< force / length
+};
+
 /// Springs between vertices of the mesh and discs of their own, section 3.1 of the paper: the displacement of the
 /// vertex, and with it the springs' load, does not converge. Throws InputError where a support holds the vertex.
-void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns, Assembler& assembler);
+[[nodiscard]] std::vector<PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate,
+                                               const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

@@ -10,15 +10,6 @@
 namespace fastjoint::stage1 {
 namespace {
 
-ElementVector friction_load(const pfem::SideRule& rule, double thickness, const Eigen::Vector2d& d) {
-  ElementVector load{rule.modes, Eigen::Matrix2Xd::Zero(2, rule.N.rows())};
-  for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
-    const auto bearing = pfem::cosine_bearing(-rule.normal.col(q), d);
-    load.values += thickness * rule.ds[q] * bearing.contact * bearing.tangent * rule.N.col(q).transpose();
-  }
-  return load;
-}
-
 /// Uniform traction of unit total force on an edge.
 void add_uniform(const PlateMesh& plate, const External& external, int p, int column, LoadAssembler& loads) {
   const auto& sides = plate.sets.at(external.on);
@@ -60,30 +51,6 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
 }
 
 }  // namespace
-
-void add_friction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
-  const Unknowns& unknowns = problem.unknowns;
-  const auto n_sprung =
-      std::count_if(scene.holes.begin(), scene.holes.end(), [](const Hole& hole) { return hole.spring.has_value(); });
-  const auto n_cases = 2 * n_sprung * static_cast<std::ptrdiff_t>(scene.disc_directions.size());
-  LoadAssembler loads(problem.numbering, unknowns, static_cast<int>(n_cases));
-  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
-    if (!scene.holes[hole].spring) continue;
-    for (const auto& direction : scene.disc_directions)
-      for (const double sign : {1.0, -1.0}) {
-        const int column = static_cast<int>(problem.friction_hole.size());
-        problem.friction_hole.push_back(scene.holes[hole].id);
-        problem.friction_bearing.push_back((sign > 0 ? "+" : "-") + direction);
-        for (const auto& side : plate.rims[hole].sides) {
-          const auto rule = pfem::rim_rule(plate.mesh, plate.edges, side, problem.numbering.p);
-          const double thickness = plate.mesh.thickness[side.element];
-          loads.add(side.element, friction_load(rule, thickness, sign * pfem::axis(direction)), column);
-        }
-      }
-  }
-  problem.L_f = loads.free();
-  problem.L_c = loads.controlled();
-}
 
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   const auto& list = problem.unknowns.traction;

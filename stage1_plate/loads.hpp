@@ -5,11 +5,6 @@
 
 namespace fastjoint::stage1 {
 
-/// Unit friction cases of every disc of a hole, direction inner, bearing side + then -: tangential traction cos(theta)
-/// on the bearing half of the rim, dragging the plate along the bearing direction. Sets friction_hole,
-/// friction_bearing, L_f, L_c.
-void add_friction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
-
 /// Unit total force on every external that is not rigid: uniform traction on an edge, cosine pressure on an open hole.
 /// Sets T_f, T_c.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);

@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/formats/plate_solution.hpp"
-#include "common/linalg/cholesky.hpp"
+#include "common/linalg/condensed.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage1_plate/contact_summary.hpp"

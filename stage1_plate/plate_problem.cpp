@@ -1,28 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/plate_problem.hpp"
 
-#include "common/pfem/congruent_stiffness.hpp"
+#include <numeric>
+
 #include "stage1_plate/assembler.hpp"
 #include "stage1_plate/line_springs.hpp"
 #include "stage1_plate/loads.hpp"
-#include "stage1_plate/springs.hpp"
+#include "stage1_plate/rim_couplings.hpp"
 
 namespace fastjoint::stage1 {
+namespace {
+
+/// What elements at rigid externals add to K_fc and K_cc.
+void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assembler& assembler) {
+  std::vector<int> modes(static_cast<std::size_t>(problem.numbering.function.rows()));
+  std::iota(modes.begin(), modes.end(), 0);
+  for (const auto& cell : problem.cells.cells) {
+    const auto& shape = problem.cells.shapes[static_cast<std::size_t>(cell.shape)];
+    for (std::size_t i = 0; i < shape.element_shape.size(); ++i) {
+      const int element = cell.first_element + static_cast<int>(i);
+      assembler.add_stiffness(element, modes,
+                              problem.cells.element_stiffness[static_cast<std::size_t>(shape.element_shape[i])],
+                              plate.mesh.thickness[element]);
+    }
+  }
+}
+
+}  // namespace
 
 PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
+  problem.cells = find_cells(scene, plate, problem.numbering, problem.unknowns);
+  problem.ties = tie_points(scene, plate, problem.unknowns);
   Assembler assembler(problem.numbering, problem.unknowns);
-  pfem::CongruentStiffness stiffness(plate.mesh, plate.edges, scene.elasticity, scene.p_high);
-  for (int element = 0; element < plate.mesh.n_elements(); ++element)
-    assembler.add_stiffness(element, stiffness(element), plate.mesh.thickness[element]);
-  add_springs(scene, plate, problem.numbering, problem.unknowns, assembler);
-  add_line_springs(scene, plate, problem.unknowns, assembler);
-  problem.K_ff = assembler.K_ff();
+  if (problem.unknowns.n_externals() > 0) add_externals(plate, problem, assembler);
+  add_springs(scene, problem, assembler);
+  for (const auto& tie : problem.ties) assembler.add_spring(tie.target, tie.controlled, tie.stiffness);
   problem.K_fc = assembler.K_fc();
   problem.K_cc = assembler.K_cc();
-  add_friction_loads(scene, plate, problem);
+  add_friction_loads(scene, problem);
   add_traction_loads(scene, plate, problem);
   return problem;
 }

@@ -5,17 +5,21 @@
 #include <string>
 #include <vector>
 
+#include "stage1_plate/cells.hpp"
+#include "stage1_plate/line_springs.hpp"
 #include "stage1_plate/plate_mesh.hpp"
 #include "stage1_plate/unknowns.hpp"
 
 namespace fastjoint::stage1 {
 
-/// The discrete plate at the highest p, with rows for the n_f free unknowns (by degree) and the nc controlled ones.
+/// The discrete plate at the highest p: n_f free unknowns (by degree), nc controlled ones, h friction cases, q
+/// tractions. Its stiffness K_ff among the free unknowns is never assembled: it is there cell by cell (PlateFactor).
 struct PlateProblem {
   pfem::Numbering numbering;
   Unknowns unknowns;
-  Eigen::SparseMatrix<double> K_ff;  ///< lower triangle, (n_f, n_f), force / length
-  Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc)
+  PlateCells cells;
+  std::vector<PointTie> ties;
+  Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc), force / length
   Eigen::MatrixXd K_cc;              ///< (nc, nc)
   std::vector<std::string> friction_hole, friction_bearing;
   Eigen::SparseMatrix<double> L_f;  ///< (n_f, h) loads of the unit friction cases on the plate, length^2
@@ -25,6 +29,7 @@ struct PlateProblem {
 };
 
 /// Integrates elements, springs and loads once, at the scene's highest p.
+/// Throws InputError for an arc that the rim of the model does not have.
 [[nodiscard]] PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

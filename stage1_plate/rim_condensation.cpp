@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/rim_condensation.hpp"
 
-#include "common/linalg/cholesky.hpp"
+#include "stage1_plate/plate_factor.hpp"
 
 namespace fastjoint::stage1 {
 
 RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns& rim, bool with_friction) {
-  const auto n = problem.K_ff.rows();
+  const auto n = problem.K_fc.rows();
   const auto n_r = static_cast<Eigen::Index>(rim.free.size());
   const auto nc = problem.K_fc.cols();
   const auto q = problem.T_f.cols();
@@ -16,7 +16,7 @@ RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns&
   B.middleCols(nc, q) = Eigen::MatrixXd(problem.T_f);
   for (Eigen::Index i = 0; i < n_r; ++i) B(rim.free[static_cast<std::size_t>(i)], nc + q + i) = 1;
   if (with_friction) B.rightCols(h) = Eigen::MatrixXd(problem.L_f);
-  const Eigen::MatrixXd X = linalg::Cholesky(problem.K_ff).solve(B);
+  const Eigen::MatrixXd X = PlateFactor(problem, Outline(problem), problem.numbering.p).solve(B);
   const Eigen::MatrixXd X_r = X(rim.free, Eigen::all);
   const auto U = X.leftCols(nc);
   RimCondensation a;

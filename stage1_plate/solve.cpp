@@ -3,31 +3,41 @@
 
 #include <algorithm>
 
-#include "common/linalg/cholesky.hpp"
+#include "stage1_plate/plate_factor.hpp"
 #include "stage1_plate/springs.hpp"
 
 namespace fastjoint::stage1 {
 
-formats::PlateCases solve_degree(const PlateProblem& problem, int p, const Eigen::MatrixXd& mixture) {
-  const int n = problem.unknowns.n_free[static_cast<std::size_t>(p)];
-  const auto nc = problem.K_fc.cols();
-  const auto q = problem.T_f.cols();
-  Eigen::MatrixXd B(n, nc + q + mixture.cols());
-  B.leftCols(nc) = -Eigen::MatrixXd(problem.K_fc.topRows(n));
-  B.middleCols(nc, q) = Eigen::MatrixXd(problem.T_f.topRows(n));
-  B.rightCols(mixture.cols()) = problem.L_f.topRows(n) * mixture;
-  const linalg::Cholesky K(linalg::leading_block(problem.K_ff, n));
-  const Eigen::MatrixXd X = K.solve(B);
-  return {X.leftCols(nc), X.middleCols(nc, q), X.rightCols(mixture.cols())};
-}
-
 namespace {
 
-/// Weights that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
-Eigen::MatrixXd probe(Eigen::Index n_friction_cases) {
-  if (n_friction_cases == 0) return Eigen::MatrixXd(0, 0);
-  const auto n = static_cast<double>(n_friction_cases);
-  return Eigen::VectorXd::LinSpaced(n_friction_cases, 1, n) / n;
+bool has_fields(const formats::PlateSolution& a, int p) {
+  return std::find(a.stress_p.begin(), a.stress_p.end(), p) != a.stress_p.end();
+}
+
+formats::PlateCases solve_degree(const PlateProblem& problem, const PlateFactor& K, int n, bool with_fields) {
+  const auto nc = problem.K_fc.cols(), q = problem.T_f.cols(), h = problem.L_f.cols();
+  const Eigen::MatrixXd E = K.energy_rows();
+  const auto n_u = with_fields ? nc : 0, n_w = with_fields ? h : 0;
+  Eigen::MatrixXd B(n, n_u + q + n_w);
+  if (with_fields) B.leftCols(nc) = -Eigen::MatrixXd(problem.K_fc.topRows(n));
+  B.middleCols(n_u, q) = Eigen::MatrixXd(problem.T_f.topRows(n));
+  if (with_fields) B.rightCols(h) = Eigen::MatrixXd(problem.L_f.topRows(n));
+  const Eigen::MatrixXd X = K.solve(B);
+  return {E.topRows(nc), E.bottomRows(h), X.leftCols(n_u), X.middleCols(n_u, q), X.rightCols(n_w)};
+}
+
+/// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
+Eigen::VectorXd amounts(Eigen::Index n_cases) {
+  const auto n = static_cast<double>(n_cases);
+  return n_cases > 0 ? Eigen::VectorXd(Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n) : Eigen::VectorXd();
+}
+
+formats::Probe probe(const PlateProblem& problem, const PlateFactor& K) {
+  const Eigen::VectorXd displacement = amounts(problem.K_fc.cols()), friction = amounts(problem.L_f.cols());
+  Eigen::MatrixXd B(problem.K_fc.rows(), 2);
+  B << -(problem.K_fc * displacement), problem.L_f * friction;
+  const Eigen::MatrixXd X = K.solve(B);
+  return {displacement, friction, X.col(0), X.col(1)};
 }
 
 }  // namespace
@@ -75,12 +85,11 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.L_c = problem.L_c;
   a.T_f = problem.T_f;
   a.T_c = problem.T_c;
-  const auto h = problem.L_f.cols();
-  a.friction_mixture = wanted == Wanted::loads ? probe(h) : Eigen::MatrixXd::Identity(h, h);
+  a.shift = shift(problem);
   constexpr Eigen::Index n_stress_levels = 2;  // their difference estimates the error
   if (wanted == Wanted::loads_and_stresses) a.stress_p = a.p.tail(std::min(a.p.size(), n_stress_levels));
   a.load_displacement.resize(0, problem.K_cc.cols());
-  a.load_friction.resize(0, h);
+  a.load_friction.resize(0, problem.L_f.cols());
   a.load_traction.resize(0, problem.T_f.cols());
   return a;
 }
@@ -94,9 +103,12 @@ void add_contact(const ContactState& state, formats::PlateSolution& a) {
 }
 
 void solve_cases(const PlateProblem& problem, formats::PlateSolution& a) {
-  const int first_mixed = a.stress_p.size() > 0 ? a.stress_p[0] : a.p[a.p.size() - 1];
-  const Eigen::MatrixXd none(problem.L_f.cols(), 0);
-  for (const int p : a.p) a.cases.push_back(solve_degree(problem, p, p >= first_mixed ? a.friction_mixture : none));
+  const Outline outline(problem);
+  for (Eigen::Index i = 0; i < a.p.size(); ++i) {
+    const PlateFactor K(problem, outline, a.p[i]);
+    a.cases.push_back(solve_degree(problem, K, a.ndof[i], has_fields(a, a.p[i])));
+    if (i + 1 == a.p.size()) a.probe = probe(problem, K);
+  }
 }
 
 }  // namespace fastjoint::stage1

@@ -7,10 +7,6 @@
 
 namespace fastjoint::stage1 {
 
-/// All unit cases of one degree: factorises the leading block of K_ff once and solves one block of right-hand sides.
-/// @param mixture (h, w) weights of the friction cases in each mixture of them that is solved, stress.
-[[nodiscard]] formats::PlateCases solve_degree(const PlateProblem& problem, int p, const Eigen::MatrixXd& mixture);
-
 /// What stage 2 is to make of the plate.
 enum class Wanted { loads_and_stresses, loads };
 
@@ -22,8 +18,8 @@ enum class Wanted { loads_and_stresses, loads };
 /// Sets the contacts and the loads of a scene that has them.
 void add_contact(const ContactState& state, formats::PlateSolution& solution);
 
-/// Solves all cases of every degree. The friction fields are needed for stresses alone, at the two highest degrees;
-/// without stresses, one mixture of them at the highest checks reciprocity.
+/// Factorises the plate at every degree and solves what stage 2 reads: all fields at the degrees whose stresses are
+/// wanted, elsewhere those of tractions only, and at the highest degree the probe.
 void solve_cases(const PlateProblem& problem, formats::PlateSolution& solution);
 
 }  // namespace fastjoint::stage1

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "stage1_plate/assembler.hpp"
+#include <Eigen/Core>
+
+#include "common/formats/plate_solution.hpp"
+#include "stage1_plate/plate_mesh.hpp"
 
 namespace fastjoint::stage1 {
 
@@ -15,11 +18,5 @@ struct SideSprings {
 };
 /// @param p Degree of the plate's space. Arcs are integrated exactly: pieces end where they do.
 [[nodiscard]] SideSprings side_springs(const Spring& spring, const PlateMesh& plate, const pfem::Side& side, int p);
-
-/// Normal springs between every rim and its rigid disc, equation (6): adds int k t (v.n)(u.n) ds to the plate,
-/// -int k t (u.n)(e.n) ds between plate and disc, int k t (e.n)(e'.n) ds to the disc; sums over nodes for links.
-/// Throws InputError for an arc that the rim of the model does not have.
-void add_springs(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
-                 const Unknowns& unknowns, Assembler& assembler);
 
 }  // namespace fastjoint::stage1

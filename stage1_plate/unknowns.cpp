@@ -87,6 +87,7 @@ class Classifier {
       result_.disc_direction.push_back(disc.direction);
     }
     const auto n_directions = static_cast<int>(scene_.disc_directions.size());
+    result_.n_directions = n_directions;
     int disc = 0;
     for (const auto& hole : scene_.holes) {
       result_.disc_of_hole.push_back(hole.spring ? disc : -1);

@@ -17,6 +17,7 @@ struct Unknowns {
   std::vector<int> target;  ///< (2 n_functions), at 2 function + component: see below
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_controlled = 0;
+  int n_directions = 0;                                ///< of the discs
   std::vector<int> rigid, traction;                    ///< indices into PlateScene::externals
   std::vector<std::string> disc_hole, disc_direction;  ///< (m)
   std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
@@ -25,6 +26,7 @@ struct Unknowns {
   static constexpr int fixed = -1;
   [[nodiscard]] static constexpr int controlled(int index) { return -2 - index; }
   [[nodiscard]] static constexpr bool is_free(int target) { return target >= 0; }
+  [[nodiscard]] static constexpr bool is_controlled(int target) { return target < fixed; }
   [[nodiscard]] static constexpr int controlled_index(int target) { return -2 - target; }
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals() + disc; }

@@ -14,14 +14,13 @@ namespace fastjoint::stage2 {
 
 /// What must hold whatever the mesh, at the highest p; each relative to the largest entry of what it compares.
 struct Checks {
-  double symmetry;             ///< largest |S - S^T|
-  double smallest_eigenvalue;  ///< of S, over the largest
-  std::optional<double>
-      reciprocity;  ///< reactions to friction and to tractions by unit fields against those by solving
+  std::optional<double> energy;  ///< forces under a mixture of unit displacements, by S against by its own solution
+  std::optional<double> reciprocity;          ///< the same of friction and tractions, by R and T
+  std::optional<double> negative_eigenvalue;  ///< the smallest of S, if it is further below zero than allowed
   std::optional<double> equilibrium;  ///< force left when all discs and boundaries move together; none if supports hold
 };
 
-/// @param S (nc, nc) not made symmetric.
+/// @param S (nc, nc) of the highest p.
 [[nodiscard]] Checks check(const formats::PlateSolution& plate, const formats::PlateMatrices& matrices,
                            const Eigen::MatrixXd& S);
 

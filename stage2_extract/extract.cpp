@@ -66,10 +66,9 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   std::vector<Eigen::MatrixXd> S;
   for (std::size_t level = 0; level < plate.cases.size(); ++level) {
     S.push_back(condensed_stiffness(plate, level));
-    const Eigen::MatrixXd symmetric = (S.back() + S.back().transpose()) / 2;
-    a.S_ee.push_back(symmetric.topLeftCorner(e, e));
-    a.S_ed.push_back(symmetric.topRightCorner(e, m));
-    a.S_dd.push_back(symmetric.bottomRightCorner(m, m));
+    a.S_ee.push_back(S.back().topLeftCorner(e, e));
+    a.S_ed.push_back(S.back().topRightCorner(e, m));
+    a.S_dd.push_back(S.back().bottomRightCorner(m, m));
     const Eigen::MatrixXd R = friction_reactions(plate, level);
     a.R_ef.push_back(R.topRows(e));
     a.R_df.push_back(R.bottomRows(m));

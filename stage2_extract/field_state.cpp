@@ -30,14 +30,6 @@ FieldState scene_loads(const formats::PlateSolution& plate, const std::string& f
   return state;
 }
 
-/// The first friction case that acts, or "".
-std::string acting_friction(const formats::PlateSolution& plate, const Eigen::VectorXd& amounts) {
-  const auto nc = plate.K_cc.cols();
-  for (Index i = nc; i < nc + static_cast<Index>(plate.friction_hole.size()); ++i)
-    if (amounts[i] != 0) return case_names(plate)[static_cast<std::size_t>(i)];
-  return "";
-}
-
 }  // namespace
 
 std::string listed(const std::vector<std::string>& names) {
@@ -68,12 +60,11 @@ std::size_t field_level(const formats::PlateSolution& plate, const std::string& 
   if (found == plate.p.end())
     throw InputError(fmt::format("--p: {} is {}not allowed; {} has the degrees {}", p,
                                  request.p != 0 ? "" : "the degree of the joint and ", file, fmt::join(plate.p, ", ")));
-  const std::string friction = acting_friction(plate, state.amounts);
-  if (!friction.empty() && std::find(plate.stress_p.begin(), plate.stress_p.end(), p) == plate.stress_p.end())
-    throw InputError(fmt::format(
-        "{}:stress_p: the field of {} at p = {} is not in the file; it has those of friction at p = {} "
-        "(none if stage1_plate was told --loads-only)",
-        file, friction, p, plate.stress_p.size() > 0 ? fmt::format("{}", fmt::join(plate.stress_p, ", ")) : "none"));
+  if (std::find(plate.stress_p.begin(), plate.stress_p.end(), p) == plate.stress_p.end())
+    throw InputError(
+        fmt::format("{}:stress_p: the fields at p = {} are not in the file; it has those at p = {} (none if "
+                    "stage1_plate was told --loads-only)",
+                    file, p, plate.stress_p.size() > 0 ? fmt::format("{}", fmt::join(plate.stress_p, ", ")) : "none"));
   return static_cast<std::size_t>(std::distance(plate.p.begin(), found));
 }
 

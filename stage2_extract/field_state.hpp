@@ -54,7 +54,7 @@ template <class Plate>
                                      const FieldRequest& request);
 
 /// Index into the plate's degrees of the one to look at: the request's, else the state's, else the highest.
-/// Throws InputError if the plate has no such degree, or at this degree lacks the friction fields of the state.
+/// Throws InputError if the plate has no such degree, or no fields at this degree.
 [[nodiscard]] std::size_t field_level(const formats::PlateSolution& plate, const std::string& file,
                                       const FieldRequest& request, const FieldState& state);
 

@@ -69,9 +69,7 @@ Eigen::RowVectorXd radial_stress(const UnitFields& fields, std::size_t hole, dou
 Eigen::RowVectorXd shear_stress(const UnitFields& fields, std::size_t hole, const Frame& frame) {
   const auto& plate = fields.plate();
   Eigen::RowVectorXd sigma = Eigen::RowVectorXd::Zero(fields.n_cases());
-  const auto q = static_cast<Eigen::Index>(plate.traction_hole.size());
   const auto first = plate.K_cc.cols();
-  if (fields.n_cases() == first + q) return sigma;  // no friction fields
   for (std::size_t i = 0; i < plate.friction_hole.size(); ++i) {
     if (plate.friction_hole[i] != plate.hole_id[hole]) continue;
     const auto at = pfem::cosine_bearing(frame.n, bearing_direction(plate.friction_bearing[i]));

@@ -20,10 +20,8 @@ UnitFields::UnitFields(const formats::PlateSolution& plate, const std::string& f
 
 void UnitFields::use(std::size_t level) {
   const auto& cases = plate_.cases[level];
-  const auto h = plate_.L_c.cols();
-  const auto w = cases.W.cols() == h ? h : 0;  // a mixture of friction cases is none of them
-  X_.resize(cases.U.rows(), cases.U.cols() + w + cases.V.cols());
-  X_ << cases.U, cases.W.leftCols(w), cases.V;
+  X_.resize(cases.V.rows(), cases.U.cols() + cases.W.cols() + cases.V.cols());
+  X_ << cases.U, cases.W, cases.V;
 }
 
 const Eigen::Matrix3d& UnitFields::elasticity(int element) const {

@@ -10,13 +10,13 @@
 namespace fastjoint::stage2 {
 
 /// The displacement fields of all unit cases at one degree, element by element. Cases: nc controlled displacements
-/// (externals, discs), h friction cases if they were solved, q tractions.
+/// (externals, discs), h friction cases, q tractions.
 class UnitFields {
  public:
   /// Throws FileError if the map of unknowns does not fit the mesh. The plate must outlive this.
   UnitFields(const formats::PlateSolution& plate, const std::string& file);
 
-  /// Looks at the cases of this level from now on.
+  /// Looks at the cases of this level, one of stress_p, from now on.
   void use(std::size_t level);
   [[nodiscard]] Eigen::Index n_cases() const { return X_.cols(); }
   [[nodiscard]] int p() const { return numbering_.p; }

@@ -14,7 +14,7 @@ namespace fastjoint::formats {
 namespace {
 
 constexpr const char* format = "plate-solution";
-constexpr int major = 2;
+constexpr int major = 3;
 constexpr int minor = 0;
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -161,16 +161,42 @@ void read_loads(const h5::Reader& file, PlateSolution& a) {
   a.load_traction = file.matrix("loads/traction", l, a.T_c.cols(), unit(units, 0, 1));
 }
 
-/// W has a column for each mixture, or none where no stress is wanted; where it is, the mixtures are the cases.
-void check_mixtures(const h5::Reader& file, const PlateSolution& a, Eigen::Index level) {
-  const auto w = a.cases.back().W.cols();
-  const bool wanted = std::find(a.stress_p.begin(), a.stress_p.end(), a.p[level]) != a.stress_p.end();
-  const auto h = a.L_c.cols();
-  const bool fits = wanted ? w == h && a.friction_mixture.isIdentity(0) : w == 0 || w == a.friction_mixture.cols();
-  if (!fits) throw FileError(fmt::format("{}:p{}/W: does not fit friction/mixture", file.path(), a.p[level]));
+std::string case_group(int p) { return fmt::format("p{}/", p); }
+
+void write_cases(h5::Writer& file, const Units& units, const std::string& group, const PlateCases& cases) {
+  file.write(group + "E_c", cases.E_c,
+             {unit(units, -0.5, 0.5), "unit fields of externals and discs in a basis orthonormal in energy"});
+  file.write(group + "E_h", cases.E_h, {unit(units, 2.5, -0.5), "the same of unit friction cases"});
+  file.write_transposed(group + "U", cases.U, {"1", "plate unknowns per unit displacement of an external or disc"});
+  file.write_transposed(group + "V", cases.V,
+                        {unit(units, 1, -1), "plate unknowns per unit force on a traction boundary"});
+  file.write_transposed(group + "W", cases.W, {unit(units, 1, 0), "plate unknowns under each unit friction case"});
 }
 
-std::string case_group(int p) { return fmt::format("p{}/", p); }
+/// The fields of all cases are there where stresses are wanted, else none of externals, discs and friction.
+void check_fields(const h5::Reader& file, const PlateSolution& a, int p, const PlateCases& cases) {
+  const bool wanted = std::find(a.stress_p.begin(), a.stress_p.end(), p) != a.stress_p.end();
+  const auto check = [&](const char* name, Eigen::Index stored, Eigen::Index all) {
+    if (const auto expected = wanted ? all : 0; stored != expected)
+      throw FileError(fmt::format("{}:{}{}: holds {} fields, expected {}, since stress_p has {}p = {}", file.path(),
+                                  case_group(p), name, stored, expected, wanted ? "" : "no ", p));
+  };
+  check("U", cases.U.cols(), a.K_cc.rows());
+  check("W", cases.W.cols(), a.L_c.cols());
+}
+
+PlateCases read_cases(const h5::Reader& file, const PlateSolution& a, Eigen::Index level) {
+  const Units& units = a.header.units;
+  const auto nc = a.K_cc.rows();
+  const std::string group = case_group(a.p[level]);
+  PlateCases cases{file.matrix(group + "E_c", nc, nc, unit(units, -0.5, 0.5)),
+                   file.matrix(group + "E_h", a.L_c.cols(), nc, unit(units, 2.5, -0.5)),
+                   file.transposed(group + "U", h5::any, a.ndof[level], "1"),
+                   file.transposed(group + "V", a.T_c.cols(), a.ndof[level], unit(units, 1, -1)),
+                   file.transposed(group + "W", h5::any, a.ndof[level], unit(units, 1, 0))};
+  check_fields(file, a, a.p[level], cases);
+  return cases;
+}
 
 }  // namespace
 
@@ -179,7 +205,6 @@ void write(const std::string& path, const PlateSolution& a) {
   const std::string length = unit(units, 1, 0);
   const std::string stiffness = unit(units, -1, 1);
   const std::string area = unit(units, 2, 0);
-  const std::string compliance = unit(units, 1, -1);
   h5::Writer file(path, format, major, minor);
   write_header(file, a.header);
   write_geometry(file, a);
@@ -190,16 +215,14 @@ void write(const std::string& path, const PlateSolution& a) {
   file.write("L_c", a.L_c, {area, "loads of the unit friction cases on externals and discs"});
   write_sparse(file, "T_f", a.T_f, {"1", "loads of a unit total force on each traction boundary"});
   file.write("T_c", a.T_c, {"1", "the same on externals and discs"});
-  file.write("friction/mixture", a.friction_mixture,
-             {unit(units, -2, 1), "friction cases in each of the mixtures that were solved"});
+  file.write("shift", a.shift, {stiffness, "what E_c E_c^T has more than S on its diagonal"});
   write_loads(file, a);
-  for (Eigen::Index i = 0; i < a.p.size(); ++i) {
-    const auto& cases = a.cases[static_cast<std::size_t>(i)];
-    const std::string group = case_group(a.p[i]);
-    file.write_transposed(group + "U", cases.U, {"1", "plate unknowns per unit displacement of an external or disc"});
-    file.write_transposed(group + "V", cases.V, {compliance, "plate unknowns per unit force on a traction boundary"});
-    file.write_transposed(group + "W", cases.W, {length, "plate unknowns under each mixture of friction cases"});
-  }
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    write_cases(file, units, case_group(a.p[i]), a.cases[static_cast<std::size_t>(i)]);
+  file.write("probe/displacement", a.probe.displacement, {length, "amounts of externals, then discs, in the field u"});
+  file.write("probe/friction", a.probe.friction, {unit(units, -2, 1), "amounts of friction cases in the field w"});
+  file.write("probe/u", a.probe.u, {length, "plate unknowns of the highest degree under these displacements"});
+  file.write("probe/w", a.probe.w, {length, "plate unknowns of the highest degree under these friction cases"});
   file.commit();
 }
 
@@ -224,15 +247,11 @@ PlateSolution read_plate_solution(const std::string& path) {
   a.L_c = file.matrix("L_c", nc, h, unit(units, 2, 0));
   a.T_f = read_sparse(file, "T_f", n, q, "1");
   a.T_c = file.matrix("T_c", nc, q, "1");
-  a.friction_mixture = file.matrix("friction/mixture", h, h5::any, unit(units, -2, 1));
+  a.shift = file.vector("shift", nc, unit(units, -1, 1));
   read_loads(file, a);
-  for (Eigen::Index i = 0; i < a.p.size(); ++i) {
-    const std::string group = case_group(a.p[i]);
-    a.cases.push_back({file.transposed(group + "U", nc, a.ndof[i], "1"),
-                       file.transposed(group + "V", q, a.ndof[i], unit(units, 1, -1)),
-                       file.transposed(group + "W", h5::any, a.ndof[i], length)});
-    check_mixtures(file, a, i);
-  }
+  for (Eigen::Index i = 0; i < a.p.size(); ++i) a.cases.push_back(read_cases(file, a, i));
+  a.probe = {file.vector("probe/displacement", nc, length), file.vector("probe/friction", h, unit(units, -2, 1)),
+             file.vector("probe/u", n, length), file.vector("probe/w", n, length)};
   return a;
 }
 

@@ -14,9 +14,19 @@ namespace fastjoint::formats {
 
 /// Solutions of one degree p, with all controlled displacements (rigid externals, then discs) held but one.
 struct PlateCases {
-  Eigen::MatrixXd U;  ///< (n_p, nc) plate unknowns per unit of each controlled displacement
-  Eigen::MatrixXd V;  ///< (n_p, q) plate unknowns per unit total force on each traction boundary
-  Eigen::MatrixXd W;  ///< (n_p, w) under each mixture of friction cases; no columns where nothing needs them
+  Eigen::MatrixXd E_c;  ///< (nc, nc) coordinates of the unit fields of controlled displacements in a basis that is
+                        ///< orthonormal in energy; E_c E_c^T = S + diag(shift), square root of force / length
+  Eigen::MatrixXd E_h;  ///< (h, nc) of those of friction cases, as far as they do work on the former: E_c E_h^T = R
+  Eigen::MatrixXd U;    ///< (n_p, nc) plate unknowns per unit of each controlled displacement, or no columns
+  Eigen::MatrixXd V;    ///< (n_p, q) plate unknowns per unit total force on each traction boundary
+  Eigen::MatrixXd W;    ///< (n_p, h) under each friction case, or no columns
+};
+
+/// Two fields of the highest degree that are solved on their own, to check S, R and T by them.
+struct Probe {
+  Eigen::VectorXd displacement;  ///< (nc) amount of each controlled displacement in the first, length
+  Eigen::VectorXd friction;      ///< (h) amount of each friction case in the second, stress
+  Eigen::VectorXd u, w;          ///< (n_f) plate unknowns in the first and the second
 };
 
 /// Distributed normal springs of a hole.
@@ -69,9 +79,10 @@ struct PlateSolution {
   Eigen::MatrixXd L_c;               ///< (nc, h) what of them acts on the controlled displacements directly
   Eigen::SparseMatrix<double> T_f;   ///< (n_f, q) loads of the unit tractions
   Eigen::MatrixXd T_c;               ///< (nc, q)
-  Eigen::VectorXi stress_p;          ///< degrees whose stresses are wanted: W there has every friction case
-  Eigen::MatrixXd friction_mixture;  ///< (h, w) friction cases in each column of W, stress
+  Eigen::VectorXd shift;             ///< (nc) that E_c E_c^T is larger than S by, on the diagonal, force / length
+  Eigen::VectorXi stress_p;          ///< degrees whose stresses are wanted: those that have U and W
   std::vector<PlateCases> cases;     ///< one for each p
+  Probe probe;
   std::vector<Contact> contacts;
   /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
   Eigen::MatrixXd load_displacement;  ///< (l, nc) length

@@ -4,11 +4,11 @@
 #include <cholmod.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
+#include <limits>
 
 #include "common/errors.hpp"
-
-extern "C" void openblas_set_num_threads(int);  // Debian keeps its header outside the usual path
 
 namespace fastjoint::linalg {
 namespace {
@@ -79,10 +79,43 @@ void check_memory(int status) {
 struct Cholesky::Impl {
   Context context;  // first member, destroyed last
   Factor factor{nullptr, {&context.c}};
+  Eigen::Index n = 0, n_border = 0;
+
+  /// Columns [first, last) of L and their rows, ascending, the columns themselves first; entry (i, j) is at i + j ld.
+  struct Supernode {
+    int first, last, ld;
+    const int* row;
+    const double* value;
+  };
+  template <class Visit>
+  void for_each_supernode(Visit visit) const {
+    const cholmod_factor* L = factor.get();
+    const int* super = static_cast<const int*>(L->super);
+    const int* row = static_cast<const int*>(L->pi);
+    const int* value = static_cast<const int*>(L->px);
+    for (std::size_t s = 0; s < L->nsuper; ++s)
+      visit(Supernode{super[s], super[s + 1], row[s + 1] - row[s], static_cast<const int*>(L->s) + row[s],
+                      static_cast<const double*>(L->x) + value[s]});
+  }
+
+  Eigen::MatrixXd half_solve(int system, const Eigen::MatrixXd& B) {
+    auto& c = context.c;
+    cholmod_dense b = view(B);
+    const Dense x(cholmod_solve(system, factor.get(), &b, &c), {&c});
+    check_memory(c.status);
+    if (!x) throw NumericalError("solving with the factorised stiffness matrix failed");
+    return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), B.rows(), B.cols());
+  }
 };
 
-Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_unique<Impl>()) {
+Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_border) : impl_(std::make_unique<Impl>()) {
+  impl_->n = lower.rows();
+  impl_->n_border = n_border;
   auto& c = impl_->context.c;
+  c.nmethods = 1;
+  c.method[0].ordering = CHOLMOD_NATURAL;
+  c.postorder = 0;
+  c.supernodal = CHOLMOD_SUPERNODAL;
   cholmod_sparse A = view(lower);
   impl_->factor.reset(cholmod_analyze(&A, &c));
   check_memory(c.status);
@@ -90,42 +123,57 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_u
   cholmod_factorize(&A, L, &c);
   check_memory(c.status);
   if (c.status == CHOLMOD_NOT_POSDEF || L->minor < L->n)
-    throw NumericalError(
-        fmt::format("the stiffness matrix is not positive definite: pivot of row {} of {} is not "
-                    "positive",
-                    static_cast<const int*>(L->Perm)[L->minor], L->n));
-  if (const double r = rcond(); !(r > least_rcond))
+    throw NumericalError(fmt::format(
+        "the stiffness matrix is not positive definite: pivot of row {} of {} is not positive", L->minor, L->n));
+  const auto [smallest, largest] = pivots();
+  if (const double r = smallest / largest * (smallest / largest); lower.rows() > n_border && !(r > least_rcond))
     throw NumericalError(
         fmt::format("the stiffness matrix is singular to working precision (1/condition = {:.1e})", r));
 }
 
 Cholesky::~Cholesky() = default;
 
-double Cholesky::rcond() const { return cholmod_rcond(impl_->factor.get(), &impl_->context.c); }
+Cholesky::Pivots Cholesky::pivots() const {
+  Pivots p{std::numeric_limits<double>::infinity(), 0};
+  impl_->for_each_supernode([&](const Impl::Supernode& s) {
+    for (int j = s.first; j < s.last && j < impl_->n - impl_->n_border; ++j) {
+      const double pivot = s.value[(j - s.first) * (s.ld + 1)];
+      p.smallest = std::min(p.smallest, pivot);
+      p.largest = std::max(p.largest, pivot);
+    }
+  });
+  return p;
+}
+
+Eigen::MatrixXd Cholesky::border(Eigen::Index k) const {
+  const auto first = impl_->n - impl_->n_border;
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(impl_->n_border, k);
+  impl_->for_each_supernode([&](const Impl::Supernode& s) {
+    for (auto j = std::max<Eigen::Index>(s.first, first); j < std::min<Eigen::Index>(s.last, first + k); ++j)
+      for (int i = static_cast<int>(j) - s.first; i < s.ld; ++i)
+        L(s.row[i] - first, j - first) = s.value[i + (j - s.first) * s.ld];
+  });
+  return L;
+}
 
 Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const {
   if (B.size() == 0) return B;
-  auto& c = impl_->context.c;
-  cholmod_dense b = view(B);
-  const Dense x(cholmod_solve(CHOLMOD_A, impl_->factor.get(), &b, &c), {&c});
+  Eigen::MatrixXd x(impl_->n, B.cols());
+  x << B, Eigen::MatrixXd::Zero(impl_->n_border, B.cols());
+  x = impl_->half_solve(CHOLMOD_L, x);
+  x.bottomRows(impl_->n_border).setZero();
+  return impl_->half_solve(CHOLMOD_Lt, x).topRows(B.rows());
+}
+
+std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph) {
+  if (graph.rows() == 0) return {};
+  Context context;
+  auto& c = context.c;
+  cholmod_sparse A = view(graph);
+  const Factor L(cholmod_analyze(&A, &c), {&c});
   check_memory(c.status);
-  if (!x) throw NumericalError("solving with the factorised stiffness matrix failed");
-  return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), B.rows(), B.cols());
+  const int* order = static_cast<const int*>(L->Perm);
+  return {order, order + graph.rows()};
 }
-
-Eigen::SparseMatrix<double> leading_block(const Eigen::SparseMatrix<double>& lower, int n) {
-  assert(lower.isCompressed());
-  Eigen::SparseMatrix<double> block(n, n);
-  block.reserve(lower.outerIndexPtr()[n]);
-  for (int column = 0; column < n; ++column) {
-    block.startVec(column);
-    for (Eigen::SparseMatrix<double>::InnerIterator it(lower, column); it && it.row() < n; ++it)
-      block.insertBack(it.row(), column) = it.value();
-  }
-  block.finalize();
-  return block;
-}
-
-void set_threads(int n_threads) { openblas_set_num_threads(n_threads); }
 
 }  // namespace fastjoint::linalg

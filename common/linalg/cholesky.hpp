@@ -4,34 +4,42 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 #include <memory>
+#include <vector>
 
 namespace fastjoint::linalg {
 
-/// Supernodal Cholesky factor of a sparse symmetric positive definite matrix (CHOLMOD): factorised once,
-/// used for many right-hand sides.
+/// Supernodal Cholesky factor L of a sparse symmetric positive definite matrix (CHOLMOD), in the order in which the
+/// matrix comes: elimination_order finds a good one. The last rows and columns may be a border: what is left of it when
+/// the rest is eliminated, its Schur complement, stands in L.
 class Cholesky {
  public:
   /// @param lower Lower triangle of the matrix, compressed, shape (n, n).
-  /// Throws NumericalError if the matrix is not positive definite or is singular to working precision.
-  explicit Cholesky(const Eigen::SparseMatrix<double>& lower);
+  /// @param n_border How many of its last rows and columns are the border.
+  /// Throws NumericalError if the matrix is not positive definite, and if it, without its border, is singular to
+  /// working precision.
+  explicit Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_border = 0);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  /// Solution for all columns of B at once, shape of B.
+  /// Solution with the border held at zero for all columns of B at once, shape of B: (n - n_border, k).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  /// Estimate of the reciprocal condition number, from the factor's diagonal.
-  [[nodiscard]] double rcond() const;
+  /// L within the border, its first k columns, shape (n_border, k): the Schur complement of these rows and columns is
+  /// their product with their transpose.
+  [[nodiscard]] Eigen::MatrixXd border(Eigen::Index k) const;
+  /// Smallest and largest entry of L's diagonal before the border; infinity and 0 if all is border.
+  struct Pivots {
+    double smallest, largest;
+  };
+  [[nodiscard]] Pivots pivots() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-/// The first n rows and columns of a compressed lower triangle.
-[[nodiscard]] Eigen::SparseMatrix<double> leading_block(const Eigen::SparseMatrix<double>& lower, int n);
-
-/// Threads that the dense kernels of factorisation and solution may use, from now on.
-void set_threads(int n_threads);
+/// Order of elimination that fills a matrix little, with supernodes together: order[i] is eliminated as i-th.
+/// @param graph Lower triangle of a pattern, compressed, shape (n, n), every diagonal entry stored.
+[[nodiscard]] std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph);
 
 }  // namespace fastjoint::linalg

@@ -7,7 +7,7 @@ namespace fastjoint::pfem {
 
 CongruentStiffness::CongruentStiffness(const Mesh& mesh, const Edges& edges,
                                        const std::vector<Eigen::Matrix3d>& elasticity, int p)
-    : mesh_(mesh), edges_(edges), elasticity_(elasticity), stiffness_(p) {}
+    : mesh_(mesh), edges_(edges), elasticity_(elasticity), integrate_(p) {}
 
 CongruentStiffness::Shape CongruentStiffness::shape(int element) const {
   constexpr double same = 1e-12;  // of the element's size
@@ -28,11 +28,11 @@ CongruentStiffness::Shape CongruentStiffness::shape(int element) const {
   return shape;
 }
 
-const Eigen::MatrixXd& CongruentStiffness::operator()(int element) {
-  const auto [found, is_new] = integrated_.try_emplace(shape(element));
+int CongruentStiffness::shape_of(int element) {
+  const auto [found, is_new] = index_.try_emplace(shape(element), n_different());
   if (is_new)
-    found->second = stiffness_(ElementMap(mesh_, edges_, element),
-                               elasticity_[static_cast<std::size_t>(mesh_.material[element])], 1);
+    stiffness_.push_back(integrate_(ElementMap(mesh_, edges_, element),
+                                    elasticity_[static_cast<std::size_t>(mesh_.material[element])], 1));
   return found->second;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "common/pfem/element_stiffness.hpp"
@@ -18,9 +19,13 @@ class CongruentStiffness {
   /// @param elasticity Of each material of the mesh, (3, 3), stress.
   CongruentStiffness(const Mesh& mesh, const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity, int p);
 
+  /// Index of the element's shape and material among the different ones, in the order in which they are asked for.
+  [[nodiscard]] int shape_of(int element);
   /// Of unit thickness, shape (2 n_modes, 2 n_modes) as ElementStiffness has it, force / length^2.
-  [[nodiscard]] const Eigen::MatrixXd& operator()(int element);
-  [[nodiscard]] std::size_t n_different() const { return integrated_.size(); }
+  [[nodiscard]] const Eigen::MatrixXd& of_shape(int shape) const { return stiffness_[static_cast<std::size_t>(shape)]; }
+  [[nodiscard]] const Eigen::MatrixXd& operator()(int element) { return of_shape(shape_of(element)); }
+  [[nodiscard]] std::vector<Eigen::MatrixXd> matrices() && { return std::move(stiffness_); }
+  [[nodiscard]] int n_different() const { return static_cast<int>(stiffness_.size()); }
 
  private:
   using Shape = std::vector<std::int64_t>;
@@ -29,8 +34,9 @@ class CongruentStiffness {
   const Mesh& mesh_;
   const Edges& edges_;
   const std::vector<Eigen::Matrix3d>& elasticity_;
-  ElementStiffness stiffness_;
-  std::map<Shape, Eigen::MatrixXd> integrated_;
+  ElementStiffness integrate_;
+  std::map<Shape, int> index_;
+  std::vector<Eigen::MatrixXd> stiffness_;
 };
 
 }  // namespace fastjoint::pfem

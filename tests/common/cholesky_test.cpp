@@ -3,6 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/Cholesky>
+#include <algorithm>
+
 #include "common/errors.hpp"
 
 namespace fastjoint::linalg {
@@ -46,12 +49,52 @@ TEST(Cholesky, RefusesAMatrixThatIsSingularToWorkingPrecision) {
   EXPECT_NO_THROW(Cholesky c(chain(50, floats + 1e-11)));
 }
 
-TEST(LeadingBlock, IsTheTopLeftCorner) {
-  Sparse A = chain(9, 3);
-  A.coeffRef(8, 0) = 5;
+/// A random symmetric positive definite matrix of few entries.
+Eigen::MatrixXd sparse_matrix(int n) {
+  Eigen::MatrixXd A = Eigen::MatrixXd::Random(n, n);
+  A = (A.array().abs() > 0.9).select(A, 0);
+  return A * A.transpose() + Eigen::MatrixXd::Identity(n, n);
+}
+
+Sparse lower(const Eigen::MatrixXd& A) { return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView(); }
+
+TEST(Cholesky, BorderIsTheFactorOfTheSchurComplement) {
+  for (const int n : {3, 20, 90})
+    for (const int n_border : {0, 1, 2, n}) {
+      const Eigen::MatrixXd A = sparse_matrix(n);
+      const int m = n - n_border;
+      const Cholesky factor(lower(A), n_border);
+      const Eigen::MatrixXd L = factor.border(n_border);
+      const Eigen::MatrixXd B = A.topRightCorner(m, n_border);
+      Eigen::MatrixXd schur = A.bottomRightCorner(n_border, n_border);
+      if (m > 0) schur -= B.transpose() * A.topLeftCorner(m, m).llt().solve(B);
+      EXPECT_LT((L * L.transpose() - schur).norm(), 1e-12 * A.norm()) << n << " " << n_border;
+      EXPECT_EQ(factor.border(n_border / 2), L.leftCols(n_border / 2));
+      const Eigen::MatrixXd b = Eigen::MatrixXd::Random(m, 3);
+      EXPECT_LT((A.topLeftCorner(m, m) * factor.solve(b) - b).norm(), 1e-11 * A.norm()) << n << " " << n_border;
+    }
+}
+
+/// However large the last diagonal entry of the border is, what stands before it keeps its digits.
+TEST(Cholesky, TheBorderMayBeMadeLarge) {
+  Eigen::MatrixXd A = sparse_matrix(30);
+  const Eigen::MatrixXd L = Cholesky(lower(A), 4).border(2);
+  A.diagonal().tail(2).setConstant(1e30);
+  EXPECT_LT((Cholesky(lower(A), 4).border(2) - L).norm(), 1e-14 * L.norm());
+}
+
+TEST(EliminationOrder, FillsAnArrowLittle) {
+  constexpr int n = 60;  // the first row is full: it must come last
+  Sparse A(n, n);
+  for (int i = 0; i < n; ++i) {
+    A.insert(i, i) = n;
+    if (i > 0) A.insert(i, 0) = 1;
+  }
   A.makeCompressed();
-  for (const int n : {0, 1, 4, 9})
-    EXPECT_EQ(Eigen::MatrixXd(leading_block(A, n)), Eigen::MatrixXd(A).topLeftCorner(n, n)) << n;
+  const auto order = elimination_order(A);
+  ASSERT_EQ(order.size(), n);
+  EXPECT_GE(std::find(order.begin(), order.end(), 0) - order.begin(), n - 2);
+  EXPECT_TRUE(elimination_order(Sparse(0, 0)).empty());
 }
 
 }  // namespace

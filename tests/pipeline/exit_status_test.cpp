@@ -109,10 +109,10 @@ TEST_F(ExitStatus, DamagedAndForeignFiles) {
          HasSubstr("center.m.h5: is a 'plate-matrices' file, expected 'plate-solution'"));
   joint(bolts("doubler.m.h5", "doubler.h5"), 3,
         HasSubstr("doubler.h5: is a 'plate-solution' file, expected 'plate-matrices'"));
-  h5::Writer newer(folder_->path("newer.h5"), "plate-solution", 3, 0);
+  h5::Writer newer(folder_->path("newer.h5"), "plate-solution", 4, 0);
   newer.commit();
   expect(test::stage2(*folder_, "newer.h5 -o out.h5"), 3,
-         HasSubstr("newer.h5: format version 3.0, this program reads 2.x; use a newer program"));
+         HasSubstr("newer.h5: format version 4.0, this program reads 3.x; use a newer program"));
 }
 
 TEST_F(ExitStatus, Joints) {

@@ -8,9 +8,9 @@
 #include <functional>
 #include <numbers>
 
-#include "common/linalg/cholesky.hpp"
 #include "common/pfem/gauss.hpp"
 #include "stage1_plate/assembler.hpp"
+#include "stage1_plate/plate_factor.hpp"
 #include "tests/support/exact.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"
@@ -70,7 +70,7 @@ double exact_work(const test::Plate& plate, const test::SpringInclusion& exact) 
 
 Eigen::VectorXd solve(const test::Plate& plate, const Eigen::VectorXd& load, int p) {
   const int n = plate.problem.unknowns.n_free[static_cast<std::size_t>(p)];
-  return linalg::Cholesky(linalg::leading_block(plate.problem.K_ff, n)).solve(load.head(n));
+  return stage1::PlateFactor(plate.problem, stage1::Outline(plate.problem), p).solve(load.head(n));
 }
 
 TEST(Exact, SolutionSatisfiesEquilibriumAndItsRim) {

@@ -4,15 +4,16 @@
 #include <gtest/gtest.h>
 
 #include "tests/support/plates.hpp"
+#include "tests/support/straightforward.hpp"
 
 namespace fastjoint {
 namespace {
 
-/// K_cc + K_cf U against the energy products (unit field)^T K (unit field), which need the plate's own matrix.
+/// S by coordinates against the energy products (unit field)^T K (unit field), which need the plate's own matrix.
 TEST(CondensedStiffness, IsTheEnergyProductOfUnitFields) {
   const test::Plate plate = test::make_plate(test::panel(2, 1));
-  const auto solution = test::solve(plate);
-  const Eigen::SparseMatrix<double> K = plate.problem.K_ff.selfadjointView<Eigen::Lower>();
+  const auto solution = test::solve_all_fields(plate);
+  const auto K = test::free_stiffness(plate.scene, plate.mesh, plate.problem);
   for (const std::size_t level : {0U, 3U, 7U}) {
     const auto& U = solution.cases[level].U;
     const Eigen::MatrixXd K_level = Eigen::MatrixXd(K).topLeftCorner(U.rows(), U.rows());

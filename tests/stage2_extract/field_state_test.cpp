@@ -192,7 +192,8 @@ TEST_F(StateOfAJoint, WhatIsRefused) {
 }
 
 TEST(FieldLevel, OfTheRequestTheJointOrTheHighest) {
-  const auto plate = sheet();
+  auto plate = sheet();
+  plate.stress_p = plate.p;
   stage2::FieldState state{VectorXd::Zero(6), "", 0, "", 0};
   const auto level = [&](int p) { return stage2::field_level(plate, "plate.h5", {"", "", 0, p}, state); };
   EXPECT_EQ(level(0), 2);
@@ -207,19 +208,17 @@ TEST(FieldLevel, OfTheRequestTheJointOrTheHighest) {
               ThrowsMessage<InputError>(HasSubstr("--p: 8 is the degree of the joint and not allowed")));
 }
 
-TEST(FieldLevel, FrictionNeedsItsFields) {
+TEST(FieldLevel, MustHaveFields) {
   auto plate = sheet();
   stage2::FieldState state{vector({1, 1, 1, 0, 0, 1}), "", 0, "", 0};
   const auto level = [&](int p) { return stage2::field_level(plate, "plate.h5", {"", "", 0, p}, state); };
-  EXPECT_EQ(level(1), 0);
-  state.amounts[4] = 1e-9;
   EXPECT_EQ(level(3), 2);
-  EXPECT_THAT([&] { return level(1); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("plate.h5:stress_p: the field of friction:0,0:+x at p = 1 is "
-                                                        "not in the file; it has those of friction at p = 3"),
-                                              HasSubstr("stage1_plate was told --loads-only"))));
+  EXPECT_THAT([&] { return level(1); }, ThrowsMessage<InputError>(AllOf(
+                                            HasSubstr("plate.h5:stress_p: the fields at p = 1 are not in the file; it "
+                                                      "has those at p = 3"),
+                                            HasSubstr("stage1_plate was told --loads-only"))));
   plate.stress_p.resize(0);
-  EXPECT_THAT([&] { return level(3); }, ThrowsMessage<InputError>(HasSubstr("it has those of friction at p = none")));
+  EXPECT_THAT([&] { return level(3); }, ThrowsMessage<InputError>(HasSubstr("it has those at p = none")));
 }
 
 TEST(FieldOptions, ThatNeedOthers) {

@@ -15,9 +15,23 @@ Plate make_plate(const std::string& json) {
   return plate;
 }
 
+namespace {
+
+formats::PlateSolution unsolved(const Plate& plate) {
+  return stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
+}
+
+}  // namespace
+
 formats::PlateSolution solve(const Plate& plate) {
-  auto solution =
-      stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
+  auto solution = unsolved(plate);
+  stage1::solve_cases(plate.problem, solution);
+  return solution;
+}
+
+formats::PlateSolution solve_all_fields(const Plate& plate) {
+  auto solution = unsolved(plate);
+  solution.stress_p = solution.p;
   stage1::solve_cases(plate.problem, solution);
   return solution;
 }

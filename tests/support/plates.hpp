@@ -21,6 +21,8 @@ struct Plate {
 
 /// Stage 1 to the end, and stage 2 behind it.
 [[nodiscard]] formats::PlateSolution solve(const Plate& plate);
+/// With the fields of every degree, not of the two highest only.
+[[nodiscard]] formats::PlateSolution solve_all_fields(const Plate& plate);
 [[nodiscard]] stage2::Extraction extract(const std::string& json);
 
 /// A hole in a grid.

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/outline.hpp"
+
+#include <algorithm>
+
+#include "common/linalg/cholesky.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+void sort_unique(std::vector<int>& list) {
+  std::sort(list.begin(), list.end());
+  list.erase(std::unique(list.begin(), list.end()), list.end());
+}
+
+/// First functions of the vertices and edges on the outline of a cell.
+std::vector<int> on_outline_of(const PlateProblem& problem, const Cell& cell) {
+  const auto& shape = problem.cells.shapes[static_cast<std::size_t>(cell.shape)];
+  const auto n = static_cast<std::size_t>(
+      shape.numbering.n_functions[std::min<std::size_t>(2, shape.numbering.n_functions.size() - 1)]);
+  std::vector<int> list;
+  for (std::size_t f = 0; f < n; ++f)
+    if (shape.kept[f]) list.push_back(cell.function[f]);
+  return list;
+}
+
+/// Controlled displacements and, behind them, friction cases that act on a cell.
+std::vector<int> border_of(const PlateProblem& problem, const Cell& cell, const std::vector<int>& on_outline) {
+  const Unknowns& unknowns = problem.unknowns;
+  std::vector<int> list;
+  for (const int function : on_outline)
+    for (int component = 0; component < 2; ++component)
+      if (const int to = unknowns.target[static_cast<std::size_t>(2 * function + component)];
+          Unknowns::is_controlled(to))
+        list.push_back(Unknowns::controlled_index(to));
+  const auto border = cell_border(problem, cell);
+  list.insert(list.end(), border.begin(), border.end());
+  return list;
+}
+
+}  // namespace
+
+std::vector<int> cell_border(const PlateProblem& problem, const Cell& cell) {
+  const Unknowns& unknowns = problem.unknowns;
+  std::vector<int> list;
+  for (const int hole : cell.holes) {
+    const int disc = unknowns.disc_of_hole[static_cast<std::size_t>(hole)];
+    for (int a = 0; a < unknowns.n_directions; ++a) list.push_back(unknowns.controlled_of_disc(disc + a));
+    for (int c = 0; c < 2 * unknowns.n_directions; ++c) list.push_back(unknowns.n_controlled + 2 * disc + c);
+  }
+  return list;
+}
+
+Outline::Outline(const PlateProblem& problem) : problem_(problem) {
+  std::vector<Blocks> cliques;
+  for (const auto& cell : problem.cells.cells) cliques.push_back(on_outline_of(problem, cell));
+  order(cliques);
+  const int first_border = static_cast<int>(function_.size());
+  higher_.resize(function_.size() + static_cast<std::size_t>(problem.unknowns.n_controlled + problem.L_f.cols()));
+  for (std::size_t i = 0; i < cliques.size(); ++i) {
+    const auto border = border_of(problem, problem.cells.cells[i], cliques[i]);
+    for (int& block : cliques[i]) block = position_[static_cast<std::size_t>(block)];
+    for (const int column : border) cliques[i].push_back(first_border + column);
+    join(cliques[i]);
+  }
+  for (const auto& tie : problem.ties)
+    join({Unknowns::is_free(tie.target) ? position_[static_cast<std::size_t>(tie.vertex)]
+                                        : first_border + Unknowns::controlled_index(tie.target),
+          first_border + tie.controlled});
+  for (auto& list : higher_) sort_unique(list);
+}
+
+void Outline::order(const std::vector<Blocks>& on_outline) {
+  std::vector<int> functions;
+  for (const auto& clique : on_outline) functions.insert(functions.end(), clique.begin(), clique.end());
+  sort_unique(functions);
+  const auto n = static_cast<int>(functions.size());
+  position_.assign(functions.empty() ? 0 : static_cast<std::size_t>(functions.back()) + 1, -1);
+  for (int i = 0; i < n; ++i) position_[static_cast<std::size_t>(functions[static_cast<std::size_t>(i)])] = i;
+  higher_.resize(functions.size());
+  for (auto clique : on_outline) {
+    for (int& block : clique) block = position_[static_cast<std::size_t>(block)];
+    join(clique);
+  }
+  Eigen::SparseMatrix<double> graph(n, n);
+  for (int a = 0; a < n; ++a) {
+    auto& list = higher_[static_cast<std::size_t>(a)];
+    sort_unique(list);
+    graph.startVec(a);
+    graph.insertBack(a, a) = 1;
+    for (const int b : list) graph.insertBack(b, a) = 1;
+    list.clear();
+  }
+  graph.finalize();
+  for (const int i : linalg::elimination_order(graph)) {
+    position_[static_cast<std::size_t>(functions[static_cast<std::size_t>(i)])] = static_cast<int>(function_.size());
+    function_.push_back(functions[static_cast<std::size_t>(i)]);
+  }
+}
+
+void Outline::join(const Blocks& clique) {
+  for (const int a : clique)
+    for (const int b : clique)
+      if (a < b) higher_[static_cast<std::size_t>(a)].push_back(b);
+}
+
+int Outline::Rows::of_target(int target) const {
+  if (Unknowns::is_free(target)) return of_unknown[static_cast<std::size_t>(target)];
+  return Unknowns::is_controlled(target) ? n_outline + Unknowns::controlled_index(target) : -1;
+}
+
+Outline::Rows Outline::rows(int p) const {
+  const auto& n_functions = problem_.numbering.n_functions;
+  Rows rows;
+  rows.of_unknown.assign(static_cast<std::size_t>(problem_.unknowns.n_free.back()), -1);
+  int n = 0;
+  const auto number = [&](int function) {
+    for (int component = 0; component < 2; ++component)
+      if (const int to = problem_.unknowns.target[static_cast<std::size_t>(2 * function + component)];
+          Unknowns::is_free(to))
+        rows.of_unknown[static_cast<std::size_t>(to)] = n++;
+  };
+  for (const int function : function_) {
+    rows.first.push_back(n);
+    if (function < n_functions[1]) {
+      number(function);
+    } else {
+      for (int k = 2; k <= p; ++k) number(n_functions[static_cast<std::size_t>(k) - 1] + function - n_functions[1]);
+    }
+  }
+  rows.n_outline = n;
+  rows.n_border = static_cast<int>(higher_.size() - function_.size());
+  for (int i = 0; i <= rows.n_border; ++i) rows.first.push_back(n + i);
+  return rows;
+}
+
+Eigen::SparseMatrix<double> Outline::pattern(const Rows& rows) const {
+  const int n = rows.n_outline + rows.n_border;
+  const auto size = [&](int block) {
+    return rows.first[static_cast<std::size_t>(block) + 1] - rows.first[static_cast<std::size_t>(block)];
+  };
+  Eigen::SparseMatrix<double> A(n, n);
+  Eigen::Index n_entries = 0;
+  for (int a = 0; a < static_cast<int>(higher_.size()); ++a) {
+    n_entries += size(a) * (size(a) + 1) / 2;
+    for (const int b : higher_[static_cast<std::size_t>(a)]) n_entries += Eigen::Index{size(a)} * size(b);
+  }
+  A.reserve(n_entries);
+  for (std::size_t a = 0; a < higher_.size(); ++a)
+    for (int column = rows.first[a]; column < rows.first[a + 1]; ++column) {
+      A.startVec(column);
+      for (int row = column; row < rows.first[a + 1]; ++row) A.insertBackByOuterInner(column, row) = 0;
+      for (const int b : higher_[a])
+        for (int row = rows.first[static_cast<std::size_t>(b)]; row < rows.first[static_cast<std::size_t>(b) + 1];
+             ++row)
+          A.insertBackByOuterInner(column, row) = 0;
+    }
+  A.finalize();
+  return A;
+}
+
+}  // namespace fastjoint::stage1

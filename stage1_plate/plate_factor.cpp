@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/plate_factor.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "stage1_plate/cell_solution.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+/// Adds a cell's matrix to a lower triangle whose pattern has room for it.
+class OutlineAssembler {
+ public:
+  explicit OutlineAssembler(Eigen::SparseMatrix<double> pattern) : A_(std::move(pattern)) {}
+
+  /// @param rows Of C's rows in the pattern, -1 to leave out; several may be one. @param C Its lower triangle counts.
+  void add(const std::vector<int>& rows, const Eigen::VectorXd& sign, double scale,
+           const Eigen::Ref<const Eigen::MatrixXd>& C) {
+    order_.resize(rows.size());
+    std::iota(order_.begin(), order_.end(), 0);
+    std::erase_if(order_, [&](int i) { return rows[static_cast<std::size_t>(i)] < 0; });
+    std::sort(order_.begin(), order_.end(),
+              [&](int i, int j) { return rows[static_cast<std::size_t>(i)] < rows[static_cast<std::size_t>(j)]; });
+    for (std::size_t c = 0; c < order_.size(); ++c) {
+      const int j = order_[c];
+      const int column = rows[static_cast<std::size_t>(j)];
+      const int* end = A_.innerIndexPtr() + A_.outerIndexPtr()[column + 1];
+      const int* at = A_.innerIndexPtr() + A_.outerIndexPtr()[column];
+      for (std::size_t r = c; r < order_.size(); ++r) {
+        const int i = order_[r];
+        const int row = rows[static_cast<std::size_t>(i)];
+        while (*at != row) at = at[1] == row ? at + 1 : std::lower_bound(at, end, row);
+        const double value = scale * sign[i] * sign[j] * C(std::max(i, j), std::min(i, j));
+        A_.valuePtr()[at - A_.innerIndexPtr()] += row == column && i != j ? 2 * value : value;
+      }
+    }
+  }
+  void add(int i, int j, double value) { A_.coeffRef(std::max(i, j), std::min(i, j)) += value; }
+  Eigen::SparseMatrix<double> take() { return std::move(A_); }
+
+ private:
+  Eigen::SparseMatrix<double> A_;
+  std::vector<int> order_;
+};
+
+double largest(const Eigen::SparseMatrix<double>& A) { return A.nonZeros() > 0 ? A.coeffs().abs().maxCoeff() : 0; }
+
+}  // namespace
+
+Eigen::VectorXd shift(const PlateProblem& problem) {
+  return problem.K_cc.diagonal().unaryExpr([](double k) { return k > 0 ? k : 1; });
+}
+
+PlateFactor::PlateFactor(const PlateProblem& problem, const Outline& outline, int p)
+    : problem_(problem), p_(p), modes_(modes_up_to(p, problem.numbering.p)), rows_(outline.rows(p)) {
+  for (const auto& K : problem.cells.element_stiffness) elements_.push_back(condense_element(K, modes_));
+  for (const auto& shape : problem.cells.shapes) cells_.push_back(condense_cell(shape, elements_, modes_, p));
+  factor_ = std::make_unique<linalg::Cholesky>(outline_stiffness(outline), rows_.n_border);
+}
+
+std::vector<int> PlateFactor::border_rows(const Cell& cell) const {
+  std::vector<int> rows = cell_border(problem_, cell);
+  for (int& row : rows) row += rows_.n_outline;
+  return rows;
+}
+
+Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outline) const {
+  OutlineAssembler assembler(outline.pattern(rows_));
+  for (const auto& cell : problem_.cells.cells) {
+    const CondensedCell& condensed = cells_[static_cast<std::size_t>(cell.shape)];
+    const auto n = static_cast<Eigen::Index>(condensed.outside.size());
+    std::vector<int> rows;
+    Eigen::VectorXd sign = Eigen::VectorXd::Ones(n + condensed.n_border);
+    for (const int coefficient : condensed.outside) {
+      const auto function = static_cast<std::size_t>(coefficient / 2);
+      sign[static_cast<Eigen::Index>(rows.size())] = cell.sign[coefficient / 2];
+      rows.push_back(rows_.of_target(
+          problem_.unknowns.target[static_cast<std::size_t>(2 * cell.function[function] + coefficient % 2)]));
+    }
+    const auto border = border_rows(cell);
+    rows.insert(rows.end(), border.begin(), border.end());
+    assembler.add(rows, sign, cell.scale, condensed.matrix.outside());
+  }
+  for (const auto& tie : problem_.ties) {
+    const int plate = rows_.of_target(tie.target), disc = rows_.n_outline + tie.controlled;
+    assembler.add(plate, plate, tie.stiffness);
+    assembler.add(disc, disc, tie.stiffness);
+    assembler.add(plate, disc, -tie.stiffness);
+  }
+  // The friction cases come last: what stands on their diagonal changes nothing before them, if it is only large enough
+  // for a factor.
+  const auto s = shift(problem_);
+  const double L = largest(problem_.L_f);
+  const double least_stiffness = 1e-30 * (s.size() > 0 ? s.minCoeff() : 1);
+  for (int i = 0; i < rows_.n_border; ++i)
+    assembler.add(rows_.n_outline + i, rows_.n_outline + i,
+                  i < s.size() ? s[i] : (L > 0 ? L * L : 1) / least_stiffness);
+  return assembler.take();
+}
+
+Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(problem_.K_cc.cols()); }
+
+Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
+  constexpr Eigen::Index block = 64;  // right-hand sides at a time: what a cell has of them fits into the cache
+  Eigen::MatrixXd X(B.rows(), B.cols());
+  for (Eigen::Index first = 0; first < B.cols(); first += block) {
+    const auto k = std::min(block, B.cols() - first);
+    std::vector<CellSolution> cells;
+    Eigen::MatrixXd outline = Eigen::MatrixXd::Zero(rows_.n_outline, k);
+    for (Eigen::Index i = 0; i < B.rows(); ++i)
+      if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
+        outline.row(row) = B.row(i).segment(first, k);
+    for (const auto& cell : problem_.cells.cells) {
+      const auto shape = static_cast<std::size_t>(cell.shape);
+      cells.emplace_back(problem_, cell, cells_[shape], elements_, modes_, rows_);
+      cells.back().eliminate(B.middleCols(first, k), outline);
+    }
+    outline = factor_->solve(outline);
+    for (auto& cell : cells) cell.restore(outline, X.middleCols(first, k));
+  }
+  return X;
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "common/linalg/cholesky.hpp"
+#include "stage1_plate/condensed_cell.hpp"
+#include "stage1_plate/outline.hpp"
+
+namespace fastjoint::stage1 {
+
+/// The plate's stiffness at one degree, factorised: elements are condensed onto their edges and cells onto their
+/// outlines, each shape once; what is left of all cells is one sparse system, bordered by the controlled displacements
+/// and the friction cases. The problem must outlive this.
+class PlateFactor {
+ public:
+  /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
+  PlateFactor(const PlateProblem& problem, const Outline& outline, int p);
+
+  /// Rows of the factor in the border, shape (nc + h, nc): coordinates of the unit fields, controlled displacements
+  /// first, in a basis that is orthonormal in energy. With E_c and E_h its rows and s = shift(problem),
+  /// S = E_c E_c^T - diag(s), R = E_c E_h^T.
+  [[nodiscard]] Eigen::MatrixXd energy_rows() const;
+  /// Plate unknowns under loads on them, controlled displacements held, shape (n_p, k).
+  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
+
+ private:
+  [[nodiscard]] Eigen::SparseMatrix<double> outline_stiffness(const Outline& outline) const;
+  [[nodiscard]] std::vector<int> border_rows(const Cell& cell) const;
+
+  const PlateProblem& problem_;
+  int p_;
+  ElementModes modes_;
+  std::vector<linalg::Condensed> elements_;  ///< by element shape
+  std::vector<CondensedCell> cells_;         ///< by cell shape
+  Outline::Rows rows_;
+  std::unique_ptr<linalg::Cholesky> factor_;
+};
+
+/// What is added to the stiffness of each controlled displacement, shape (nc), force / length, so that a sheet that
+/// nothing but its fasteners holds has a factor: as much as it has with the plate held.
+[[nodiscard]] Eigen::VectorXd shift(const PlateProblem& problem);
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/linalg/condensed.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/LU>
+
+#include "common/errors.hpp"
+
+namespace fastjoint::linalg {
+namespace {
+
+using Eigen::MatrixXd;
+
+MatrixXd positive_definite(Eigen::Index n) {
+  const MatrixXd A = MatrixXd::Random(n, n);
+  return A * A.transpose() + MatrixXd::Identity(n, n);
+}
+
+TEST(Condensed, LeavesTheSchurComplement) {
+  for (const Eigen::Index n : {0, 1, 7, 90})
+    for (const Eigen::Index m : {0, 1, 33}) {
+      const MatrixXd M = positive_definite(n + m);
+      const MatrixXd B = M.bottomLeftCorner(m, n);
+      MatrixXd schur = M.bottomRightCorner(m, m);
+      if (n > 0) schur -= B * M.topLeftCorner(n, n).inverse() * B.transpose();
+      const Condensed condensed(M, n);
+      const MatrixXd difference = MatrixXd(condensed.outside()) - schur;
+      EXPECT_LT(MatrixXd(difference.triangularView<Eigen::Lower>()).norm(), 1e-11 * (1 + M.norm())) << n << " " << m;
+    }
+}
+
+TEST(Condensed, SolvesInTwoSteps) {
+  constexpr Eigen::Index n = 12, m = 5, k = 3;
+  const MatrixXd M = positive_definite(n + m), b = MatrixXd::Random(n + m, k);
+  const Condensed condensed(M, n);
+  MatrixXd inside = b.topRows(n), outside = b.bottomRows(m);
+  condensed.eliminate(inside, outside);
+  const MatrixXd C = MatrixXd(condensed.outside()).selfadjointView<Eigen::Lower>();
+  const MatrixXd u = C.inverse() * outside;
+  condensed.restore(inside, u);
+  MatrixXd x(n + m, k);
+  x << inside, u;
+  EXPECT_LT((M * x - b).norm(), 1e-12 * M.norm());
+}
+
+TEST(Condensed, NeedsAPositiveDefiniteInside) {
+  MatrixXd M = MatrixXd::Identity(4, 4);
+  M(1, 1) = 0;
+  EXPECT_THROW(Condensed(M, 2), NumericalError);
+  EXPECT_NO_THROW(Condensed(M, 1)) << "what is left may be singular";
+}
+
+TEST(ProductTransposed, IsTheProduct) {
+  const MatrixXd A = MatrixXd::Random(4, 9), B = MatrixXd::Random(3, 9);
+  EXPECT_LT((product_transposed(A, B) - A * B.transpose()).norm(), 1e-14);
+  EXPECT_EQ(product_transposed(MatrixXd(2, 0), MatrixXd(3, 0)), MatrixXd::Zero(2, 3));
+  EXPECT_EQ(product_transposed(MatrixXd(0, 5), B).size(), 0);
+}
+
+}  // namespace
+}  // namespace fastjoint::linalg

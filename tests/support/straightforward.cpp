@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/support/straightforward.hpp"
+
+#include <Eigen/CholmodSupport>
+
+#include "common/pfem/element_stiffness.hpp"
+#include "stage1_plate/rim_terms.hpp"
+
+namespace fastjoint::test {
+
+using Sparse = Eigen::SparseMatrix<double>;
+
+Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh,
+                      const stage1::PlateProblem& problem) {
+  const auto& numbering = problem.numbering;
+  std::vector<Eigen::Triplet<double>> entries;
+  const auto add = [&](int element, const std::vector<int>& modes, const Eigen::MatrixXd& K) {
+    const auto n = static_cast<Eigen::Index>(modes.size());
+    const auto mode = [&](Eigen::Index i) { return modes[static_cast<std::size_t>(i % n)]; };
+    const auto target = [&](Eigen::Index i) {
+      return problem.unknowns
+          .target[static_cast<std::size_t>(2 * numbering.function(mode(i), element) + (i < n ? 0 : 1))];
+    };
+    for (Eigen::Index i = 0; i < 2 * n; ++i)
+      for (Eigen::Index j = 0; j < 2 * n; ++j)
+        if (stage1::Unknowns::is_free(target(i)) && stage1::Unknowns::is_free(target(j)))
+          entries.emplace_back(target(i), target(j),
+                               numbering.sign(mode(i), element) * numbering.sign(mode(j), element) * K(i, j));
+  };
+  const pfem::ElementStiffness stiffness(numbering.p);
+  std::vector<int> all(static_cast<std::size_t>(numbering.function.rows()));
+  for (std::size_t m = 0; m < all.size(); ++m) all[m] = static_cast<int>(m);
+  for (int element = 0; element < mesh.mesh.n_elements(); ++element)
+    add(element, all,
+        stiffness(pfem::ElementMap(mesh.mesh, mesh.edges, element),
+                  scene.elasticity[static_cast<std::size_t>(mesh.mesh.material[element])],
+                  mesh.mesh.thickness[element]));
+  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+    if (!scene.holes[hole].spring) continue;
+    for (const auto& side : mesh.rims[hole].sides) {
+      const auto terms = stage1::rim_terms(scene, mesh, hole, side, numbering.p);
+      add(side.element, terms.modes, terms.plate);
+    }
+  }
+  for (const auto& tie : problem.ties)
+    if (stage1::Unknowns::is_free(tie.target)) entries.emplace_back(tie.target, tie.target, tie.stiffness);
+  const int n = problem.unknowns.n_free.back();
+  Sparse K(n, n);
+  K.setFromTriplets(entries.begin(), entries.end());
+  return K;
+}
+
+PlainMatrices plain_matrices(const Sparse& K_ff, const stage1::PlateProblem& problem, int p) {
+  const int n = problem.unknowns.n_free[static_cast<std::size_t>(p)];
+  const Eigen::CholmodSupernodalLLT<Sparse> factor(K_ff.block(0, 0, n, n));
+  const Sparse K_fc = problem.K_fc.topRows(n);
+  Eigen::MatrixXd B(n, problem.K_fc.cols() + problem.L_f.cols());
+  B << -Eigen::MatrixXd(K_fc), Eigen::MatrixXd(problem.L_f.topRows(n));
+  const Eigen::MatrixXd forces = K_fc.transpose() * Eigen::MatrixXd(factor.solve(B));
+  return {problem.K_cc + forces.leftCols(K_fc.cols()), forces.rightCols(problem.L_f.cols()) - problem.L_c};
+}
+
+}  // namespace fastjoint::test
