@@ -36,12 +36,13 @@ class Run : public testing::Test {
                 .csv = folder_.path("result.csv"),
                 .generator = "test 1"};
   }
-  void run() { stage3::run(options_, out_, log_); }
+  void run() { stage3::run(options_, out_, log_, timings_); }
   [[nodiscard]] formats::JointResult result() const { return formats::read_joint_result(options_.output); }
 
   test::TemporaryFolder folder_;
   RunOptions options_;
   std::ostringstream out_, log_;
+  program::Timings timings_;
 };
 
 /// A law that carries 3.025 at most, in series: load factor 3.5 has no equilibrium (load_path_test.cpp).
@@ -231,6 +232,9 @@ TEST_F(Run, RefusesACsvInTheWay) {
   EXPECT_THAT([&] { run(); }, ThrowsMessage<InputError>(HasSubstr("is the input or the output file")));
   options_.csv = folder_.path("nowhere/a.csv");
   EXPECT_THAT([&] { run(); }, ThrowsMessage<FileError>(HasSubstr("a.csv: cannot be written: No such file")));
+  options_.csv = folder_.path("a.csv");
+  options_.timings = folder_.path(".") + "/a.csv";
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<InputError>(HasSubstr("a.csv: is the file of --timings; choose another")));
   EXPECT_FALSE(std::filesystem::exists(options_.output)) << "found before the work";
 }
 
@@ -244,6 +248,9 @@ TEST_F(Run, NeverWritesOverWhatItReads) {
   options_.csv = "";
   options_.output = folder_.path("b.h5");
   EXPECT_THAT([&] { run(); }, ThrowsMessage<InputError>(HasSubstr("-o " + options_.output + ": is a file that ")));
+  options_.output = folder_.path("result.h5");
+  options_.timings = points;
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<InputError>(HasSubstr("--timings " + points + ": is a file that ")));
   EXPECT_EQ(test::read_file(points), "0.1, 100\n0.2, 150\n");
 }
 
