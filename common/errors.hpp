@@ -20,4 +20,9 @@ struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// The same after what converged has been written and summarised.
+struct IncompleteResult : NumericalError {
+  using NumericalError::NumericalError;
+};
+
 }  // namespace fastjoint

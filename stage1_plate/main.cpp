@@ -39,19 +39,26 @@ void warn(const stage1::PlateScene& scene) {
         command.name, scene.file);
 }
 
-void run(const program::Arguments& arguments) {
+void run(const program::Arguments& arguments, program::Timings& timings) {
   constexpr int most_threads = 256;
-  linalg::set_threads(arguments.integer("--threads", 1, most_threads, 1));
+  const int threads = arguments.integer("--threads", 1, most_threads, 1);
+  linalg::set_threads(threads);
+  timings.set_threads(threads);
+  timings.phase("read");
   stage1::PlateScene scene =
       stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
+  timings.phase("mesh");
   const auto plate = stage1::make_mesh(scene);
   warn(scene);
+  timings.phase("integrate");
   auto problem = stage1::assemble(scene, plate);
   stage1::check_held(scene, plate, problem.unknowns);
   std::optional<stage1::ContactState> contact;
   if (scene.loads) {
+    timings.phase("factorise");
     contact = stage1::find_contact(scene, plate, problem);
+    timings.phase("integrate");
     scene = stage1::with_arcs(std::move(scene), *contact);
     problem = stage1::assemble(scene, plate);
     stage1::check_held(scene, plate, problem.unknowns);
@@ -59,8 +66,11 @@ void run(const program::Arguments& arguments) {
   const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
   auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name), wanted);
   if (contact) stage1::add_contact(*contact, solution);
+  timings.phase("factorise");
   stage1::solve_cases(problem, solution);
+  timings.phase("write");
   formats::write(arguments.output, solution);
+  for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
   if (arguments.quiet) return;
   std::cout << fmt::format("{}: {} elements, {} nodes, {} discs, {} rigid externals, {} tractions\n", arguments.output,
                            plate.mesh.n_elements(), plate.mesh.n_nodes(), problem.unknowns.n_discs(),

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
 #include "stage2_extract/vtu.hpp"
@@ -24,19 +22,21 @@ std::string summary(const std::string& output, const formats::PlateSolution& pla
 
 }  // namespace
 
-void check_field_options(const FieldRequest& request, bool wanted, const std::string& output) {
+void check_field_options(const FieldRequest& request, bool wanted, const std::string& output,
+                         const std::string& timings) {
   if (!wanted && request.p != 0) throw InputError("--p: goes with --field only; matrices are of all degrees");
   if (!wanted && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 only");
   if (!wanted && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
-  std::error_code ignored;
-  if (wanted && std::filesystem::equivalent(request.spec, output, ignored))
-    throw InputError(fmt::format("-o {}: is the file of --field; choose another name", output));
+  for (const auto& [option, path] : {std::pair("-o", output), std::pair("--timings", timings)})
+    if (wanted && h5::same_file(request.spec, path))
+      throw InputError(fmt::format("{} {}: is the file of --field; choose another name", option, path));
 }
 
 std::string write_field(const std::string& output, const formats::PlateSolution& plate, const std::string& file,
-                        const FieldRequest& request) {
+                        const FieldRequest& request, program::Timings& timings) {
   const FieldState state = field_state(plate, file, request);
   const std::size_t level = field_level(plate, file, request, state);
+  timings.phase("extract");
   UnitFields fields(plate, file);
   fields.use(level);
   const Field field = superpose(fields, plate.p[static_cast<Eigen::Index>(level)], state.amounts);
@@ -45,6 +45,7 @@ std::string write_field(const std::string& output, const formats::PlateSolution&
         fmt::format("{}: --field {}: displacements or stresses are too large for the numbers of this "
                     "machine; allowed: smaller amounts",
                     file, request.spec));
+  timings.phase("write");
   h5::write_whole_file(output, vtu(plate, state, field));
   return summary(output, plate, state, field);
 }

@@ -26,10 +26,13 @@ const program::Command command = {
      {"--increment", "N", "of RESULT.h5; default: the last"},
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
-void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate) {
+void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate,
+                    program::Timings& timings) {
+  timings.phase("extract");
   const auto extraction = stage2::extract(plate, arguments.input, program::generator(command.name));
   stage2::require_good(extraction.checks, arguments.input);
   const auto& a = extraction.matrices;
+  timings.phase("write");
   formats::write(arguments.output, a);
   if (arguments.quiet) return;
   std::cout << fmt::format("{}: {} discs, {} externals, {} friction cases, {} tractions, p = {}..{}\n",
@@ -50,15 +53,17 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
   const stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
                                         arguments.integer("--increment", 1, most_increments, 0),
                                         arguments.integer("--p", 1, highest_p, 0)};
-  stage2::check_field_options(request, arguments.flag("--field"), arguments.output);
+  stage2::check_field_options(request, arguments.flag("--field"), arguments.output, arguments.timings);
   return request;
 }
 
-void run(const program::Arguments& arguments) {
+void run(const program::Arguments& arguments, program::Timings& timings) {
+  timings.phase("read");
   const auto request = field_request(arguments);
   const auto plate = formats::read_plate_solution(arguments.input);
-  if (!arguments.flag("--field")) return write_matrices(arguments, plate);
-  const std::string summary = stage2::write_field(arguments.output, plate, arguments.input, request);
+  for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
+  if (!arguments.flag("--field")) return write_matrices(arguments, plate, timings);
+  const std::string summary = stage2::write_field(arguments.output, plate, arguments.input, request, timings);
   if (!arguments.quiet) std::cout << summary;
 }
 

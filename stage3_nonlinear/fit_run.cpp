@@ -53,13 +53,16 @@ std::string json(const Fit& fit) {
 
 }  // namespace
 
-void run_fit(const FitOptions& options, std::ostream& out, std::ostream& log) {
+void run_fit(const FitOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings) {
   if (options.law != "power" && options.law != "cubic")
     throw InputError(fmt::format("--law: '{}' is not allowed; allowed: power, cubic", options.law));
+  timings.phase("read");
   const TestPoints points = read_points(options.data);
+  timings.phase("solve");
   const Fit fit = fitted(options, points);
   for (const auto& sentence : fit.warnings)
     log << "stage3_nonlinear: warning: " << options.data << ": " << sentence << "\n";
+  timings.phase("write");
   if (!options.drawing.empty()) h5::write_whole_file(options.drawing, drawing(fit, points));
   if (options.quiet) return;
   out << fmt::format("{} law fitted to {} points of {}; uncertainties are standard ones (1 sigma)\n", options.law,

@@ -4,6 +4,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "common/program/timings.hpp"
+
 namespace fastjoint::stage3 {
 
 struct FitOptions {
@@ -14,7 +16,7 @@ struct FitOptions {
 };
 
 /// Fits a law to the points of a test: constants with their uncertainties and a piece of JSON for "laws" on `out`,
-/// warnings on `log`. Throws InputError, FileError, NumericalError.
-void run_fit(const FitOptions& options, std::ostream& out, std::ostream& log);
+/// warnings on `log`; phases "read", "solve", "write". Throws InputError, FileError, NumericalError.
+void run_fit(const FitOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings);
 
 }  // namespace fastjoint::stage3

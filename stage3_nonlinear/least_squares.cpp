@@ -8,46 +8,13 @@
 #include <memory>
 #include <new>
 
-#include "stage3_nonlinear/c_callback.hpp"
+#include "stage3_nonlinear/gsl_callback.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using VectorView = Eigen::Map<VectorXd, 0, Eigen::InnerStride<>>;
-using MatrixView = Eigen::Map<RowMajorXd, 0, Eigen::OuterStride<>>;
-
-Eigen::Index index(std::size_t n) { return static_cast<Eigen::Index>(n); }
-
-VectorView view(gsl_vector* v) { return {v->data, index(v->size), Eigen::InnerStride<>(index(v->stride))}; }
-MatrixView view(gsl_matrix* m) {
-  return {m->data, index(m->size1), index(m->size2), Eigen::OuterStride<>(index(m->tda))};
-}
-VectorXd copied(const gsl_vector* v) { return view(const_cast<gsl_vector*>(v)); }
-
-/// What GSL carries through to the functions below.
-struct Payload {
-  const ResidualProblem& problem;
-  std::exception_ptr thrown;
-};
-
-/// GSL's status of a body that says whether what it evaluated is finite.
-template <class Body>
-int status(Payload& payload, Body body) noexcept {
-  return without_throwing(payload.thrown, body) ? GSL_SUCCESS : GSL_EBADFUNC;
-}
-
-int evaluate(const gsl_vector* x, void* params, gsl_vector* f) noexcept {
-  auto& payload = *static_cast<Payload*>(params);
-  return status(payload, [&] { return (view(f) = payload.problem.residual(copied(x))).allFinite(); });
-}
-
-int differentiate(const gsl_vector* x, void* params, gsl_matrix* J) noexcept {
-  auto& payload = *static_cast<Payload*>(params);
-  return status(payload, [&] { return (view(J) = payload.problem.jacobian(copied(x))).allFinite(); });
-}
 
 struct FreeWorkspace {
   void operator()(gsl_multifit_nlinear_workspace* w) const noexcept { gsl_multifit_nlinear_free(w); }
@@ -74,11 +41,12 @@ bool at_right_angles(const VectorXd& f, const MatrixXd& J, const VectorXd& x) {
 LeastSquares nonlinear_least_squares(const ResidualProblem& problem, const VectorXd& start) {
   constexpr std::size_t max_iterations = 500;
   constexpr double step_tolerance = 1e-13, gradient_tolerance = 0;
-  Payload payload{problem, nullptr};
+  Payload<ResidualProblem> payload{problem, nullptr};
   const auto n = static_cast<std::size_t>(problem.residual(start).size()), p = static_cast<std::size_t>(start.size());
   const auto parameters = gsl_multifit_nlinear_default_parameters();
   const auto solver = owned(gsl_multifit_nlinear_alloc(gsl_multifit_nlinear_trust, &parameters, n, p));
-  gsl_multifit_nlinear_fdf functions{evaluate, differentiate, nullptr, n, p, &payload, 0, 0, 0};
+  gsl_multifit_nlinear_fdf functions{
+      evaluate<ResidualProblem>, differentiate<ResidualProblem>, nullptr, n, p, &payload, 0, 0, 0};
   const gsl_vector_const_view x0 = gsl_vector_const_view_array(start.data(), p);
   int why = 0;
   // A search that stands still at rounding is no failure, one that is not done is: statuses do not tell.
@@ -86,7 +54,7 @@ LeastSquares nonlinear_least_squares(const ResidualProblem& problem, const Vecto
     gsl_multifit_nlinear_driver(max_iterations, step_tolerance, gradient_tolerance, 0, nullptr, nullptr, &why,
                                 solver.get());
   if (payload.thrown) std::rethrow_exception(payload.thrown);
-  LeastSquares result{copied(solver->x), MatrixXd::Zero(start.size(), start.size()), false};
+  LeastSquares result{view(solver->x), MatrixXd::Zero(start.size(), start.size()), false};
   const VectorXd f = problem.residual(result.x);
   const MatrixXd J = problem.jacobian(result.x);
   result.converged = at_right_angles(f, J, result.x);

@@ -25,21 +25,22 @@ const fastjoint::program::Command command{
                     "fit a law to a test instead, lines of delta, F; -o then names a drawing (.svg) or is left out"},
          .options = {{"--law", "KIND", "with --fit: power or cubic"}}}}};
 
-void body(const fastjoint::program::Arguments& arguments) {
+void body(const fastjoint::program::Arguments& arguments, fastjoint::program::Timings& timings) {
   if (arguments.flag("--fit"))
     return fastjoint::stage3::run_fit({.data = arguments.input,
                                        .law = arguments.text("--law"),
                                        .drawing = arguments.output,
                                        .quiet = arguments.quiet},
-                                      std::cout, std::cerr);
+                                      std::cout, std::cerr, timings);
   fastjoint::stage3::run({.input = arguments.input,
                           .output = arguments.output,
                           .csv = arguments.text("--csv"),
+                          .timings = arguments.timings,
                           .p = arguments.integer("--p", 1, highest_p, 0),
                           .sensitivities = arguments.flag("--sensitivities"),
                           .quiet = arguments.quiet,
                           .generator = fastjoint::program::generator(command.name)},
-                         std::cout, std::cerr);
+                         std::cout, std::cerr, timings);
 }
 
 }  // namespace

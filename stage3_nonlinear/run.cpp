@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <ostream>
 #include <utility>
 
@@ -21,25 +20,21 @@
 namespace fastjoint::stage3 {
 namespace {
 
-namespace fs = std::filesystem;
-
 void check_csv(const RunOptions& options) {
   if (options.csv.empty()) return;
-  std::error_code ignored;
-  const auto same = [&](const std::string& other) {
-    return fs::weakly_canonical(options.csv, ignored) == fs::weakly_canonical(other, ignored);
-  };
-  if (same(options.input) || same(options.output))
+  if (h5::same_file(options.csv, options.input) || h5::same_file(options.csv, options.output))
     throw InputError(fmt::format("--csv {}: is the input or the output file; choose another name", options.csv));
+  if (h5::same_file(options.csv, options.timings))
+    throw InputError(fmt::format("--csv {}: is the file of --timings; choose another name", options.csv));
   h5::check_can_write(options.csv);
 }
 
 /// The results must not take the place of what they are made of.
 void check_results_spare(const RunOptions& options, const JointScene& scene) {
   const auto check = [&](const std::string& input) {
-    std::error_code ignored;
-    for (const auto& [option, path] : {std::pair("-o", options.output), std::pair("--csv", options.csv)})
-      if (!input.empty() && fs::equivalent(path, input, ignored))
+    for (const auto& [option, path] :
+         {std::pair("-o", options.output), std::pair("--csv", options.csv), std::pair("--timings", options.timings)})
+      if (h5::same_file(path, input))
         throw InputError(
             fmt::format("{} {}: is a file that {} reads; choose another name", option, path, options.input));
   };
@@ -53,13 +48,15 @@ void warn(std::ostream& log, const std::vector<std::string>& sentences) {
 
 }  // namespace
 
-void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
+void run(const RunOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings) {
+  timings.phase("read");
   check_csv(options);
   const auto document = input::parse(options.input, program::read_text_file(options.input));
   const JointScene scene = read_joint_scene(document);
   check_results_spare(options, scene);
   warn(log, scene.warnings);
   const JointModel joint = load_joint(scene, options.p);
+  timings.phase("solve");
   const JointEquations equations = make_equations(joint);
   const PathOptions solving{scene.initial, scene.solver};
   const LoadPath path =
@@ -74,11 +71,12 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log) {
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};
   if (options.sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);
+  timings.phase("write");
   formats::write(options.output, result);
   if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
   if (!options.quiet) out << summary(scene, joint, path, states);
   if (path.failure)
-    throw NumericalError(failure_message(scene, joint, *path.failure, path.n_increments, options.output));
+    throw IncompleteResult(failure_message(scene, joint, *path.failure, path.n_increments, options.output));
 }
 
 }  // namespace fastjoint::stage3

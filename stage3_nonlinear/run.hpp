@@ -4,6 +4,8 @@
 #include <iosfwd>
 #include <string>
 
+#include "common/program/timings.hpp"
+
 namespace fastjoint::stage3 {
 
 /// What the command line says.
@@ -11,6 +13,7 @@ struct RunOptions {
   std::string input;           ///< JOINT.json
   std::string output;          ///< RESULT.h5
   std::string csv;             ///< empty: none
+  std::string timings = {};    ///< path of the file of times, written by the caller; empty: none
   int p = 0;                   ///< 0: the highest degree that all plates have
   bool sensitivities = false;  ///< also write derivatives of the forces
   bool quiet = false;
@@ -18,9 +21,9 @@ struct RunOptions {
 };
 
 /// The whole stage: reads the joint and its matrices, solves, writes RESULT.h5 and the CSV, prints the summary to `out`
-/// and warnings to `log`.
+/// and warnings to `log`. Its phases are "read", "solve", "write".
 ///
-/// If an increment does not converge, the files hold those before it, marked incomplete, and NumericalError says why.
-void run(const RunOptions& options, std::ostream& out, std::ostream& log);
+/// If an increment does not converge, the files hold those before it, marked incomplete, and IncompleteResult says why.
+void run(const RunOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings);
 
 }  // namespace fastjoint::stage3

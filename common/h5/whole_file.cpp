@@ -73,6 +73,16 @@ void check_can_write(const std::string& path) {
   if (::access(folder_of(resolved(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
+bool same_file(const std::string& a, const std::string& b) {
+  if (a.empty() || b.empty()) return false;
+  std::error_code ignored;
+  if (fs::equivalent(a, b, ignored)) return true;
+  // A relative path of which nothing exists yet would stay relative; where no path can be, full() is empty.
+  const auto full = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
+  const fs::path first = full(a);
+  return !first.empty() && first == full(b);
+}
+
 void write_whole_file(const std::string& path, std::string_view bytes) {
   check_can_write(path);
   const std::string target = resolved(path);

@@ -13,4 +13,7 @@ void write_whole_file(const std::string& path, std::string_view bytes);
 /// Throws FileError unless a file could be put at `path`: asked before the work, not after it.
 void check_can_write(const std::string& path);
 
+/// Whether both paths lead to one file, which need not exist yet; an empty path leads to none.
+[[nodiscard]] bool same_file(const std::string& a, const std::string& b);
+
 }  // namespace fastjoint::h5

@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
-#include <filesystem>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -17,8 +16,6 @@
 
 namespace fastjoint::program {
 namespace {
-
-namespace fs = std::filesystem;
 
 enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, numerical_failure = 4 };
 
@@ -65,6 +62,7 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   app.add_option("-o,--output", arguments.output, "file to write")->required(alone)->option_text(command.output);
   for (const auto& option : command.options) own.push_back(add(app, option, arguments));
   for (const auto& alternative : command.alternatives) add_alternative(app, alternative, own, arguments);
+  app.add_option("--timings", arguments.timings, "also write what each phase took, as JSON")->option_text("FILE");
   app.add_flag("--quiet", arguments.quiet, "print no summary");
   app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage or input, 3 bad file, 4 numerical failure.");
   try {
@@ -80,11 +78,32 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
 }
 
 void check_paths(const Arguments& arguments) {
-  if (arguments.output.empty()) return;
-  std::error_code ignored;
-  if (fs::equivalent(arguments.input, arguments.output, ignored))
-    throw InputError(fmt::format("-o {}: is the input file; choose another name", arguments.output));
-  h5::check_can_write(arguments.output);
+  const auto check = [](const char* option, const std::string& path, const char* role, const std::string& other) {
+    if (h5::same_file(path, other))
+      throw InputError(fmt::format("{} {}: is the {} file; choose another name", option, path, role));
+  };
+  check("-o", arguments.output, "input", arguments.input);
+  check("--timings", arguments.timings, "input", arguments.input);
+  check("--timings", arguments.timings, "output", arguments.output);
+  for (const auto* path : {&arguments.output, &arguments.timings})
+    if (!path->empty()) h5::check_can_write(*path);
+}
+
+void report_times(const Command& command, const Arguments& arguments, Timings& timings) {
+  timings.stop();
+  if (!arguments.quiet) std::cout << timings.line();
+  if (!arguments.timings.empty()) h5::write_whole_file(arguments.timings, timings.json(command.name, program_version));
+}
+
+void work(const Command& command, const Arguments& arguments, const Body& body, Timings& timings) {
+  check_paths(arguments);
+  try {
+    body(arguments, timings);
+  } catch (const IncompleteResult&) {
+    report_times(command, arguments, timings);
+    throw;
+  }
+  report_times(command, arguments, timings);
 }
 
 int report(const std::string& program, const char* what, Status status) {
@@ -127,13 +146,11 @@ std::string one_line(const std::string& text) {
 
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, program_version); }
 
-int run(const Command& command, int argc, char** argv, const std::function<void(const Arguments&)>& body) {
+int run(const Command& command, int argc, char** argv, const Body& body) {
+  Timings timings;
   h5::take_over_error_reporting();
   try {
-    if (const auto arguments = parse(command, argc, argv)) {
-      check_paths(*arguments);
-      body(*arguments);
-    }
+    if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);
     return done;
   } catch (const InputError& e) {
     return report(command.name, e.what(), invalid_input);

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "common/program/timings.hpp"
+
 namespace fastjoint::program {
 
 /// One row of a program's options: used for parsing, for --help and by the test of the README's table.
@@ -22,7 +24,7 @@ struct Alternative {
   std::vector<Option> options;
 };
 
-/// What the three programs differ in; `INPUT -o OUTPUT --quiet --help --version` all have.
+/// What the three programs differ in; `INPUT -o OUTPUT --timings FILE --quiet --help --version` all have.
 struct Command {
   std::string name;
   std::string summary;
@@ -35,7 +37,8 @@ struct Command {
 /// The user's words, parsed.
 struct Arguments {
   std::string input;
-  std::string output;  ///< may be empty in an alternative only
+  std::string output;   ///< may be empty in an alternative only
+  std::string timings;  ///< path of the file of times, or empty
   bool quiet = false;
   std::map<std::string, std::string> options;  ///< only those that were given
 
@@ -47,10 +50,13 @@ struct Arguments {
   [[nodiscard]] std::string text(const std::string& name) const;
 };
 
-/// Whole life of a program: parses, checks that the output can be written, runs `body`, and turns what it throws
-/// into one line on stderr and the exit status of the contract (0 done, 1 internal error, 2 wrong usage or input,
-/// 3 file, 4 numerical failure).
-int run(const Command& command, int argc, char** argv, const std::function<void(const Arguments&)>& body);
+/// What a program does with its arguments. It names its phases and prints its summary unless told to be quiet.
+using Body = std::function<void(const Arguments&, Timings&)>;
+
+/// Whole life of a program: parses, checks that the outputs can be written, runs `body`, ends its summary with what the
+/// run took, and turns what is thrown into one line on stderr and the exit status of the contract (0 done, 1 internal
+/// error, 2 wrong usage or input, 3 file, 4 numerical failure).
+int run(const Command& command, int argc, char** argv, const Body& body);
 
 /// The text with line breaks and other control characters, which names in the input may hold, as JSON escapes them.
 [[nodiscard]] std::string one_line(const std::string& text);

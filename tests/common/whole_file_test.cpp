@@ -56,6 +56,21 @@ TEST(WholeFile, RefusesWhatIsNoFile) {
   EXPECT_THAT([&] { check_can_write(folder.path("fifo")); }, ThrowsMessage<FileError>(HasSubstr("not a regular file")));
 }
 
+TEST(WholeFile, OneFileHasManyNames) {
+  const test::TemporaryFolder folder;
+  const std::string file = folder.write("file", "");
+  std::filesystem::create_symlink(file, folder.path("link"));
+  EXPECT_TRUE(same_file(file, folder.path("link")));
+  EXPECT_TRUE(same_file(file, folder.path(".") + "/file"));
+  EXPECT_FALSE(same_file(file, folder.path("other")));
+  EXPECT_TRUE(same_file(folder.path("new"), folder.path(".") + "/new")) << "neither is there yet";
+  EXPECT_TRUE(same_file("no such file", "./no such file"));
+  EXPECT_FALSE(same_file("no such file", "nor this"));
+  EXPECT_FALSE(same_file("", ""));
+  const std::string too_long(1000, 'x');
+  EXPECT_FALSE(same_file(too_long, too_long + "y"));
+}
+
 TEST(WholeFile, ASymbolicLinkStaysOne) {
   const test::TemporaryFolder folder;
   folder.write("target", "old");

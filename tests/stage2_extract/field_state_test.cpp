@@ -223,7 +223,7 @@ TEST(FieldLevel, MustHaveFields) {
 
 TEST(FieldOptions, ThatNeedOthers) {
   const auto check = [](const stage2::FieldRequest& request) {
-    return [=] { stage2::check_field_options(request, false, "out.h5"); };
+    return [=] { stage2::check_field_options(request, false, "out.h5", ""); };
   };
   EXPECT_NO_THROW(check({})());
   EXPECT_THAT(check({"", "", 0, 8}), ThrowsMessage<InputError>(HasSubstr("--p: goes with --field only")));
@@ -231,15 +231,18 @@ TEST(FieldOptions, ThatNeedOthers) {
   EXPECT_THAT(check({"", "", 2}), ThrowsMessage<InputError>(HasSubstr("--increment: goes with --field RESULT.h5")));
   const test::TemporaryFolder folder;
   const auto file = folder.write("joint.h5", "");
-  EXPECT_THAT([&] { stage2::check_field_options({file}, true, file); },
+  EXPECT_THAT([&] { stage2::check_field_options({file}, true, file, ""); },
               ThrowsMessage<InputError>(HasSubstr("joint.h5: is the file of --field; choose another name")));
+  EXPECT_THAT([&] { stage2::check_field_options({file}, true, "out.vtu", file); },
+              ThrowsMessage<InputError>(testing::StartsWith("--timings " + file + ": is the file of --field")));
 }
 
 TEST(FieldFile, AmountsThatOverflowAreRefused) {
   const auto plate = test::solve(test::make_plate(test::panel(1, 1)));
   const test::TemporaryFolder folder;
+  program::Timings timings;
   EXPECT_THAT(
-      [&] { (void)stage2::write_field(folder.path("f.vtu"), plate, "plate.h5", {"external:P=1e305"}); },
+      [&] { (void)stage2::write_field(folder.path("f.vtu"), plate, "plate.h5", {"external:P=1e305"}, timings); },
       ThrowsMessage<NumericalError>(HasSubstr("plate.h5: --field external:P=1e305: displacements or stresses")));
   EXPECT_FALSE(std::filesystem::exists(folder.path("f.vtu")));
 }

@@ -12,7 +12,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using testing::EndsWith;
 using testing::HasSubstr;
 using testing::StartsWith;
 
@@ -41,8 +40,9 @@ TEST_F(FitProgram, PrintsConstantsOfAPowerLaw) {
                          "  A = 1000 +- "));
   EXPECT_THAT(run.out, HasSubstr("\n  n = 0.5 +- "));
   EXPECT_THAT(run.out, HasSubstr("\n  delta0 = 0 (on its bound)\n  RMS residual of F: "));
-  EXPECT_THAT(run.out, EndsWith("for \"laws\" of a joint:\n"
-                                "  \"fitted\": {\"type\": \"power\", \"A\": 1000, \"n\": 0.5, \"delta0\": 0}\n"));
+  EXPECT_THAT(run.out,
+              HasSubstr("for \"laws\" of a joint:\n"
+                        "  \"fitted\": {\"type\": \"power\", \"A\": 1000, \"n\": 0.5, \"delta0\": 0}\n  time "));
 }
 
 TEST_F(FitProgram, PrintsPointsOfACubic) {
@@ -52,7 +52,8 @@ TEST_F(FitProgram, PrintsPointsOfACubic) {
       run.err,
       "stage3_nonlinear: warning: test.csv: 3 points past contact are too few for the uncertainty of 3 constants\n");
   EXPECT_THAT(run.out, HasSubstr("\n  delta = 1: F = 1\n  delta = 2: F = 1.8\n  delta = 3: F = 2.4\n"));
-  EXPECT_THAT(run.out, EndsWith("  \"fitted\": {\"type\": \"cubic\", \"delta\": [1, 2, 3], \"F\": [1, 1.8, 2.4]}\n"));
+  EXPECT_THAT(run.out,
+              HasSubstr("  \"fitted\": {\"type\": \"cubic\", \"delta\": [1, 2, 3], \"F\": [1, 1.8, 2.4]}\n  time "));
 }
 
 TEST_F(FitProgram, PrintsALawThatAJointReads) {
@@ -60,7 +61,7 @@ TEST_F(FitProgram, PrintsALawThatAJointReads) {
     const std::string out = fit(root, fmt::format("--law {}", law)).out;
     const auto at = out.find("{\"type\"");
     ASSERT_NE(at, std::string::npos);
-    const auto document = input::parse("joint.json", out.substr(at));
+    const auto document = input::parse("joint.json", out.substr(at, out.find('\n', at) - at));
     const auto read = read_law(input::Value(document));
     const Branch branch = read->at(read->coordinate(400, 2500, 0), 2500, 0);
     EXPECT_NEAR(branch.F, 400, 1) << law;

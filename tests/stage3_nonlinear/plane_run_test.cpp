@@ -45,7 +45,7 @@ class PlaneRun : public testing::Test {
                 .generator = "test 1"};
   }
   formats::JointResult run() {
-    stage3::run(options_, out_, log_);
+    stage3::run(options_, out_, log_, timings_);
     return formats::read_joint_result(options_.output);
   }
   void expect_refusal(const std::string& message) {
@@ -55,6 +55,7 @@ class PlaneRun : public testing::Test {
   test::TemporaryFolder folder_;
   RunOptions options_;
   std::ostringstream out_, log_;
+  program::Timings timings_;
 };
 
 TEST_F(PlaneRun, AlongYAloneIsAsAlongX) {

@@ -53,12 +53,13 @@ class Locking : public testing::Test {
                              .csv = {},
                              .generator = "test 1"};
     log_.str("");
-    stage3::run(options, out_, log_);
+    stage3::run(options, out_, log_, timings_);
   }
   [[nodiscard]] double force() const { return formats::read_joint_result(folder_.path("r.h5")).F(0, 0); }
 
   test::TemporaryFolder folder_;
   std::ostringstream out_, log_;
+  program::Timings timings_;
 };
 
 const std::string spring = R"({"type": "linear", "k": 1000})";

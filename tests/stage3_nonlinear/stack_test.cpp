@@ -264,7 +264,9 @@ std::map<std::string, double> loads_of(const test::TemporaryFolder& folder, cons
                                       {"laws", R"({"lin": {"type": "power", "A": 900, "n": 0.8, "delta0": 0.001}})"},
                                       {"fasteners", fasteners}}));
   std::ostringstream out, log;
-  run({.input = path, .output = folder.path("result.h5"), .csv = "", .quiet = true, .generator = "test 1"}, out, log);
+  program::Timings timings;
+  run({.input = path, .output = folder.path("result.h5"), .csv = "", .quiet = true, .generator = "test 1"}, out, log,
+      timings);
   const auto a = formats::read_joint_result(folder.path("result.h5"));
   std::map<std::string, double> loads;
   for (std::size_t j = 0; j < a.fastener_id.size(); ++j)
