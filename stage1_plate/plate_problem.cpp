@@ -11,10 +11,10 @@ namespace fastjoint::stage1 {
 
 PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
-  problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.p_high);
+  problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   Assembler assembler(problem.numbering, problem.unknowns);
-  pfem::CongruentStiffness stiffness(plate.mesh, plate.edges, scene.elasticity, scene.p_high);
+  pfem::CongruentStiffness stiffness(plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
   for (int element = 0; element < plate.mesh.n_elements(); ++element)
     assembler.add_stiffness(element, stiffness(element), plate.mesh.thickness[element]);
   add_springs(scene, plate, problem.numbering, problem.unknowns, assembler);

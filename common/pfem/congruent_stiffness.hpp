@@ -16,7 +16,8 @@ namespace fastjoint::pfem {
 class CongruentStiffness {
  public:
   /// @param elasticity Of each material of the mesh, (3, 3), stress.
-  CongruentStiffness(const Mesh& mesh, const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity, int p);
+  CongruentStiffness(const Mesh& mesh, const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity, Space space,
+                     int p);
 
   /// Of unit thickness, shape (2 n_modes, 2 n_modes) as ElementStiffness has it, force / length^2.
   [[nodiscard]] const Eigen::MatrixXd& operator()(int element);
