@@ -7,7 +7,7 @@
 #include <map>
 
 #include "common/pfem/congruent_stiffness.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -29,7 +29,7 @@ class CellFinder {
         plate_(plate),
         numbering_(numbering),
         unknowns_(unknowns),
-        stiffness_(plate.mesh, plate.edges, scene.elasticity, numbering.p),
+        stiffness_(plate.mesh, plate.edges, scene.elasticity, numbering.space, numbering.p),
         cell_of_element_(static_cast<std::size_t>(plate.mesh.n_elements())),
         rims_(cell_of_element_.size()) {}
 
@@ -155,7 +155,7 @@ class CellFinder {
   void add_shape(const pfem::Mesh& mesh, const Cell& cell) {
     CellShape shape;
     const auto edges = pfem::find_edges(mesh);
-    shape.numbering = pfem::number_by_degree(mesh, edges, numbering_.p);
+    shape.numbering = pfem::number_by_degree(mesh, edges, numbering_.space, numbering_.p);
     shape.thickness = mesh.thickness;
     const auto n = static_cast<std::size_t>(shape.numbering.n_functions.back());
     shape.interior.assign(n, true);

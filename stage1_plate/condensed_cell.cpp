@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/condensed_cell.hpp"
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -84,10 +84,10 @@ class CellMatrix {
 
 }  // namespace
 
-ElementModes modes_up_to(int p, int p_integrated) {
+ElementModes modes_up_to(int p, const pfem::Numbering& numbering) {
   ElementModes list;
-  const auto modes = pfem::trunk_space(p_integrated);
-  const int first_interior = pfem::edge_mode(p_integrated, pfem::n_local_edges, 2);
+  const auto modes = pfem::modes(numbering.space, numbering.p);
+  const int first_interior = pfem::edge_mode(numbering.p, pfem::n_local_edges, 2);
   for (int m = 0; m < static_cast<int>(modes.size()); ++m)
     if (modes[static_cast<std::size_t>(m)].degree <= p) (m < first_interior ? list.outer : list.interior).push_back(m);
   return list;

@@ -9,12 +9,12 @@
 
 namespace fastjoint::stage1 {
 
-/// Local modes of an element, integrated at a degree, that the space of a lower one has.
+/// Local modes of an element that the space of a lower degree has.
 struct ElementModes {
   std::vector<int> outer;     ///< vertices and edges
   std::vector<int> interior;  ///< condensed with the element
 };
-[[nodiscard]] ElementModes modes_up_to(int p, int p_integrated);
+[[nodiscard]] ElementModes modes_up_to(int p, const pfem::Numbering& numbering);
 
 /// Stiffness of an element with its interior modes condensed: interior coefficients, then outer ones; of each first all
 /// of u_x, then all of u_y, local signs.

@@ -54,7 +54,7 @@ Eigen::VectorXd shift(const PlateProblem& problem) {
 }
 
 PlateFactor::PlateFactor(const PlateProblem& problem, const Outline& outline, int p)
-    : problem_(problem), p_(p), modes_(modes_up_to(p, problem.numbering.p)), rows_(outline.rows(p)) {
+    : problem_(problem), p_(p), modes_(modes_up_to(p, problem.numbering)), rows_(outline.rows(p)) {
   for (const auto& K : problem.cells.element_stiffness) elements_.push_back(condense_element(K, modes_));
   for (const auto& shape : problem.cells.shapes) cells_.push_back(condense_cell(shape, elements_, modes_, p));
   factor_ = std::make_unique<linalg::Cholesky>(outline_stiffness(outline), rows_.n_border);

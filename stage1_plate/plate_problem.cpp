@@ -30,7 +30,7 @@ void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assemble
 
 PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
-  problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.p_high);
+  problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   problem.cells = find_cells(scene, plate, problem.numbering, problem.unknowns);
   problem.ties = tie_points(scene, plate, problem.unknowns);

@@ -147,7 +147,7 @@ Eigen::Vector2d read_point(const Value& value) {
 PlateScene read_scene(const input::Document& document) {
   const Value root(document);
   root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes", "points",
-             "disc_directions", "supports", "external", "loads", "p"});
+             "disc_directions", "supports", "external", "loads", "space", "p"});
   input::check_format(root, "plate");
   PlateScene scene;
   scene.file = document.file;
@@ -166,6 +166,7 @@ PlateScene read_scene(const input::Document& document) {
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
   scene.loads = read_loads(root, scene);
+  if (const auto space = root.find("space")) scene.space = pfem::space_named(space->choice(pfem::space_names));
   read_p(root, scene);
   return scene;
 }

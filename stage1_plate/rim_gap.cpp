@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "common/pfem/legendre.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "stage1_plate/springs.hpp"
 
 namespace fastjoint::stage1 {

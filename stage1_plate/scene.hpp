@@ -12,6 +12,7 @@
 #include "common/formats/header.hpp"
 #include "common/input/json.hpp"
 #include "common/pfem/rim.hpp"
+#include "common/pfem/space.hpp"
 
 namespace fastjoint::stage1 {
 
@@ -124,6 +125,7 @@ struct PlateScene {
   std::vector<Support> supports;
   std::vector<External> externals;
   std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
+  pfem::Space space = pfem::Space::trunk;
   int p_low = 1, p_high = 8;
 
   /// The loads of a scene that has them.

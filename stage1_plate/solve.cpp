@@ -61,6 +61,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = Eigen::Map<const Eigen::Matrix2Xi>(unknowns.target.data(), 2,
                                                  static_cast<Eigen::Index>(unknowns.target.size()) / 2);
+  a.space = problem.numbering.space;
   a.p = Eigen::VectorXi::LinSpaced(scene.p_high - scene.p_low + 1, scene.p_low, scene.p_high);
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[static_cast<std::size_t>(p)]; });
   const auto name = [&](const std::vector<int>& list, auto& ids, auto& directions) {

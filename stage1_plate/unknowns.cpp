@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -24,6 +24,7 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   formats::PlateMatrices a;
   a.header = plate.header;
   a.header.generator = generator;
+  a.space = plate.space;
   a.p = plate.p;
   a.ndof = plate.ndof;
   a.disc_hole = plate.disc_hole;

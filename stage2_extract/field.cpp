@@ -3,8 +3,8 @@
 
 #include <cassert>
 
+#include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
-#include "common/pfem/trunk_space.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -46,13 +46,13 @@ Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts)
   const Eigen::VectorXd solved = solved_amounts(fields, amounts);
   const Eigen::Matrix2Xd nodes = lagrange_nodes(p);
   const Eigen::VectorXd xi = nodes.row(0), eta = nodes.row(1);
-  const Eigen::MatrixXd N = pfem::shape_values(fields.p(), xi, eta).N;
+  const Eigen::MatrixXd N = pfem::shape_values(fields.space(), fields.p(), xi, eta).N;
   const Index n = nodes.cols(), n_points = n * mesh.n_elements();
   Field field{p, Eigen::Matrix2Xd(2, n_points), Eigen::Matrix2Xd(2, n_points), Eigen::Matrix3Xd(3, n_points)};
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const pfem::ElementMap map(mesh, fields.edges(), element);
     const Eigen::VectorXd c = fields.coefficients(element) * solved;
-    const Eigen::VectorXd strain = pfem::strain_operator(map, fields.p(), xi, eta) * c;
+    const Eigen::VectorXd strain = pfem::strain_operator(map, fields.space(), fields.p(), xi, eta) * c;
     const Index first = element * n;
     for (Index i = 0; i < n; ++i) field.points.col(first + i) = map.point(xi[i], eta[i]);
     field.displacement.middleCols(first, n) << c.head(N.rows()).transpose() * N, c.tail(N.rows()).transpose() * N;

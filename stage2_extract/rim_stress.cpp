@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
-#include "common/pfem/trunk_space.hpp"
 #include "stage2_extract/friction_constants.hpp"
 
 namespace fastjoint::stage2 {

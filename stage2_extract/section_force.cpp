@@ -2,8 +2,8 @@
 #include "stage2_extract/section_force.hpp"
 
 #include "common/pfem/gauss.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
-#include "common/pfem/trunk_space.hpp"
 #include "stage2_extract/friction_constants.hpp"
 
 namespace fastjoint::stage2 {
@@ -26,7 +26,8 @@ Eigen::RowVectorXd side_force(const UnitFields& fields, const pfem::Side& side, 
   const pfem::ElementMap map(mesh, fields.edges(), side.element);
   const auto curve = pfem::edge_curve(mesh, fields.edges(), side.element, side.local_edge);
   const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);
-  const Eigen::MatrixXd B = pfem::strain_operator(map, fields.p(), at.row(0).transpose(), at.row(1).transpose());
+  const Eigen::MatrixXd B =
+      pfem::strain_operator(map, fields.space(), fields.p(), at.row(0).transpose(), at.row(1).transpose());
   Eigen::RowVectorXd per_coefficient = Eigen::RowVectorXd::Zero(B.cols());
   for (Eigen::Index q = 0; q < rule.x.size(); ++q)
     per_coefficient += rule.w[q] * curve.derivative(rule.x[q]).norm() * mesh.thickness[side.element] *

@@ -12,10 +12,11 @@ namespace fastjoint::stage2 {
 UnitFields::UnitFields(const formats::PlateSolution& plate, const std::string& file)
     : plate_(plate),
       edges_(pfem::find_edges(plate.mesh)),
-      numbering_(pfem::number_by_degree(plate.mesh, edges_, plate.p[plate.p.size() - 1])) {
+      numbering_(pfem::number_by_degree(plate.mesh, edges_, plate.space, plate.p[plate.p.size() - 1])) {
   if (plate.unknown.cols() != numbering_.n_functions.back())
-    throw FileError(fmt::format("{}:unknown: has {} rows, the mesh has {} functions at p = {}", file,
-                                plate.unknown.cols(), numbering_.n_functions.back(), numbering_.p));
+    throw FileError(fmt::format("{}:unknown: has {} rows, the mesh has {} functions at p = {} of the {} space", file,
+                                plate.unknown.cols(), numbering_.n_functions.back(), numbering_.p,
+                                pfem::name_of(numbering_.space)));
 }
 
 void UnitFields::use(std::size_t level) {

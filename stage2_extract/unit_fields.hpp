@@ -19,6 +19,7 @@ class UnitFields {
   /// Looks at the cases of this level, one of stress_p, from now on.
   void use(std::size_t level);
   [[nodiscard]] Eigen::Index n_cases() const { return X_.cols(); }
+  [[nodiscard]] pfem::Space space() const { return numbering_.space; }
   [[nodiscard]] int p() const { return numbering_.p; }
   [[nodiscard]] const pfem::Edges& edges() const { return edges_; }
   [[nodiscard]] const formats::PlateSolution& plate() const { return plate_; }

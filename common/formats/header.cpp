@@ -2,10 +2,14 @@
 #include "common/formats/header.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <vector>
+
+#include "common/errors.hpp"
 
 namespace fastjoint::formats {
 namespace {
@@ -53,6 +57,17 @@ Header read_header(const h5::Reader& file) {
   };
   header.units = {label("length"), label("force")};
   return header;
+}
+
+void write_space(h5::Writer& file, pfem::Space space) { file.attribute("space", pfem::name_of(space)); }
+
+pfem::Space read_space(const h5::Reader& file) {
+  const std::string name = file.attribute("space", pfem::name_of(pfem::Space::trunk));
+  const auto& names = pfem::space_names;
+  if (std::find(names.begin(), names.end(), name) == names.end())
+    throw FileError(
+        fmt::format("{}: attribute 'space' is '{}', expected one of {}", file.path(), name, fmt::join(names, ", ")));
+  return pfem::space_named(name);
 }
 
 }  // namespace fastjoint::formats

@@ -5,6 +5,7 @@
 
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
+#include "common/pfem/space.hpp"
 
 namespace fastjoint::formats {
 
@@ -31,5 +32,9 @@ struct Header {
 
 void write_header(h5::Writer& file, const Header& header);
 [[nodiscard]] Header read_header(const h5::Reader& file);
+
+/// The root attribute `space`: the trunk space in a file without it. Throws FileError for a word that names no space.
+void write_space(h5::Writer& file, pfem::Space space);
+[[nodiscard]] pfem::Space read_space(const h5::Reader& file);
 
 }  // namespace fastjoint::formats

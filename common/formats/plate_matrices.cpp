@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 2;
+constexpr int minor = 3;
 
 /// A stack that is missing altogether is one of zero-width matrices.
 std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,
@@ -33,7 +33,7 @@ std::vector<std::string> directions(const h5::Reader& file, const char* dataset,
 }
 
 void write_names(h5::Writer& file, const PlateMatrices& a) {
-  file.write("p", a.p, {"1", "polynomial degree of the trunk space"});
+  file.write("p", a.p, {"1", "polynomial degree"});
   file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
   file.write("disc/hole", a.disc_hole, {"1", "hole of each disc unknown"});
   file.write("disc/direction", a.disc_direction, {"1", "direction of each disc unknown, x or y"});
@@ -101,6 +101,7 @@ void write(const std::string& path, const PlateMatrices& a) {
   const auto q = a.n_tractions();
   h5::Writer file(path, format, major, minor);
   write_header(file, a.header);
+  write_space(file, a.space);
   write_names(file, a);
   file.write("friction/unit_force", a.friction_unit_force, {area, "bearing force per unit peak contact stress"});
   file.write("friction/resultant", a.friction_resultant,
@@ -121,6 +122,7 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   const h5::Reader file(path, format, major);
   PlateMatrices a;
   a.header = read_header(file);
+  a.space = read_space(file);
   a.p = file.integers("p", h5::any);
   const auto np = a.p.size();
   a.ndof = file.has("ndof") ? file.integers("ndof", np) : Eigen::VectorXi::Zero(np);

@@ -27,6 +27,7 @@ struct HoleContact {
 ///   (P, F) = S (D_e, D) + R Lambda + T f.
 struct PlateMatrices {
   Header header;
+  pfem::Space space = pfem::Space::trunk;              ///< of a sheet of finite elements
   Eigen::VectorXi p, ndof;                             ///< (np)
   std::vector<std::string> disc_hole, disc_direction;  ///< (m)
   /// (m) modulus of the distributed springs between disc and sheet, which hold the bearing of the sheet; 0 where the

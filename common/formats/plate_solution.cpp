@@ -49,7 +49,7 @@ Sparse read_sparse(const h5::Reader& file, const std::string& group, Eigen::Inde
 
 void write_names(h5::Writer& file, const PlateSolution& a) {
   file.write("supported", a.supported, {"1", "directions in which a support holds the plate"});
-  file.write("p", a.p, {"1", "polynomial degree of the trunk space"});
+  file.write("p", a.p, {"1", "polynomial degree"});
   file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
   file.write("stress_p", a.stress_p, {"1", "degrees whose stresses are to be extracted"});
   file.write("external/id", a.external_id, {"1", "external boundaries that move as one"});
@@ -207,6 +207,7 @@ void write(const std::string& path, const PlateSolution& a) {
   const std::string area = unit(units, 2, 0);
   h5::Writer file(path, format, major, minor);
   write_header(file, a.header);
+  write_space(file, a.space);
   write_geometry(file, a);
   write_names(file, a);
   write_sparse(file, "K_fc", a.K_fc, {stiffness, "couples plate unknowns to externals and discs"});
@@ -230,6 +231,7 @@ PlateSolution read_plate_solution(const std::string& path) {
   const h5::Reader file(path, format, major);
   PlateSolution a;
   a.header = read_header(file);
+  a.space = read_space(file);
   const Units& units = a.header.units;
   const std::string length = unit(units, 1, 0);
   read_geometry(file, a);

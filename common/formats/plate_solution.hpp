@@ -66,6 +66,7 @@ struct PlateSolution {
   std::vector<HoleSpring> hole_spring;
   std::vector<Section> sections;
   std::vector<std::string> supported;  ///< directions that a support fixes somewhere
+  pfem::Space space = pfem::Space::trunk;
   Eigen::VectorXi p, ndof;
   std::vector<std::string> external_id, external_direction;
   std::vector<std::string> traction_id, traction_direction;

@@ -3,7 +3,7 @@
 
 #include "common/pfem/gauss.hpp"
 #include "common/pfem/legendre.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 namespace {

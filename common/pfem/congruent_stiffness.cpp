@@ -6,8 +6,8 @@
 namespace fastjoint::pfem {
 
 CongruentStiffness::CongruentStiffness(const Mesh& mesh, const Edges& edges,
-                                       const std::vector<Eigen::Matrix3d>& elasticity, int p)
-    : mesh_(mesh), edges_(edges), elasticity_(elasticity), integrate_(p) {}
+                                       const std::vector<Eigen::Matrix3d>& elasticity, Space space, int p)
+    : mesh_(mesh), edges_(edges), elasticity_(elasticity), integrate_(space, p) {}
 
 CongruentStiffness::Shape CongruentStiffness::shape(int element) const {
   constexpr double same = 1e-12;  // of the element's size

@@ -17,7 +17,8 @@ namespace fastjoint::pfem {
 class CongruentStiffness {
  public:
   /// @param elasticity Of each material of the mesh, (3, 3), stress.
-  CongruentStiffness(const Mesh& mesh, const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity, int p);
+  CongruentStiffness(const Mesh& mesh, const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity, Space space,
+                     int p);
 
   /// Index of the element's shape and material among the different ones, in the order in which they are asked for.
   [[nodiscard]] int shape_of(int element);

@@ -18,10 +18,11 @@ constexpr int extra_curved = 7;
 
 }  // namespace
 
-ElementStiffness::ElementStiffness(int p, int extra)
-    : straight_(tabulate(p, p + extra_straight + extra)), curved_(tabulate(p, p + extra_curved + extra)) {}
+ElementStiffness::ElementStiffness(Space space, int p, int extra)
+    : straight_(tabulate(space, p, p + extra_straight + extra)),
+      curved_(tabulate(space, p, p + extra_curved + extra)) {}
 
-ElementStiffness::Table ElementStiffness::tabulate(int p, int n_points) {
+ElementStiffness::Table ElementStiffness::tabulate(Space space, int p, int n_points) {
   const Rule rule = gauss(n_points);
   Table table;
   table.xi = rule.x.replicate(n_points, 1);
@@ -31,7 +32,7 @@ ElementStiffness::Table ElementStiffness::tabulate(int p, int n_points) {
     table.eta.segment(j * n_points, n_points).setConstant(rule.x[j]);
     table.w.segment(j * n_points, n_points) = rule.w[j] * rule.w;
   }
-  table.shape = shape_values(p, table.xi, table.eta);
+  table.shape = shape_values(space, p, table.xi, table.eta);
   return table;
 }
 

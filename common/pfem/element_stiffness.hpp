@@ -5,16 +5,15 @@
 
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/gauss.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 
-/// Stiffness matrices of elements of one degree p. Shape functions are tabulated once.
+/// Stiffness matrices of elements of one space and degree p. Shape functions are tabulated once.
 class ElementStiffness {
  public:
-  /// @param p     Degree of the trunk space.
   /// @param extra Points added in each direction to those chosen from p and the element's shape (for tests).
-  explicit ElementStiffness(int p, int extra = 0);
+  explicit ElementStiffness(Space space, int p, int extra = 0);
 
   /// int B^T D B t dA, equation (3a), shape (2 n_modes, 2 n_modes), force / length: first the n_modes
   /// coefficients of u_x, then those of u_y, local signs (no edge orientation).
@@ -26,7 +25,7 @@ class ElementStiffness {
     Eigen::VectorXd xi, eta, w;
     ShapeValues shape;
   };
-  static Table tabulate(int p, int n_points);
+  static Table tabulate(Space space, int p, int n_points);
   Table straight_, curved_;
 };
 

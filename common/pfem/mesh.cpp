@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <map>
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 namespace {

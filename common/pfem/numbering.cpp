@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/pfem/numbering.hpp"
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 namespace {
 
-/// Functions of degree k and the first of those inside the elements.
+/// Functions of degree k: the first of those on edges, the first of those inside the elements, how many each has
+/// inside.
 struct DegreeBlock {
-  int first_edge, first_interior;
+  int first_edge = 0, first_interior = 0, n_interior = 0;
 };
 
-std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, Numbering& numbering) {
+std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, const std::vector<Mode>& modes,
+                                       Numbering& numbering) {
   std::vector<DegreeBlock> blocks(static_cast<std::size_t>(numbering.p) + 1);
+  for (auto m = static_cast<std::size_t>(edge_mode(numbering.p, n_local_edges, 2)); m < modes.size(); ++m)
+    ++blocks[static_cast<std::size_t>(modes[m].degree)].n_interior;
   numbering.n_functions = {0, mesh.n_nodes()};
-  for (int k = 2; k <= numbering.p; ++k) {
-    const int first = numbering.n_functions.back();
-    const int interior_each = k >= 4 ? k - 3 : 0;
-    blocks[static_cast<std::size_t>(k)] = {first, first + edges.size()};
-    numbering.n_functions.push_back(first + edges.size() + interior_each * mesh.n_elements());
+  for (std::size_t k = 2; k < blocks.size(); ++k) {
+    blocks[k].first_edge = numbering.n_functions.back();
+    blocks[k].first_interior = blocks[k].first_edge + edges.size();
+    numbering.n_functions.push_back(blocks[k].first_interior + blocks[k].n_interior * mesh.n_elements());
   }
   return blocks;
 }
 
 }  // namespace
 
-Numbering number_by_degree(const Mesh& mesh, const Edges& edges, int p) {
-  const auto modes = trunk_space(p);
-  const auto n_modes = static_cast<Eigen::Index>(modes.size());
-  Numbering numbering{p, {}, {}, Eigen::MatrixXd::Ones(n_modes, mesh.n_elements())};
+Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p) {
+  const auto list = modes(space, p);
+  const auto n_modes = static_cast<Eigen::Index>(list.size());
+  Numbering numbering{space, p, {}, {}, Eigen::MatrixXd::Ones(n_modes, mesh.n_elements())};
   numbering.function.resize(n_modes, mesh.n_elements());
-  const auto blocks = degree_blocks(mesh, edges, numbering);
+  const auto blocks = degree_blocks(mesh, edges, list, numbering);
   for (int element = 0; element < mesh.n_elements(); ++element) {
     numbering.function.col(element).head<4>() = mesh.quads.col(element);
     for (int edge = 0; edge < n_local_edges; ++edge) {
@@ -41,10 +44,10 @@ Numbering number_by_degree(const Mesh& mesh, const Edges& edges, int p) {
         if (against && k % 2 == 1) numbering.sign(edge_mode(p, edge, k), element) = -1;
       }
     }
-    for (Eigen::Index m = edge_mode(p, n_local_edges, 2); m < n_modes; ++m) {
-      const auto [i, j, k] = modes[static_cast<std::size_t>(m)];
-      numbering.function(m, element) = blocks[static_cast<std::size_t>(k)].first_interior + element * (k - 3) + (i - 2);
-    }
+    Eigen::Index m = edge_mode(p, n_local_edges, 2);
+    for (const auto& block : blocks)
+      for (int i = 0; i < block.n_interior; ++i)
+        numbering.function(m++, element) = block.first_interior + element * block.n_interior + i;
   }
   return numbering;
 }

@@ -5,12 +5,14 @@
 #include <vector>
 
 #include "common/pfem/mesh.hpp"
+#include "common/pfem/space.hpp"
 
 namespace fastjoint::pfem {
 
 /// Global shape functions, ordered by polynomial degree: those of degree <= k come first, so that every
 /// matrix of degree k is a leading block of that of degree p.
 struct Numbering {
+  Space space;
   int p;
   std::vector<int> n_functions;  ///< (p + 1) how many of degree <= k
   Eigen::MatrixXi function;      ///< (n_modes, n_elements) global function of a local mode
@@ -19,6 +21,6 @@ struct Numbering {
 
 /// Vertices first; then for each degree k the edges' modes k (an edge runs from its lower to its higher node) and the
 /// elements' interior modes of that degree.
-[[nodiscard]] Numbering number_by_degree(const Mesh& mesh, const Edges& edges, int p);
+[[nodiscard]] Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p);
 
 }  // namespace fastjoint::pfem

@@ -5,7 +5,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 namespace {

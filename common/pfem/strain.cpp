@@ -4,12 +4,13 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 
-Eigen::MatrixXd strain_operator(const ElementMap& map, int p, const Eigen::VectorXd& xi, const Eigen::VectorXd& eta) {
-  const ShapeValues shape = shape_values(p, xi, eta);
+Eigen::MatrixXd strain_operator(const ElementMap& map, Space space, int p, const Eigen::VectorXd& xi,
+                                const Eigen::VectorXd& eta) {
+  const ShapeValues shape = shape_values(space, p, xi, eta);
   const auto n = shape.N.rows();
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(3 * xi.size(), 2 * n);
   for (Eigen::Index q = 0; q < xi.size(); ++q) {

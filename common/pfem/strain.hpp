@@ -4,13 +4,14 @@
 #include <Eigen/Core>
 
 #include "common/pfem/element_map.hpp"
+#include "common/pfem/space.hpp"
 
 namespace fastjoint::pfem {
 
 /// Strains of an element per coefficient, shape (3 n_points, 2 n_modes): rows (eps_x, eps_y, gamma_xy) point after
 /// point, first the coefficients of u_x, then those of u_y, local signs.
 /// @param xi, eta Coordinates of the points, each of shape (n_points).
-[[nodiscard]] Eigen::MatrixXd strain_operator(const ElementMap& map, int p, const Eigen::VectorXd& xi,
+[[nodiscard]] Eigen::MatrixXd strain_operator(const ElementMap& map, Space space, int p, const Eigen::VectorXd& xi,
                                               const Eigen::VectorXd& eta);
 
 /// Coordinates (xi, eta) of points along a local edge, shape (2, n_points).

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "tests/support/meshes.hpp"
 
 namespace fastjoint::pfem {
@@ -42,10 +42,10 @@ TEST(Boundary, TracesAreThoseOfTheElement) {
     for (Eigen::Index q = 0; q < gauss_points; ++q)
       s[q] = 2 * (rule.x.col(q) - a).dot(b - a) / (b - a).squaredNorm() - 1;
     const Eigen::VectorXd one = Eigen::VectorXd::Ones(gauss_points);
-    const auto all = edge == 0   ? shape_values(8, s, -one)
-                     : edge == 1 ? shape_values(8, one, s)
-                     : edge == 2 ? shape_values(8, s, one)
-                                 : shape_values(8, -one, s);
+    const auto all = edge == 0   ? shape_values(Space::product, 8, s, -one)
+                     : edge == 1 ? shape_values(Space::product, 8, one, s)
+                     : edge == 2 ? shape_values(Space::product, 8, s, one)
+                                 : shape_values(Space::product, 8, -one, s);
     Eigen::MatrixXd rest = all.N;
     for (std::size_t m = 0; m < rule.modes.size(); ++m) {
       EXPECT_LT((all.N.row(rule.modes[m]) - rule.N.row(static_cast<Eigen::Index>(m))).norm(), 1e-13);

@@ -36,7 +36,7 @@ Mesh copies(int n) {
 
 /// Largest relative difference from integrating every element by itself.
 double difference(const Mesh& mesh, CongruentStiffness& stiffness, const Edges& edges) {
-  const ElementStiffness each(p);
+  const ElementStiffness each(Space::trunk, p);
   double worst = 0;
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const MatrixXd K =
@@ -49,7 +49,7 @@ double difference(const Mesh& mesh, CongruentStiffness& stiffness, const Edges& 
 TEST(CongruentStiffness, IsIntegratedOnceForCopies) {
   const Mesh mesh = copies(20);
   const Edges edges = find_edges(mesh);
-  CongruentStiffness stiffness(mesh, edges, soft_and_stiff, p);
+  CongruentStiffness stiffness(mesh, edges, soft_and_stiff, Space::trunk, p);
   EXPECT_LT(difference(mesh, stiffness, edges), 1e-10) << "rounding of coordinates far from the origin";
   EXPECT_LE(stiffness.n_different(), 8U) << "4, or a few more where rounding falls between two steps";
 }
@@ -62,7 +62,7 @@ TEST(CongruentStiffness, TellsWhatDiffers) {
     if (change == 2) mesh.material[4] = 1;
     if (change == 3) mesh.arcs.pop_back();
     const Edges edges = find_edges(mesh);
-    CongruentStiffness stiffness(mesh, edges, soft_and_stiff, p);
+    CongruentStiffness stiffness(mesh, edges, soft_and_stiff, Space::trunk, p);
     EXPECT_LT(difference(mesh, stiffness, edges), 1e-12) << change;
     if (change == 0) {
       EXPECT_EQ(stiffness.n_different(), 4U);

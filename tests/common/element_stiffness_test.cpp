@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/pfem/element_stiffness.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
@@ -12,6 +13,7 @@
 #include "common/pfem/material.hpp"
 #include "common/pfem/numbering.hpp"
 #include "tests/support/meshes.hpp"
+#include "tests/support/spaces.hpp"
 
 namespace fastjoint::pfem {
 namespace {
@@ -29,13 +31,13 @@ struct Body {
   VectorXd load;
 };
 
-Body assemble(const Mesh& mesh, int p, const Eigen::Matrix2d& stress, int extra_points = 0) {
+Body assemble(const Mesh& mesh, Space space, int p, const Eigen::Matrix2d& stress, int extra_points = 0) {
   const Edges edges = find_edges(mesh);
-  Body body{number_by_degree(mesh, edges, p), {}, {}};
+  Body body{number_by_degree(mesh, edges, space, p), {}, {}};
   const auto& n = body.numbering;
   body.K = MatrixXd::Zero(2 * n.n_functions.back(), 2 * n.n_functions.back());
   body.load = VectorXd::Zero(body.K.rows());
-  const ElementStiffness stiffness(p, extra_points);
+  const ElementStiffness stiffness(space, p, extra_points);
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const MatrixXd K = stiffness(ElementMap(mesh, edges, element), D, mesh.thickness[element]);
     const auto n_modes = n.function.rows();
@@ -71,12 +73,12 @@ Eigen::Matrix2d stress_of(const Eigen::Matrix2d& G) {
 
 const Eigen::Matrix2d gradient = (Eigen::Matrix2d() << 0.3, -0.2, 0.5, 0.1).finished();
 
-class StiffnessP : public testing::TestWithParam<int> {};
+class StiffnessP : public testing::TestWithParam<std::tuple<Space, int>> {};
 
 TEST_P(StiffnessP, ElementIsSymmetricWithThreeRigidModes) {
-  const int p = GetParam();
+  const auto [space, p] = GetParam();
   const Mesh mesh = test::distorted_mesh();
-  const MatrixXd K = ElementStiffness(p)(ElementMap(mesh, find_edges(mesh), 0), D, 0.3);
+  const MatrixXd K = ElementStiffness(space, p)(ElementMap(mesh, find_edges(mesh), 0), D, 0.3);
   EXPECT_LT((K - K.transpose()).norm(), 1e-14 * K.norm());
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(K);
   EXPECT_LT(eigen.eigenvalues().head(3).cwiseAbs().maxCoeff(), 1e-13 * eigen.eigenvalues().maxCoeff());
@@ -84,15 +86,15 @@ TEST_P(StiffnessP, ElementIsSymmetricWithThreeRigidModes) {
 }
 
 TEST_P(StiffnessP, PatchTestOnADistortedMesh) {
-  const int p = GetParam();
+  const auto [space, p] = GetParam();
   const Mesh mesh = test::distorted_mesh();
-  const Body body = assemble(mesh, p, stress_of(gradient));
+  const Body body = assemble(mesh, space, p, stress_of(gradient));
   EXPECT_LT((body.K * linear_field(mesh, body, gradient) - body.load).norm(), 1e-13 * body.load.norm() * p);
 }
 
 /// Displacement of node 8 against u = G x, with the rigid motions taken out at nodes 0 and 2.
-double patch_error(const Mesh& mesh, int p) {
-  const Body body = assemble(mesh, p, stress_of(gradient));
+double patch_error(const Mesh& mesh, Space space, int p) {
+  const Body body = assemble(mesh, space, p, stress_of(gradient));
   Eigen::VectorXi kept(body.K.rows() - 3);
   for (int i = 0, n = 0; i < body.K.rows(); ++i)
     if (i != 0 && i != 1 && i != 5) kept[n++] = i;
@@ -108,15 +110,28 @@ double patch_error(const Mesh& mesh, int p) {
 /// With exact arcs, x and y are no longer in the space that the map carries over (the map is transcendental), so
 /// constant strain is not reproduced but approached exponentially; on straight elements it is exact.
 TEST(Stiffness, PatchTestOnACurvedMeshConvergesExponentially) {
-  EXPECT_LT(patch_error(test::distorted_mesh(), 1), 1e-13);
-  double previous = patch_error(test::curved_mesh(), 1);
+  EXPECT_LT(patch_error(test::distorted_mesh(), Space::trunk, 1), 1e-13);
+  double previous = patch_error(test::curved_mesh(), Space::trunk, 1);
   EXPECT_GT(previous, 1e-4);
   for (int p = 2; p <= 8; ++p) {
-    const double error = patch_error(test::curved_mesh(), p);
+    const double error = patch_error(test::curved_mesh(), Space::trunk, p);
     EXPECT_LT(error, 0.45 * previous) << "p=" << p;
     previous = error;
   }
   EXPECT_LT(previous, 1e-8);
+}
+
+/// At the same rate over two degrees: in the product space the displacement of these vertices gains most at even ones.
+TEST(Stiffness, PatchTestOnACurvedMeshConvergesExponentiallyInTheProductSpace) {
+  for (const int first : {1, 2}) {
+    double previous = patch_error(test::curved_mesh(), Space::product, first);
+    for (int p = first + 2; p <= 8; p += 2) {
+      const double error = patch_error(test::curved_mesh(), Space::product, p);
+      EXPECT_LT(error, 0.45 * 0.45 * previous) << "p=" << p;
+      previous = error;
+    }
+  }
+  EXPECT_LT(patch_error(test::curved_mesh(), Space::product, 8), 1e-8);
 }
 
 /// The rigid rotation is in the same position: two eigenvalues vanish at every p, the third as p grows.
@@ -125,7 +140,7 @@ TEST(Stiffness, RotationOfACurvedElementCostsNoEnergyInTheLimit) {
   const Edges edges = find_edges(mesh);
   double third = 1;
   for (int p = 2; p <= 8; p += 2) {
-    const MatrixXd K = ElementStiffness(p)(ElementMap(mesh, edges, 0), D, 1);
+    const MatrixXd K = ElementStiffness(Space::trunk, p)(ElementMap(mesh, edges, 0), D, 1);
     const VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(K).eigenvalues() / K.norm();
     EXPECT_LT(values.head(2).cwiseAbs().maxCoeff(), 1e-14);
     EXPECT_LT(std::abs(values[2]), third) << "p=" << p;
@@ -136,11 +151,39 @@ TEST(Stiffness, RotationOfACurvedElementCostsNoEnergyInTheLimit) {
 }
 
 TEST_P(StiffnessP, IsALeadingBlockOfTheHighestDegree) {
-  const int p = GetParam();
-  const Body low = assemble(test::curved_mesh(), p, gradient, 8 - p);  // the same points for both
-  const Body high = assemble(test::curved_mesh(), 8, gradient);
+  const auto [space, p] = GetParam();
+  const Body low = assemble(test::curved_mesh(), space, p, gradient, 8 - p);  // the same points for both
+  const Body high = assemble(test::curved_mesh(), space, 8, gradient);
   EXPECT_LT((low.K - high.K.topLeftCorner(low.K.rows(), low.K.cols())).norm(), 1e-14 * low.K.norm());
   EXPECT_LT((low.load - high.load.head(low.load.size())).norm(), 1e-12 * low.load.norm());
+}
+
+/// Energy of u_x = x^p y^p on the square [-1, 1]^2, u_y = 0: the product space has it exactly, the trunk space does
+/// not.
+TEST(Stiffness, EnergyOfAProductOfPowers) {
+  Mesh mesh;
+  mesh.nodes.resize(2, 4);
+  mesh.nodes << -1, 1, 1, -1, -1, -1, 1, 1;
+  mesh.quads = Eigen::Vector4i(0, 1, 2, 3);
+  const ElementMap map(mesh, find_edges(mesh), 0);
+  constexpr int n = 12;  // points each way, more than any degree needs
+  const VectorXd line = VectorXd::LinSpaced(n, -1, 1);
+  const VectorXd x = line.replicate(n, 1);
+  const VectorXd y = line.transpose().replicate(n, 1).reshaped();
+  for (int p = 1; p <= 8; ++p) {
+    const double exact = (D(0, 0) + D(2, 2)) * p * p * 4 / ((2 * p - 1) * (2 * p + 1));  // the product of slopes is odd
+    for (const Space space : {Space::trunk, Space::product}) {
+      const MatrixXd N = shape_values(space, p, x, y).N.transpose();
+      VectorXd u = VectorXd::Zero(2 * N.cols());
+      u.head(N.cols()) = N.colPivHouseholderQr().solve(VectorXd(x.array().pow(p) * y.array().pow(p)));
+      const double error = std::abs(u.dot(ElementStiffness(space, p)(map, D, 1) * u) / exact - 1);
+      if (space == Space::product || p == 1) {
+        EXPECT_LT(error, 1e-11) << name_of(space) << " p=" << p;
+      } else {
+        EXPECT_GT(error, 0.01) << name_of(space) << " p=" << p;
+      }
+    }
+  }
 }
 
 /// A sector of a ring from radius 1 to a straight edge that is square to its middle ray.
@@ -161,15 +204,22 @@ TEST(Stiffness, IntegrationIsExactEnough) {
   for (const auto& [degrees, allowed] : {std::pair{30, 1e-13}, {45, 1e-11}, {60, 1e-9}, {90, 1e-6}}) {
     const Mesh mesh = sector(degrees * std::numbers::pi / 180);
     const ElementMap map(mesh, find_edges(mesh), 0);
-    const MatrixXd finer = ElementStiffness(8, 20)(map, D, 1);
-    const double error = (ElementStiffness(8)(map, D, 1) - finer).norm() / finer.norm();
+    const auto error_of = [&](Space space) {
+      const MatrixXd finer = ElementStiffness(space, 8, 20)(map, D, 1);
+      return (ElementStiffness(space, 8)(map, D, 1) - finer).norm() / finer.norm();
+    };
+    const double error = error_of(Space::trunk);
     EXPECT_LT(error, allowed) << degrees;
+    EXPECT_LT(error_of(Space::product), allowed) << degrees;
     EXPECT_GT(error, previous) << degrees;  // it does depend on the arc
     previous = error;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Degrees, StiffnessP, testing::Range(1, 9));
+INSTANTIATE_TEST_SUITE_P(Degrees, StiffnessP, testing::Combine(test::both_spaces(), testing::Range(1, 9)),
+                         [](const auto& test) {
+                           return fmt::format("{}{}", name_of(std::get<0>(test.param)), std::get<1>(test.param));
+                         });
 
 }  // namespace
 }  // namespace fastjoint::pfem

@@ -30,6 +30,23 @@ TEST(Units, AreWrittenAsEngineersDo) {
   EXPECT_EQ(unit({"in", "lbf"}, -0.7, 1), "lbf/in^0.7");
 }
 
+TEST(Space, IsTheTrunkSpaceInAFileWithoutIt) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("plate.h5");
+  const auto read = [&](const char* space) {
+    h5::Writer file(path, "plate-solution", 2, 0);
+    if (space != nullptr) file.attribute("space", space);
+    file.commit();
+    return read_space(h5::Reader(path, "plate-solution", 2));
+  };
+  EXPECT_EQ(read(nullptr), pfem::Space::trunk);
+  EXPECT_EQ(read("trunk"), pfem::Space::trunk);
+  EXPECT_EQ(read("product"), pfem::Space::product);
+  EXPECT_THAT([&] { (void)read("serendipity"); },
+              ThrowsMessage<FileError>(
+                  HasSubstr("plate.h5: attribute 'space' is 'serendipity', expected one of trunk, product")));
+}
+
 /// Matrices as a laboratory would write them: only what must be there.
 TEST(PlateMatrices, HandMadeFilesMayLeaveOutWhatTheyDoNotHave) {
   const test::TemporaryFolder folder;

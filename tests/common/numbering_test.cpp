@@ -6,31 +6,37 @@
 #include <set>
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "tests/support/meshes.hpp"
+#include "tests/support/spaces.hpp"
 
 namespace fastjoint::pfem {
 namespace {
+
+class NumberingIn : public testing::TestWithParam<Space> {};
 
 TEST(Numbering, CountsVerticesEdgesAndInteriors) {
   const Mesh mesh = test::distorted_mesh();
   const Edges edges = find_edges(mesh);
   EXPECT_EQ(edges.size(), 12);
-  const Numbering n = number_by_degree(mesh, edges, 8);
-  EXPECT_EQ(n.n_functions[1], 9);
-  EXPECT_EQ(n.n_functions[8], 9 + 7 * 12 + 15 * 4);
+  const Numbering trunk = number_by_degree(mesh, edges, Space::trunk, 8);
+  EXPECT_EQ(trunk.n_functions[1], 9);
+  EXPECT_EQ(trunk.n_functions[8], 9 + 7 * 12 + 15 * 4);
+  const Numbering product = number_by_degree(mesh, edges, Space::product, 8);
+  for (int k = 1; k <= 8; ++k)
+    EXPECT_EQ(product.n_functions[static_cast<std::size_t>(k)], 9 + (k - 1) * 12 + (k - 1) * (k - 1) * 4) << "k=" << k;
 }
 
-TEST(Numbering, DegreesAreLeadingBlocks) {
+TEST_P(NumberingIn, DegreesAreLeadingBlocks) {
   const Mesh mesh = test::distorted_mesh();
   const Edges edges = find_edges(mesh);
-  const auto modes = trunk_space(8);
-  const Numbering n = number_by_degree(mesh, edges, 8);
+  const auto list = modes(GetParam(), 8);
+  const Numbering n = number_by_degree(mesh, edges, GetParam(), 8);
   std::set<int> all;
   for (int element = 0; element < mesh.n_elements(); ++element)
-    for (std::size_t m = 0; m < modes.size(); ++m) {
+    for (std::size_t m = 0; m < list.size(); ++m) {
       const int f = n.function(static_cast<Eigen::Index>(m), element);
-      const auto degree = static_cast<std::size_t>(modes[m].degree);
+      const auto degree = static_cast<std::size_t>(list[m].degree);
       EXPECT_GE(f, n.n_functions[degree - 1]);
       EXPECT_LT(f, n.n_functions[degree]);
       all.insert(f);
@@ -38,18 +44,18 @@ TEST(Numbering, DegreesAreLeadingBlocks) {
   EXPECT_EQ(all.size(), n.n_functions.back());
 }
 
-TEST(Numbering, ALowerDegreeHasTheSameNumbers) {
+TEST_P(NumberingIn, ALowerDegreeHasTheSameNumbers) {
   const Mesh mesh = test::distorted_mesh();
   const Edges edges = find_edges(mesh);
-  const auto modes = trunk_space(8);
-  const Numbering high = number_by_degree(mesh, edges, 8);
+  const auto list = modes(GetParam(), 8);
+  const Numbering high = number_by_degree(mesh, edges, GetParam(), 8);
   for (int p = 1; p < 8; ++p) {
-    const Numbering low = number_by_degree(mesh, edges, p);
+    const Numbering low = number_by_degree(mesh, edges, GetParam(), p);
     Eigen::Index local = 0;
-    const auto low_modes = trunk_space(p);
-    for (const auto& mode : low_modes) {
+    const auto low_list = modes(GetParam(), p);
+    for (const auto& mode : low_list) {
       const auto same = [&](const Mode& m) { return m.i == mode.i && m.j == mode.j; };
-      const auto at = std::find_if(modes.begin(), modes.end(), same) - modes.begin();
+      const auto at = std::find_if(list.begin(), list.end(), same) - list.begin();
       EXPECT_EQ(low.function.row(local), high.function.row(at));
       EXPECT_EQ(low.sign.row(local++), high.sign.row(at));
     }
@@ -57,14 +63,14 @@ TEST(Numbering, ALowerDegreeHasTheSameNumbers) {
 }
 
 /// Every global function must have one trace on a shared edge: odd modes change sign where an element sees it reversed.
-TEST(Numbering, FunctionsAreContinuousAcrossEdges) {
+TEST_P(NumberingIn, FunctionsAreContinuousAcrossEdges) {
   const Mesh mesh = test::curved_mesh();
   const Edges edges = find_edges(mesh);
-  const Numbering n = number_by_degree(mesh, edges, 8);
+  const Numbering n = number_by_degree(mesh, edges, GetParam(), 8);
   for (const double s : {-0.7, 0.25}) {
     // right edge of element 0 against bottom of element 1, which runs the other way
-    const auto a = shape_values(8, Eigen::VectorXd::Constant(1, 1), Eigen::VectorXd::Constant(1, s)).N;
-    const auto b = shape_values(8, Eigen::VectorXd::Constant(1, -s), Eigen::VectorXd::Constant(1, -1)).N;
+    const auto a = shape_values(GetParam(), 8, Eigen::VectorXd::Constant(1, 1), Eigen::VectorXd::Constant(1, s)).N;
+    const auto b = shape_values(GetParam(), 8, Eigen::VectorXd::Constant(1, -s), Eigen::VectorXd::Constant(1, -1)).N;
     Eigen::VectorXd from_a = Eigen::VectorXd::Zero(n.n_functions.back());
     Eigen::VectorXd from_b = from_a;
     for (Eigen::Index m = 0; m < a.rows(); ++m) {
@@ -76,6 +82,8 @@ TEST(Numbering, FunctionsAreContinuousAcrossEdges) {
   }
   EXPECT_EQ(n.sign.minCoeff(), -1);  // the mesh does have reversed edges
 }
+
+INSTANTIATE_TEST_SUITE_P(Spaces, NumberingIn, test::both_spaces(), test::space_tested);
 
 }  // namespace
 }  // namespace fastjoint::pfem

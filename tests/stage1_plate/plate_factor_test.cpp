@@ -37,6 +37,7 @@ std::vector<Scene> scenes() {
               {"id": "b", "center": [1.5, 1.3], "radius": 0.2, "spring": {"links": 1e5}},
               {"id": "open", "center": [1.7, 0], "radius": 0.3}])";
   return {{"panel", test::panel(3, 2)},
+          {"panel in the product space", test::panel(3, 2, 0, test::in_space(pfem::Space::product))},
           {"panel with many rings, element by element", test::panel(2, 1, 4)},
           {"floating, two thicknesses, traction, rigid edge",
            two_holes(holes + R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},

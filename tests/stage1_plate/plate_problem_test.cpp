@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "tests/support/plates.hpp"
+#include "tests/support/spaces.hpp"
 #include "tests/support/straightforward.hpp"
 
 namespace fastjoint {
@@ -83,8 +84,12 @@ TEST(PlateProblem, SpringsGiveTheDiscItsStiffness) {
   EXPECT_NEAR(plate.problem.K_cc(1, 2) / plate.problem.K_cc(1, 1), 0, 1e-14);
 }
 
-TEST(PlateProblem, ALowerDegreeIsALeadingBlock) {
-  const test::Plate high = test::make_plate(floating);
+class PlateProblemIn : public testing::TestWithParam<pfem::Space> {};
+
+TEST_P(PlateProblemIn, ALowerDegreeIsALeadingBlock) {
+  test::Plate high = test::make_plate(floating);
+  high.scene.space = GetParam();
+  high.problem = stage1::assemble(high.scene, high.mesh);
   const Eigen::MatrixXd K_high = test::free_stiffness(high.scene, high.mesh, high.problem);
   for (const int p : {1, 3, 5}) {
     auto scene = high.scene;
@@ -100,6 +105,8 @@ TEST(PlateProblem, ALowerDegreeIsALeadingBlock) {
     EXPECT_LT((Eigen::MatrixXd(low.L_f) - Eigen::MatrixXd(high.problem.L_f.topRows(n))).norm(), 1e-12 * low.L_f.norm());
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Spaces, PlateProblemIn, test::both_spaces(), test::space_tested);
 
 }  // namespace
 }  // namespace fastjoint

@@ -19,7 +19,7 @@ const std::string good = R"({
   "disc_directions": ["x", "y"],
   "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
   "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}, {"id": "T", "on": "top", "direction": "y", "kind": "traction"}],
-  "p": [2, 6]})";
+  "space": "product", "p": [2, 6]})";
 
 std::string replaced(const std::string& what, const std::string& by) {
   std::string text = good;
@@ -44,7 +44,14 @@ TEST(ReadScene, TakesEveryKey) {
   EXPECT_EQ(scene.holes[1].rings, 2);
   EXPECT_EQ(scene.disc_directions.size(), 2U);
   EXPECT_EQ(scene.externals[1].kind, ExternalKind::traction);
+  EXPECT_EQ(scene.space, pfem::Space::product);
   EXPECT_EQ(std::pair(scene.p_low, scene.p_high), std::pair(2, 6));
+}
+
+TEST(ReadScene, TakesThePapersSpaceUnlessTold) {
+  const auto space = [](const std::string& text) { return read_scene(input::parse("plate.json", text)).space; };
+  EXPECT_EQ(space(replaced("\"space\": \"product\", ", "")), pfem::Space::trunk);
+  EXPECT_EQ(space(replaced("product", "trunk")), pfem::Space::trunk);
 }
 
 TEST(ReadScene, RefusesWithThePlaceAndWhatIsAllowed) {
@@ -56,6 +63,8 @@ TEST(ReadScene, RefusesWithThePlaceAndWhatIsAllowed) {
   EXPECT_THAT(message(replaced("\"E\": 1e7", "\"E\": -1e7")), HasSubstr("/materials/al/E: -10000000.0 is not allowed"));
   EXPECT_THAT(message(replaced("\"nu\": 0.3", "\"nu\": 0.51")), HasSubstr("/materials/al/nu"));
   EXPECT_THAT(message(replaced("plane stress", "plane")), HasSubstr("allowed: \"plane stress\", \"plane strain\""));
+  EXPECT_THAT(message(replaced("\"product\"", "\"serendipity\"")),
+              HasSubstr("/space: \"serendipity\" is not allowed; allowed: \"trunk\", \"product\""));
   EXPECT_THAT(message(replaced("[[0.1, 0.2]]", "[[0.1]]")),
               HasSubstr("/geometry/grid/thickness/0: array of 1; allowed: exactly 2"));
   EXPECT_THAT(message(replaced("[[\"al\", \"ply\"]]", "\"steel\"")),

@@ -1,32 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/field.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <Eigen/LU>
 #include <cmath>
 
+#include "common/errors.hpp"
 #include "common/pfem/strain.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/rim_methods.hpp"
+#include "tests/support/spaces.hpp"
 
 namespace fastjoint {
 namespace {
 
 using Eigen::Index;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 /// A whole hole and a half hole, an external of each kind; cases P, a.x, b.x, four frictions, T.
-const std::string scene =
-    test::grid_scene({0, 1, 2.2}, {0, 1}, {{"a", 0.4, 0.5, 0.2, 1}, {"b", 1.7, 0, 0.15}},
-                     R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
+std::string scene(pfem::Space space) {
+  return test::grid_scene({0, 1, 2.2}, {0, 1}, {{"a", 0.4, 0.5, 0.2, 1}, {"b", 1.7, 0, 0.15}},
+                          R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
-                 {"id": "T", "on": "top", "direction": "y", "kind": "traction"}])");
+                 {"id": "T", "on": "top", "direction": "y", "kind": "traction"}])" +
+                              test::in_space(space));
+}
 
-class Fields : public testing::Test {
+class Fields : public testing::TestWithParam<pfem::Space> {
  protected:
   static const formats::PlateSolution& plate() {
-    static const auto solution = test::solve(test::make_plate(scene));
-    return solution;
+    static const auto trunk = test::solve(test::make_plate(scene(pfem::Space::trunk)));
+    static const auto product = test::solve(test::make_plate(scene(pfem::Space::product)));
+    return GetParam() == pfem::Space::trunk ? trunk : product;
   }
   static stage2::UnitFields at(int p) {
     stage2::UnitFields fields(plate(), "plate.h5");
@@ -64,7 +72,7 @@ Eigen::Matrix2Xd grid_of(const Eigen::Matrix2Xd& cell, int p, int row) {
 }
 
 /// Differences between neighbouring nodes span a positive area in every cell: no cell is folded or mirrored.
-TEST_F(Fields, CellsHavePositiveArea) {
+TEST_P(Fields, CellsHavePositiveArea) {
   constexpr int p = 8;
   const auto field = superposed(p, Eigen::VectorXd::Zero(8));
   ASSERT_EQ(field.points.cols(), 81 * plate().mesh.n_elements());
@@ -80,7 +88,7 @@ TEST_F(Fields, CellsHavePositiveArea) {
     }
 }
 
-TEST_F(Fields, NodesOfArcsLieOnTheirCircles) {
+TEST_P(Fields, NodesOfArcsLieOnTheirCircles) {
   for (const int p : {2, 3, 8}) {
     const auto field = superposed(p, Eigen::VectorXd::Zero(8));
     int n_checked = 0;
@@ -111,7 +119,16 @@ TEST(FieldOfAStrip, ConstantStrainGivesConstantStress) {
   }
 }
 
-TEST_F(Fields, Superpose) {
+TEST_P(Fields, OfAnotherSpaceAreRefused) {
+  formats::PlateSolution other = plate();
+  const bool is_trunk = GetParam() == pfem::Space::trunk;
+  other.space = is_trunk ? pfem::Space::product : pfem::Space::trunk;
+  EXPECT_THAT([&] { stage2::UnitFields(other, "plate.h5"); },
+              ThrowsMessage<FileError>(AllOf(HasSubstr("plate.h5:unknown: has "),
+                                             HasSubstr(is_trunk ? "of the product space" : "of the trunk space"))));
+}
+
+TEST_P(Fields, Superpose) {
   Eigen::VectorXd amounts(8);
   amounts << 0.01, -0.002, 0.003, 50, 0, 20, 7, -30;
   const auto all = superposed(8, amounts);
@@ -127,7 +144,7 @@ TEST_F(Fields, Superpose) {
 }
 
 /// At every node inside a side of a rim, against the operator of the benches.
-TEST_F(Fields, StressAtRimNodesIsThePlainRimStress) {
+TEST_P(Fields, StressAtRimNodesIsThePlainRimStress) {
   constexpr int p = 7;
   const auto fields = at(p);
   for (Index k = 0; k < 8; ++k) {
@@ -146,7 +163,7 @@ TEST_F(Fields, StressAtRimNodesIsThePlainRimStress) {
 }
 
 /// The right edge moves as one by the amount of its external.
-TEST_F(Fields, BoundariesMoveByTheirAmounts) {
+TEST_P(Fields, BoundariesMoveByTheirAmounts) {
   Eigen::VectorXd amounts = Eigen::VectorXd::Zero(8);
   amounts[0] = 0.01;
   amounts[2] = -0.5;
@@ -171,6 +188,8 @@ TEST(StressMeasures, OfKnownStates) {
       0, -20, 5, -7;
   EXPECT_LT((stage2::principal(stress) - exact).norm(), 1e-13);
 }
+
+INSTANTIATE_TEST_SUITE_P(Spaces, Fields, test::both_spaces(), test::space_tested);
 
 }  // namespace
 }  // namespace fastjoint

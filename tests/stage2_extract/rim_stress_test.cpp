@@ -11,12 +11,19 @@
 #include "stage2_extract/stresses.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/rim_methods.hpp"
+#include "tests/support/spaces.hpp"
 
 namespace fastjoint {
 namespace {
 
 using Eigen::Index;
 using formats::PlateMatrices;
+
+class RimStress : public testing::TestWithParam<pfem::Space> {
+ protected:
+  /// The member of a scene that chooses the space tested.
+  static std::string space() { return test::in_space(GetParam()); }
+};
 
 /// Two sprung holes and an open one in a row, nothing held along x.
 std::string strap(const std::string& more = "") {
@@ -39,8 +46,8 @@ double disc_force(const formats::PlateStresses& a, Index rim, Index column) {
   return force * thickness * a.rim_radius[rim] * pfem::full_turn / static_cast<double>(n);
 }
 
-TEST(RimStress, PressureHasTheForceOfTheStiffnessMatrix) {
-  const PlateMatrices a = test::extract(strap()).matrices;
+TEST_P(RimStress, PressureHasTheForceOfTheStiffnessMatrix) {
+  const PlateMatrices a = test::extract(strap(space())).matrices;
   ASSERT_EQ(a.n_cases(), 1 + 2 + 4 + 1);
   const double largest = a.S_dd.back().cwiseAbs().maxCoeff();
   for (Index rim = 0; rim < 2; ++rim) {
@@ -51,23 +58,23 @@ TEST(RimStress, PressureHasTheForceOfTheStiffnessMatrix) {
   }
 }
 
-TEST(RimStress, MovingTheWholeSheetStressesNothing) {
-  const PlateMatrices a = test::extract(strap()).matrices;
+TEST_P(RimStress, MovingTheWholeSheetStressesNothing) {
+  const PlateMatrices a = test::extract(strap(space())).matrices;
   const Eigen::VectorXd together = Eigen::VectorXd::Ones(3);
   for (const auto* sigma : {&a.stresses.sigma_rr.back(), &a.stresses.sigma_tt.back(), &a.stresses.section_force.back()})
     EXPECT_LT((sigma->leftCols(3) * together).cwiseAbs().maxCoeff(), 1e-9 * sigma->cwiseAbs().maxCoeff());
 }
 
-TEST(RimStress, FreeRimsCarryNoTraction) {
-  const auto a = test::extract(strap()).matrices.stresses;
+TEST_P(RimStress, FreeRimsCarryNoTraction) {
+  const auto a = test::extract(strap(space())).matrices.stresses;
   const Index first = a.rim_start[2], n = a.rim_start[3] - first;
   EXPECT_EQ(a.sigma_rr.back().middleRows(first, n).cwiseAbs().maxCoeff(), 0);
   EXPECT_EQ(a.sigma_rt.back().middleRows(first, n).cwiseAbs().maxCoeff(), 0);
   EXPECT_GT(a.sigma_tt.back().middleRows(first, n).cwiseAbs().maxCoeff(), 1);
 }
 
-TEST(RimStress, FrictionIsTheCosineOnItsBearingHalf) {
-  const auto a = test::extract(strap()).matrices;
+TEST_P(RimStress, FrictionIsTheCosineOnItsBearingHalf) {
+  const auto a = test::extract(strap(space())).matrices;
   for (Index k = 0; k < a.stresses.rim_start[1]; ++k) {
     const double theta = a.stresses.angle[k] * pfem::full_turn / 360;
     const double c = std::cos(theta);
@@ -78,14 +85,16 @@ TEST(RimStress, FrictionIsTheCosineOnItsBearingHalf) {
   }
 }
 
-TEST(RimStress, HalfModelEqualsTheWhole) {
+TEST_P(RimStress, HalfModelEqualsTheWhole) {
   const std::string whole_text = test::grid_scene({0, 1}, {-0.5, 0.5}, {{"a", 0.5, 0, 0.15, 1}},
                                                   R"(, "supports": [{"on": "left", "fix": ["x"]}],
-    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])");
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])" +
+                                                      space());
   const std::string half_text =
       test::grid_scene({0, 1}, {0, 0.5}, {{"a", 0.5, 0, 0.15, 1}},
                        R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
-    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])");
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])" +
+                           space());
   const auto whole = test::extract(whole_text).matrices.stresses;
   const auto half = test::extract(half_text).matrices.stresses;
   ASSERT_EQ(half.angle.size(), 37);
@@ -106,12 +115,13 @@ TEST(RimStress, HalfModelEqualsTheWhole) {
 struct Errors {
   double plain_radial = 0, radial = 0, plain_hoop = 0, hoop = 0;
 };
-Errors errors(int rings, std::size_t level) {
-  const auto strip = [](int n) {
+Errors errors(const std::string& space, int rings, std::size_t level) {
+  const auto strip = [&](int n) {
     return test::solve_all_fields(test::make_plate(
         test::grid_scene({0, 0.5, 2}, {0, 0.5}, {{"1", 0, 0, 0.25, n}},
                          R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
-             "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])")));
+             "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])" +
+                             space)));
   };
   const auto fine = strip(5), coarse = strip(rings);
   stage2::UnitFields exact(fine, "fine"), fields(coarse, "coarse");
@@ -130,10 +140,10 @@ Errors errors(int rings, std::size_t level) {
   return e;
 }
 
-TEST(RimStress, RadialStressConvergesAsDisplacementsDo) {
+TEST_P(RimStress, RadialStressConvergesAsDisplacementsDo) {
   double worst = 0;
   for (std::size_t level = 3; level < 8; ++level) {
-    const Errors e = errors(1, level);
+    const Errors e = errors(space(), 1, level);
     EXPECT_LT(e.radial, 0.35 * e.plain_radial) << "p=" << level + 1;
     EXPECT_LT(e.hoop, 2 * e.plain_hoop) << "p=" << level + 1;  // of the same order, and cheaper
     worst = e.hoop;
@@ -141,13 +151,13 @@ TEST(RimStress, RadialStressConvergesAsDisplacementsDo) {
   EXPECT_LT(worst, 1e-2);  // of a mean stress of 20
 }
 
-TEST(RimStress, DegreesAreTheTwoHighest) {
-  EXPECT_EQ(test::extract(strap(R"(, "p": [2, 5])")).matrices.stresses.p, Eigen::Vector2i(4, 5));
-  EXPECT_EQ(test::extract(strap(R"(, "p": [3, 3])")).matrices.stresses.p, Eigen::VectorXi::Constant(1, 3));
+TEST_P(RimStress, DegreesAreTheTwoHighest) {
+  EXPECT_EQ(test::extract(strap(space() + R"(, "p": [2, 5])")).matrices.stresses.p, Eigen::Vector2i(4, 5));
+  EXPECT_EQ(test::extract(strap(space() + R"(, "p": [3, 3])")).matrices.stresses.p, Eigen::VectorXi::Constant(1, 3));
 }
 
-TEST(RimStress, LoadsOnlyLeavesThemOut) {
-  const test::Plate plate = test::make_plate(strap());
+TEST_P(RimStress, LoadsOnlyLeavesThemOut) {
+  const test::Plate plate = test::make_plate(strap(space()));
   auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads);
   stage1::solve_cases(plate.problem, solution);
   EXPECT_EQ(solution.cases.back().W.cols() + solution.cases.back().U.cols(), 0) << "the probe checks reciprocity";
@@ -157,6 +167,8 @@ TEST(RimStress, LoadsOnlyLeavesThemOut) {
   ASSERT_TRUE(extraction.checks.reciprocity);
   EXPECT_LT(*extraction.checks.reciprocity, 1e-10);
 }
+
+INSTANTIATE_TEST_SUITE_P(Spaces, RimStress, test::both_spaces(), test::space_tested);
 
 }  // namespace
 }  // namespace fastjoint

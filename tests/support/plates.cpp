@@ -52,15 +52,19 @@ std::string grid_scene(const std::vector<double>& x, const std::vector<double>& 
                      fmt::join(x, ","), fmt::join(y, ","), fmt::join(list, ","), extra);
 }
 
-std::string panel(int nx, int ny, int rings) {
+std::string panel(int nx, int ny, int rings, const std::string& extra) {
   std::vector<double> x, y;
   std::vector<HoleText> holes;
   for (int i = 0; i <= nx; ++i) x.push_back(i);
   for (int j = 0; j <= ny; ++j) y.push_back(j);
   for (int j = 0; j < ny; ++j)
     for (int i = 0; i < nx; ++i) holes.push_back({fmt::format("{},{}", i, j), i + 0.5, j + 0.5, 0.125, rings});
-  return grid_scene(x, y, holes, R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
-    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
+  return grid_scene(x, y, holes,
+                    R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])" +
+                        extra);
 }
+
+std::string in_space(pfem::Space space) { return fmt::format(R"(, "space": "{}")", pfem::name_of(space)); }
 
 }  // namespace fastjoint::test

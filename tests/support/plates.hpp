@@ -39,6 +39,10 @@ struct HoleText {
                                      const std::vector<HoleText>& holes, const std::string& extra = "");
 
 /// panel(nx, ny): unit squares, each with a hole of diameter 0.25; ux = 0 left, uy = 0 bottom, right edge external.
-[[nodiscard]] std::string panel(int nx, int ny, int rings = 0);
+/// @param extra As grid_scene has it.
+[[nodiscard]] std::string panel(int nx, int ny, int rings = 0, const std::string& extra = "");
+
+/// The member of a scene that chooses its space, with a comma before it.
+[[nodiscard]] std::string in_space(pfem::Space space);
 
 }  // namespace fastjoint::test

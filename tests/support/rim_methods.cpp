@@ -6,8 +6,8 @@
 
 #include "common/pfem/gauss.hpp"
 #include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
-#include "common/pfem/trunk_space.hpp"
 
 namespace fastjoint::test {
 
@@ -16,7 +16,8 @@ Eigen::MatrixXd plain_rim_stress(const stage2::UnitFields& fields, const stage2:
   for (const auto& at : point.on) {
     const pfem::ElementMap map(fields.plate().mesh, fields.edges(), at.side.element);
     const Eigen::Matrix2Xd xi = pfem::along_edge(at.side.local_edge, Eigen::VectorXd::Constant(1, at.s));
-    const Eigen::MatrixXd B = pfem::strain_operator(map, fields.p(), xi.row(0).transpose(), xi.row(1).transpose());
+    const Eigen::MatrixXd B =
+        pfem::strain_operator(map, fields.space(), fields.p(), xi.row(0).transpose(), xi.row(1).transpose());
     mean += pfem::polar_stress(point.angle) * fields.elasticity(at.side.element) * B *
             fields.coefficients(at.side.element) / static_cast<double>(point.on.size());
   }

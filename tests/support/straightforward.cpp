@@ -27,7 +27,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
           entries.emplace_back(target(i), target(j),
                                numbering.sign(mode(i), element) * numbering.sign(mode(j), element) * K(i, j));
   };
-  const pfem::ElementStiffness stiffness(numbering.p);
+  const pfem::ElementStiffness stiffness(numbering.space, numbering.p);
   std::vector<int> all(static_cast<std::size_t>(numbering.function.rows()));
   for (std::size_t m = 0; m < all.size(); ++m) all[m] = static_cast<int>(m);
   for (int element = 0; element < mesh.mesh.n_elements(); ++element)

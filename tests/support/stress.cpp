@@ -33,7 +33,7 @@ Eigen::Vector3d stress_at(const Plate& plate, const Eigen::Matrix2Xd& u, int ele
   }
   const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
   const auto& D = plate.scene.elasticity[static_cast<std::size_t>(plate.mesh.mesh.material[element])];
-  return D * pfem::strain_operator(map, numbering.p, at(xi), at(eta)) * c;
+  return D * pfem::strain_operator(map, numbering.space, numbering.p, at(xi), at(eta)) * c;
 }
 
 double integrated_force(const Plate& plate, const Eigen::Matrix2Xd& u, const std::string& set) {

@@ -4,23 +4,26 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/pfem/space.hpp"
+
 namespace fastjoint::pfem {
 
 /// One shape function of a quadrilateral: N_i(xi) N_j(eta), with the N of integrated_legendre.
 struct Mode {
   int i, j;
-  int degree;  ///< of the space that it enters: 1 for vertices, k for edge mode k, i + j inside
+  int degree;  ///< of the space that it enters: 1 for vertices, k for edge mode k, inside i + j (trunk), max(i, j)
+               ///< (product)
 };
 
 /// Local edges are numbered counter-clockwise from the bottom (eta = -1); vertex v starts edge v.
 inline constexpr int n_local_edges = 4;
 
-/// Modes of the trunk space of degree p in the local order that everybody uses: the four vertices
-/// counter-clockwise; edge modes k = 2..p edge by edge; interior modes i, j >= 2, i + j <= p by degree.
-/// Szabo & Babuska 1991, section 6.2: 4 p + (p-2)(p-3)/2 modes for p >= 4.
-[[nodiscard]] std::vector<Mode> trunk_space(int p);
+/// Modes of the space of degree p in the local order that everybody uses: the four vertices counter-clockwise; edge
+/// modes k = 2..p edge by edge; interior modes by degree.
+/// Szabo & Babuska 1991, section 6.2: 4 p + (p-2)(p-3)/2 modes for p >= 4 (trunk), 4 p + (p-1)^2 (product).
+[[nodiscard]] std::vector<Mode> modes(Space space, int p);
 
-/// Local index of mode k = 2..p of an edge in trunk_space(p).
+/// Local index of mode k = 2..p of an edge in modes(space, p) of either space.
 [[nodiscard]] constexpr int edge_mode(int p, int edge, int k) { return 4 + edge * (p - 1) + (k - 2); }
 
 /// The two vertices of a local edge in its natural direction, that of growing xi or eta.
@@ -38,6 +41,6 @@ struct ShapeValues {
 };
 
 /// @param xi, eta Coordinates of the points, each of shape (n_points).
-[[nodiscard]] ShapeValues shape_values(int p, const Eigen::VectorXd& xi, const Eigen::VectorXd& eta);
+[[nodiscard]] ShapeValues shape_values(Space space, int p, const Eigen::VectorXd& xi, const Eigen::VectorXd& eta);
 
 }  // namespace fastjoint::pfem
