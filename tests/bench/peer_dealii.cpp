@@ -45,9 +45,10 @@ class Phases {
     seconds_.back().second = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
   }
   [[nodiscard]] std::string json() const {
-    std::vector<std::string> all;
-    for (const auto& [name, seconds] : seconds_) all.push_back(fmt::format("\"{}\": {:.6f}", name, seconds));
-    return fmt::format("{{{}}}", fmt::join(all, ", "));
+    std::string all;
+    for (const auto& [name, seconds] : seconds_)
+      all += fmt::format("{}\"{}\": {:.6f}", all.empty() ? "" : ", ", name, seconds);
+    return fmt::format("{{{}}}", all);
   }
 
  private:
@@ -201,7 +202,7 @@ Eigen::MatrixXd solve_by_condensation(Discretisation& plate, Phases& phases) {
   phases.begin("factorise");
   const linalg::Cholesky inverse(K);
   phases.begin("solve");
-  const Eigen::MatrixXd S = controlled.K_cc - controlled.C.transpose() * inverse.solve(controlled.C);
+  Eigen::MatrixXd S = controlled.K_cc - controlled.C.transpose() * inverse.solve(controlled.C);
   phases.end();
   return S;
 }

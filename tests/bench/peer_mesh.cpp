@@ -63,7 +63,8 @@ void add_square(const Panel& panel, const Point<2>& center, Vertices& vertices, 
 /// The arcs of a hole have its number as their manifold.
 void describe_face(const Panel& panel, unsigned int hole, Triangulation<2>::face_iterator face,
                    Triangulation<2>& mesh) {
-  const Point<2> center(hole % panel.nx + 0.5, hole / panel.nx + 0.5);
+  const unsigned int i = hole % panel.nx, j = hole / panel.nx;
+  const Point<2> center(i + 0.5, j + 0.5);
   const double first = face->vertex(0).distance(center), second = face->vertex(1).distance(center);
   if (std::abs(first - second) < same && first < 0.5 - same) {
     face->set_manifold_id(hole);
