@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""scripts/compare_peer, with the peer if it is built and without it: compare_peer_test.py BIN_FOLDER."""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def compare(folder, *words):
+    path = f"{folder}{os.pathsep}/usr/bin{os.pathsep}/bin"
+    return subprocess.run([ROOT / "scripts/compare_peer", *words], env=os.environ | {"PATH": path}, capture_output=True,
+                          text=True)
+
+
+def check_without(bin_folder):
+    with tempfile.TemporaryDirectory() as folder:
+        for program in ("stage1_plate", "stage2_extract"):
+            (Path(folder) / program).symlink_to(bin_folder / program)
+        result = compare(folder)
+    assert (result.returncode, result.stdout) == (2, ""), result
+    assert "peer_dealii is not on PATH" in result.stderr and "apt-get install" in result.stderr, result
+    for words in (("--nx", "0"), ("--p", "9"), ("--rings", "-1"), ("--repeat", "0")):
+        result = compare(bin_folder, *words)
+        assert result.returncode == 2 and f"argument {words[0]}: " in result.stderr, result
+
+
+def check_table(bin_folder):
+    result = compare(bin_folder, "--nx", "2", "--ny", "1", "--p", "2", "5", "--rings", "0", "1", "--repeat", "1")
+    assert result.returncode == 0, result
+    lines = [line for line in result.stdout.splitlines() if line.startswith("|")]
+    header, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)
+    assert header == ["code", "space", "rings", "p", "unknowns", "error of S", "seconds", "over ours"], header
+    codes = {row[0] for row in rows}
+    assert codes == {"ours", "deal.II, UMFPACK", "deal.II, condensed, CHOLMOD"} and len(rows) >= 12, rows
+    for low, high in zip(rows[::2], rows[1::2]):  # p = 2, p = 5
+        assert low[:3] == high[:3] and float(high[5]) < 0.1 * float(low[5]) and int(high[4]) > int(low[4]), (low, high)
+    ours = [(float(row[5]), float(row[6])) for row in rows if row[0] == "ours"]
+    for code, *_, error, seconds, ratio in rows:
+        quicker = [time for ours_error, time in ours if ours_error <= 1.5 * float(error)]
+        assert bool(ratio) == (code != "ours" and bool(quicker)), rows
+        assert not ratio or abs(float(ratio) * min(quicker) / float(seconds) - 1) < 0.1, rows  # two digits
+
+
+def main(bin_folder):
+    bin_folder = Path(bin_folder).resolve()
+    check_without(bin_folder)
+    if (bin_folder / "peer_dealii").exists():
+        check_table(bin_folder)
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Times of the parts that a study spends its time in, each on its own; Google Benchmark's options.
+#include <benchmark/benchmark.h>
+
+#include "common/formats/plate_matrices.hpp"
+#include "common/linalg/cholesky.hpp"
+#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/gauss.hpp"
+#include "common/pfem/material.hpp"
+#include "common/pfem/rim.hpp"
+#include "common/pfem/trunk_space.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/meshes.hpp"
+#include "tests/support/plates.hpp"
+
+namespace {
+
+using namespace fastjoint;
+using benchmark::DoNotOptimize;
+using benchmark::State;
+
+void element_stiffness(State& state, const pfem::Mesh& mesh) {
+  const auto edges = pfem::find_edges(mesh);
+  const pfem::ElementMap map(mesh, edges, 0);
+  const auto D = pfem::elasticity(pfem::isotropic(1e7, 0.3), 0, pfem::Analysis::plane_stress);
+  const pfem::ElementStiffness stiffness(static_cast<int>(state.range(0)));
+  for (auto _ : state) DoNotOptimize(stiffness(map, D, 0.1));
+}
+BENCHMARK_CAPTURE(element_stiffness, straight, test::distorted_mesh())->Arg(2)->Arg(4)->Arg(8);
+BENCHMARK_CAPTURE(element_stiffness, curved, test::curved_mesh())->Arg(2)->Arg(4)->Arg(8);
+
+/// At the points of a square's quadrature, p + 2 each way.
+void shape_values(State& state) {
+  const int p = static_cast<int>(state.range(0));
+  const Eigen::Index n = p + 2;
+  const Eigen::VectorXd x = pfem::gauss(p + 2).x;
+  const Eigen::VectorXd xi = x.replicate(n, 1);
+  const Eigen::VectorXd eta = x.transpose().replicate(n, 1).reshaped();
+  for (auto _ : state) DoNotOptimize(pfem::shape_values(p, xi, eta));
+}
+BENCHMARK(shape_values)->Arg(2)->Arg(4)->Arg(8);
+
+/// All sides of one hole.
+void rim_rule(State& state) {
+  const auto plate = test::make_plate(test::panel(1, 1));
+  const auto& mesh = plate.mesh.mesh;
+  const auto& edges = plate.mesh.edges;
+  const int p = static_cast<int>(state.range(0));
+  const auto& hole = plate.scene.holes.front();
+  const auto rim = pfem::find_rim(mesh, edges, hole.center, hole.radius);
+  for (auto _ : state)
+    for (const auto& side : rim.sides) DoNotOptimize(pfem::rim_rule(mesh, edges, side, p));
+}
+BENCHMARK(rim_rule)->Arg(2)->Arg(4)->Arg(8);
+
+/// Stiffness of panel(3, 3) at p = 8 and its right-hand sides for displacements of edge and discs.
+struct System {
+  System() {
+    const auto plate = test::make_plate(test::panel(3, 3));
+    K = plate.problem.K_ff;
+    B = -Eigen::MatrixXd(plate.problem.K_fc);
+  }
+  Eigen::SparseMatrix<double> K;
+  Eigen::MatrixXd B;
+};
+
+void factorise(State& state) {
+  const System system;
+  for (auto _ : state) DoNotOptimize(linalg::Cholesky(system.K).rcond());
+}
+BENCHMARK(factorise)->Unit(benchmark::kMillisecond);
+
+void solve(State& state) {
+  const System system;
+  const linalg::Cholesky K(system.K);
+  for (auto _ : state) DoNotOptimize(K.solve(system.B));
+}
+BENCHMARK(solve)->Unit(benchmark::kMillisecond);
+
+/// Matrices of panel(3, 3) at all degrees, stresses among them.
+const formats::PlateMatrices& matrices() {
+  static const auto a = test::extract(test::panel(3, 3)).matrices;
+  return a;
+}
+
+void write_matrices(State& state) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path("matrices.h5");
+  for (auto _ : state) formats::write(path, matrices());
+}
+BENCHMARK(write_matrices)->Unit(benchmark::kMillisecond);
+
+void read_matrices(State& state) {
+  const test::TemporaryFolder folder;
+  const auto path = folder.path("matrices.h5");
+  formats::write(path, matrices());
+  for (auto _ : state) DoNotOptimize(formats::read_plate_matrices(path));
+}
+BENCHMARK(read_matrices)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+
+BENCHMARK_MAIN();

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A peer on deal.II: the condensed stiffness S of a panel, by the product space of degree p on the elements that
+// stage1_plate makes. Prints S and the times of its phases as JSON.
+#include <deal.II/base/multithread_info.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/dofs/dof_tools.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_system.h>
+#include <deal.II/fe/mapping_q.h>
+#include <deal.II/lac/dynamic_sparsity_pattern.h>
+#include <deal.II/lac/full_matrix.h>
+#include <deal.II/lac/sparse_direct.h>
+#include <deal.II/lac/sparse_matrix.h>
+#include <deal.II/lac/vector.h>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstring>
+#include <iostream>
+
+#include "common/linalg/cholesky.hpp"
+#include "tests/bench/peer_elements.hpp"
+#include "tests/bench/peer_mesh.hpp"
+
+namespace fastjoint::peer {
+namespace {
+
+using namespace dealii;
+
+constexpr int held = -1, inside_a_cell = -2, with_external = -3;  // unknowns that are no row of the system
+
+/// Seconds of each phase, in their order.
+class Phases {
+ public:
+  void begin(const std::string& name) {
+    end();
+    seconds_.emplace_back(name, 0.0);
+    start_ = std::chrono::steady_clock::now();
+  }
+  void end() {
+    if (seconds_.empty()) return;
+    seconds_.back().second = std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  [[nodiscard]] std::string json() const {
+    std::string all;
+    for (const auto& [name, seconds] : seconds_)
+      all += fmt::format("{}\"{}\": {:.6f}", all.empty() ? "" : ", ", name, seconds);
+    return fmt::format("{{{}}}", all);
+  }
+
+ private:
+  std::vector<std::pair<std::string, double>> seconds_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// The panel's finite elements; their unknowns are rows of a system, or left out of it.
+struct Discretisation {
+  Discretisation(const Panel& of, unsigned int p) : panel(of), fe(FE_Q<2>(p), 2), mapping(p) {
+    make_mesh(panel, mesh);
+    dofs.reinit(mesh);
+    dofs.distribute_dofs(fe);
+    row.assign(dofs.n_dofs(), 0);
+    hold(left, 0, held);
+    hold(bottom, 1, held);
+    hold(right, 0, with_external);
+    n_unknowns = std::count(row.begin(), row.end(), 0);
+  }
+
+  void hold(Border border, unsigned int component, int as) {
+    const auto mask = fe.component_mask(FEValuesExtractors::Scalar(component));
+    for (const auto dof : DoFTools::extract_boundary_dofs(dofs, mask, {border})) row[dof] = as;
+  }
+  void leave_out_insides() {
+    for (const auto& cell : dofs.active_cell_iterators()) {
+      const auto index = indices(cell);
+      for (unsigned int i = fe.get_first_quad_index(); i < index.size(); ++i) row[index[i]] = inside_a_cell;
+    }
+  }
+  void number_rows() {
+    n_rows = 0;
+    for (int& each : row)
+      if (each >= 0) each = static_cast<int>(n_rows++);
+  }
+  [[nodiscard]] std::vector<types::global_dof_index> indices(const Cell& cell) const {
+    std::vector<types::global_dof_index> index(fe.n_dofs_per_cell());
+    cell->get_dof_indices(index);
+    return index;
+  }
+
+  Panel panel;
+  Triangulation<2> mesh;
+  FESystem<2> fe;
+  MappingQ<2> mapping;
+  DoFHandler<2> dofs;
+  std::vector<int> row;  ///< of each unknown
+  unsigned int n_rows = 0;
+  std::ptrdiff_t n_unknowns;
+};
+
+/// Places of a cell's unknowns, its disc's displacement among them: in the cell's matrix and in the system.
+struct Places {
+  std::vector<unsigned int> local, global;
+  void add(unsigned int here, unsigned int there) {
+    local.push_back(here);
+    global.push_back(there);
+  }
+};
+struct CellPlaces {
+  CellPlaces(const Discretisation& plate, const Cell& cell) {
+    const auto index = plate.indices(cell);
+    for (unsigned int i = 0; i < index.size(); ++i) {
+      const int row = plate.row[index[i]];
+      if (row >= 0) free.add(i, static_cast<unsigned int>(row));
+      if (row == with_external) controlled.add(i, 0);
+    }
+    controlled.add(plate.fe.n_dofs_per_cell(), 1 + cell->active_cell_index() / plate.panel.cells_per_square());
+  }
+  Places free, controlled;
+};
+
+/// What rigid displacements of the external and the discs add: K U = -C, S = K_cc + C^T U.
+struct Controlled {
+  explicit Controlled(const Discretisation& plate)
+      : C(Eigen::MatrixXd::Zero(plate.n_rows, plate.panel.n_controlled())),
+        K_cc(Eigen::MatrixXd::Zero(C.cols(), C.cols())) {}
+  void add(const FullMatrix<double>& K, const CellPlaces& at) {
+    for (unsigned int j = 0; j < at.controlled.local.size(); ++j) {
+      for (unsigned int i = 0; i < at.free.local.size(); ++i)
+        C(at.free.global[i], at.controlled.global[j]) += K(at.free.local[i], at.controlled.local[j]);
+      for (unsigned int i = 0; i < at.controlled.local.size(); ++i)
+        K_cc(at.controlled.global[i], at.controlled.global[j]) += K(at.controlled.local[i], at.controlled.local[j]);
+    }
+  }
+  Eigen::MatrixXd C, K_cc;
+};
+
+/// As a user would first write it: every cell integrated, all unknowns in one sparse matrix, one solve for each case.
+Eigen::MatrixXd solve_by_umfpack(Discretisation& plate, Phases& phases) {
+  phases.begin("integrate");
+  plate.number_rows();
+  DynamicSparsityPattern entries(plate.n_rows);
+  for (const auto& cell : plate.dofs.active_cell_iterators()) {
+    auto rows = CellPlaces(plate, cell).free.global;
+    std::sort(rows.begin(), rows.end());
+    for (const auto row : rows) entries.add_entries(row, rows.begin(), rows.end(), true);
+  }
+  SparsityPattern pattern;
+  pattern.copy_from(entries);
+  SparseMatrix<double> K(pattern);
+  Controlled controlled(plate);
+  Integrator integrate(plate.mapping, plate.fe);
+  for (const auto& cell : plate.dofs.active_cell_iterators()) {
+    const auto K_cell = integrate(cell);
+    const CellPlaces at(plate, cell);
+    FullMatrix<double> K_free(at.free.local.size());
+    K_free.extract_submatrix_from(K_cell, at.free.local, at.free.local);
+    K.add(at.free.global, K_free);
+    controlled.add(K_cell, at);
+  }
+  phases.begin("factorise");
+  SparseDirectUMFPACK inverse;
+  inverse.factorize(K);
+  phases.begin("solve");
+  Eigen::MatrixXd S = controlled.K_cc;
+  for (Eigen::Index j = 0; j < S.cols(); ++j) {
+    Vector<double> U(controlled.C.col(j).begin(), controlled.C.col(j).end());
+    inverse.solve(U);
+    S.col(j) -= controlled.C.transpose() * Eigen::Map<const Eigen::VectorXd>(U.begin(), controlled.C.rows());
+  }
+  phases.end();
+  return S;
+}
+
+/// At its best: the cells of one square stand for those of all, their insides are condensed, the rest is factorised
+/// by CHOLMOD and solved for all cases at once.
+Eigen::MatrixXd solve_by_condensation(Discretisation& plate, Phases& phases) {
+  phases.begin("integrate");
+  plate.leave_out_insides();
+  plate.number_rows();
+  Controlled controlled(plate);
+  Integrator integrate(plate.mapping, plate.fe);
+  std::vector<FullMatrix<double>> square;
+  std::vector<Eigen::Triplet<double>> lower;
+  for (const auto& cell : plate.dofs.active_cell_iterators()) {
+    if (square.size() < plate.panel.cells_per_square()) {
+      square.push_back(integrate(cell));
+      condense(square.back(), plate.fe.get_first_quad_index(), plate.fe.n_dofs_per_cell());
+    }
+    const auto& K_cell = square[cell->active_cell_index() % square.size()];
+    const CellPlaces at(plate, cell);
+    const auto& [local, row] = at.free;
+    for (unsigned int i = 0; i < row.size(); ++i)
+      for (unsigned int j = 0; j < row.size(); ++j)
+        if (row[i] >= row[j]) lower.emplace_back(row[i], row[j], K_cell(local[i], local[j]));
+    controlled.add(K_cell, at);
+  }
+  Eigen::SparseMatrix<double> K(plate.n_rows, plate.n_rows);
+  K.setFromTriplets(lower.begin(), lower.end());
+  phases.begin("factorise");
+  const linalg::Cholesky inverse(K);
+  phases.begin("solve");
+  Eigen::MatrixXd S = controlled.K_cc - controlled.C.transpose() * inverse.solve(controlled.C);
+  phases.end();
+  return S;
+}
+
+std::string json(const Eigen::MatrixXd& S) {
+  std::vector<std::string> rows;
+  for (const auto& row : S.rowwise()) rows.push_back(fmt::format("[{}]", fmt::join(row.begin(), row.end(), ", ")));
+  return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+/// Throws std::invalid_argument.
+unsigned int number(const char* text, unsigned int least, unsigned int most) {
+  unsigned int value = 0;
+  const auto [end, error] = std::from_chars(text, text + std::strlen(text), value);
+  if (error != std::errc() || *end != '\0' || value < least || value > most)
+    throw std::invalid_argument(fmt::format("'{}' is not a number in {}..{}", text, least, most));
+  return value;
+}
+
+void run(char** words) {
+  const Panel panel{number(words[1], 1, 1000), number(words[2], 1, 1000), number(words[4], 0, 20)};
+  const unsigned int p = number(words[3], 1, 16);
+  const std::string solver = words[5];
+  if (solver != "umfpack" && solver != "condensed")
+    throw std::invalid_argument(fmt::format("'{}' is not a solver; allowed: umfpack, condensed", solver));
+  MultithreadInfo::set_thread_limit(1);
+  Phases phases;
+  phases.begin("mesh");
+  Discretisation plate(panel, p);
+  const auto S = solver == "umfpack" ? solve_by_umfpack(plate, phases) : solve_by_condensation(plate, phases);
+  fmt::print(R"({{"program": "deal.II {}", "solver": "{}", "nx": {}, "ny": {}, "rings": {}, "p": {}, "unknowns": {},)"
+             "\n \"seconds\": {},\n \"S\": {}}}\n",
+             DEAL_II_PACKAGE_VERSION, solver, panel.nx, panel.ny, panel.rings, p, plate.n_unknowns, phases.json(),
+             json(S));
+}
+
+}  // namespace
+}  // namespace fastjoint::peer
+
+int main(int argc, char** argv) {
+  try {
+    if (argc != 6) throw std::invalid_argument("five words are needed");
+    fastjoint::peer::run(argv);
+    return 0;
+  } catch (const std::invalid_argument& wrong) {
+    std::cerr << "peer_dealii: error: " << wrong.what() << "\nusage: peer_dealii NX NY P RINGS umfpack|condensed\n";
+    return 2;
+  } catch (const std::exception& failure) {
+    std::cerr << "peer_dealii: error: " << failure.what() << "\n";
+    return 1;
+  }
+}
