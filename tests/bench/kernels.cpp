@@ -3,12 +3,12 @@
 #include <benchmark/benchmark.h>
 
 #include "common/formats/plate_matrices.hpp"
-#include "common/linalg/cholesky.hpp"
 #include "common/pfem/element_stiffness.hpp"
 #include "common/pfem/gauss.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/rim.hpp"
-#include "common/pfem/trunk_space.hpp"
+#include "common/pfem/shape_functions.hpp"
+#include "stage1_plate/plate_factor.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plates.hpp"
@@ -23,7 +23,7 @@ void element_stiffness(State& state, const pfem::Mesh& mesh) {
   const auto edges = pfem::find_edges(mesh);
   const pfem::ElementMap map(mesh, edges, 0);
   const auto D = pfem::elasticity(pfem::isotropic(1e7, 0.3), 0, pfem::Analysis::plane_stress);
-  const pfem::ElementStiffness stiffness(static_cast<int>(state.range(0)));
+  const pfem::ElementStiffness stiffness(pfem::Space::trunk, static_cast<int>(state.range(0)));
   for (auto _ : state) DoNotOptimize(stiffness(map, D, 0.1));
 }
 BENCHMARK_CAPTURE(element_stiffness, straight, test::distorted_mesh())->Arg(2)->Arg(4)->Arg(8);
@@ -36,7 +36,7 @@ void shape_values(State& state) {
   const Eigen::VectorXd x = pfem::gauss(p + 2).x;
   const Eigen::VectorXd xi = x.replicate(n, 1);
   const Eigen::VectorXd eta = x.transpose().replicate(n, 1).reshaped();
-  for (auto _ : state) DoNotOptimize(pfem::shape_values(p, xi, eta));
+  for (auto _ : state) DoNotOptimize(pfem::shape_values(pfem::Space::product, p, xi, eta));
 }
 BENCHMARK(shape_values)->Arg(2)->Arg(4)->Arg(8);
 
@@ -53,27 +53,35 @@ void rim_rule(State& state) {
 }
 BENCHMARK(rim_rule)->Arg(2)->Arg(4)->Arg(8);
 
-/// Stiffness of panel(3, 3) at p = 8 and its right-hand sides for displacements of edge and discs.
-struct System {
-  System() {
-    const auto plate = test::make_plate(test::panel(3, 3));
-    K = plate.problem.K_ff;
-    B = -Eigen::MatrixXd(plate.problem.K_fc);
+/// The one shape of cells of a panel, elements and all.
+void condense_cell(State& state) {
+  const auto plate = test::make_plate(test::panel(1, 1));
+  const auto& cells = plate.problem.cells;
+  const int p = static_cast<int>(state.range(0));
+  const auto modes = stage1::modes_up_to(p, plate.problem.numbering);
+  for (auto _ : state) {
+    std::vector<linalg::Condensed> elements;
+    for (const auto& K : cells.element_stiffness) elements.push_back(stage1::condense_element(K, modes));
+    DoNotOptimize(stage1::condense_cell(cells.shapes[0], elements, modes, p));
   }
-  Eigen::SparseMatrix<double> K;
-  Eigen::MatrixXd B;
-};
-
-void factorise(State& state) {
-  const System system;
-  for (auto _ : state) DoNotOptimize(linalg::Cholesky(system.K).rcond());
 }
-BENCHMARK(factorise)->Unit(benchmark::kMillisecond);
+BENCHMARK(condense_cell)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
+/// panel(n, n) at p = 8, from its integrated elements to the last rows of the factor.
+void factorise(State& state) {
+  const int n = static_cast<int>(state.range(0));
+  const auto plate = test::make_plate(test::panel(n, n));
+  const stage1::Outline outline(plate.problem);
+  for (auto _ : state) DoNotOptimize(stage1::PlateFactor(plate.problem, outline, 8).energy_rows());
+}
+BENCHMARK(factorise)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
+
+/// The fields of all unit displacements of panel(3, 3) at p = 8.
 void solve(State& state) {
-  const System system;
-  const linalg::Cholesky K(system.K);
-  for (auto _ : state) DoNotOptimize(K.solve(system.B));
+  const auto plate = test::make_plate(test::panel(3, 3));
+  const stage1::PlateFactor K(plate.problem, stage1::Outline(plate.problem), 8);
+  const Eigen::MatrixXd B = -Eigen::MatrixXd(plate.problem.K_fc);
+  for (auto _ : state) DoNotOptimize(K.solve(B));
 }
 BENCHMARK(solve)->Unit(benchmark::kMillisecond);
 
