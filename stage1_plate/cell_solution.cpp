@@ -27,7 +27,7 @@ CellSolution::Place CellSolution::place(std::size_t element, const std::vector<i
   return place;
 }
 
-void CellSolution::eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::MatrixXd& outline) {
+void CellSolution::eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B) {
   const auto n_coefficients = 2 * shape_.numbering.n_functions.back();
   Eigen::MatrixXd load = Eigen::MatrixXd::Zero(n_coefficients, B.cols());
   for (int coefficient = 0; coefficient < n_coefficients; ++coefficient) {
@@ -50,28 +50,32 @@ void CellSolution::eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::
       load.row(outer.coefficient[static_cast<std::size_t>(r)]) += outer.sign[r] * around.row(r);
   }
   inside_ = load(condensed_.inside, Eigen::all);
-  Eigen::MatrixXd outside = Eigen::MatrixXd::Zero(condensed_.matrix.n_outside(), B.cols());
-  outside.topRows(static_cast<Eigen::Index>(condensed_.outside.size())) = load(condensed_.outside, Eigen::all);
-  condensed_.matrix.eliminate(inside_, outside);
+  outside_ = Eigen::MatrixXd::Zero(condensed_.matrix.n_outside(), B.cols());
+  outside_.topRows(static_cast<Eigen::Index>(condensed_.outside.size())) = load(condensed_.outside, Eigen::all);
+  condensed_.matrix.eliminate(inside_, outside_);
   inside_ /= cell_.scale;
+}
+
+void CellSolution::add_to(Eigen::MatrixXd& outline) const {
+  if (!loaded_) return;
   for (std::size_t r = 0; r < condensed_.outside.size(); ++r) {
     const int coefficient = condensed_.outside[r];
     const int to = target(coefficient);
     if (Unknowns::is_free(to))
-      outline.row(rows_.of_target(to)) += sign(coefficient) * outside.row(static_cast<Eigen::Index>(r));
+      outline.row(rows_.of_target(to)) += sign(coefficient) * outside_.row(static_cast<Eigen::Index>(r));
   }
 }
 
 void CellSolution::restore(const Eigen::MatrixXd& outline, Eigen::Ref<Eigen::MatrixXd> X) {
   Eigen::MatrixXd u = Eigen::MatrixXd::Zero(2 * shape_.numbering.n_functions.back(), outline.cols());
-  Eigen::MatrixXd outside = Eigen::MatrixXd::Zero(condensed_.matrix.n_outside(), outline.cols());
+  outside_.setZero(condensed_.matrix.n_outside(), outline.cols());
   for (std::size_t r = 0; r < condensed_.outside.size(); ++r) {
     const int coefficient = condensed_.outside[r];
     if (const int to = target(coefficient); Unknowns::is_free(to))
-      outside.row(static_cast<Eigen::Index>(r)) = sign(coefficient) * outline.row(rows_.of_target(to));
-    u.row(coefficient) = outside.row(static_cast<Eigen::Index>(r));
+      outside_.row(static_cast<Eigen::Index>(r)) = sign(coefficient) * outline.row(rows_.of_target(to));
+    u.row(coefficient) = outside_.row(static_cast<Eigen::Index>(r));
   }
-  condensed_.matrix.restore(inside_, outside);
+  condensed_.matrix.restore(inside_, outside_);
   for (std::size_t r = 0; r < condensed_.inside.size(); ++r)
     u.row(condensed_.inside[r]) = inside_.row(static_cast<Eigen::Index>(r));
   for (std::size_t i = 0; i < interior_.size(); ++i) {
@@ -83,7 +87,8 @@ void CellSolution::restore(const Eigen::MatrixXd& outline, Eigen::Ref<Eigen::Mat
       u.row(interior.coefficient[r]) = interior_[i].row(static_cast<Eigen::Index>(r));
   }
   for (int coefficient = 0; coefficient < u.rows(); ++coefficient)
-    if (const int to = target(coefficient); Unknowns::is_free(to) && to < X.rows())
+    if (const int to = target(coefficient);
+        Unknowns::is_free(to) && to < X.rows() && rows_.of_unknown[static_cast<std::size_t>(to)] < 0)
       X.row(to) = sign(coefficient) * u.row(coefficient);
 }
 

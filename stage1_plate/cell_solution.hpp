@@ -17,9 +17,11 @@ class CellSolution {
   CellSolution(const PlateProblem& problem, const Cell& cell, const CondensedCell& condensed,
                const std::vector<linalg::Condensed>& elements, const ElementModes& modes, const Outline::Rows& rows);
 
-  /// @param B Loads on the plate's unknowns, (n_p, k). @param outline What acts on the outline, is added to.
-  void eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B, Eigen::MatrixXd& outline);
-  /// @param outline Its displacements. @param X (n_p, k) gets those of the cell, its outline included.
+  /// @param B Loads on the plate's unknowns, (n_p, k).
+  void eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B);
+  /// Adds what they do to the loads on the outline.
+  void add_to(Eigen::MatrixXd& outline) const;
+  /// @param outline Displacements of the outline. @param X (n_p, k) gets those inside the cell.
   void restore(const Eigen::MatrixXd& outline, Eigen::Ref<Eigen::MatrixXd> X);
 
  private:
@@ -40,7 +42,7 @@ class CellSolution {
   const ElementModes& modes_;
   const Outline::Rows& rows_;
   bool loaded_ = false;                    ///< whether anything acts inside
-  Eigen::MatrixXd inside_;                 ///< between eliminate and restore
+  Eigen::MatrixXd inside_, outside_;       ///< between eliminate and restore
   std::vector<Eigen::MatrixXd> interior_;  ///< of each element
 };
 

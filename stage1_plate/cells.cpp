@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 
-#include "common/pfem/congruent_stiffness.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -29,7 +28,7 @@ class CellFinder {
         plate_(plate),
         numbering_(numbering),
         unknowns_(unknowns),
-        stiffness_(plate.mesh, plate.edges, scene.elasticity, numbering.space, numbering.p),
+        result_{pfem::find_congruent(plate.mesh, plate.edges), {}, {}, {}},
         cell_of_element_(static_cast<std::size_t>(plate.mesh.n_elements())),
         rims_(cell_of_element_.size()) {}
 
@@ -37,7 +36,6 @@ class CellFinder {
     cut();
     find_kept();
     for (std::size_t cell = 0; cell + 1 < start_.size(); ++cell) add(start_[cell], start_[cell + 1]);
-    result_.element_stiffness = std::move(stiffness_).matrices();
     return std::move(result_);
   }
 
@@ -132,7 +130,7 @@ class CellFinder {
     const auto bits = [&](double x) { key.push_back(std::bit_cast<std::int64_t>(x)); };
     for (int i = 0; i < mesh.n_elements(); ++i) {
       const int element = first + i;
-      key.push_back(stiffness_.shape_of(element));
+      key.push_back(result_.elements.shape[static_cast<std::size_t>(element)]);
       bits(mesh.thickness[i] / mesh.thickness[0]);
       for (int v = 0; v < 4; ++v) key.push_back(mesh.quads(v, i));
       for (int v = 0; v < 4; ++v) {
@@ -162,7 +160,7 @@ class CellFinder {
     shape.kept.assign(n, false);
     for (int i = 0; i < mesh.n_elements(); ++i) {
       const int element = cell.first_element + i;
-      shape.element_shape.push_back(stiffness_.shape_of(element));
+      shape.element_shape.push_back(result_.elements.shape[static_cast<std::size_t>(element)]);
       for (int m = 0; m < pfem::edge_mode(numbering_.p, pfem::n_local_edges, 2); ++m) {
         const auto function = static_cast<std::size_t>(shape.numbering.function(m, i));
         shape.interior[function] = false;
@@ -202,7 +200,6 @@ class CellFinder {
   const PlateMesh& plate_;
   const pfem::Numbering& numbering_;
   const Unknowns& unknowns_;
-  pfem::CongruentStiffness stiffness_;
   PlateCells result_;
   std::vector<int> cell_of_element_;
   std::vector<std::vector<HoleSide>> rims_;  ///< sides on rims of each element

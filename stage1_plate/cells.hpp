@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/pfem/congruent_elements.hpp"
 #include "common/pfem/numbering.hpp"
 #include "stage1_plate/rim_terms.hpp"
 #include "stage1_plate/unknowns.hpp"
@@ -38,13 +39,13 @@ struct Cell {
 
 /// The plate as cells. A riveted panel has few different ones: each is integrated and condensed once.
 struct PlateCells {
-  std::vector<Eigen::MatrixXd>
-      element_stiffness;  ///< of unit thickness, of each element shape (pfem::CongruentStiffness)
+  pfem::CongruentElements elements;
+  std::vector<Eigen::MatrixXd> element_stiffness;  ///< of unit thickness, by the elements' shape
   std::vector<CellShape> shapes;
   std::vector<Cell> cells;
 };
 
-/// Finds the cells, the shapes among them and what rims add to each shape.
+/// Finds the cells, the shapes among them and what rims add to each shape; integrates nothing else.
 [[nodiscard]] PlateCells find_cells(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
                                     const Unknowns& unknowns);
 

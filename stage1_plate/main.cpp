@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/formats/plate_solution.hpp"
-#include "common/linalg/condensed.hpp"
+#include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage1_plate/contact_summary.hpp"
@@ -26,7 +26,7 @@ const program::Command command = {
     "PLATE.json",
     "PLATE.h5",
     {{"--p", "N or A..B", "degree 1..8, or a range of degrees; default: \"p\" of the input, else 1..8"},
-     {"--threads", "N", "threads of the dense kernels; default: 1"},
+     {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
 /// Section 3 of the paper: what line springs and links do converges slowly or not at all.

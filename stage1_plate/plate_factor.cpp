@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/linalg/threads.hpp"
 #include "stage1_plate/cell_solution.hpp"
 
 namespace fastjoint::stage1 {
@@ -55,8 +56,13 @@ Eigen::VectorXd shift(const PlateProblem& problem) {
 
 PlateFactor::PlateFactor(const PlateProblem& problem, const Outline& outline, int p)
     : problem_(problem), p_(p), modes_(modes_up_to(p, problem.numbering)), rows_(outline.rows(p)) {
-  for (const auto& K : problem.cells.element_stiffness) elements_.push_back(condense_element(K, modes_));
-  for (const auto& shape : problem.cells.shapes) cells_.push_back(condense_cell(shape, elements_, modes_, p));
+  const auto& cells = problem.cells;
+  elements_.resize(cells.element_stiffness.size());
+  linalg::for_each_index(elements_.size(),
+                         [&](std::size_t i) { elements_[i] = condense_element(cells.element_stiffness[i], modes_); });
+  cells_.resize(cells.shapes.size());
+  linalg::for_each_index(cells_.size(),
+                         [&](std::size_t i) { cells_[i] = condense_cell(cells.shapes[i], elements_, modes_, p); });
   factor_ = std::make_unique<linalg::Cholesky>(outline_stiffness(outline), rows_.n_border);
 }
 
@@ -107,18 +113,20 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
   Eigen::MatrixXd X(B.rows(), B.cols());
   for (Eigen::Index first = 0; first < B.cols(); first += block) {
     const auto k = std::min(block, B.cols() - first);
-    std::vector<CellSolution> cells;
     Eigen::MatrixXd outline = Eigen::MatrixXd::Zero(rows_.n_outline, k);
     for (Eigen::Index i = 0; i < B.rows(); ++i)
       if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
         outline.row(row) = B.row(i).segment(first, k);
-    for (const auto& cell : problem_.cells.cells) {
-      const auto shape = static_cast<std::size_t>(cell.shape);
-      cells.emplace_back(problem_, cell, cells_[shape], elements_, modes_, rows_);
-      cells.back().eliminate(B.middleCols(first, k), outline);
-    }
+    std::vector<CellSolution> cells;
+    for (const auto& cell : problem_.cells.cells)
+      cells.emplace_back(problem_, cell, cells_[static_cast<std::size_t>(cell.shape)], elements_, modes_, rows_);
+    linalg::for_each_index(cells.size(), [&](std::size_t i) { cells[i].eliminate(B.middleCols(first, k)); });
+    for (const auto& cell : cells) cell.add_to(outline);
     outline = factor_->solve(outline);
-    for (auto& cell : cells) cell.restore(outline, X.middleCols(first, k));
+    linalg::for_each_index(cells.size(), [&](std::size_t i) { cells[i].restore(outline, X.middleCols(first, k)); });
+    for (Eigen::Index i = 0; i < X.rows(); ++i)
+      if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
+        X.row(i).segment(first, k) = outline.row(row);
   }
   return X;
 }

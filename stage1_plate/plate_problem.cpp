@@ -33,6 +33,8 @@ PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   problem.cells = find_cells(scene, plate, problem.numbering, problem.unknowns);
+  problem.cells.element_stiffness =
+      pfem::integrate(problem.cells.elements, plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
   problem.ties = tie_points(scene, plate, problem.unknowns);
   Assembler assembler(problem.numbering, problem.unknowns);
   if (problem.unknowns.n_externals() > 0) add_externals(plate, problem, assembler);
