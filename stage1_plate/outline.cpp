@@ -2,6 +2,7 @@
 #include "stage1_plate/outline.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/linalg/cholesky.hpp"
 
@@ -56,7 +57,8 @@ Outline::Outline(const PlateProblem& problem) : problem_(problem) {
   for (const auto& cell : problem.cells.cells) cliques.push_back(on_outline_of(problem, cell));
   order(cliques);
   const int first_border = static_cast<int>(function_.size());
-  higher_.resize(function_.size() + static_cast<std::size_t>(problem.unknowns.n_controlled + problem.L_f.cols()));
+  higher_.resize(function_.size() + static_cast<std::size_t>(problem.unknowns.n_controlled) +
+                 problem.friction_hole.size());
   for (std::size_t i = 0; i < cliques.size(); ++i) {
     const auto border = border_of(problem, problem.cells.cells[i], cliques[i]);
     for (int& block : cliques[i]) block = position_[static_cast<std::size_t>(block)];
@@ -132,6 +134,31 @@ Outline::Rows Outline::rows(int p) const {
   rows.n_border = static_cast<int>(higher_.size() - function_.size());
   for (int i = 0; i <= rows.n_border; ++i) rows.first.push_back(n + i);
   return rows;
+}
+
+/// Symbolic elimination by blocks: a block hands what it is joined to on to the first of these.
+Outline::Size Outline::size(const Rows& rows) const {
+  std::vector<Blocks> joined = higher_;
+  Size size{0, 0, 0};
+  const auto n_rows = [&](std::size_t block) { return static_cast<double>(rows.first[block + 1] - rows.first[block]); };
+  const auto n_rows_of = [&](const Blocks& blocks) {
+    double n = 0;
+    for (const int block : blocks) n += n_rows(static_cast<std::size_t>(block));
+    return n;
+  };
+  for (std::size_t a = 0; a < joined.size(); ++a) {
+    const double own = n_rows(a), below = n_rows_of(joined[a]);
+    size.entries += own * (own + 1) / 2 + own * n_rows_of(higher_[a]);
+    size.factor += own * own + own * below;
+    size.largest_front = std::max(size.largest_front, below * below);
+    if (joined[a].empty()) continue;
+    Blocks& parent = joined[static_cast<std::size_t>(joined[a].front())];
+    Blocks both;
+    std::set_union(parent.begin(), parent.end(), joined[a].begin() + 1, joined[a].end(), std::back_inserter(both));
+    parent = std::move(both);
+    Blocks().swap(joined[a]);
+  }
+  return size;
 }
 
 Eigen::SparseMatrix<double> Outline::pattern(const Rows& rows) const {

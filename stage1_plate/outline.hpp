@@ -29,6 +29,11 @@ class Outline {
     [[nodiscard]] int of_target(int target) const;
   };
   [[nodiscard]] Rows rows(int p) const;
+  /// Entries of the bordered outline stiffness, of its factor and of the factor's largest front.
+  struct Size {
+    double entries, factor, largest_front;
+  };
+  [[nodiscard]] Size size(const Rows& rows) const;
   /// Pattern of the bordered outline stiffness, its lower triangle, all values zero.
   [[nodiscard]] Eigen::SparseMatrix<double> pattern(const Rows& rows) const;
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/plate_problem.hpp"
 
+#include <fmt/format.h>
+
 #include <numeric>
 
 #include "stage1_plate/assembler.hpp"
@@ -28,22 +30,39 @@ void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assemble
 
 }  // namespace
 
-PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
+PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   problem.cells = find_cells(scene, plate, problem.numbering, problem.unknowns);
+  problem.ties = tie_points(scene, plate, problem.unknowns);
+  for (const auto& hole : scene.holes) {
+    if (!hole.spring) continue;
+    for (const auto& direction : scene.disc_directions)
+      for (const char* sign : {"+", "-"}) {
+        problem.friction_hole.push_back(hole.id);
+        problem.friction_bearing.push_back(fmt::format("{}{}", sign, direction));
+      }
+  }
+  return problem;
+}
+
+void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   problem.cells.element_stiffness =
       pfem::integrate(problem.cells.elements, plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
-  problem.ties = tie_points(scene, plate, problem.unknowns);
   Assembler assembler(problem.numbering, problem.unknowns);
   if (problem.unknowns.n_externals() > 0) add_externals(plate, problem, assembler);
   add_springs(scene, problem, assembler);
   for (const auto& tie : problem.ties) assembler.add_spring(tie.target, tie.controlled, tie.stiffness);
   problem.K_fc = assembler.K_fc();
   problem.K_cc = assembler.K_cc();
-  add_friction_loads(scene, problem);
+  add_friction_loads(problem);
   add_traction_loads(scene, plate, problem);
+}
+
+PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
+  PlateProblem problem = number_unknowns(scene, plate);
+  integrate(scene, plate, problem);
   return problem;
 }
 

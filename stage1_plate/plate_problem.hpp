@@ -28,8 +28,12 @@ struct PlateProblem {
   Eigen::MatrixXd T_c;              ///< (nc, q)
 };
 
-/// Integrates elements, springs and loads once, at the scene's highest p.
+/// The problem with its unknowns, cells and cases, at the scene's highest p, and nothing integrated.
+[[nodiscard]] PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate);
+/// Integrates elements, springs and loads once, each shape once.
 /// Throws InputError for an arc that the rim of the model does not have.
+void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
+/// Both.
 [[nodiscard]] PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

@@ -43,15 +43,7 @@ void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler
   }
 }
 
-void add_friction_loads(const PlateScene& scene, PlateProblem& problem) {
-  for (const auto& hole : scene.holes) {
-    if (!hole.spring) continue;
-    for (const auto& direction : scene.disc_directions)
-      for (const char* sign : {"+", "-"}) {
-        problem.friction_hole.push_back(hole.id);
-        problem.friction_bearing.push_back(fmt::format("{}{}", sign, direction));
-      }
-  }
+void add_friction_loads(PlateProblem& problem) {
   LoadAssembler loads(problem.numbering, problem.unknowns, static_cast<int>(problem.friction_hole.size()));
   for_each_rim_side(problem.cells, [&](std::size_t hole, int element, const RimTerms& terms, double scale) {
     const int first = 2 * problem.unknowns.disc_of_hole[hole];  // discs of holes come before those of points

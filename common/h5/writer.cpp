@@ -156,9 +156,13 @@ void Writer::commit() {
   if (H5Fflush(impl_->file.get(), H5F_SCOPE_GLOBAL) < 0) impl_->fail("file");
   const ssize_t n_bytes = H5Fget_file_image(impl_->file.get(), nullptr, 0);
   if (n_bytes <= 0) impl_->fail("file");
-  std::string image(static_cast<std::size_t>(n_bytes), '\0');
+  std::string image;
+  constexpr std::size_t room_for_seal = 64;
+  image.reserve(static_cast<std::size_t>(n_bytes) + room_for_seal);
+  image.resize(static_cast<std::size_t>(n_bytes));
   if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) impl_->fail("file");
-  write_whole_file(impl_->path, image + seal(image));
+  image += seal(image);
+  write_whole_file(impl_->path, image);
 }
 
 }  // namespace fastjoint::h5

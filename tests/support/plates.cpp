@@ -25,14 +25,16 @@ formats::PlateSolution unsolved(const Plate& plate) {
 
 formats::PlateSolution solve(const Plate& plate) {
   auto solution = unsolved(plate);
-  stage1::solve_cases(plate.problem, solution);
+  program::Timings timings;
+  stage1::solve_cases(plate.problem, solution, timings);
   return solution;
 }
 
 formats::PlateSolution solve_all_fields(const Plate& plate) {
   auto solution = unsolved(plate);
   solution.stress_p = solution.p;
-  stage1::solve_cases(plate.problem, solution);
+  program::Timings timings;
+  stage1::solve_cases(plate.problem, solution, timings);
   return solution;
 }
 
