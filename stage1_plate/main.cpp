@@ -56,7 +56,8 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
   auto problem = stage1::number_unknowns(scene, plate);
   stage1::check_held(scene, plate, problem.unknowns);
-  const auto need = stage1::memory_need(problem, stage1::degrees(scene), wanted);
+  const stage1::Outline outline(problem);  // of vertices and edges, whatever arcs contact finds
+  const auto need = stage1::memory_need(problem, outline, stage1::degrees(scene), wanted);
   stage1::require_memory(scene, need, program::available_memory());
   timings.phase("integrate");
   stage1::integrate(scene, plate, problem);
@@ -71,7 +72,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   }
   auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name), wanted);
   if (contact) stage1::add_contact(*contact, solution);
-  stage1::solve_cases(problem, solution, timings);
+  stage1::solve_cases(problem, outline, solution, timings);
   timings.phase("write");
   formats::write(arguments.output, solution);
   for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "stage1_plate/outline.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -16,21 +15,16 @@ constexpr double entry = sizeof(double) + sizeof(int);
 
 double square(double n) { return n * n; }
 
-/// Each shape's matrix, and its condensed one.
+/// Each shape's matrix, and those of the kinds, condensed.
 double shapes(const PlateProblem& problem) {
   const auto n_modes = static_cast<double>(problem.numbering.function.rows());
-  double n = 2 * square(2 * n_modes) * static_cast<double>(problem.cells.elements.first.size());
-  for (const auto& shape : problem.cells.shapes) {
-    const auto n_outer = std::count(shape.interior.begin(), shape.interior.end(), false);
-    n += square(2 * static_cast<double>(n_outer));
-  }
-  return n * number;
+  const auto n = static_cast<double>(problem.elements.congruent.first.size() + problem.elements.kinds.size());
+  return n * square(2 * n_modes) * number;
 }
 
 }  // namespace
 
-MemoryNeed memory_need(const PlateProblem& problem, const Eigen::VectorXi& p, Wanted wanted) {
-  const Outline outline(problem);
+MemoryNeed memory_need(const PlateProblem& problem, const Outline& outline, const Eigen::VectorXi& p, Wanted wanted) {
   const auto rows = outline.rows(p[p.size() - 1]);
   const Outline::Size size = outline.size(rows);
   const auto nc = static_cast<double>(problem.unknowns.n_controlled);

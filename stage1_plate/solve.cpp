@@ -102,9 +102,8 @@ void add_contact(const ContactState& state, formats::PlateSolution& a) {
   a.load_traction = state.traction.transpose();
 }
 
-void solve_cases(const PlateProblem& problem, formats::PlateSolution& a, program::Timings& timings) {
-  timings.phase("factorise");
-  const Outline outline(problem);
+void solve_cases(const PlateProblem& problem, const Outline& outline, formats::PlateSolution& a,
+                 program::Timings& timings) {
   for (Eigen::Index i = 0; i < a.p.size(); ++i) {
     timings.phase("factorise");
     const PlateFactor K(problem, outline, a.p[i]);

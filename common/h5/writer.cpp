@@ -91,7 +91,9 @@ Writer::Writer(std::string path, const std::string& format, int major, int minor
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
   constexpr std::size_t increment = 1 << 20;
   H5Pset_fapl_core(access.get(), increment, false);
-  impl_->file = File(H5Fcreate(impl_->path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+  // The library would first read a file of this name into memory, whole; no file has this one.
+  const std::string name = impl_->path + ".in-memory";
+  impl_->file = File(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
   if (!impl_->file) impl_->fail("file");
   attribute("format", format);
   impl_->integer_attribute("version", {major, minor}, false);

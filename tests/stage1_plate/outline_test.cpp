@@ -21,8 +21,9 @@ TEST(Outline, HasARowForEachUnknownOnAnOutline) {
       if (row >= 0) ++found[static_cast<std::size_t>(row)];
     EXPECT_EQ(found, std::vector<int>(found.size(), 1)) << p;
     EXPECT_EQ(rows.n_border, 1 + 6 + 12) << "external, discs, friction cases";
-    // 12 corners and 17 sides of squares with a vertex in the middle of each; held: left along x, bottom along y, right
-    const int vertices = 12 + 17, edges = 2 * 17;
+    // 12 corners and 17 sides of squares with a vertex in the middle of each, 8 rays to the rim of each hole, whose
+    // own edges belong to one element; held: left along x, bottom along y, right along x
+    const int vertices = 12 + 17 + 6 * 8, edges = 2 * 17 + 6 * 8;
     EXPECT_EQ(rows.n_outline, 2 * (vertices + edges * (p - 1)) - (5 + 7 + 5) - (4 + 6 + 4) * (p - 1)) << p;
   }
 }

@@ -26,7 +26,7 @@ formats::PlateSolution unsolved(const Plate& plate) {
 formats::PlateSolution solve(const Plate& plate) {
   auto solution = unsolved(plate);
   program::Timings timings;
-  stage1::solve_cases(plate.problem, solution, timings);
+  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
   return solution;
 }
 
@@ -34,7 +34,7 @@ formats::PlateSolution solve_all_fields(const Plate& plate) {
   auto solution = unsolved(plate);
   solution.stress_p = solution.p;
   program::Timings timings;
-  stage1::solve_cases(plate.problem, solution, timings);
+  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
   return solution;
 }
 
