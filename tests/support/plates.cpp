@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/pfem/condensed_stiffness.hpp"
 #include "stage1_plate/solve.hpp"
 
 namespace fastjoint::test {
@@ -34,6 +35,10 @@ formats::PlateSolution solve_all_fields(const Plate& plate) {
   solution.stress_p = solution.p;
   stage1::solve_cases(plate.problem, solution);
   return solution;
+}
+
+Eigen::MatrixXd stiffness(const formats::PlateSolution& a, std::size_t level) {
+  return pfem::condensed_stiffness(a.cases[level].E_c, a.shift, a.K_cc);
 }
 
 stage2::Extraction extract(const std::string& json) {

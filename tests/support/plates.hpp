@@ -19,6 +19,9 @@ struct Plate {
 };
 [[nodiscard]] Plate make_plate(const std::string& json);
 
+/// Its S at one of its degrees.
+[[nodiscard]] Eigen::MatrixXd stiffness(const formats::PlateSolution& solution, std::size_t level);
+
 /// Stage 1 to the end, and stage 2 behind it.
 [[nodiscard]] formats::PlateSolution solve(const Plate& plate);
 /// With the fields of every degree, not of the two highest only.
