@@ -11,6 +11,7 @@
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
+#include "stage1_plate/accuracy.hpp"
 #include "stage1_plate/contact_summary.hpp"
 #include "stage1_plate/degree_range.hpp"
 #include "stage1_plate/holding.hpp"
@@ -28,6 +29,9 @@ const program::Command command = {
     "PLATE.json",
     "PLATE.h5",
     {{"--p", "N or A..B", "degree 1..8, or a range of degrees; default: \"p\" of the input, else 1..8"},
+     {"--accuracy", "A",
+      "relative error of S (Frobenius norm) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the input leaves "
+      "open and the least degree within --p that do, and says so; warns where nothing does"},
      {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
@@ -41,6 +45,20 @@ void warn(const stage1::PlateScene& scene) {
         command.name, scene.file);
 }
 
+/// The model that reaches the accuracy asked for, if one is.
+std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, const program::Arguments& arguments) {
+  constexpr double least = 1e-10, most = 1;
+  const double accuracy = arguments.number("--accuracy", least, most, 0);
+  if (accuracy == 0) return std::nullopt;
+  auto chosen = stage1::meet_accuracy(scene, accuracy);
+  if (!chosen.is_reached())
+    std::cerr << fmt::format(
+        "{}: warning: {}: {}, the best that there is: finer cells, above all at ends of clamped "
+        "edges and of steps in thickness, come closer\n",
+        command.name, scene.file, stage1::to_text(chosen));
+  return chosen;
+}
+
 void run(const program::Arguments& arguments, program::Timings& timings) {
   constexpr int most_threads = 256;
   const int threads = arguments.integer("--threads", 1, most_threads, 1);
@@ -50,6 +68,9 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   stage1::PlateScene scene =
       stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
+  if (arguments.flag("--accuracy")) timings.phase("search");
+  const auto accuracy = meet_accuracy(scene, arguments);
+  if (accuracy) scene = accuracy->scene;
   timings.phase("mesh");
   const auto plate = stage1::make_mesh(scene);
   warn(scene);
@@ -83,6 +104,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
                            stage1::bytes_text(need.total()));
   for (Eigen::Index i = 0; i < solution.p.size(); ++i)
     std::cout << fmt::format("  p = {}: {} unknowns\n", solution.p[i], solution.ndof[i]);
+  if (accuracy) std::cout << "  " << stage1::to_text(*accuracy) << "\n";
   if (contact) std::cout << stage1::contact_summary(scene, *contact);
 }
 

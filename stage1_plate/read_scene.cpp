@@ -66,6 +66,7 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, UniqueNames& ids) 
     constexpr int most_rings = 20;
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
+    hole.has_rings = rings.has_value();
     hole.rings = rings ? rings->integer(0, most_rings) : 0;
     holes.push_back(std::move(hole));
   }
@@ -166,7 +167,9 @@ PlateScene read_scene(const input::Document& document) {
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
   scene.loads = read_loads(root, scene);
-  if (const auto space = root.find("space")) scene.space = pfem::space_named(space->choice(pfem::space_names));
+  const auto space = root.find("space");
+  scene.has_space = space.has_value();
+  if (space) scene.space = pfem::space_named(space->choice(pfem::space_names));
   read_p(root, scene);
   return scene;
 }

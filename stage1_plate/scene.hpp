@@ -66,6 +66,7 @@ struct Hole {
   double radius;
   std::optional<Spring> spring;  ///< none in an open hole, which has no disc
   int rings;                     ///< extra rings of elements around it (grid only)
+  bool has_rings = false;        ///< whether the scene says how many
 
   /// The spring of a hole that has one.
   [[nodiscard]] const Spring& sprung() const {
@@ -126,6 +127,7 @@ struct PlateScene {
   std::vector<External> externals;
   std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
   pfem::Space space = pfem::Space::trunk;
+  bool has_space = false;  ///< whether the scene says which
   int p_low = 1, p_high = 8;
 
   /// The loads of a scene that has them.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/extract.hpp"
 
-#include "stage2_extract/condensed_stiffness.hpp"
-#include "stage2_extract/error_estimate.hpp"
+#include "common/pfem/condensed_stiffness.hpp"
+#include "common/pfem/stiffness_error.hpp"
 #include "stage2_extract/friction_constants.hpp"
 #include "stage2_extract/load_reactions.hpp"
 #include "stage2_extract/stresses.hpp"
@@ -60,13 +60,13 @@ void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrice
 }  // namespace
 
 Extraction extract(const formats::PlateSolution& plate, const std::string& file, const std::string& generator) {
-  Extraction result{names(plate, generator), {}};
+  Extraction result{names(plate, generator), 0, {}};
   auto& a = result.matrices;
   const auto e = a.n_externals();
   const auto m = a.n_discs();
   std::vector<Eigen::MatrixXd> S;
   for (std::size_t level = 0; level < plate.cases.size(); ++level) {
-    S.push_back(condensed_stiffness(plate, level));
+    S.push_back(pfem::condensed_stiffness(plate.cases[level].E_c, plate.shift, plate.K_cc));
     a.S_ee.push_back(S.back().topLeftCorner(e, e));
     a.S_ed.push_back(S.back().topRightCorner(e, m));
     a.S_dd.push_back(S.back().bottomRightCorner(m, m));
@@ -78,12 +78,13 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
     a.T_d.push_back(T.bottomRows(m));
     a.C_t.push_back(traction_compliance(plate, level));
   }
-  const Eigen::MatrixXd error = estimate_error(S, plate.ndof);
+  const Eigen::MatrixXd error = pfem::stiffness_error(S, plate.p);
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, file);
   carry_over_loads(plate, a);
+  result.relative_error = pfem::relative_error(error, S.back());
   result.checks = check(plate, a, S.back());
   return result;
 }

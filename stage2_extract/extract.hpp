@@ -10,6 +10,7 @@ namespace fastjoint::stage2 {
 /// Everything linear about the plate, for every p, and how well it satisfies what must hold.
 struct Extraction {
   formats::PlateMatrices matrices;
+  double relative_error;  ///< estimated, of S at the highest p by the Frobenius norm; infinite with one degree
   Checks checks;
 };
 

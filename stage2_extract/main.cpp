@@ -40,10 +40,10 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
                            a.p[0], a.p[a.p.size() - 1]);
   using stage2::largest;
   const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
-  const double error = std::max(largest(a.S_ee_error), largest(a.S_dd_error));
   std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),
-                           std::isfinite(error) ? fmt::format("estimated error {:.1e} of it", S > 0 ? error / S : 0)
-                                                : "error unknown: one degree alone does not show it");
+                           std::isfinite(extraction.relative_error)
+                               ? fmt::format("error of S about {:.0e}", extraction.relative_error)
+                               : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks);
 }
 

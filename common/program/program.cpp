@@ -125,6 +125,16 @@ int Arguments::integer(const std::string& name, int low, int high, int otherwise
   return value;
 }
 
+double Arguments::number(const std::string& name, double low, double high, double otherwise) const {
+  const std::string given = text(name);
+  if (!options.contains(name)) return otherwise;
+  double value = 0;
+  const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
+  if (error != std::errc() || end != given.data() + given.size() || !(value >= low && value <= high))
+    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: a number from {} to {}", name, given, low, high));
+  return value;
+}
+
 std::string Arguments::text(const std::string& name) const {
   const auto found = options.find(name);
   return found == options.end() ? "" : found->second;

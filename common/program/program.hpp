@@ -44,6 +44,8 @@ struct Arguments {
 
   /// Value of an integer option within [low, high], or `otherwise`. Throws InputError.
   [[nodiscard]] int integer(const std::string& name, int low, int high, int otherwise) const;
+  /// Value of an option that is a number within [low, high], or `otherwise`. Throws InputError.
+  [[nodiscard]] double number(const std::string& name, double low, double high, double otherwise) const;
   /// Whether a flag was given.
   [[nodiscard]] bool flag(const std::string& name) const { return options.contains(name); }
   /// Value of an option or "".

@@ -9,6 +9,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 using Program = test::Run (*)(const test::TemporaryFolder&, const std::string&);
 const Program programs[] = {test::stage1, test::stage2, test::stage3};
@@ -80,12 +81,44 @@ TEST(UsageOfOptions, WrongValues) {
   EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --p 9").err,
               HasSubstr("--p: '9' is not allowed; allowed: a degree from 1 to 8"));
   EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --threads x").err, HasSubstr("--threads: 'x' is not allowed"));
+  EXPECT_THAT(test::stage1(folder, "center.json -o o.h5 --accuracy 0").err,
+              HasSubstr("--accuracy: '0' is not allowed; allowed: a number from 1e-10 to 1"));
+  EXPECT_EQ(test::stage1(folder, "center.json -o o.h5 --accuracy=").status, 2);
   ASSERT_EQ(test::stage1(folder, "center.json -o low.h5 --p 2..3").status, 0);
   ASSERT_EQ(test::stage2(folder, "low.h5 -o center.m.h5").status, 0);
   folder.write("joint.json", test::three_fastener_joint(1000, 1000));
   const auto run = test::stage3(folder, "joint.json -o o.h5 --p 7");
   EXPECT_EQ(run.status, 2);
   EXPECT_THAT(run.err, AllOf(HasSubstr("7"), HasSubstr("allowed"), HasSubstr("2, 3")));
+}
+
+/// Not reached, the result is kept, with a warning.
+TEST(UsageOfOptions, Accuracy) {
+  const test::TemporaryFolder folder;
+  folder.write("center.json", test::example("center.json"));
+  const auto reached = test::stage1(folder, "center.json -o a.h5 --accuracy 1e-4");
+  EXPECT_EQ(reached.status, 0);
+  EXPECT_EQ(reached.err, "");
+  const std::string said = "accuracy 0.0001: product space, p = 5: error of S about 5e-05";
+  EXPECT_THAT(reached.out, AllOf(HasSubstr("p = 5: "), Not(HasSubstr("p = 6: ")), HasSubstr(said)));
+  const auto matrices = test::stage2(folder, "a.h5 -o a.m.h5");
+  EXPECT_THAT(matrices.out, AllOf(HasSubstr("p = 1..5"), HasSubstr("error of S about 5e-05")));
+  const auto missed = test::stage1(folder, "center.json -o b.h5 --accuracy 1e-9 --p 1..4 --quiet");
+  EXPECT_EQ(missed.status, 0);
+  EXPECT_THAT(missed.err, AllOf(HasSubstr("warning: center.json: accuracy 1e-09: product space, p = 4"),
+                                HasSubstr("the best that there is")));
+  EXPECT_THAT(test::stage2(folder, "b.h5 -o b.m.h5").out, HasSubstr("p = 1..4"));
+  const auto alone = test::stage1(folder, "center.json -o c.h5 --accuracy 1e-3 --p 8");
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.err, HasSubstr("degree 8 alone does not show its error"));
+}
+
+TEST(UsageOfOptions, AccuracyOfAContactIsRefused) {
+  const test::TemporaryFolder folder;
+  folder.write("nisida.json", test::read_file(std::string(FASTJOINT_SOURCE) + "/examples/nisida/frictionless.json"));
+  const auto run = test::stage1(folder, "nisida.json -o o.h5 --accuracy 1e-3");
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, AllOf(HasSubstr("nisida.json: /loads"), HasSubstr("allowed with --accuracy")));
 }
 
 TEST(UsageOfOptions, QuietPrintsNothingAndEqualRunsGiveEqualBytes) {

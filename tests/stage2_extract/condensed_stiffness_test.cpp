@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/condensed_stiffness.hpp"
+#include "common/pfem/condensed_stiffness.hpp"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +19,7 @@ TEST(CondensedStiffness, IsTheEnergyProductOfUnitFields) {
     const Eigen::MatrixXd K_level = Eigen::MatrixXd(K).topLeftCorner(U.rows(), U.rows());
     const Eigen::MatrixXd UK_fc = U.transpose() * Eigen::MatrixXd(plate.problem.K_fc.topRows(U.rows()));
     const Eigen::MatrixXd energy = U.transpose() * K_level * U + UK_fc + UK_fc.transpose() + plate.problem.K_cc;
-    const Eigen::MatrixXd S = stage2::condensed_stiffness(solution, level);
+    const Eigen::MatrixXd S = test::stiffness(solution, level);
     EXPECT_LT((S - energy).norm(), 1e-13 * S.norm()) << "level " << level;
   }
 }

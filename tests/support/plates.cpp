@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "stage1_plate/solve.hpp"
+#include "common/pfem/condensed_stiffness.hpp"
 
 namespace fastjoint::test {
 
@@ -17,25 +17,29 @@ Plate make_plate(const std::string& json) {
 
 namespace {
 
-formats::PlateSolution unsolved(const Plate& plate) {
-  return stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
+void solve_cases(const Plate& plate, formats::PlateSolution& solution) {
+  program::Timings timings;
+  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
 }
 
 }  // namespace
 
-formats::PlateSolution solve(const Plate& plate) {
-  auto solution = unsolved(plate);
-  program::Timings timings;
-  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
+formats::PlateSolution solve(const Plate& plate, stage1::Wanted wanted) {
+  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", wanted);
+  solve_cases(plate, solution);
   return solution;
 }
 
 formats::PlateSolution solve_all_fields(const Plate& plate) {
-  auto solution = unsolved(plate);
+  auto solution =
+      stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
   solution.stress_p = solution.p;
-  program::Timings timings;
-  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
+  solve_cases(plate, solution);
   return solution;
+}
+
+Eigen::MatrixXd stiffness(const formats::PlateSolution& a, std::size_t level) {
+  return pfem::condensed_stiffness(a.cases[level].E_c, a.shift, a.K_cc);
 }
 
 stage2::Extraction extract(const std::string& json) {

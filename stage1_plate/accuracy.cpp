@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "common/pfem/condensed_stiffness.hpp"
+#include "common/pfem/stiffness_error.hpp"
+#include "stage1_plate/holding.hpp"
+#include "stage1_plate/plate_factor.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+bool leaves_rings(const PlateScene& scene, const Hole& hole) {
+  return std::holds_alternative<GridGeometry>(scene.geometry) && !hole.has_rings;
+}
+
+/// Integrates once, then raises the degree until it does, or to the scene's highest.
+void raise_degree(Accuracy& model) {
+  const PlateMesh plate = make_mesh(model.scene);
+  const PlateProblem problem = assemble(model.scene, plate);
+  check_held(model.scene, plate, problem.unknowns);
+  const auto nc = problem.K_cc.cols();
+  if (nc == 0)
+    throw InputError(
+        fmt::format("{}: --accuracy is of S, and there is nothing that S is of; allowed: a scene with "
+                    "a disc or a rigid external",
+                    model.scene.file));
+  const Outline outline(problem);
+  const int highest = model.scene.p_high;
+  std::vector<Eigen::MatrixXd> S;
+  for (int p = model.scene.p_low; p <= highest; ++p) {
+    const Eigen::MatrixXd E = PlateFactor(problem, outline, p).energy_rows();
+    S.push_back(pfem::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
+    const auto degrees = Eigen::VectorXi::LinSpaced(std::ssize(S), model.scene.p_low, p);
+    model.error = pfem::relative_error(pfem::stiffness_error(S, degrees), S.back());
+    model.scene.p_high = p;
+    if (model.is_reached()) return;
+  }
+}
+
+void check(const PlateScene& scene) {
+  if (scene.loads)
+    throw InputError(
+        fmt::format("{}: /loads: springs that push but do not pull have arcs that depend on the degree; "
+                    "allowed with --accuracy: a scene without them; choose the degree by --p",
+                    scene.file));
+  if (scene.p_low == scene.p_high)
+    throw InputError(
+        fmt::format("--accuracy: degree {} alone does not show its error; allowed: a range of degrees", scene.p_low));
+}
+
+}  // namespace
+
+Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
+  check(scene);
+  constexpr int most_rings = 4;
+  constexpr double worth = 0.5;  // of the error before, that another ring must come below
+  Accuracy start{scene, accuracy, 0, false};
+  if (!scene.has_space) start.scene.space = pfem::Space::product;
+  Accuracy best = start;
+  for (int rings = 1; rings <= most_rings; ++rings) {
+    Accuracy model = start;
+    for (auto& hole : model.scene.holes)
+      if (leaves_rings(scene, hole)) {
+        hole.rings = rings;
+        model.free_rings = true;
+      }
+    raise_degree(model);
+    const bool helps = rings == 1 || model.is_reached() || model.error < worth * best.error;
+    if (helps) best = model;
+    if (!helps || best.is_reached() || !best.free_rings) break;
+  }
+  return best;
+}
+
+std::string to_text(const Accuracy& chosen) {
+  int rings = 0;
+  for (const auto& hole : chosen.scene.holes)
+    if (leaves_rings(chosen.scene, hole)) rings = hole.rings;
+  return fmt::format("accuracy {:g}: {} space, p = {}{}: error of S about {:.0e}", chosen.asked,
+                     pfem::name_of(chosen.scene.space), chosen.scene.p_high,
+                     chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(), chosen.error);
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "stage1_plate/scene.hpp"
+
+namespace fastjoint::stage1 {
+
+/// The model that was chosen for an accuracy of S.
+struct Accuracy {
+  PlateScene scene;  ///< with the space, rings and highest degree chosen
+  double asked;      ///< relative error of S by the Frobenius norm
+  double error;      ///< estimated (pfem::stiffness_error)
+  bool free_rings;   ///< whether the scene left the rings of a hole open
+  [[nodiscard]] bool is_reached() const { return error <= asked; }
+};
+
+/// Takes the cheapest model that reaches a relative error of S by its own estimate, or else the best that there is:
+/// product space, one ring around every hole, the degree rising from the scene's lowest; where its highest does not do,
+/// another ring, as long as rings help. What the scene itself says of `space` and of a hole's `rings` stays.
+///
+/// The order follows what models cost at about equal error, here 1e-5, in ms with the fields for stresses, of panels of
+/// 3 x 3 and 10 x 10 holes: product space, one ring, p = 4: 11 and 1100; two rings, p = 4: 18 and 1600; none, p = 7: 26
+/// and 2100; trunk space, one ring, p = 5: 15 and 1060, p = 6: 23 and 1650. To 1e-9 and below, one ring is still as
+/// good as two. Where holes do not limit the error a ring costs up to half as much again.
+///
+/// Throws InputError for a scene whose springs push but do not pull (their arcs are found at the highest degree, and
+/// depend on it), of one degree only, or with nothing that S is of.
+[[nodiscard]] Accuracy meet_accuracy(const PlateScene& scene, double accuracy);
+
+/// One line: "accuracy 0.0001: product space, p = 4, rings 1: error of S about 6e-05".
+[[nodiscard]] std::string to_text(const Accuracy& chosen);
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/accuracy.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/message.hpp"
+#include "tests/support/plates.hpp"
+
+namespace fastjoint {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+stage1::PlateScene scene(const std::string& json) { return stage1::read_scene(input::parse("plate.json", json)); }
+
+std::string without_rings(std::string json) {
+  const std::string rings = R"(, "rings": 0)";
+  for (auto at = json.find(rings); at != std::string::npos; at = json.find(rings)) json.erase(at, rings.size());
+  return json;
+}
+
+test::Plate plate_of(const stage1::PlateScene& chosen) {
+  test::Plate plate{chosen, stage1::make_mesh(chosen), {}};
+  plate.problem = stage1::assemble(plate.scene, plate.mesh);
+  return plate;
+}
+
+Eigen::MatrixXd last_stiffness(const test::Plate& plate) {
+  const auto solution = test::solve(plate);
+  return test::stiffness(solution, solution.cases.size() - 1);
+}
+
+TEST(Accuracy, IsReachedByTheLeastDegree) {
+  const auto open = scene(without_rings(test::panel(3, 1)));
+  const auto exact = last_stiffness(test::make_plate(test::panel(3, 1, 3, R"(, "space": "product")")));
+  for (const double asked : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
+    const auto chosen = stage1::meet_accuracy(open, asked);
+    EXPECT_TRUE(chosen.is_reached());
+    EXPECT_LE((last_stiffness(plate_of(chosen.scene)) - exact).norm(), 1.5 * asked * exact.norm());
+    EXPECT_EQ(chosen.scene.space, pfem::Space::product);
+    EXPECT_EQ(chosen.scene.p_low, 1);
+    for (const auto& hole : chosen.scene.holes) EXPECT_EQ(hole.rings, 1);
+    auto lower = chosen.scene;  // its rings are kept: one degree less, and no other rings
+    for (auto& hole : lower.holes) hole.has_rings = true;
+    ASSERT_GT(--lower.p_high, 1);
+    EXPECT_FALSE(stage1::meet_accuracy(lower, asked).is_reached());
+  }
+}
+
+/// What the program says is what stage 2 says.
+TEST(Accuracy, IsThatOfTheMatrices) {
+  const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), 1e-4);
+  const auto extraction = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test");
+  EXPECT_NEAR(extraction.relative_error / chosen.error, 1, 1e-3);  // quadrature is of p = 8 in the search
+  EXPECT_EQ(stage1::to_text(chosen), "accuracy 0.0001: product space, p = 5, rings 1: error of S about 1e-05");
+}
+
+TEST(Accuracy, TakesAnotherRingWhereTheHighestDegreeDoesNotDo) {
+  auto low = scene(without_rings(test::panel(1, 1)));
+  low.p_high = 5;
+  const auto one = stage1::meet_accuracy(low, 1e-4), more = stage1::meet_accuracy(low, 8e-6);
+  EXPECT_EQ(one.scene.holes[0].rings, 1);
+  EXPECT_EQ(more.scene.holes[0].rings, 2);
+  EXPECT_LT(more.error, 0.5 * one.error);
+}
+
+TEST(Accuracy, KeepsWhatTheSceneSays) {
+  const auto chosen = stage1::meet_accuracy(scene(test::panel(1, 1, 0, R"(, "space": "trunk", "p": [2, 7])")), 1e-3);
+  EXPECT_EQ(chosen.scene.space, pfem::Space::trunk);
+  EXPECT_EQ(chosen.scene.holes[0].rings, 0);
+  EXPECT_EQ(chosen.scene.p_low, 2);
+  EXPECT_FALSE(chosen.free_rings);
+  EXPECT_TRUE(chosen.is_reached());
+  const auto missed = stage1::meet_accuracy(scene(test::panel(1, 1)), 1e-9);
+  EXPECT_FALSE(missed.is_reached());
+  EXPECT_EQ(missed.scene.p_high, 8);
+  EXPECT_THAT(stage1::to_text(missed), HasSubstr("accuracy 1e-09: product space, p = 8: error of S about "));
+}
+
+/// Rings do not help at the ends of a clamped edge: the search ends, and keeps the model that costs less.
+TEST(Accuracy, GivesUpWhereRingsDoNotHelp) {
+  const std::string json = test::grid_scene({0, 1}, {0, 1}, {{"1", 0.5, 0.5, 0.1}},
+                                            R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
+  const auto chosen = stage1::meet_accuracy(scene(without_rings(json)), 1e-8);
+  EXPECT_FALSE(chosen.is_reached());
+  EXPECT_EQ(chosen.scene.holes[0].rings, 1);
+  EXPECT_EQ(chosen.scene.p_high, 8);
+}
+
+TEST(Accuracy, RefusesWhatHasNone) {
+  const auto refused = [](const std::string& json) {
+    return test::message_of([&] { return stage1::meet_accuracy(scene(json), 1e-3); });
+  };
+  EXPECT_THAT(refused(test::panel(1, 1, 0, R"(, "p": [8, 8])")),
+              AllOf(HasSubstr("degree 8 alone"), HasSubstr("allowed: a range")));
+  EXPECT_THAT(refused(test::grid_scene({0, 1}, {0, 1}, {}, R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
+    "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])")),
+              AllOf(HasSubstr("plate.json"), HasSubstr("a disc or a rigid external")));
+}
+
+}  // namespace
+}  // namespace fastjoint
