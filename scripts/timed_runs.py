@@ -28,7 +28,7 @@ def run(*words):
         sys.exit(f"{Path(sys.argv[0]).name}: error: {words[0]} is not on PATH; after the build: "
                  "PATH=$PWD/build/release/bin:$PATH")
     if result.returncode:
-        sys.exit(f"{Path(sys.argv[0]).name}: error: {words[0]}: {result.stderr.strip()}")
+        sys.exit(f"{Path(sys.argv[0]).name}: error: {result.stderr.strip()}")
     return result.stdout
 
 
