@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "common/h5/whole_file.hpp"
-#include "common/linalg/condensed.hpp"
+#include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage1_plate/degree_range.hpp"
