@@ -14,7 +14,7 @@ void add_rim(const ElementKind::RimSide& rim, const std::vector<int>& row, Eigen
   const auto n_modes = static_cast<Eigen::Index>(row.size()) / 2;
   const auto n = static_cast<Eigen::Index>(terms.modes.size());
   const auto n_discs = terms.coupling.cols();
-  const auto disc = first_border + rim.hole * 3 * n_discs;
+  const auto disc = first_border + 3 * n_discs * rim.hole;
   const auto row_of = [&](Eigen::Index i) {
     return row[static_cast<std::size_t>((i < n ? 0 : n_modes) + terms.modes[static_cast<std::size_t>(i % n)])];
   };

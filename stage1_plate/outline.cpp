@@ -20,8 +20,8 @@ std::vector<int> on_outline_of(const PlateProblem& problem, int element) {
   const auto& kind =
       problem.elements.kinds[static_cast<std::size_t>(problem.elements.kind[static_cast<std::size_t>(element)])];
   const auto& numbering = problem.numbering;
-  std::vector<int> list;
-  for (int v = 0; v < 4; ++v) list.push_back(numbering.function(v, element));
+  std::vector<int> list = {numbering.function(0, element), numbering.function(1, element),
+                           numbering.function(2, element), numbering.function(3, element)};
   for (int edge = 0; edge < pfem::n_local_edges && numbering.p > 1; ++edge)
     if (const int mode = pfem::edge_mode(numbering.p, edge, 2); kind.kept[static_cast<std::size_t>(mode)])
       list.push_back(numbering.function(mode, element));
@@ -56,6 +56,7 @@ std::vector<int> border_of(const PlateProblem& problem, int element) {
 Outline::Outline(const PlateProblem& problem) : problem_(problem) {
   std::vector<Blocks> cliques;
   const auto n_elements = static_cast<int>(problem.elements.kind.size());
+  cliques.reserve(problem.elements.kind.size());
   for (int element = 0; element < n_elements; ++element) cliques.push_back(on_outline_of(problem, element));
   order(cliques);
   const int first_border = static_cast<int>(function_.size());

@@ -14,7 +14,7 @@ namespace {
 /// Adds an element's matrix to a lower triangle whose pattern has room for it.
 class OutlineAssembler {
  public:
-  explicit OutlineAssembler(Eigen::SparseMatrix<double> pattern) : A_(std::move(pattern)) {}
+  explicit OutlineAssembler(Eigen::SparseMatrix<double>& A) : A_(A) {}
 
   /// @param rows Of C's rows in the pattern, -1 to leave out; several may be one. @param C Its lower triangle counts.
   void add(const std::vector<int>& rows, const Eigen::VectorXd& sign, double scale,
@@ -39,10 +39,9 @@ class OutlineAssembler {
     }
   }
   void add(int i, int j, double value) { A_.coeffRef(std::max(i, j), std::min(i, j)) += value; }
-  Eigen::SparseMatrix<double> take() { return std::move(A_); }
 
  private:
-  Eigen::SparseMatrix<double> A_;
+  Eigen::SparseMatrix<double>& A_;
   std::vector<int> order_;
 };
 
@@ -68,7 +67,8 @@ const CondensedElement& PlateFactor::condensed(int element) const {
 }
 
 Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outline) const {
-  OutlineAssembler assembler(outline.pattern(rows_));
+  Eigen::SparseMatrix<double> A = outline.pattern(rows_);
+  OutlineAssembler assembler(A);
   const auto& numbering = problem_.numbering;
   const auto n_modes = numbering.function.rows();
   for (Eigen::Index element = 0; element < numbering.function.cols(); ++element) {
@@ -77,7 +77,7 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
     Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
     for (const int coefficient : K.outside) {
       sign[static_cast<Eigen::Index>(rows.size())] = numbering.sign(coefficient % n_modes, element);
-      const auto place = 2 * numbering.function(coefficient % n_modes, element) + coefficient / n_modes;
+      const auto place = Eigen::Index{2} * numbering.function(coefficient % n_modes, element) + coefficient / n_modes;
       rows.push_back(rows_.of_target(problem_.unknowns.target[static_cast<std::size_t>(place)]));
     }
     for (const int column : border_of(problem_, static_cast<int>(element))) rows.push_back(rows_.n_outline + column);
@@ -97,7 +97,7 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
   for (int i = 0; i < rows_.n_border; ++i)
     assembler.add(rows_.n_outline + i, rows_.n_outline + i,
                   i < s.size() ? s[i] : (L > 0 ? L * L : 1) / least_stiffness);
-  return assembler.take();
+  return A;
 }
 
 Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(problem_.K_cc.cols()); }
@@ -112,6 +112,7 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
       if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
         outline.row(row) = B.row(i).segment(first, k);
     std::vector<ElementSolution> elements;
+    elements.reserve(problem_.elements.kind.size());
     for (int element = 0; element < static_cast<int>(problem_.elements.kind.size()); ++element)
       elements.emplace_back(problem_, element, condensed(element), rows_);
     linalg::for_each_index(elements.size(), [&](std::size_t i) { elements[i].eliminate(B.middleCols(first, k)); });

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/linalg/threads.hpp"
 
-#include <omp.h>
-
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -10,7 +8,11 @@
 #include <thread>
 #include <vector>
 
-extern "C" void openblas_set_num_threads(int);  // Debian keeps its header outside the usual path
+extern "C" {  // of OpenBLAS, whose header Debian keeps outside the usual path, and of the OpenMP that CHOLMOD is built
+              // with
+void openblas_set_num_threads(int);
+void omp_set_max_active_levels(int);
+}
 
 namespace fastjoint::linalg {
 namespace {

@@ -40,7 +40,7 @@ int geometric_degree(const ElementMap& map) {
     }
   Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);  // of all coefficients of a degree
   for (int k = 0; k < 3; ++k) {
-    const Eigen::MatrixXd C = (P * values.middleCols(k * n, n) * P.transpose()).cwiseAbs();
+    const Eigen::MatrixXd C = (P * values.middleCols(Eigen::Index{k} * n, n) * P.transpose()).cwiseAbs();
     for (int degree = 0; degree < n; ++degree)
       largest[degree] = std::max(
           {largest[degree], C.row(degree).head(degree + 1).maxCoeff(), C.col(degree).head(degree + 1).maxCoeff()});
