@@ -7,23 +7,7 @@
 #include "common/pfem/strain.hpp"
 
 namespace fastjoint::stage2 {
-namespace {
-
 using Eigen::Index;
-
-/// The amounts of those cases that the fields have.
-Eigen::VectorXd solved_amounts(const UnitFields& fields, const Eigen::VectorXd& amounts) {
-  if (fields.n_cases() == amounts.size()) return amounts;
-  const auto nc = fields.plate().K_cc.cols();
-  const auto q = static_cast<Index>(fields.plate().traction_id.size());
-  assert(fields.n_cases() == nc + q && amounts.size() >= nc + q);
-  assert(amounts.segment(nc, amounts.size() - nc - q).isZero(0));
-  Eigen::VectorXd result(nc + q);
-  result << amounts.head(nc), amounts.tail(q);
-  return result;
-}
-
-}  // namespace
 
 Eigen::Matrix2Xd lagrange_nodes(int p) {
   const Eigen::VectorXd inner = Eigen::VectorXd::LinSpaced(p + 1, -1, 1).segment(1, p - 1);
@@ -43,7 +27,7 @@ Eigen::Matrix2Xd lagrange_nodes(int p) {
 
 Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts) {
   const auto& mesh = fields.plate().mesh;
-  const Eigen::VectorXd solved = solved_amounts(fields, amounts);
+  assert(amounts.size() == fields.n_cases());
   const Eigen::Matrix2Xd nodes = lagrange_nodes(p);
   const Eigen::VectorXd xi = nodes.row(0), eta = nodes.row(1);
   const Eigen::MatrixXd N = pfem::shape_values(fields.space(), fields.p(), xi, eta).N;
@@ -51,7 +35,7 @@ Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts)
   Field field{p, Eigen::Matrix2Xd(2, n_points), Eigen::Matrix2Xd(2, n_points), Eigen::Matrix3Xd(3, n_points)};
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const pfem::ElementMap map(mesh, fields.edges(), element);
-    const Eigen::VectorXd c = fields.coefficients(element) * solved;
+    const Eigen::VectorXd c = fields.coefficients(element) * amounts;
     const Eigen::VectorXd strain = pfem::strain_operator(map, fields.space(), fields.p(), xi, eta) * c;
     const Index first = element * n;
     for (Index i = 0; i < n; ++i) field.points.col(first + i) = map.point(xi[i], eta[i]);

@@ -32,8 +32,8 @@ std::string scene(pfem::Space space) {
 class Fields : public testing::TestWithParam<pfem::Space> {
  protected:
   static const formats::PlateSolution& plate() {
-    static const auto trunk = test::solve(test::make_plate(scene(pfem::Space::trunk)));
-    static const auto product = test::solve(test::make_plate(scene(pfem::Space::product)));
+    static const auto trunk = test::solve_all_fields(test::make_plate(scene(pfem::Space::trunk)));
+    static const auto product = test::solve_all_fields(test::make_plate(scene(pfem::Space::product)));
     return GetParam() == pfem::Space::trunk ? trunk : product;
   }
   static stage2::UnitFields at(int p) {
@@ -104,7 +104,7 @@ TEST_P(Fields, NodesOfArcsLieOnTheirCircles) {
 
 /// Straight elements under tension by a traction: the exact stress is constant, at every degree.
 TEST(FieldOfAStrip, ConstantStrainGivesConstantStress) {
-  const auto strip = test::solve(
+  const auto strip = test::solve_all_fields(
       test::make_plate(test::grid_scene({0, 1, 1.5}, {0, 0.7, 1}, {}, R"(, "supports": [{"on": "left", "fix": ["x"]},
     {"on": "bottom", "fix": ["y"]}], "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])")));
   stage2::UnitFields fields(strip, "strip.h5");
