@@ -27,23 +27,7 @@ VectorXd energies(const PlateDegrees& degrees, const VectorXd& u, const VectorXd
   return values;
 }
 
-/// w . S w of every row of w at every degree, (n, np).
-MatrixXd energies(const PlateDegrees& degrees, const MatrixXd& w) {
-  MatrixXd values(w.rows(), degrees.p.size());
-  for (Index i = 0; i < values.cols(); ++i)
-    values.col(i) = (w * degrees.S[static_cast<std::size_t>(i)]).cwiseProduct(w).rowwise().sum();
-  return values;
-}
-
 bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
-
-double last_fall(const VectorXd& values) { return std::abs(values[values.size() - 2] - values[values.size() - 1]); }
-
-/// How much more an energy has to fall than it fell last.
-double still_to_come(const VectorXd& energy, const Eigen::VectorXi& p) {
-  const double fall = last_fall(energy);
-  return fall > 0 ? pfem::extrapolated_error(energy, p) / fall : 1;
-}
 
 /// What a plate adds to the errors of all forces, (n).
 /// @param w (n, m + e) change of each force per force on each unknown.
@@ -57,16 +41,13 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& w, const PlateSta
   const auto load = [&](std::size_t i) -> VectorXd {
     return degrees.S[i] * u + degrees.T[i] * state.traction + degrees.R[i] * state.Lambda;
   };
+  const VectorXd energy = energies(degrees, u, state.traction);
+  const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
+  const double more = fall > 0 ? pfem::extrapolated_error(energy, degrees.p) / fall : 1;
+  const MatrixXd dS = degrees.S[n - 2] - degrees.S[n - 1];
   const VectorXd change = w * (load(n - 2) - load(n - 1));
-  const VectorXd of_u = energies(degrees, u, state.traction);
-  const MatrixXd of_w = energies(degrees, w);
-  VectorXd result(w.rows());
-  for (Index j = 0; j < w.rows(); ++j) {
-    const VectorXd energy = of_w.row(j).transpose();
-    const double more = std::sqrt(still_to_come(energy, degrees.p) * still_to_come(of_u, degrees.p));
-    result[j] = more * std::hypot(change[j], least * std::sqrt(last_fall(energy) * last_fall(of_u)));
-  }
-  return result;
+  const VectorXd fall_by_w = (w * dS).cwiseProduct(w).rowwise().sum().cwiseAbs();
+  return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
 }
 
 /// Of one increment, (n).

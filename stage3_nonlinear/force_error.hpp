@@ -15,10 +15,10 @@ namespace fastjoint::stage3 {
 ///
 /// To first order dF_j = -sum over plates of w . (dS u + dT f + dR Lambda): u displaces the plate, w is what a unit of
 /// load on its unknowns does to F_j (implicit_slopes). In the energy product that is the product of the errors of two
-/// fields. Its last change by p is extrapolated as the energies of the two fields are, which fall with p, u . S u +
-/// 2 u . T f - f . C f and w . S w (pfem::extrapolated_error); a quarter of its bound, the root of the product of theirs, is
-/// added at right angles, since the change may pass through zero. Rigid motions, which have no error, drop out. Nothing
-/// cancels between plates.
+/// fields. Its last change by p is extrapolated as the energy of the first is, u . S u + 2 u . T f - f . C f, which
+/// falls with p (pfem::extrapolated_error); a quarter of its bound, the root of the product of what the energies last
+/// fell by, is added at right angles, since the change may pass through zero. Rigid motions, which have no error, drop
+/// out. Nothing cancels between plates.
 ///
 /// Of matrices of one degree, as from a laboratory, the file's own S_error counts, all entries against us. Infinite
 /// are errors of forces at a limit point.
