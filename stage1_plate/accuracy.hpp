@@ -23,7 +23,7 @@ struct Accuracy {
 /// The order follows what models cost at about equal error, here 1e-5, in ms with the fields for stresses, of panels of
 /// 3 x 3 and 10 x 10 holes: product space, one ring, p = 4: 11 and 1100; two rings, p = 4: 18 and 1600; none, p = 7: 26
 /// and 2100; trunk space, one ring, p = 5: 15 and 1060, p = 6: 23 and 1650. To 1e-9 and below, one ring is still as
-/// good as two. Where holes do not limit the error a ring costs up to half as much again.
+/// good as two. Where holes do not limit the error a ring may double the cost.
 ///
 /// Throws InputError for a scene whose springs push but do not pull (their arcs are found at the highest degree, and
 /// depend on it), of one degree only, or with nothing that S is of.

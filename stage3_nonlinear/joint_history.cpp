@@ -115,7 +115,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       "second";
   text += component_names(joint);
   for (const char* end : {"first", "second"}) text += rim_csv_names(end);
-  text += ",event\n";
+  text += ",F_error,event\n";
   for (Index i = 0; i < a.F.rows(); ++i) {
     const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {
@@ -127,7 +127,8 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       text += component_fields(joint, a, i, j);
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
         text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
-      text += fmt::format(",{}\n", field(a.event[static_cast<std::size_t>(i)]));
+      text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "",
+                          field(a.event[static_cast<std::size_t>(i)]));
     }
   }
   return text;

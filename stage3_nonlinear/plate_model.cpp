@@ -6,6 +6,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cassert>
+#include <limits>
+#include <map>
 #include <set>
 
 #include "common/errors.hpp"
@@ -83,19 +85,9 @@ void check_not_negative(const std::string& file, const MatrixXd& S) {
 }
 
 /// Over the largest entry; unknown if the file has no estimate or p is not its highest degree.
-std::optional<double> relative_error(const formats::PlateMatrices& a, std::size_t level, const MatrixXd& S) {
-  if (a.p[static_cast<Eigen::Index>(level)] != a.p.maxCoeff()) return std::nullopt;
-  double error = 0;
-  for (const MatrixXd* E : {&a.S_dd_error, &a.S_ed_error, &a.S_ee_error})
-    if (E->size() > 0) error = std::max(error, E->cwiseAbs().maxCoeff());
-  if (!std::isfinite(error)) return std::nullopt;
-  return error / S.cwiseAbs().maxCoeff();
-}
-
-std::size_t level_of(const formats::PlateMatrices& a, int p) {
-  for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    if (a.p[i] == p) return static_cast<std::size_t>(i);
-  throw std::logic_error("make_plate: degree not in the file");
+std::optional<double> relative_error(const MatrixXd& error, const MatrixXd& S) {
+  if (!error.allFinite()) return std::nullopt;
+  return error.cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
 }
 
 MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
@@ -104,16 +96,47 @@ MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
   return A;
 }
 
+/// S or its error.
+MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
+  MatrixXd A(dd.rows() + ee.rows(), dd.rows() + ee.rows());
+  A << dd, ed.transpose(), ed, ee;
+  return A;
+}
+
+PlateDegrees degrees_up_to(const formats::PlateMatrices& a, int p) {
+  constexpr std::size_t most = 4;  // no estimate looks further back
+  std::map<int, std::size_t> levels;
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    if (a.p[i] <= p) levels.emplace(a.p[i], static_cast<std::size_t>(i));
+  while (levels.size() > most) levels.erase(levels.begin());
+  PlateDegrees degrees;
+  degrees.p.resize(std::ssize(levels));
+  for (const auto& [degree, level] : levels) {
+    degrees.p[std::ssize(degrees.S)] = degree;
+    degrees.S.push_back(joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]));
+    degrees.R.push_back(stacked(a.R_df[level], a.R_ef[level]));
+    degrees.T.push_back(stacked(a.T_d[level], a.T_e[level]));
+    degrees.C.push_back(a.C_t[level]);
+  }
+  return degrees;
+}
+
+MatrixXd error_of(const formats::PlateMatrices& a, int p) {
+  const MatrixXd error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
+  return p == a.p.maxCoeff() ? error
+                             : MatrixXd::Constant(error.rows(), error.cols(), std::numeric_limits<double>::infinity());
+}
+
+std::size_t level_of(const formats::PlateMatrices& a, int p) {
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    if (a.p[i] == p) return static_cast<std::size_t>(i);
+  throw std::logic_error("make_plate: degree not in the file");
+}
+
 MatrixXd stiffness(const std::string& file, const formats::PlateMatrices& a, std::size_t level) {
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
-  const auto m = a.n_discs();
-  const auto e = a.n_externals();
-  MatrixXd S(m + e, m + e);
-  S.topLeftCorner(m, m) = a.S_dd[level];
-  S.topRightCorner(m, e) = a.S_ed[level].transpose();
-  S.bottomLeftCorner(e, m) = a.S_ed[level];
-  S.bottomRightCorner(e, e) = a.S_ee[level];
+  MatrixXd S = joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]);
   check_not_negative(file, S);
   return S;
 }
@@ -146,7 +169,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   plate.friction_resultant = a.friction_resultant;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
-  plate.relative_error = relative_error(a, level, plate.S);
+  plate.degrees = degrees_up_to(a, p);
+  plate.S_error = error_of(a, p);
+  plate.relative_error = relative_error(plate.S_error, plate.S);
   plate.stresses = a.stresses;
   const auto& levels = a.stresses.p;
   if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())

@@ -14,6 +14,13 @@ namespace fastjoint::stage3 {
 /// Names of the axes.
 inline constexpr std::array axis_names{"x", "y"};
 
+/// The matrices of a plate at the last of its degrees up to that of the joint, rising; S, R, T as PlateModel has them.
+struct PlateDegrees {
+  Eigen::VectorXi p;
+  std::vector<Eigen::MatrixXd> S, R, T;
+  std::vector<Eigen::MatrixXd> C;  ///< (q, q) C_t, length / force
+};
+
 /// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, as unknowns of one list.
 ///
 /// Forces that must act on it from outside: S u + R Lambda + T f (theory.md sections 3 to 5).
@@ -28,6 +35,8 @@ struct PlateModel {
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   Eigen::VectorXd friction_unit_force, friction_resultant;   ///< (h), length^2
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
+  PlateDegrees degrees;                                      ///< whose sequence shows the error of S
+  Eigen::MatrixXd S_error;  ///< (m+e, m+e) the file's; infinite where it does not know it or p is not its highest
   /// Estimated error of S over its largest entry, where the file knows it.
   std::optional<double> relative_error;
   formats::PlateStresses stresses;          ///< as the file has them

@@ -11,6 +11,7 @@
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage3_nonlinear/event_path.hpp"
+#include "stage3_nonlinear/force_error.hpp"
 #include "stage3_nonlinear/joint_history.hpp"
 #include "stage3_nonlinear/report.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
@@ -70,11 +71,12 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   warn(log, friction_off_axes(joint, states));
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};
+  result.F_error = force_errors(joint, equations, path, states);
   if (options.sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);
   timings.phase("write");
   formats::write(options.output, result);
   if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
-  if (!options.quiet) out << summary(scene, joint, path, states);
+  if (!options.quiet) out << summary(scene, joint, path, states, result.F_error);
   if (path.failure)
     throw IncompleteResult(failure_message(scene, joint, *path.failure, path.n_increments, options.output));
 }

@@ -117,6 +117,24 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
          fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force\n", state.out_of_balance);
 }
 
+/// The largest force of all increments with its error bar.
+std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen::MatrixXd& F_error) {
+  Index step = 0, plane = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const Eigen::VectorXd F = amounts(path.steps[i].F, joint.n_directions());
+    Index at = 0;
+    if (const double here = F.cwiseAbs().maxCoeff(&at); here > std::abs(largest)) {
+      largest = F[at];
+      step = static_cast<Index>(i);
+      plane = at;
+    }
+  }
+  return fmt::format("largest F = {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
+                     largest, F_error(step, plane), formats::unit(joint.units, 0, 1),
+                     joint.name(joint.planes[static_cast<std::size_t>(plane)]), step + 1);
+}
+
 std::string stress_table(const JointModel& joint, const JointState& state) {
   std::string text;
   for (const auto& plate : joint.plates)
@@ -130,7 +148,7 @@ std::string stress_table(const JointModel& joint, const JointState& state) {
 }  // namespace
 
 std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                    const std::vector<JointState>& states) {
+                    const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error) {
   const std::size_t width = name_width(joint);
   std::string text = title(scene, joint, path);
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -140,6 +158,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }
+  if (!states.empty() && F_error) text += error_bar(joint, path, *F_error);
   if (!states.empty()) text += stress_table(joint, states.back());
   return text;
 }

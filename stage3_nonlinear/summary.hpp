@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,8 +12,9 @@ namespace fastjoint::stage3 {
 
 /// The summary on stdout: per increment the fasteners, the plates and how well all of it balances.
 ///
-/// @param states One per step of the path.
+/// @param states  One per step of the path.
+/// @param F_error (steps, n) of the forces, where it is known.
 [[nodiscard]] std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                                  const std::vector<JointState>& states);
+                                  const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error);
 
 }  // namespace fastjoint::stage3

@@ -6,7 +6,7 @@ namespace {
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 2;
+constexpr int minor = 3;
 
 /// (steps, n a) as (steps, n, a).
 std::vector<Eigen::MatrixXd> unfolded(const Eigen::MatrixXd& table, Eigen::Index a) {
@@ -179,6 +179,7 @@ void write(const std::string& path, const JointResult& a) {
   file.write("direction", a.direction, {"1", "directions of the discs"});
   file.write("delta", a.delta, {unit(units, 1, 0), "displacement of the first plate's disc relative to the second's"});
   file.write("F", a.F, {force, "bearing force, argument of the fastener's law"});
+  if (a.F_error) file.write("F_error", *a.F_error, {force, "estimated error of F by those of the plates' matrices"});
   const auto n_directions = static_cast<Eigen::Index>(a.direction.size());
   file.write("delta_vector", unfolded(a.delta_vector, n_directions), a.F.cols(), n_directions,
              {unit(units, 1, 0), "components of delta"});
@@ -217,6 +218,7 @@ JointResult read_joint_result(const std::string& path) {
   a.F_vector = folded(file.stack("F_vector", steps, n, directions, unit(units, 0, 1)), n * directions);
   a.delta = file.matrix("delta", steps, n, unit(units, 1, 0));
   a.F = file.matrix("F", steps, n, unit(units, 0, 1));
+  if (file.has("F_error")) a.F_error = file.matrix("F_error", steps, n, unit(units, 0, 1), h5::Infinite::allowed);
   a.transferred_first.resize(steps, n);
   a.transferred_second.resize(steps, n);
   Eigen::Index step = 0;

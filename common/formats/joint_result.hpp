@@ -71,6 +71,7 @@ struct JointResult {
   std::vector<std::string> direction;                     ///< (a) of the joint's discs: "x", "y"
   Eigen::MatrixXd delta;                                  ///< (steps, n) relative displacement of the discs, length
   Eigen::MatrixXd F;                                      ///< (steps, n) bearing force, argument of the law
+  std::optional<Eigen::MatrixXd> F_error;                 ///< (steps, n) estimated, if the plates' errors are known
   Eigen::MatrixXd delta_vector, F_vector;                 ///< (steps, n a) their components, directions inner
   Eigen::MatrixXd transferred_first, transferred_second;  ///< (steps, n) F + friction resultant on each plate
   std::vector<PlateHistory> plates;

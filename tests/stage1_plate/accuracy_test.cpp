@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/support/message.hpp"
-#include "tests/support/plates.hpp"
+#include "tests/support/random_sheets.hpp"
 
 namespace fastjoint {
 namespace {
@@ -46,6 +46,21 @@ TEST(Accuracy, IsReachedByTheLeastDegree) {
     ASSERT_GT(--lower.p_high, 1);
     EXPECT_FALSE(stage1::meet_accuracy(lower, asked).is_reached());
   }
+}
+
+TEST(Accuracy, IsTrueOfRandomSheets) {
+  constexpr double asked = 1e-4;
+  int reached = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto sheet = test::random_sheet(seed);
+    const auto chosen = stage1::meet_accuracy(scene(without_rings(sheet.json(0, ""))), asked);
+    const std::string top = R"(, "space": "product", "p": [8, 8])";
+    const auto exact = last_stiffness(test::make_plate(test::graded(sheet, 2).json(3, top)));
+    const double error = (last_stiffness(plate_of(chosen.scene)) - exact).norm() / exact.norm();
+    EXPECT_LE(error, 1.5 * chosen.error) << seed;
+    if (chosen.is_reached()) ++reached;
+  }
+  EXPECT_GT(reached, 15);
 }
 
 /// What the program says is what stage 2 says.
