@@ -31,4 +31,8 @@ void set_degrees(PlateScene& scene, const std::string& option) {
   scene.p_high = high;
 }
 
+Eigen::VectorXi degrees(const PlateScene& scene) {
+  return Eigen::VectorXi::LinSpaced(scene.p_high - scene.p_low + 1, scene.p_low, scene.p_high);
+}
+
 }  // namespace fastjoint::stage1

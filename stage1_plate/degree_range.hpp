@@ -11,4 +11,7 @@ namespace fastjoint::stage1 {
 /// Throws InputError for anything else or outside 1..8.
 void set_degrees(PlateScene& scene, const std::string& option);
 
+/// Those that the scene is solved at, ascending.
+[[nodiscard]] Eigen::VectorXi degrees(const PlateScene& scene);
+
 }  // namespace fastjoint::stage1

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "stage1_plate/named_edges.hpp"
 
@@ -94,8 +93,6 @@ PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
   PlateMesh plate;
   plate.mesh = to_mesh(geometry);
   plate.edges = pfem::find_edges(plate.mesh);
-  plate.cell_start.resize(static_cast<std::size_t>(plate.mesh.n_elements()) + 1);
-  std::iota(plate.cell_start.begin(), plate.cell_start.end(), 0);
   check_nodes(scene, plate.mesh);
   check_arcs(scene, plate.mesh, plate.edges);
   check_shared_edges(scene, plate.edges);

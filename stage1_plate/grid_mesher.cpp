@@ -238,13 +238,11 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
   const CellLines lines(scene, grid, holes);
   Builder builder;
   std::vector<CellElements> with_hole;
-  std::vector<int> cell_start;
   for (int row = 0; row < grid.thickness.rows(); ++row)
     for (int column = 0; column < grid.thickness.cols(); ++column) {
       const Cell cell = cell_at(grid, column, row);
       const auto hole = std::find_if(holes.begin(), holes.end(),
                                      [&](const HoleCell& h) { return h.column == column && h.row == row; });
-      cell_start.push_back(builder.n_elements());
       if (hole == holes.end()) {
         mesh_plain_cell(builder, lines, cell);
       } else {
@@ -255,8 +253,6 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
     }
   PlateMesh plate;
   plate.mesh = builder.mesh();
-  plate.cell_start = std::move(cell_start);
-  plate.cell_start.push_back(plate.mesh.n_elements());
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);

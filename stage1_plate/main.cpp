@@ -5,16 +5,12 @@
 #include <iostream>
 #include <optional>
 
-#include "common/errors.hpp"
-#include "common/formats/plate_solution.hpp"
-#include "common/linalg/condensed.hpp"
+#include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage1_plate/accuracy.hpp"
-#include "stage1_plate/contact_summary.hpp"
 #include "stage1_plate/degree_range.hpp"
-#include "stage1_plate/holding.hpp"
-#include "stage1_plate/solve.hpp"
+#include "stage1_plate/solved_plate.hpp"
 
 namespace {
 
@@ -30,7 +26,7 @@ const program::Command command = {
      {"--accuracy", "A",
       "relative error of S (Frobenius norm) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the input leaves "
       "open and the least degree within --p that do, and says so; warns where nothing does"},
-     {"--threads", "N", "threads of the dense kernels; default: 1"},
+     {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
 /// Section 3 of the paper: what line springs and links do converges slowly or not at all.
@@ -69,37 +65,14 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   if (arguments.flag("--accuracy")) timings.phase("search");
   const auto accuracy = meet_accuracy(scene, arguments);
   if (accuracy) scene = accuracy->scene;
-  timings.phase("mesh");
-  const auto plate = stage1::make_mesh(scene);
   warn(scene);
-  timings.phase("integrate");
-  auto problem = stage1::assemble(scene, plate);
-  stage1::check_held(scene, plate, problem.unknowns);
-  std::optional<stage1::ContactState> contact;
-  if (scene.loads) {
-    timings.phase("factorise");
-    contact = stage1::find_contact(scene, plate, problem);
-    timings.phase("integrate");
-    scene = stage1::with_arcs(std::move(scene), *contact);
-    problem = stage1::assemble(scene, plate);
-    stage1::check_held(scene, plate, problem.unknowns);
-  }
   const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
-  auto solution = stage1::to_solution(scene, plate, problem, program::generator(command.name), wanted);
-  if (contact) stage1::add_contact(*contact, solution);
-  timings.phase("factorise");
-  stage1::solve_cases(problem, solution);
+  const auto plate = stage1::solve_plate(std::move(scene), wanted, program::generator(command.name), timings);
   timings.phase("write");
-  formats::write(arguments.output, solution);
-  for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
+  formats::write(arguments.output, plate.solution);
   if (arguments.quiet) return;
-  std::cout << fmt::format("{}: {} elements, {} nodes, {} discs, {} rigid externals, {} tractions\n", arguments.output,
-                           plate.mesh.n_elements(), plate.mesh.n_nodes(), problem.unknowns.n_discs(),
-                           problem.unknowns.n_externals(), problem.unknowns.traction.size());
-  for (Eigen::Index i = 0; i < solution.p.size(); ++i)
-    std::cout << fmt::format("  p = {}: {} unknowns\n", solution.p[i], solution.ndof[i]);
+  std::cout << stage1::summary(plate, arguments.output);
   if (accuracy) std::cout << "  " << stage1::to_text(*accuracy) << "\n";
-  if (contact) std::cout << stage1::contact_summary(scene, *contact);
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "stage1_plate/outline.hpp"
 
 #include <algorithm>
+#include <iterator>
 
 #include "common/linalg/cholesky.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -13,37 +15,37 @@ void sort_unique(std::vector<int>& list) {
   list.erase(std::unique(list.begin(), list.end()), list.end());
 }
 
-/// First functions of the vertices and edges on the outline of a cell.
-std::vector<int> on_outline_of(const PlateProblem& problem, const Cell& cell) {
-  const auto& shape = problem.cells.shapes[static_cast<std::size_t>(cell.shape)];
-  const auto n = static_cast<std::size_t>(
-      shape.numbering.n_functions[std::min<std::size_t>(2, shape.numbering.n_functions.size() - 1)]);
-  std::vector<int> list;
-  for (std::size_t f = 0; f < n; ++f)
-    if (shape.kept[f]) list.push_back(cell.function[f]);
+/// First functions of the vertices and edges on the outline of an element.
+std::vector<int> on_outline_of(const PlateProblem& problem, int element) {
+  const auto& kind =
+      problem.elements.kinds[static_cast<std::size_t>(problem.elements.kind[static_cast<std::size_t>(element)])];
+  const auto& numbering = problem.numbering;
+  std::vector<int> list = {numbering.function(0, element), numbering.function(1, element),
+                           numbering.function(2, element), numbering.function(3, element)};
+  for (int edge = 0; edge < pfem::n_local_edges && numbering.p > 1; ++edge)
+    if (const int mode = pfem::edge_mode(numbering.p, edge, 2); kind.kept[static_cast<std::size_t>(mode)])
+      list.push_back(numbering.function(mode, element));
   return list;
 }
 
-/// Controlled displacements and, behind them, friction cases that act on a cell.
-std::vector<int> border_of(const PlateProblem& problem, const Cell& cell, const std::vector<int>& on_outline) {
-  const Unknowns& unknowns = problem.unknowns;
-  std::vector<int> list;
+/// Columns of the border that share a row with functions of an outline, because an external moves them, or that act on
+/// the element.
+std::vector<int> border_beside(const PlateProblem& problem, int element, const std::vector<int>& on_outline) {
+  std::vector<int> list = border_of(problem, element);
   for (const int function : on_outline)
     for (int component = 0; component < 2; ++component)
-      if (const int to = unknowns.target[static_cast<std::size_t>(2 * function + component)];
+      if (const int to = problem.unknowns.target[static_cast<std::size_t>(2 * function + component)];
           Unknowns::is_controlled(to))
         list.push_back(Unknowns::controlled_index(to));
-  const auto border = cell_border(problem, cell);
-  list.insert(list.end(), border.begin(), border.end());
   return list;
 }
 
 }  // namespace
 
-std::vector<int> cell_border(const PlateProblem& problem, const Cell& cell) {
+std::vector<int> border_of(const PlateProblem& problem, int element) {
   const Unknowns& unknowns = problem.unknowns;
   std::vector<int> list;
-  for (const int hole : cell.holes) {
+  for (const int hole : problem.elements.holes[static_cast<std::size_t>(element)]) {
     const int disc = unknowns.disc_of_hole[static_cast<std::size_t>(hole)];
     for (int a = 0; a < unknowns.n_directions; ++a) list.push_back(unknowns.controlled_of_disc(disc + a));
     for (int c = 0; c < 2 * unknowns.n_directions; ++c) list.push_back(unknowns.n_controlled + 2 * disc + c);
@@ -53,12 +55,15 @@ std::vector<int> cell_border(const PlateProblem& problem, const Cell& cell) {
 
 Outline::Outline(const PlateProblem& problem) : problem_(problem) {
   std::vector<Blocks> cliques;
-  for (const auto& cell : problem.cells.cells) cliques.push_back(on_outline_of(problem, cell));
+  const auto n_elements = static_cast<int>(problem.elements.kind.size());
+  cliques.reserve(problem.elements.kind.size());
+  for (int element = 0; element < n_elements; ++element) cliques.push_back(on_outline_of(problem, element));
   order(cliques);
   const int first_border = static_cast<int>(function_.size());
-  higher_.resize(function_.size() + static_cast<std::size_t>(problem.unknowns.n_controlled + problem.L_f.cols()));
+  higher_.resize(function_.size() + static_cast<std::size_t>(problem.unknowns.n_controlled) +
+                 problem.friction_hole.size());
   for (std::size_t i = 0; i < cliques.size(); ++i) {
-    const auto border = border_of(problem, problem.cells.cells[i], cliques[i]);
+    const auto border = border_beside(problem, static_cast<int>(i), cliques[i]);
     for (int& block : cliques[i]) block = position_[static_cast<std::size_t>(block)];
     for (const int column : border) cliques[i].push_back(first_border + column);
     join(cliques[i]);
@@ -132,6 +137,31 @@ Outline::Rows Outline::rows(int p) const {
   rows.n_border = static_cast<int>(higher_.size() - function_.size());
   for (int i = 0; i <= rows.n_border; ++i) rows.first.push_back(n + i);
   return rows;
+}
+
+/// Symbolic elimination by blocks: a block hands what it is joined to on to the first of these.
+Outline::Size Outline::size(const Rows& rows) const {
+  std::vector<Blocks> joined = higher_;
+  Size size{0, 0, 0};
+  const auto n_rows = [&](std::size_t block) { return static_cast<double>(rows.first[block + 1] - rows.first[block]); };
+  const auto n_rows_of = [&](const Blocks& blocks) {
+    double n = 0;
+    for (const int block : blocks) n += n_rows(static_cast<std::size_t>(block));
+    return n;
+  };
+  for (std::size_t a = 0; a < joined.size(); ++a) {
+    const double own = n_rows(a), below = n_rows_of(joined[a]);
+    size.entries += own * (own + 1) / 2 + own * n_rows_of(higher_[a]);
+    size.factor += own * own + own * below;
+    size.largest_front = std::max(size.largest_front, below * below);
+    if (joined[a].empty()) continue;
+    Blocks& parent = joined[static_cast<std::size_t>(joined[a].front())];
+    Blocks both;
+    std::set_union(parent.begin(), parent.end(), joined[a].begin() + 1, joined[a].end(), std::back_inserter(both));
+    parent = std::move(both);
+    Blocks().swap(joined[a]);
+  }
+  return size;
 }
 
 Eigen::SparseMatrix<double> Outline::pattern(const Rows& rows) const {

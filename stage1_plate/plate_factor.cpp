@@ -5,15 +5,16 @@
 #include <cmath>
 #include <numeric>
 
-#include "stage1_plate/cell_solution.hpp"
+#include "common/linalg/threads.hpp"
+#include "stage1_plate/element_solution.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
 
-/// Adds a cell's matrix to a lower triangle whose pattern has room for it.
+/// Adds an element's matrix to a lower triangle whose pattern has room for it.
 class OutlineAssembler {
  public:
-  explicit OutlineAssembler(Eigen::SparseMatrix<double> pattern) : A_(std::move(pattern)) {}
+  explicit OutlineAssembler(Eigen::SparseMatrix<double>& A) : A_(A) {}
 
   /// @param rows Of C's rows in the pattern, -1 to leave out; several may be one. @param C Its lower triangle counts.
   void add(const std::vector<int>& rows, const Eigen::VectorXd& sign, double scale,
@@ -38,10 +39,9 @@ class OutlineAssembler {
     }
   }
   void add(int i, int j, double value) { A_.coeffRef(std::max(i, j), std::min(i, j)) += value; }
-  Eigen::SparseMatrix<double> take() { return std::move(A_); }
 
  private:
-  Eigen::SparseMatrix<double> A_;
+  Eigen::SparseMatrix<double>& A_;
   std::vector<int> order_;
 };
 
@@ -54,34 +54,34 @@ Eigen::VectorXd shift(const PlateProblem& problem) {
 }
 
 PlateFactor::PlateFactor(const PlateProblem& problem, const Outline& outline, int p)
-    : problem_(problem), p_(p), modes_(modes_up_to(p, problem.numbering)), rows_(outline.rows(p)) {
-  for (const auto& K : problem.cells.element_stiffness) elements_.push_back(condense_element(K, modes_));
-  for (const auto& shape : problem.cells.shapes) cells_.push_back(condense_cell(shape, elements_, modes_, p));
+    : problem_(problem), kinds_(problem.elements.kinds.size()), rows_(outline.rows(p)) {
+  linalg::for_each_index(kinds_.size(), [&](std::size_t i) {
+    const ElementKind& kind = problem.elements.kinds[i];
+    kinds_[i] = condense(kind, problem.elements.stiffness[static_cast<std::size_t>(kind.shape)], problem.numbering, p);
+  });
   factor_ = std::make_unique<linalg::Cholesky>(outline_stiffness(outline), rows_.n_border);
 }
 
-std::vector<int> PlateFactor::border_rows(const Cell& cell) const {
-  std::vector<int> rows = cell_border(problem_, cell);
-  for (int& row : rows) row += rows_.n_outline;
-  return rows;
+const CondensedElement& PlateFactor::condensed(int element) const {
+  return kinds_[static_cast<std::size_t>(problem_.elements.kind[static_cast<std::size_t>(element)])];
 }
 
 Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outline) const {
-  OutlineAssembler assembler(outline.pattern(rows_));
-  for (const auto& cell : problem_.cells.cells) {
-    const CondensedCell& condensed = cells_[static_cast<std::size_t>(cell.shape)];
-    const auto n = static_cast<Eigen::Index>(condensed.outside.size());
+  Eigen::SparseMatrix<double> A = outline.pattern(rows_);
+  OutlineAssembler assembler(A);
+  const auto& numbering = problem_.numbering;
+  const auto n_modes = numbering.function.rows();
+  for (Eigen::Index element = 0; element < numbering.function.cols(); ++element) {
+    const CondensedElement& K = condensed(static_cast<int>(element));
     std::vector<int> rows;
-    Eigen::VectorXd sign = Eigen::VectorXd::Ones(n + condensed.n_border);
-    for (const int coefficient : condensed.outside) {
-      const auto function = static_cast<std::size_t>(coefficient / 2);
-      sign[static_cast<Eigen::Index>(rows.size())] = cell.sign[coefficient / 2];
-      rows.push_back(rows_.of_target(
-          problem_.unknowns.target[static_cast<std::size_t>(2 * cell.function[function] + coefficient % 2)]));
+    Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
+    for (const int coefficient : K.outside) {
+      sign[static_cast<Eigen::Index>(rows.size())] = numbering.sign(coefficient % n_modes, element);
+      const auto place = Eigen::Index{2} * numbering.function(coefficient % n_modes, element) + coefficient / n_modes;
+      rows.push_back(rows_.of_target(problem_.unknowns.target[static_cast<std::size_t>(place)]));
     }
-    const auto border = border_rows(cell);
-    rows.insert(rows.end(), border.begin(), border.end());
-    assembler.add(rows, sign, cell.scale, condensed.matrix.outside());
+    for (const int column : border_of(problem_, static_cast<int>(element))) rows.push_back(rows_.n_outline + column);
+    assembler.add(rows, sign, problem_.elements.scale[element], K.matrix.outside());
   }
   for (const auto& tie : problem_.ties) {
     const int plate = rows_.of_target(tie.target), disc = rows_.n_outline + tie.controlled;
@@ -97,28 +97,32 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
   for (int i = 0; i < rows_.n_border; ++i)
     assembler.add(rows_.n_outline + i, rows_.n_outline + i,
                   i < s.size() ? s[i] : (L > 0 ? L * L : 1) / least_stiffness);
-  return assembler.take();
+  return A;
 }
 
 Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(problem_.K_cc.cols()); }
 
 Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
-  constexpr Eigen::Index block = 64;  // right-hand sides at a time: what a cell has of them fits into the cache
+  constexpr Eigen::Index block = 64;  // right-hand sides at a time: what an element has of them fits into the cache
   Eigen::MatrixXd X(B.rows(), B.cols());
   for (Eigen::Index first = 0; first < B.cols(); first += block) {
     const auto k = std::min(block, B.cols() - first);
-    std::vector<CellSolution> cells;
     Eigen::MatrixXd outline = Eigen::MatrixXd::Zero(rows_.n_outline, k);
     for (Eigen::Index i = 0; i < B.rows(); ++i)
       if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
         outline.row(row) = B.row(i).segment(first, k);
-    for (const auto& cell : problem_.cells.cells) {
-      const auto shape = static_cast<std::size_t>(cell.shape);
-      cells.emplace_back(problem_, cell, cells_[shape], elements_, modes_, rows_);
-      cells.back().eliminate(B.middleCols(first, k), outline);
-    }
+    std::vector<ElementSolution> elements;
+    elements.reserve(problem_.elements.kind.size());
+    for (int element = 0; element < static_cast<int>(problem_.elements.kind.size()); ++element)
+      elements.emplace_back(problem_, element, condensed(element), rows_);
+    linalg::for_each_index(elements.size(), [&](std::size_t i) { elements[i].eliminate(B.middleCols(first, k)); });
+    for (const auto& element : elements) element.add_to(outline);
     outline = factor_->solve(outline);
-    for (auto& cell : cells) cell.restore(outline, X.middleCols(first, k));
+    linalg::for_each_index(elements.size(),
+                           [&](std::size_t i) { elements[i].restore(outline, X.middleCols(first, k)); });
+    for (Eigen::Index i = 0; i < X.rows(); ++i)
+      if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
+        X.row(i).segment(first, k) = outline.row(row);
   }
   return X;
 }

@@ -6,14 +6,14 @@
 #include <vector>
 
 #include "common/linalg/cholesky.hpp"
-#include "stage1_plate/condensed_cell.hpp"
+#include "stage1_plate/condensed_element.hpp"
 #include "stage1_plate/outline.hpp"
 
 namespace fastjoint::stage1 {
 
-/// The plate's stiffness at one degree, factorised: elements are condensed onto their edges and cells onto their
-/// outlines, each shape once; what is left of all cells is one sparse system, bordered by the controlled displacements
-/// and the friction cases. The problem must outlive this.
+/// The plate's stiffness at one degree, factorised: elements are condensed onto their outlines, each kind once; what is
+/// left of all is one sparse system, bordered by the controlled displacements and the friction cases. The problem must
+/// outlive this.
 class PlateFactor {
  public:
   /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
@@ -27,14 +27,11 @@ class PlateFactor {
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
  private:
+  [[nodiscard]] const CondensedElement& condensed(int element) const;
   [[nodiscard]] Eigen::SparseMatrix<double> outline_stiffness(const Outline& outline) const;
-  [[nodiscard]] std::vector<int> border_rows(const Cell& cell) const;
 
   const PlateProblem& problem_;
-  int p_;
-  ElementModes modes_;
-  std::vector<linalg::Condensed> elements_;  ///< by element shape
-  std::vector<CondensedCell> cells_;         ///< by cell shape
+  std::vector<CondensedElement> kinds_;
   Outline::Rows rows_;
   std::unique_ptr<linalg::Cholesky> factor_;
 };

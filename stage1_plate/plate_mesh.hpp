@@ -17,11 +17,9 @@ struct PlateMesh {
   pfem::Mesh mesh;
   pfem::Edges edges;
   std::map<std::string, std::vector<pfem::Side>> sets;  ///< sides of elements by name
-  std::vector<int> cell_start;             ///< first element of each cell of the grid, and the end; a mesh of the
-                                           ///< user has one element in each
-  std::vector<pfem::Rim> rims;             ///< of each hole, in the scene's order
-  std::vector<int> point_nodes;            ///< vertex of each point spring
-  std::vector<formats::Section> sections;  ///< beside holes, in the order of the holes
+  std::vector<pfem::Rim> rims;                          ///< of each hole, in the scene's order
+  std::vector<int> point_nodes;                         ///< vertex of each point spring
+  std::vector<formats::Section> sections;               ///< beside holes, in the order of the holes
 };
 
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.

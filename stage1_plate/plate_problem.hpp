@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stage1_plate/cells.hpp"
+#include "stage1_plate/elements.hpp"
 #include "stage1_plate/line_springs.hpp"
 #include "stage1_plate/plate_mesh.hpp"
 #include "stage1_plate/unknowns.hpp"
@@ -13,11 +13,12 @@
 namespace fastjoint::stage1 {
 
 /// The discrete plate at the highest p: n_f free unknowns (by degree), nc controlled ones, h friction cases, q
-/// tractions. Its stiffness K_ff among the free unknowns is never assembled: it is there cell by cell (PlateFactor).
+/// tractions. Its stiffness K_ff among the free unknowns is never assembled: it is there element by element
+/// (PlateFactor).
 struct PlateProblem {
   pfem::Numbering numbering;
   Unknowns unknowns;
-  PlateCells cells;
+  PlateElements elements;
   std::vector<PointTie> ties;
   Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc), force / length
   Eigen::MatrixXd K_cc;              ///< (nc, nc)
@@ -28,8 +29,12 @@ struct PlateProblem {
   Eigen::MatrixXd T_c;              ///< (nc, q)
 };
 
-/// Integrates elements, springs and loads once, at the scene's highest p.
+/// The problem with its unknowns, elements and cases, at the scene's highest p, and nothing integrated.
+[[nodiscard]] PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate);
+/// Integrates elements, springs and loads, each shape once.
 /// Throws InputError for an arc that the rim of the model does not have.
+void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
+/// Both.
 [[nodiscard]] PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

@@ -8,11 +8,11 @@ namespace {
 
 /// visit(hole, element, terms, scale) for every side of a rim.
 template <class Visit>
-void for_each_rim_side(const PlateCells& cells, Visit visit) {
-  for (const auto& cell : cells.cells)
-    for (const auto& rim : cells.shapes[static_cast<std::size_t>(cell.shape)].rims)
-      visit(static_cast<std::size_t>(cell.holes[static_cast<std::size_t>(rim.hole)]), cell.first_element + rim.element,
-            rim.terms, cell.scale);
+void for_each_rim_side(const PlateElements& elements, Visit visit) {
+  for (std::size_t element = 0; element < elements.kind.size(); ++element)
+    for (const auto& rim : elements.kinds[static_cast<std::size_t>(elements.kind[element])].rims)
+      visit(static_cast<std::size_t>(elements.holes[element][static_cast<std::size_t>(rim.hole)]),
+            static_cast<int>(element), rim.terms, elements.scale[static_cast<Eigen::Index>(element)]);
 }
 
 ElementVector element_vector(const RimTerms& terms, const Eigen::VectorXd& coefficients) {
@@ -24,7 +24,7 @@ ElementVector element_vector(const RimTerms& terms, const Eigen::VectorXd& coeff
 void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler& assembler) {
   const Unknowns& unknowns = problem.unknowns;
   std::vector<double> stiffness(scene.holes.size(), 0);
-  for_each_rim_side(problem.cells, [&](std::size_t hole, int element, const RimTerms& terms, double scale) {
+  for_each_rim_side(problem.elements, [&](std::size_t hole, int element, const RimTerms& terms, double scale) {
     const int first = unknowns.controlled_of_disc(unknowns.disc_of_hole[hole]);
     stiffness[hole] += terms.stiffness;
     assembler.add_stiffness(element, terms.modes, terms.plate, scale);
@@ -43,17 +43,9 @@ void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler
   }
 }
 
-void add_friction_loads(const PlateScene& scene, PlateProblem& problem) {
-  for (const auto& hole : scene.holes) {
-    if (!hole.spring) continue;
-    for (const auto& direction : scene.disc_directions)
-      for (const char* sign : {"+", "-"}) {
-        problem.friction_hole.push_back(hole.id);
-        problem.friction_bearing.push_back(fmt::format("{}{}", sign, direction));
-      }
-  }
+void add_friction_loads(PlateProblem& problem) {
   LoadAssembler loads(problem.numbering, problem.unknowns, static_cast<int>(problem.friction_hole.size()));
-  for_each_rim_side(problem.cells, [&](std::size_t hole, int element, const RimTerms& terms, double scale) {
+  for_each_rim_side(problem.elements, [&](std::size_t hole, int element, const RimTerms& terms, double scale) {
     const int first = 2 * problem.unknowns.disc_of_hole[hole];  // discs of holes come before those of points
     for (int i = 0; i < terms.friction.cols(); ++i)
       loads.add(element, element_vector(terms, scale * terms.friction.col(i)), first + i);

@@ -13,8 +13,7 @@ namespace fastjoint::stage1 {
 void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler& assembler);
 
 /// Unit friction cases of every disc of a hole, direction inner, bearing side + then -: tangential traction cos(theta)
-/// on the bearing half of the rim, dragging the plate along the bearing direction. Sets friction_hole,
-/// friction_bearing, L_f, L_c.
-void add_friction_loads(const PlateScene& scene, PlateProblem& problem);
+/// on the bearing half of the rim, dragging the plate along the bearing direction. Sets L_f, L_c.
+void add_friction_loads(PlateProblem& problem);
 
 }  // namespace fastjoint::stage1

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "stage1_plate/degree_range.hpp"
 #include "stage1_plate/plate_factor.hpp"
 #include "stage1_plate/springs.hpp"
 
@@ -15,15 +16,13 @@ bool has_fields(const formats::PlateSolution& a, int p) {
 }
 
 formats::PlateCases solve_degree(const PlateProblem& problem, const PlateFactor& K, int n, bool with_fields) {
-  const auto nc = problem.K_fc.cols(), q = problem.T_f.cols(), h = problem.L_f.cols();
   const Eigen::MatrixXd E = K.energy_rows();
-  const auto n_u = with_fields ? nc : 0, n_w = with_fields ? h : 0;
-  Eigen::MatrixXd B(n, n_u + q + n_w);
-  if (with_fields) B.leftCols(nc) = -Eigen::MatrixXd(problem.K_fc.topRows(n));
-  B.middleCols(n_u, q) = Eigen::MatrixXd(problem.T_f.topRows(n));
-  if (with_fields) B.rightCols(h) = Eigen::MatrixXd(problem.L_f.topRows(n));
-  const Eigen::MatrixXd X = K.solve(B);
-  return {E.topRows(nc), E.bottomRows(h), X.leftCols(n_u), X.middleCols(n_u, q), X.rightCols(n_w)};
+  const auto solve = [&](const Eigen::SparseMatrix<double>& loads, bool wanted) -> Eigen::MatrixXd {
+    return wanted ? K.solve(Eigen::MatrixXd(loads.topRows(n))) : Eigen::MatrixXd(n, 0);
+  };
+  const auto nc = problem.K_fc.cols();
+  return {E.topRows(nc), E.bottomRows(E.rows() - nc), solve(-problem.K_fc, with_fields), solve(problem.T_f, true),
+          solve(problem.L_f, with_fields)};
 }
 
 /// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
@@ -62,7 +61,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.unknown = Eigen::Map<const Eigen::Matrix2Xi>(unknowns.target.data(), 2,
                                                  static_cast<Eigen::Index>(unknowns.target.size()) / 2);
   a.space = problem.numbering.space;
-  a.p = Eigen::VectorXi::LinSpaced(scene.p_high - scene.p_low + 1, scene.p_low, scene.p_high);
+  a.p = degrees(scene);
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[static_cast<std::size_t>(p)]; });
   const auto name = [&](const std::vector<int>& list, auto& ids, auto& directions) {
     for (const int i : list) {
@@ -103,10 +102,12 @@ void add_contact(const ContactState& state, formats::PlateSolution& a) {
   a.load_traction = state.traction.transpose();
 }
 
-void solve_cases(const PlateProblem& problem, formats::PlateSolution& a) {
-  const Outline outline(problem);
+void solve_cases(const PlateProblem& problem, const Outline& outline, formats::PlateSolution& a,
+                 program::Timings& timings) {
   for (Eigen::Index i = 0; i < a.p.size(); ++i) {
+    timings.phase("factorise");
     const PlateFactor K(problem, outline, a.p[i]);
+    timings.phase("solve");
     a.cases.push_back(solve_degree(problem, K, a.ndof[i], has_fields(a, a.p[i])));
     if (i + 1 == a.p.size()) a.probe = probe(problem, K);
   }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "common/formats/plate_solution.hpp"
+#include "common/program/timings.hpp"
 #include "stage1_plate/contact.hpp"
+#include "stage1_plate/outline.hpp"
 #include "stage1_plate/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
@@ -19,7 +21,8 @@ enum class Wanted { loads_and_stresses, loads };
 void add_contact(const ContactState& state, formats::PlateSolution& solution);
 
 /// Factorises the plate at every degree and solves what stage 2 reads: all fields at the degrees whose stresses are
-/// wanted, elsewhere those of tractions only, and at the highest degree the probe.
-void solve_cases(const PlateProblem& problem, formats::PlateSolution& solution);
+/// wanted, elsewhere those of tractions only, and at the highest degree the probe. Phases: factorise, solve.
+void solve_cases(const PlateProblem& problem, const Outline& outline, formats::PlateSolution& solution,
+                 program::Timings& timings);
 
 }  // namespace fastjoint::stage1

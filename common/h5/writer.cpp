@@ -91,7 +91,9 @@ Writer::Writer(std::string path, const std::string& format, int major, int minor
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
   constexpr std::size_t increment = 1 << 20;
   H5Pset_fapl_core(access.get(), increment, false);
-  impl_->file = File(H5Fcreate(impl_->path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+  // The library would first read a file of this name into memory, whole; no file has this one.
+  const std::string name = impl_->path + ".in-memory";
+  impl_->file = File(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
   if (!impl_->file) impl_->fail("file");
   attribute("format", format);
   impl_->integer_attribute("version", {major, minor}, false);
@@ -156,9 +158,13 @@ void Writer::commit() {
   if (H5Fflush(impl_->file.get(), H5F_SCOPE_GLOBAL) < 0) impl_->fail("file");
   const ssize_t n_bytes = H5Fget_file_image(impl_->file.get(), nullptr, 0);
   if (n_bytes <= 0) impl_->fail("file");
-  std::string image(static_cast<std::size_t>(n_bytes), '\0');
+  std::string image;
+  constexpr std::size_t room_for_seal = 64;
+  image.reserve(static_cast<std::size_t>(n_bytes) + room_for_seal);
+  image.resize(static_cast<std::size_t>(n_bytes));
   if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) impl_->fail("file");
-  write_whole_file(impl_->path, image + seal(image));
+  image += seal(image);
+  write_whole_file(impl_->path, image);
 }
 
 }  // namespace fastjoint::h5

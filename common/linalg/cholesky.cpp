@@ -169,6 +169,8 @@ std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph) {
   if (graph.rows() == 0) return {};
   Context context;
   auto& c = context.c;
+  c.nmethods = 1;
+  c.method[0].ordering = CHOLMOD_NESDIS;  // a border fills less behind separators than behind a minimum degree
   cholmod_sparse A = view(graph);
   const Factor L(cholmod_analyze(&A, &c), {&c});
   check_memory(c.status);

@@ -14,7 +14,6 @@ void dsyrk_(const char* uplo, const char* trans, const int* n, const int* k, con
 void dgemm_(const char* trans_a, const char* trans_b, const int* m, const int* n, const int* k, const double* alpha,
             const double* a, const int* lda, const double* b, const int* ldb, const double* beta, double* c,
             const int* ldc);
-void openblas_set_num_threads(int);
 }
 
 namespace fastjoint::linalg {
@@ -66,7 +65,5 @@ Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& A, const Eigen::Matrix
   dgemm_("N", "T", &m, &n, &k, &one, A.data(), &ld_a, B.data(), &ld_b, &zero, C.data(), &ld_c);
   return C;
 }
-
-void set_threads(int n_threads) { openblas_set_num_threads(n_threads); }
 
 }  // namespace fastjoint::linalg

@@ -33,7 +33,4 @@ class Condensed {
 /// A B^T by BLAS, for shapes at which that pays.
 [[nodiscard]] Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B);
 
-/// Threads that the dense kernels may use, from now on.
-void set_threads(int n_threads);
-
 }  // namespace fastjoint::linalg

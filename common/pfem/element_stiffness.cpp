@@ -11,20 +11,53 @@
 namespace fastjoint::pfem {
 namespace {
 
-// A bilinear map makes the integrand rational, arcs make it transcendental: points beyond the p + 1 that a
-// parallelogram needs. The sweep in tests/common/element_stiffness_test.cpp shows that more changes nothing.
-constexpr int extra_straight = 3;
-constexpr int extra_curved = 7;
+/// Legendre polynomials P_0 ... P_{n-1} at points, shape (n, n_points).
+Eigen::MatrixXd legendre(int n, const Eigen::VectorXd& x) {
+  Eigen::MatrixXd P = Eigen::MatrixXd::Ones(n, x.size());
+  if (n > 1) P.row(1) = x.transpose();
+  for (int k = 2; k < n; ++k)
+    P.row(k) = ((2 * k - 1) * x.transpose().cwiseProduct(P.row(k - 1)) - (k - 1) * P.row(k - 2)) / k;
+  return P;
+}
 
 }  // namespace
 
-ElementStiffness::ElementStiffness(Space space, int p, int extra)
-    : straight_(tabulate(space, p, p + extra_straight + extra)),
-      curved_(tabulate(space, p, p + extra_curved + extra)) {}
+int geometric_degree(const ElementMap& map) {
+  constexpr int n = 20;  // of higher degree are maps that are nearly folded
+  constexpr double left_out = 1e-11;
+  if (!map.is_curved() && (map.point(-1, -1) + map.point(1, 1) - map.point(1, -1) - map.point(-1, 1)).isZero(0))
+    return 0;
+  static const Rule rule = gauss(n);
+  static const Eigen::MatrixXd P = legendre(n, rule.x) * rule.w.asDiagonal();  // coefficients from values
+  Eigen::MatrixXd values(n, 3 * n);
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const Eigen::Matrix2d J = map.jacobian(rule.x[i], rule.x[j]);
+      const double det = J.determinant();
+      values(i, j) = J.col(0).squaredNorm() / det;
+      values(i, n + j) = J.col(1).squaredNorm() / det;
+      values(i, 2 * n + j) = J.col(0).dot(J.col(1)) / det;
+    }
+  Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);  // of all coefficients of a degree
+  for (int k = 0; k < 3; ++k) {
+    const Eigen::MatrixXd C = (P * values.middleCols(Eigen::Index{k} * n, n) * P.transpose()).cwiseAbs();
+    for (int degree = 0; degree < n; ++degree)
+      largest[degree] = std::max(
+          {largest[degree], C.row(degree).head(degree + 1).maxCoeff(), C.col(degree).head(degree + 1).maxCoeff()});
+  }
+  int degree = n - 1;
+  while (degree > 0 && largest[degree] <= left_out * largest.maxCoeff()) --degree;
+  return degree;
+}
 
-ElementStiffness::Table ElementStiffness::tabulate(Space space, int p, int n_points) {
+ElementStiffness::ElementStiffness(Space space, int p, int extra) : space_(space), p_(p), extra_(extra) {}
+
+const ElementStiffness::Table& ElementStiffness::table(int n_points) const {
+  const std::lock_guard lock(mutex_);
+  const auto [found, is_new] = tables_.try_emplace(n_points);
+  if (!is_new) return found->second;
+  Table& table = found->second;
   const Rule rule = gauss(n_points);
-  Table table;
   table.xi = rule.x.replicate(n_points, 1);
   table.eta.resize(table.xi.size());
   table.w.resize(table.xi.size());
@@ -32,12 +65,13 @@ ElementStiffness::Table ElementStiffness::tabulate(Space space, int p, int n_poi
     table.eta.segment(j * n_points, n_points).setConstant(rule.x[j]);
     table.w.segment(j * n_points, n_points) = rule.w[j] * rule.w;
   }
-  table.shape = shape_values(space, p, table.xi, table.eta);
+  table.shape = shape_values(space_, p_, table.xi, table.eta);
   return table;
 }
 
 Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness) const {
-  const Table& table = map.is_curved() ? curved_ : straight_;
+  // The integrand has degree 2 p + the geometry's in each direction, n points are exact up to 2 n - 1.
+  const Table& table = this->table(p_ + 1 + geometric_degree(map) / 2 + extra_);
   const auto n_points = table.w.size();
   const auto n = table.shape.N.rows();
   Eigen::MatrixXd Nx(n, n_points), Ny(n, n_points);  // derivatives by x and y, times the root of the weight

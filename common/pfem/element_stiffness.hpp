@@ -2,6 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
+#include <mutex>
 
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/gauss.hpp"
@@ -9,7 +11,8 @@
 
 namespace fastjoint::pfem {
 
-/// Stiffness matrices of elements of one space and degree p. Shape functions are tabulated once.
+/// Stiffness matrices of elements of one space and degree p. Shape functions are tabulated once for each number
+/// of points; how many an element takes follows from its geometric degree.
 class ElementStiffness {
  public:
   /// @param extra Points added in each direction to those chosen from p and the element's shape (for tests).
@@ -25,9 +28,19 @@ class ElementStiffness {
     Eigen::VectorXd xi, eta, w;
     ShapeValues shape;
   };
-  static Table tabulate(Space space, int p, int n_points);
-  Table straight_, curved_;
+  /// Made when first asked for, from any thread.
+  [[nodiscard]] const Table& table(int n_points) const;
+
+  Space space_;
+  int p_, extra_;
+  mutable std::mutex mutex_;
+  mutable std::map<int, Table> tables_;
 };
+
+/// Degree, in either coordinate, of the polynomials that det J J^-1 J^-T comes down to: all that the geometry brings
+/// into a stiffness. 0 of a parallelogram; a bilinear map makes it rational, arcs make it transcendental, and what is
+/// left out is then 1e-11 of the largest.
+[[nodiscard]] int geometric_degree(const ElementMap& map);
 
 /// Smallest Jacobian determinant of an element at its integration points and vertices, over its mean.
 /// The map is one to one only if it is positive.

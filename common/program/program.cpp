@@ -12,6 +12,7 @@
 #include "common/errors.hpp"
 #include "common/h5/library.hpp"
 #include "common/h5/whole_file.hpp"
+#include "common/program/memory.hpp"
 #include "common/program/version.hpp"
 
 namespace fastjoint::program {
@@ -158,6 +159,7 @@ std::string generator(const std::string& program) { return fmt::format("{} {}", 
 
 int run(const Command& command, int argc, char** argv, const Body& body) {
   Timings timings;
+  keep_freed_memory();
   h5::take_over_error_reporting();
   try {
     if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);

@@ -53,19 +53,17 @@ void rim_rule(State& state) {
 }
 BENCHMARK(rim_rule)->Arg(2)->Arg(4)->Arg(8);
 
-/// The one shape of cells of a panel, elements and all.
-void condense_cell(State& state) {
+/// The eight elements around a hole.
+void condense(State& state) {
   const auto plate = test::make_plate(test::panel(1, 1));
-  const auto& cells = plate.problem.cells;
+  const auto& elements = plate.problem.elements;
   const int p = static_cast<int>(state.range(0));
-  const auto modes = stage1::modes_up_to(p, plate.problem.numbering);
-  for (auto _ : state) {
-    std::vector<linalg::Condensed> elements;
-    for (const auto& K : cells.element_stiffness) elements.push_back(stage1::condense_element(K, modes));
-    DoNotOptimize(stage1::condense_cell(cells.shapes[0], elements, modes, p));
-  }
+  for (auto _ : state)
+    for (const auto& kind : elements.kinds)
+      DoNotOptimize(
+          stage1::condense(kind, elements.stiffness[static_cast<std::size_t>(kind.shape)], plate.problem.numbering, p));
 }
-BENCHMARK(condense_cell)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
 /// panel(n, n) at p = 8, from its integrated elements to the last rows of the factor.
 void factorise(State& state) {

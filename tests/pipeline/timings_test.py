@@ -11,7 +11,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 STAGE1, STAGE2, STAGE3 = "stage1_plate", "stage2_extract", "stage3_nonlinear"
-PLATE_PHASES, EXTRACT_PHASES, JOINT_PHASES = (["read", "mesh", "integrate", "factorise", "write"],
+PLATE_PHASES, EXTRACT_PHASES, JOINT_PHASES = (["read", "mesh", "integrate", "factorise", "solve", "write"],
                                               ["read", "extract", "write"], ["read", "solve", "write"])
 # program, input, output, more words, phases, degrees with a number of unknowns
 RUNS = [

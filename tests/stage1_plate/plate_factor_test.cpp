@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "common/linalg/threads.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/straightforward.hpp"
 
@@ -71,6 +72,19 @@ TEST(PlateFactor, GivesWhatTheStraightforwardPathGives) {
       EXPECT_LE((R - plain.R).norm(), 1e-11 * plain.R.norm()) << name << ", p = " << p;
     }
   }
+}
+
+TEST(PlateFactor, IsTheSameOnSeveralThreads) {
+  const auto plate = test::make_plate(test::panel(3, 2, 1));
+  const stage1::Outline outline(plate.problem);
+  const Eigen::MatrixXd B = Eigen::MatrixXd::Random(plate.problem.K_fc.rows(), 3);
+  const stage1::PlateFactor one(plate.problem, outline, 8);
+  const Eigen::MatrixXd E = one.energy_rows(), X = one.solve(B);
+  linalg::set_threads(3);
+  const stage1::PlateFactor three(plate.problem, outline, 8);
+  EXPECT_LT((three.energy_rows() - E).norm(), 1e-13 * E.norm());
+  EXPECT_LT((three.solve(B) - X).norm(), 1e-12 * X.norm());
+  linalg::set_threads(1);
 }
 
 TEST(PlateFactor, SolvesForAnyLoads) {

@@ -158,8 +158,7 @@ TEST_P(RimStress, DegreesAreTheTwoHighest) {
 
 TEST_P(RimStress, LoadsOnlyLeavesThemOut) {
   const test::Plate plate = test::make_plate(strap(space()));
-  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads);
-  stage1::solve_cases(plate.problem, solution);
+  const auto solution = test::solve(plate, stage1::Wanted::loads);
   EXPECT_EQ(solution.cases.back().W.cols() + solution.cases.back().U.cols(), 0) << "the probe checks reciprocity";
   const auto extraction = stage2::extract(solution, "plate.h5", "test");
   EXPECT_EQ(extraction.matrices.stresses.p.size(), 0);

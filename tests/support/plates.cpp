@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include "common/pfem/condensed_stiffness.hpp"
-#include "stage1_plate/solve.hpp"
 
 namespace fastjoint::test {
 
@@ -18,22 +17,24 @@ Plate make_plate(const std::string& json) {
 
 namespace {
 
-formats::PlateSolution unsolved(const Plate& plate) {
-  return stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
+void solve_cases(const Plate& plate, formats::PlateSolution& solution) {
+  program::Timings timings;
+  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
 }
 
 }  // namespace
 
-formats::PlateSolution solve(const Plate& plate) {
-  auto solution = unsolved(plate);
-  stage1::solve_cases(plate.problem, solution);
+formats::PlateSolution solve(const Plate& plate, stage1::Wanted wanted) {
+  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", wanted);
+  solve_cases(plate, solution);
   return solution;
 }
 
 formats::PlateSolution solve_all_fields(const Plate& plate) {
-  auto solution = unsolved(plate);
+  auto solution =
+      stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
   solution.stress_p = solution.p;
-  stage1::solve_cases(plate.problem, solution);
+  solve_cases(plate, solution);
   return solution;
 }
 

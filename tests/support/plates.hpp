@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/formats/plate_solution.hpp"
-#include "stage1_plate/plate_problem.hpp"
+#include "stage1_plate/solve.hpp"
 #include "stage2_extract/extract.hpp"
 
 namespace fastjoint::test {
@@ -23,7 +23,8 @@ struct Plate {
 [[nodiscard]] Eigen::MatrixXd stiffness(const formats::PlateSolution& solution, std::size_t level);
 
 /// Stage 1 to the end, and stage 2 behind it.
-[[nodiscard]] formats::PlateSolution solve(const Plate& plate);
+[[nodiscard]] formats::PlateSolution solve(const Plate& plate,
+                                           stage1::Wanted wanted = stage1::Wanted::loads_and_stresses);
 /// With the fields of every degree, not of the two highest only.
 [[nodiscard]] formats::PlateSolution solve_all_fields(const Plate& plate);
 [[nodiscard]] stage2::Extraction extract(const std::string& json);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/pfem/congruent_stiffness.hpp"
+#include "common/pfem/congruent_elements.hpp"
 
 #include <gtest/gtest.h>
 
+#include "common/pfem/element_stiffness.hpp"
 #include "tests/support/meshes.hpp"
 
 namespace fastjoint::pfem {
@@ -35,39 +36,41 @@ Mesh copies(int n) {
 }
 
 /// Largest relative difference from integrating every element by itself.
-double difference(const Mesh& mesh, CongruentStiffness& stiffness, const Edges& edges) {
+double difference(const Mesh& mesh, const CongruentElements& congruent, const Edges& edges) {
   const ElementStiffness each(Space::trunk, p);
+  const auto by_shape = integrate(congruent, mesh, edges, soft_and_stiff, Space::trunk, p);
   double worst = 0;
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const MatrixXd K =
         each(ElementMap(mesh, edges, element), soft_and_stiff[static_cast<std::size_t>(mesh.material[element])], 1);
-    worst = std::max(worst, (stiffness(element) - K).norm() / K.norm());
+    const auto shape = static_cast<std::size_t>(congruent.shape[static_cast<std::size_t>(element)]);
+    worst = std::max(worst, (by_shape[shape] - K).norm() / K.norm());
   }
   return worst;
 }
 
-TEST(CongruentStiffness, IsIntegratedOnceForCopies) {
+TEST(CongruentElements, IsIntegratedOnceForCopies) {
   const Mesh mesh = copies(20);
   const Edges edges = find_edges(mesh);
-  CongruentStiffness stiffness(mesh, edges, soft_and_stiff, Space::trunk, p);
-  EXPECT_LT(difference(mesh, stiffness, edges), 1e-10) << "rounding of coordinates far from the origin";
-  EXPECT_LE(stiffness.n_different(), 8U) << "4, or a few more where rounding falls between two steps";
+  const auto congruent = find_congruent(mesh, edges);
+  EXPECT_LT(difference(mesh, congruent, edges), 1e-10) << "rounding of coordinates far from the origin";
+  EXPECT_LE(congruent.first.size(), 8U) << "4, or a few more where rounding falls between two steps";
 }
 
 /// A millionth of the size, another material, or an arc instead of a chord is another element.
-TEST(CongruentStiffness, TellsWhatDiffers) {
+TEST(CongruentElements, TellsWhatDiffers) {
   for (const int change : {0, 1, 2, 3}) {
     Mesh mesh = copies(2);
     if (change == 1) mesh.nodes(0, mesh.quads(2, 4)) += 1e-6;
     if (change == 2) mesh.material[4] = 1;
     if (change == 3) mesh.arcs.pop_back();
     const Edges edges = find_edges(mesh);
-    CongruentStiffness stiffness(mesh, edges, soft_and_stiff, Space::trunk, p);
-    EXPECT_LT(difference(mesh, stiffness, edges), 1e-12) << change;
+    const auto congruent = find_congruent(mesh, edges);
+    EXPECT_LT(difference(mesh, congruent, edges), 1e-12) << change;
     if (change == 0) {
-      EXPECT_EQ(stiffness.n_different(), 4U);
+      EXPECT_EQ(congruent.first.size(), 4U);
     } else {
-      EXPECT_GT(stiffness.n_different(), 4U) << change;
+      EXPECT_GT(congruent.first.size(), 4U) << change;
     }
   }
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/solved_plate.hpp"
+
+#include <fmt/format.h>
+
+#include "common/program/memory.hpp"
+#include "stage1_plate/contact_summary.hpp"
+#include "stage1_plate/degree_range.hpp"
+#include "stage1_plate/holding.hpp"
+
+namespace fastjoint::stage1 {
+
+SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& generator, program::Timings& timings) {
+  timings.phase("mesh");
+  const PlateMesh plate = make_mesh(scene);
+  PlateProblem problem = number_unknowns(scene, plate);
+  check_held(scene, plate, problem.unknowns);
+  const Outline outline(problem);  // of vertices and edges, whatever arcs contact finds
+  const MemoryNeed need = memory_need(problem, outline, degrees(scene), wanted);
+  require_memory(scene, need, program::available_memory());
+  timings.phase("integrate");
+  integrate(scene, plate, problem);
+  std::optional<ContactState> contact;
+  if (scene.loads) {
+    timings.phase("factorise");
+    contact = find_contact(scene, plate, problem);
+    timings.phase("integrate");
+    scene = with_arcs(std::move(scene), *contact);
+    problem = assemble(scene, plate);
+    check_held(scene, plate, problem.unknowns);
+  }
+  auto solution = to_solution(scene, plate, problem, generator, wanted);
+  if (contact) add_contact(*contact, solution);
+  solve_cases(problem, outline, solution, timings);
+  for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
+  return {std::move(scene), std::move(contact), need, std::move(solution)};
+}
+
+std::string summary(const SolvedPlate& plate, const std::string& file) {
+  const auto& a = plate.solution;
+  std::string text =
+      fmt::format("{}: {} elements, {} nodes, {} discs, {} rigid externals, {} tractions; needs about {}\n", file,
+                  a.mesh.n_elements(), a.mesh.n_nodes(), a.disc_hole.size(), a.external_id.size(), a.traction_id.size(),
+                  bytes_text(plate.need.total()));
+  for (Eigen::Index i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {} unknowns\n", a.p[i], a.ndof[i]);
+  return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;
+}
+
+}  // namespace fastjoint::stage1
