@@ -21,9 +21,9 @@ struct Accuracy {
 /// another ring, as long as rings help. What the scene itself says of `space` and of a hole's `rings` stays.
 ///
 /// The order follows what models cost at about equal error, here 1e-5, in ms with the fields for stresses, of panels of
-/// 3 x 3 and 10 x 10 holes: product space, one ring, p = 4: 11 and 1100; two rings, p = 4: 18 and 1600; none, p = 7: 26
-/// and 2100; trunk space, one ring, p = 5: 15 and 1060, p = 6: 23 and 1650. To 1e-9 and below, one ring is still as
-/// good as two. Where holes do not limit the error a ring may double the cost.
+/// 3 x 3 and 10 x 10 holes (one thread of a busy machine): product space, one ring, p = 4: 18 and 1300; two rings, p =
+/// 4: 29 and 2000; none, p = 7: 31 and 1800; trunk space, one ring, p = 5: 27 and 1400, p = 6: 40 and 2100. To 1e-9 and
+/// below, one ring is still as good as two. Where holes do not limit the error a ring may double the cost.
 ///
 /// Throws InputError for a scene whose springs push but do not pull (their arcs are found at the highest degree, and
 /// depend on it), of one degree only, or with nothing that S is of.
