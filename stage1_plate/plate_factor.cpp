@@ -90,13 +90,12 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
     assembler.add(plate, disc, -tie.stiffness);
   }
   // The friction cases come last: what stands on their diagonal changes nothing before them, if it is only large enough
-  // for a factor.
+  // for a factor, that is above L^T K^-1 L.
   const auto s = shift(problem_);
-  const double L = largest(problem_.L_f);
-  const double least_stiffness = 1e-30 * (s.size() > 0 ? s.minCoeff() : 1);
+  const double K = largest(A), L = largest(problem_.L_f);
+  const double large = L > 0 && K > 0 ? 1e30 * L * L / K : 1;
   for (int i = 0; i < rows_.n_border; ++i)
-    assembler.add(rows_.n_outline + i, rows_.n_outline + i,
-                  i < s.size() ? s[i] : (L > 0 ? L * L : 1) / least_stiffness);
+    assembler.add(rows_.n_outline + i, rows_.n_outline + i, i < s.size() ? s[i] : large);
   return A;
 }
 
