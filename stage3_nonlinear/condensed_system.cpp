@@ -80,6 +80,9 @@ void add_friction(Rows& rows, const JointModel& joint, Index at) {
   const Index offset = joint.offset(hole.plate);
   if (plus.load.size() > 0) rows.G_plus.block(offset, at, plus.load.size(), 1) = plus.load;
   if (minus.load.size() > 0) rows.G_minus.block(offset, at, minus.load.size(), 1) = minus.load;
+  // B F is the laws' force on the disc; what the rim bears on instead is in G.
+  rows.G_plus(offset + hole.disc + row.direction, at) += 1 - plus.bearing;
+  rows.G_minus(offset + hole.disc + row.direction, at) -= 1 - minus.bearing;
 }
 
 Rows assemble(const JointModel& joint) {

@@ -8,7 +8,7 @@
 
 namespace fastjoint::stage3 {
 
-/// A hole and direction in which friction acts.
+/// A hole and direction in which friction acts, there or in another hole of its fastener.
 struct FrictionRow {
   std::size_t fastener, hole;  ///< hole of the fastener
   Eigen::Index direction;      ///< of the joint's directions
@@ -19,7 +19,8 @@ struct FrictionRow {
 ///
 /// Of the rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D remains
 ///   F + S_ud delta + H+ b+ + H- b- = lambda q,   b = E F, b+ = max(b, 0), b- = max(-b, 0),
-/// with the bearing forces b on the rims that friction acts on, and every displacement follows from lambda, delta, b.
+/// with the laws' forces b on the rims that friction acts on, and every displacement follows from lambda, delta, b.
+/// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
 /// S_ud is the parallel sum of the plates' matrices, and exists also when a sheet floats.
 struct CondensedSystem {
   Eigen::VectorXd q;                  ///< (n a) forces of rigid fasteners at load factor 1, force

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Bearing forces on the plates by fastener and hole, each (a), force.
+/// The laws' forces on the plates by fastener and hole, each (a), force.
 using Bearing = std::vector<std::vector<VectorXd>>;
 
 Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
@@ -33,11 +33,6 @@ const FrictionLoad* friction_at(const HoleModel& hole, Index direction, double b
   return &hole.friction[static_cast<std::size_t>(direction)][bearing < 0 ? minus_side : plus_side];
 }
 
-double friction_share(const HoleModel& hole, Index direction, double bearing) {
-  const FrictionLoad* friction = friction_at(hole, direction, bearing);
-  return friction ? friction->resultant : 0;
-}
-
 /// @param side 0: in the first hole of each plane, 1: in the second.
 VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, std::size_t side) {
   const Index a = joint.n_directions();
@@ -46,8 +41,9 @@ VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& 
     const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
     const std::size_t hole = plane.first + side;
     for (Index d = 0; d < a; ++d)
-      result[j * a + d] *=
-          1 + friction_share(joint.fasteners[plane.fastener].holes[hole], d, bearing[plane.fastener][hole][d]);
+      if (const auto* friction =
+              friction_at(joint.fasteners[plane.fastener].holes[hole], d, bearing[plane.fastener][hole][d]))
+        result[j * a + d] *= friction->bearing + friction->resultant;
   }
   return amounts(result, a);
 }
@@ -63,8 +59,8 @@ struct PlateForces {
 void add_hole(PlateForces& forces, const HoleModel& hole, const VectorXd& bearing) {
   for (Index d = 0; d < bearing.size(); ++d) {
     const double b = bearing[d];
-    forces.discs[hole.disc + d] += b;
     const FrictionLoad* friction = friction_at(hole, d, b);
+    forces.discs[hole.disc + d] += friction ? friction->bearing * b : b;
     if (!friction || friction->load.size() == 0) continue;
     forces.asked += friction->load * std::abs(b);
     forces.Lambda[friction->case_index] += friction->peak * std::abs(b);
@@ -118,6 +114,37 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
   return worst;
 }
 
+/// What the holes of a fastener give it altogether, bearing and friction: worst component of all fasteners, force.
+double worst_fastener(const JointModel& joint, const std::vector<PlateForces>& plates) {
+  double worst = 0;
+  for (const auto& fastener : joint.fasteners) {
+    VectorXd sum = VectorXd::Zero(joint.n_directions());
+    for (const auto& hole : fastener.holes) {
+      const PlateForces& forces = plates[hole.plate];
+      sum += (forces.discs + forces.friction).segment(hole.disc, sum.size());
+    }
+    worst = std::max(worst, sum.lpNorm<Eigen::Infinity>());
+  }
+  return worst;
+}
+
+/// What the supports of a plate must give along axes along which it has none, since it moves as one without force:
+/// worst of them, force; none if there are no such axes.
+std::optional<double> given_by_no_support(const PlateModel& plate, const PlateState& state) {
+  constexpr double rounding = 1e-9;
+  std::optional<double> worst;
+  for (const int axis : {0, 1}) {
+    VectorXd motion(plate.n_unknowns());
+    for (Index i = 0; i < motion.size(); ++i) {
+      const Index external = i - plate.n_discs();
+      motion[i] = (external < 0 ? plate.axis_of(i) : plate.external_axis[static_cast<std::size_t>(external)]) == axis;
+    }
+    if (motion.isZero(0) || (plate.S * motion).norm() > rounding * plate.S.norm()) continue;
+    worst = std::max(worst.value_or(0), std::abs(state.by_supports[axis]));
+  }
+  return worst;
+}
+
 /// Of a plane, in ascending order.
 std::array<std::size_t, 2> plates_of(const JointModel& joint, Index plane) {
   const ShearPlane& at = joint.planes[static_cast<std::size_t>(plane)];
@@ -143,16 +170,21 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
   state.largest_force = step.F.lpNorm<Eigen::Infinity>();
-  double worst = 0;
+  std::vector<PlateForces> forces;
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
-    const auto forces = plate_forces(joint, i, u, step.load_factor, bearing);
-    worst = std::max(worst, fill(state.plates[i], plate, forces, u, step.load_factor));
+    forces.push_back(plate_forces(joint, i, u, step.load_factor, bearing));
+    state.out_of_balance = std::max(state.out_of_balance, fill(state.plates[i], plate, forces[i], u, step.load_factor));
+    if (const auto sheet = given_by_no_support(plate, state.plates[i]))
+      state.sheets_out_of_balance = std::max(state.sheets_out_of_balance.value_or(0), *sheet);
     const double traction = std::abs(step.load_factor) * plate.traction_force.lpNorm<Eigen::Infinity>();
     state.largest_force = std::max({state.largest_force, state.plates[i].Pe.lpNorm<Eigen::Infinity>(), traction});
   }
-  state.out_of_balance = state.largest_force > 0 ? worst / state.largest_force : worst;
+  state.fasteners_out_of_balance = worst_fastener(joint, forces);
+  if (!(state.largest_force > 0)) return state;
+  for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;
+  if (state.sheets_out_of_balance) *state.sheets_out_of_balance /= state.largest_force;
   return state;
 }
 

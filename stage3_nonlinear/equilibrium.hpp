@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "stage3_nonlinear/condensed_system.hpp"
@@ -26,11 +27,15 @@ struct PlateState {
 /// The whole joint at one increment, from the plates' own matrices.
 struct JointState {
   std::vector<PlateState> plates;
-  /// F and the friction resultant that helps it in the plane's first and second hole, by amount where the discs have
-  /// two directions, (n), force.
+  /// What each plane transfers, friction included, by the friction of its first and of its second hole, by amount where
+  /// the discs have two directions, (n), force; a fastener in balance transfers one and the same.
   Eigen::VectorXd transferred_first, transferred_second;
-  double largest_force = 0;   ///< of externals, tractions and fasteners
-  double out_of_balance = 0;  ///< worst row of S D + R Lambda + T f + B F - P, over the largest force
+  double largest_force = 0;  ///< of externals, tractions and fasteners
+  // Over the largest force:
+  double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
+  double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of a fastener give it
+  /// Worst sum of all forces on a sheet along an axis along which nothing supports it; none if there is none.
+  std::optional<double> sheets_out_of_balance;
 };
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);

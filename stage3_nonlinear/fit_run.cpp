@@ -68,7 +68,11 @@ void run_fit(const FitOptions& options, std::ostream& out, std::ostream& log, pr
   out << fmt::format("{} law fitted to {} points of {}; uncertainties are standard ones (1 sigma)\n", options.law,
                      fit.n_points, options.data)
       << constants(fit)
-      << fmt::format("  RMS residual of F: {:.4g}\nfor \"laws\" of a joint:\n  \"fitted\": {}\n", fit.rms, json(fit));
+      << fmt::format(
+             "  RMS residual of F: {:.4g}\n  F measured between sheets has their friction in it: fasteners with "
+             "\"friction\" then take \"law_includes_friction\": true\nfor \"laws\" of a joint:\n"
+             "  \"fitted\": {}\n",
+             fit.rms, json(fit));
 }
 
 }  // namespace fastjoint::stage3

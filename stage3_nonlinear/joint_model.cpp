@@ -163,9 +163,10 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
     model.planes.push_back(
         {model.fasteners.size(), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
   }
-  FastenerModel result{fastener.id, {}};
+  FastenerModel result{fastener.id, {}, fastener.law_includes_friction};
   for (std::size_t i = 0; i < fastener.between.size(); ++i)
     result.holes.push_back(make_hole(model, scene, fastener, i));
+  balance(result);
   model.fasteners.push_back(std::move(result));
 }
 
@@ -193,6 +194,33 @@ void apply_load(JointModel& model, const LoadScene& load) {
 }
 
 }  // namespace
+
+double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d, Side side) {
+  const auto& friction = fastener.holes[of].friction;
+  if (friction.empty()) return 0;
+  const auto& sides = friction[static_cast<std::size_t>(d)];
+  const auto n = static_cast<double>(fastener.holes.size());
+  if (fastener.holes.size() == 2) return sides[of == hole ? side : 1 - side].share() / n;
+  const auto bears = std::count_if(sides.begin(), sides.end(), [](const auto& each) { return each.load.size() > 0; });
+  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / static_cast<double>(bears) / n;
+}
+
+void balance(FastenerModel& fastener) {
+  std::size_t directions = 0;
+  for (const auto& hole : fastener.holes) directions = std::max(directions, hole.friction.size());
+  for (auto& hole : fastener.holes) hole.friction.resize(directions);
+  for (std::size_t at = 0; at < fastener.holes.size(); ++at)
+    for (std::size_t d = 0; d < directions; ++d)
+      for (const Side side : {plus_side, minus_side}) {
+        double transferred = 1;
+        for (std::size_t of = 0; of < fastener.holes.size() && !fastener.law_includes_friction; ++of)
+          transferred += part_of_mean_share(fastener, of, at, static_cast<Eigen::Index>(d), side);
+        FrictionLoad& friction = fastener.holes[at].friction[d][side];
+        const double change = transferred / (1 + friction.share()) / friction.bearing;
+        friction.load *= change;
+        for (double* each : {&friction.resultant, &friction.peak, &friction.bearing}) *each *= change;
+      }
+}
 
 Eigen::Index JointModel::offset(std::size_t plate) const {
   Eigen::Index offset = 0;

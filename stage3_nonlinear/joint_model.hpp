@@ -12,12 +12,16 @@
 
 namespace fastjoint::stage3 {
 
-/// Friction in a hole for one side that bears, per unit bearing force; empty without friction.
+/// Friction in a hole for one side that bears, per unit of the law's force there; `load` is empty without friction.
 struct FrictionLoad {
   Eigen::VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
-  double resultant = 0;         ///< |resultant| mu / c: share of the bearing force that friction adds
+  double resultant = 0;         ///< |resultant| mu / c: force of friction on the rim
   Eigen::Index case_index = 0;  ///< among the plate's friction cases
   double peak = 0;              ///< mu / c: peak stress Lambda of the case, 1 / length^2
+  double bearing = 1;           ///< force of bearing on the rim; other than 1 it has been put into the three above
+
+  /// Force of friction over that of bearing.
+  [[nodiscard]] double share() const { return resultant / bearing; }
 };
 
 /// Side of a rim that bears: of a bearing force on the plate along + or - the axis.
@@ -36,7 +40,19 @@ struct HoleModel {
 struct FastenerModel {
   std::string id;
   std::vector<HoleModel> holes;
+  bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
 };
+
+/// What friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears on
+/// `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
+[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d,
+                                        Side side);
+
+/// Brings a fastener into equilibrium whose holes have unlike friction, by their bearing forces: with Q what a plane
+/// transfers, each hole bears on Q / (1 + its share of friction), in a stack with the difference of two planes' Q. Q
+/// is F of the law if that includes friction, else F (1 + mean share), so that F is the bearing force where all shares
+/// are the same.
+void balance(FastenerModel& fastener);
 
 /// Between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F and
 /// the first with -F.

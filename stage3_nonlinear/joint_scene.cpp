@@ -86,7 +86,7 @@ auto for_each_plane(const Value& value, std::size_t n_planes, Read read) {
 }
 
 FastenerScene read_fastener(const Value& value, const JointScene& scene) {
-  value.only({"id", "between", "law", "clearance", "friction"});
+  value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction"});
   FastenerScene fastener;
   fastener.where = where(scene.file, value);
   fastener.id = value.at("id").text();
@@ -103,6 +103,7 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
         for_each_plane(*clearance, n_planes, [](const Value& gap) { return gap.number(input::not_negative); });
   fastener.friction.assign(fastener.between.size(), 0.0);
   if (const auto friction = value.find("friction")) fastener.friction = read_friction(*friction, fastener.between);
+  if (const auto includes = value.find("law_includes_friction")) fastener.law_includes_friction = includes->boolean();
   return fastener;
 }
 

@@ -37,6 +37,7 @@ struct FastenerScene {
   std::vector<std::string> law;    ///< (h - 1) keys of JointScene::laws
   std::vector<double> clearance;   ///< (h - 1) radial gap, length
   std::vector<double> friction;    ///< (h) mu in each hole
+  bool law_includes_friction = false;
   std::string where;
 };
 

@@ -39,14 +39,50 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
   return {F, delta};
 }
 
-/// Friction is proportional to mu; (n a, f).
+/// dG / dmu of a hole for one row of its fastener's and one of its sides, over the unknowns of the row's plate, (m+e).
+VectorXd change_of_row(const JointModel& joint, const FrictionHole& by, const FrictionRow& row, Side side) {
+  const FastenerModel& fastener = joint.fasteners[row.fastener];
+  const HoleModel& hole = fastener.holes[row.hole];
+  const double mu = fastener.holes[by.hole].mu;
+  const FrictionLoad& friction = hole.friction[static_cast<std::size_t>(row.direction)][side];
+  const bool own = row.hole == by.hole;
+  const double transferred = friction.bearing + friction.resultant;
+  double relative = own ? -friction.resultant / transferred / mu : 0;  // d ln bearing / d mu
+  if (!fastener.law_includes_friction)
+    relative += part_of_mean_share(fastener, by.hole, row.hole, row.direction, side) / transferred / mu;
+  VectorXd change = VectorXd::Zero(joint.plates[hole.plate].n_unknowns());
+  for (Index i = 0; i < friction.load.size(); ++i) change[i] = (relative + (own ? 1 / mu : 0)) * friction.load[i];
+  change[hole.disc + row.direction] -= (side == plus_side ? 1 : -1) * relative * friction.bearing;
+  return change;
+}
+
+/// By reciprocity, what D_delta does with a load on the plates' unknowns, H does with G.
+FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, std::size_t fastener,
+                           std::size_t hole) {
+  FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}, {}, {}};
+  for (std::size_t i = 0; i < system.friction.size(); ++i)
+    if (system.friction[i].fastener == fastener) result.rows.push_back(static_cast<Index>(i));
+  result.plus = result.minus = MatrixXd(system.q.size(), std::ssize(result.rows));
+  for (Index i = 0; i < result.plus.cols(); ++i) {
+    const FrictionRow& row = system.friction[static_cast<std::size_t>(result.rows[static_cast<std::size_t>(i)])];
+    const std::size_t plate = joint.fasteners[fastener].holes[row.hole].plate;
+    const auto D = system.D_delta.middleRows(joint.offset(plate), joint.plates[plate].n_unknowns());
+    result.plus.col(i) = D.transpose() * change_of_row(joint, result, row, plus_side);
+    result.minus.col(i) = D.transpose() * change_of_row(joint, result, row, minus_side);
+  }
+  return result;
+}
+
+/// (n a, f)
 MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
   const VectorXd b = system.E * F;
   for (Index i = 0; i < changes.cols(); ++i) {
     const FrictionHole& hole = holes[static_cast<std::size_t>(i)];
-    for (const Index row : hole.rows)
-      changes.col(i) += (b[row] < 0 ? system.H_minus : system.H_plus).col(row) * (std::abs(b[row]) / hole.mu);
+    for (Index k = 0; k < hole.plus.cols(); ++k) {
+      const double force = b[hole.rows[static_cast<std::size_t>(k)]];
+      changes.col(i) += std::abs(force) * (force < 0 ? hole.minus : hole.plus).col(k);
+    }
   }
   return changes;
 }
@@ -74,9 +110,8 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
   numbers.loads = unit_loads(joint, system);
   for (std::size_t i = 0; i < system.friction.size(); ++i) {
     const FrictionRow& row = system.friction[i];
-    const HoleModel& hole = joint.fasteners[row.fastener].holes[row.hole];
-    if (row.direction == 0) numbers.friction.push_back({joint.name(hole), hole.mu, {}});
-    numbers.friction.back().rows.push_back(static_cast<Index>(i));
+    if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
+      numbers.friction.push_back(friction_hole(joint, system, row.fastener, row.hole));
   }
   std::map<std::string, Index> first;
   for (const auto& plane : joint.planes) {

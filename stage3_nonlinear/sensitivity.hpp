@@ -10,11 +10,12 @@
 
 namespace fastjoint::stage3 {
 
-/// A hole with friction: its rows among CondensedSystem::friction.
+/// A hole with friction and what its coefficient does to the r rows of its fastener among CondensedSystem::friction.
 struct FrictionHole {
-  std::string name;  ///< "plate:hole"
-  double mu;
-  std::vector<Eigen::Index> rows;
+  std::string name;                ///< "plate:hole"
+  std::size_t fastener, hole;      ///< hole of the fastener
+  std::vector<Eigen::Index> rows;  ///< (r)
+  Eigen::MatrixXd plus, minus;     ///< (n a, r) dH+ / dmu, dH- / dmu, dimensionless
 };
 
 /// A number of a law, which all planes with that law share.

@@ -77,13 +77,10 @@ std::string components(const JointModel& joint, const Eigen::VectorXd& F, Index 
 }
 
 std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
-  const bool differ = !state.transferred_first.isApprox(state.transferred_second, 1e-9);  // beyond rounding
   const std::string length = formats::unit(joint.units, 1, 0);
   const std::string force = formats::unit(joint.units, 0, 1);
-  std::string text =
-      fmt::format("  {:<{}} {:>16} {:>16}{} {:>20}", "fastener", width, head("delta", length), head("F", force),
-                  component_heads(joint, force), head(differ ? "to 1st" : "transferred", force));
-  if (differ) text += fmt::format(" {:>20}", head("to 2nd", force));
+  std::string text = fmt::format("  {:<{}} {:>16} {:>16}{} {:>20}", "fastener", width, head("delta", length),
+                                 head("F", force), component_heads(joint, force), head("transferred", force));
   text += fmt::format(" {:>9}\n", "share [%]");
   const Eigen::VectorXd share = shares(joint, state.transferred_first);
   const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
@@ -92,7 +89,6 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
     text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}",
                         joint.short_name(joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
                         components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
-    if (differ) text += fmt::format(" {:>20.8g}", state.transferred_second[j]);
     text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
   }
   return text;
@@ -113,8 +109,11 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
                           rounded(plate.by_fasteners[axis], state.largest_force),
                           rounded(plate.by_supports[axis], state.largest_force));
     }
-  return text +
-         fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force\n", state.out_of_balance);
+  text += fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force, fastener by {:.1e}",
+                      state.out_of_balance, state.fasteners_out_of_balance);
+  if (state.sheets_out_of_balance)
+    text += fmt::format(", sheet without supports by {:.1e}", *state.sheets_out_of_balance);
+  return text + "\n";
 }
 
 /// The largest force of all increments with its error bar.

@@ -38,7 +38,7 @@ template <class Rims, class Each>
 void for_each_table(Rims& a, const Units& units, Each each) {
   const std::string force = unit(units, 0, 1);
   const std::string stress = unit(units, -2, 1);
-  each("bearing_load", a.bearing_load, force, "force of the fastener along x on the plate, by bearing");
+  each("bearing_load", a.bearing_load, force, "bearing force of the fastener on the plate along x");
   each("bearing_load_y", a.bearing_load_y, force, "the same along y");
   each("bearing_stress", a.bearing_stress, stress, "its amount over the projected area d t");
   each("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
@@ -178,14 +178,14 @@ void write(const std::string& path, const JointResult& a) {
   file.write("fastener/second", a.second_hole, {"1", "plate:hole on its second side"});
   file.write("direction", a.direction, {"1", "directions of the discs"});
   file.write("delta", a.delta, {unit(units, 1, 0), "displacement of the first plate's disc relative to the second's"});
-  file.write("F", a.F, {force, "bearing force, argument of the fastener's law"});
+  file.write("F", a.F, {force, "force of the fastener's law: of bearing, or transferred if it includes friction"});
   if (a.F_error) file.write("F_error", *a.F_error, {force, "estimated error of F by those of the plates' matrices"});
   const auto n_directions = static_cast<Eigen::Index>(a.direction.size());
   file.write("delta_vector", unfolded(a.delta_vector, n_directions), a.F.cols(), n_directions,
              {unit(units, 1, 0), "components of delta"});
   file.write("F_vector", unfolded(a.F_vector, n_directions), a.F.cols(), n_directions, {force, "components of F"});
   file.write("transferred", paired(a.transferred_first, a.transferred_second), a.F.cols(), 2,
-             {force, "F + friction resultant on the first and on the second plate"});
+             {force, "bearing and friction together, on the first and on the second plate"});
   std::vector<std::string> names;
   names.reserve(a.plates.size());
   for (const auto& plate : a.plates) names.push_back(plate.name);

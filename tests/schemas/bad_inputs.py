@@ -210,6 +210,7 @@ BAD_INPUTS = [
     ("joint_law_nameless", "joint_laws", "/laws/", {"type": "linear", "k": 1}),
     ("joint_law_type_unknown", "joint_laws", "/laws/bolt/type", "glue"),
     ("joint_law_of_two_types", "joint_laws", "/laws/bolt/k", 1),
+    ("joint_law_includes_friction_number", "joint_laws", "/fasteners/0/law_includes_friction", 1),
     ("joint_law_one_sided_number", "joint_laws", "/laws/bolt/one_sided", 1),
     ("joint_linear_k_zero", "joint_minimal", "/laws/rivet/k", 0),
     ("joint_linear_k_text", "joint_minimal", "/laws/rivet/k", "stiff"),

@@ -41,6 +41,9 @@ TEST_F(FitProgram, PrintsConstantsOfAPowerLaw) {
   EXPECT_THAT(run.out, HasSubstr("\n  n = 0.5 +- "));
   EXPECT_THAT(run.out, HasSubstr("\n  delta0 = 0 (on its bound)\n  RMS residual of F: "));
   EXPECT_THAT(run.out,
+              HasSubstr("\n  F measured between sheets has their friction in it: fasteners with \"friction\" then "
+                        "take \"law_includes_friction\": true\n"));
+  EXPECT_THAT(run.out,
               HasSubstr("for \"laws\" of a joint:\n"
                         "  \"fitted\": {\"type\": \"power\", \"A\": 1000, \"n\": 0.5, \"delta0\": 0}\n  time "));
 }

@@ -154,6 +154,7 @@ void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu) {
                                 column, amplitude};
     }
   }
+  balance(joint.fasteners[fastener]);
 }
 
 std::shared_ptr<const stage3::Law> linear_law(double k) { return stage3::linear_law(k); }

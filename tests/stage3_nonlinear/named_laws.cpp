@@ -71,7 +71,8 @@ PlateModel random_plate(std::mt19937& random, const std::string& name, Index n_h
 
 /// Friction cases of about the size and in the sense that real plates have (hand_made's add_friction), any direction.
 void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
-  for (auto& fastener : joint.fasteners)
+  for (auto& fastener : joint.fasteners) {
+    fastener.law_includes_friction = fastener.id == "2";
     for (auto& hole : fastener.holes) {
       if (uniform(random, 0, 1) < 0.3) continue;
       hole.mu = uniform(random, 0.02, 0.3);
@@ -86,6 +87,8 @@ void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
         }
       }
     }
+    balance(fastener);
+  }
 }
 
 /// Two or three plates, fasteners through all of them; forces, a traction and a given displacement.
@@ -176,11 +179,16 @@ NamedJoint named_joint(std::mt19937& random, int kind) {
   return joint;
 }
 
-void add_to_mu(stage3::HoleModel& hole, double change) {
-  const double factor = (hole.mu + change) / hole.mu;
-  hole.mu += change;
-  for (auto& sides : hole.friction)
-    for (auto& side : sides) side.load *= factor;
+void add_to_mu(stage3::FastenerModel& fastener, std::size_t hole, double change) {
+  const double factor = (fastener.holes[hole].mu + change) / fastener.holes[hole].mu;
+  fastener.holes[hole].mu += change;
+  for (auto& sides : fastener.holes[hole].friction)
+    for (auto& side : sides) {
+      side.load *= factor / side.bearing;
+      side.resultant *= factor / side.bearing;
+      side.bearing = 1;
+    }
+  stage3::balance(fastener);
 }
 
 }  // namespace fastjoint::test

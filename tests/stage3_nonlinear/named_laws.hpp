@@ -35,7 +35,7 @@ struct NamedJoint {
 inline constexpr int n_kinds = 8;
 [[nodiscard]] NamedJoint named_joint(std::mt19937& random, int kind);
 
-/// Changes a coefficient of friction by this and the loads that it makes in proportion.
-void add_to_mu(stage3::HoleModel& hole, double change);
+/// Changes the coefficient of friction of one of its holes by this, and balances the fastener again.
+void add_to_mu(stage3::FastenerModel& fastener, std::size_t hole, double change);
 
 }  // namespace fastjoint::test

@@ -19,7 +19,7 @@ using testing::ThrowsMessage;
 
 /// Two fasteners, each of whose friction is held at the other's disc: no sheet does that, a matrix may.
 ///
-/// Sheet a is all but rigid and moved by 1, so that each disc of b, on a spring k to the ground, has
+/// Sheet a is all but rigid, its friction too, and moved by 1, so that each disc of b, on a spring k to the ground, has
 /// F = k D_b + 2 mu F_other and F = K (1 - D_b): F (1 + k/K - 2 mu) = k for both. I - R M is singular at mu = 1/2,
 /// the joint's tangent with the fasteners' K = k at mu = 1. Bearing on the other side has no friction.
 class Locking : public testing::Test {
@@ -29,22 +29,24 @@ class Locking : public testing::Test {
     constexpr double rigid = 1e12;
     test::Lap lap{test::spring_plate(2, 1, {{0, 2, rigid}, {1, 2, rigid}}),
                   test::spring_plate(2, 0, {{0, test::ground, k}, {1, test::ground, k}}), 0};
-    auto& b = lap.b;
-    b.friction_hole = {"1", "1", "2", "2"};
-    b.friction_bearing = {"+x", "-x", "+x", "-x"};
-    b.friction_unit_force = Eigen::Vector4d::Ones();
-    b.friction_resultant = Eigen::Vector4d(0.6, -0.6, 0.6, -0.6);
-    b.R_df = {Eigen::MatrixXd{{0, 0, 2, 0}, {2, 0, 0, 0}}};
-    b.R_ef = {Eigen::MatrixXd(0, 4)};
+    for (auto* plate : {&lap.a, &lap.b}) {
+      plate->friction_hole = {"1", "1", "2", "2"};
+      plate->friction_bearing = {"+x", "-x", "+x", "-x"};
+      plate->friction_unit_force = Eigen::Vector4d::Ones();
+      plate->friction_resultant = Eigen::Vector4d(0.6, -0.6, 0.6, -0.6);
+      plate->R_df = {Eigen::MatrixXd::Zero(2, 4)};
+      plate->R_ef = {Eigen::MatrixXd::Zero(plate->n_externals(), 4)};
+    }
+    lap.b.R_df = {Eigen::MatrixXd{{0, 0, 2, 0}, {2, 0, 0, 0}}};
     return lap;
   }
 
   /// @param law JSON of the fasteners' law.
   void run(double mu, const std::string& law) {
     std::ostringstream fasteners;
-    fasteners << R"([{"id": "1", "between": ["a:1", "b:1"], "law": "f", "friction": {"b": )" << mu << R"(}},
-                     {"id": "2", "between": ["a:2", "b:2"], "law": "f", "friction": {"b": )"
-              << mu << "}}]";
+    fasteners << R"([{"id": "1", "between": ["a:1", "b:1"], "law": "f", "friction": )" << mu << R"(},
+                     {"id": "2", "between": ["a:2", "b:2"], "law": "f", "friction": )"
+              << mu << "}]";
     const RunOptions options{.input = test::write_joint(folder_, lap(),
                                                         {{"laws", "{\"f\": " + law + "}"},
                                                          {"fasteners", fasteners.str()},

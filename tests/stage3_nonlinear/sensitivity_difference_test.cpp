@@ -122,11 +122,12 @@ std::vector<Number> Differences::numbers() const {
   }
   for (Index i = 0; i < by.mu.cols(); ++i) {
     const FrictionHole& hole = names.friction[static_cast<std::size_t>(i)];
-    const FrictionRow row = equations_.system.friction[static_cast<std::size_t>(hole.rows[0])];
-    all.push_back(
-        {"mu " + hole.name, small * hole.mu,
-         [row](NamedJoint& j, double h) { test::add_to_mu(j.model.fasteners[row.fastener].holes[row.hole], h); },
-         by.mu.col(i)});
+    const double mu = joint_.model.fasteners[hole.fastener].holes[hole.hole].mu;
+    all.push_back({"mu " + hole.name, small * mu,
+                   [at = hole.fastener, of = hole.hole](NamedJoint& j, double h) {
+                     test::add_to_mu(j.model.fasteners[at], of, h);
+                   },
+                   by.mu.col(i)});
   }
   for (Index i = 0; i < by.force.cols(); ++i) {
     const std::string name = names.loads.force[static_cast<std::size_t>(i)];
