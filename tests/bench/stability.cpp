@@ -104,6 +104,8 @@ bool check(int n, const RootOptions& options) {
   for (const auto seed : seeds(n)) promises.check(random_joint(seed));
   const Falling falling = check_falling(n / 10, tolerance);
   for (const auto& sentence : falling.broken) promises.complain(sentence);
+  if (falling.joints >= 100 && 10 * falling.several < falling.joints)
+    promises.complain("laws that fall: too few joints with several solutions to show anything");
   std::cout << fmt::format("laws that fall: {} joints, {} solved, {} with several solutions, {} warned of\n",
                            falling.joints, falling.solved, falling.several, falling.warned);
   return promises.summary();

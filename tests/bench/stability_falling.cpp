@@ -68,7 +68,10 @@ Falling check_falling(int n, double tolerance) {
         result.broken.push_back(fmt::format("falling laws, seed {}: what the program returns is no solution", seed));
     }
     std::mt19937 random(seed);
-    if (solutions(equations, random, tolerance).size() < 2) continue;
+    const auto n_found = solutions(equations, random, tolerance).size();
+    if (path.failure && n_found > 0)
+      result.broken.push_back(fmt::format("falling laws, seed {}: there is a solution, the program finds none", seed));
+    if (n_found < 2) continue;
     ++result.several;
     const bool turned = !path.failure && path.steps[0].check.turned;
     const bool warned = !planes_that_may_snap(equations).empty() || turned;

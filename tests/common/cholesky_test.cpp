@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/linalg/cholesky.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Cholesky>
@@ -38,7 +39,12 @@ TEST(Cholesky, SolvesAllColumnsAtOnce) {
 TEST(Cholesky, NothingToSolveIsNoError) { EXPECT_EQ(Cholesky(chain(5, 2)).solve(Eigen::MatrixXd(5, 0)).cols(), 0); }
 
 TEST(Cholesky, NamesTheIndefiniteRow) {
-  EXPECT_THAT([] { Cholesky c(chain(50, -4.0)); }, ThrowsMessage<NumericalError>(HasSubstr("of 50 is not positive")));
+  for (const int row : {0, 20, 49}) {
+    Sparse A = chain(50, 2);
+    A.coeffRef(row, row) = -4;
+    EXPECT_THAT([&] { Cholesky c(A); },
+                ThrowsMessage<NumericalError>(HasSubstr(fmt::format("pivot of row {} of 50 is not positive", row))));
+  }
 }
 
 TEST(Cholesky, RefusesAMatrixThatIsSingularToWorkingPrecision) {

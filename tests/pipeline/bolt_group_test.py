@@ -15,6 +15,10 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+sys.dont_write_bytecode = True
+import pictures  # noqa: E402
+
 LOAD, AT = 15000, 300  # on the right edge of each bracket, downward
 BOLTS = np.array([(40, -70), (110, -70), (40, 0), (110, 0), (40, 70), (110, 70)], dtype=float)
 
@@ -184,7 +188,7 @@ def main(bin_folder):
         call("make", "-s")
         call("make", "-q")
         call("make", "-s", "pictures/stress.png")
-        assert Path("pictures/stress.png").read_bytes()[1:4] == b"PNG"
+        pictures.check_field("pictures/stress.png")
         check_balance()
         check_handbook(Path("README.md").read_text(encoding="utf-8"))
         check_csv()

@@ -8,25 +8,33 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import inclusion  # noqa: E402
+from pictures import check_curves, run_and_look  # noqa: E402
 
 
 def rows(script, folder):
-    """The numbers that a figure's script prints; its picture is written."""
+    """The numbers that a figure's script prints, and the curves of its picture."""
     picture = folder / f"{script}.png"
-    printed = subprocess.run([ROOT / "scripts" / script, "-o", picture], check=True, capture_output=True, text=True).stdout
-    assert picture.read_bytes()[1:4] == b"PNG"
-    return list(csv.DictReader(printed.splitlines()))
+    printed, (drawn, *_) = run_and_look(ROOT / "scripts" / script, "-o", picture)
+    check_curves(picture, ["C0", "C1"])
+    return list(csv.DictReader(printed.splitlines())), drawn
 
 
-def curves(table, value):
-    """Values over rising unknowns by model."""
-    models = {}
+def curves(printed_and_drawn, value):
+    """Values over rising unknowns by model; the picture has the same."""
+    table, drawn = printed_and_drawn
+    models, unknowns = {}, {}
     for row in table:
         models.setdefault(row["model"], []).append(float(row[value]))
+        unknowns.setdefault(row["model"], []).append(float(row["unknowns"]))
+    assert drawn.keys() == models.keys(), drawn.keys()
+    for model, (x, y) in drawn.items():
+        assert np.allclose(x, unknowns[model], rtol=1e-3) and np.allclose(y, models[model], rtol=1e-3), model
     return models
 
 
@@ -54,12 +62,14 @@ def check_links(folder):
 
 
 def check_inclusion(folder):
-    table = rows("figure_16", folder)
+    table, drawn = rows("figure_16", folder)
     assert [float(row["E_D/E_P"]) for row in table] == [float(f"{beta:.4g}") for beta in inclusion.BETAS]
     for beta, row in zip(inclusion.BETAS, table):
         A, B = inclusion.springs(beta)
         assert abs(float(row["A"]) - A) < 1e-6 and abs(float(row["B"]) - B) < 1e-6, row
         assert abs(float(row["B by the second-harmonic law"]) - inclusion.disk(beta)[1]) < 1e-6, row
+    for label, column in (("computed, (29)", "A"), ("computed, second harmonic matched", "B by the second-harmonic law")):
+        assert np.allclose(drawn[label], [inclusion.BETAS, [float(row[column]) for row in table]], atol=1e-5), label
 
 
 def check_nisida(folder):
@@ -68,6 +78,7 @@ def check_nisida(folder):
     example = folder / "examples/nisida"
     subprocess.run(["make", "-s"], cwd=example, check=True, capture_output=True)
     smooth, rough = csv.DictReader((example / "out/figure_18.csv").open())
+    check_curves(example / "out/figure_18.png", ["C0", "C1"])
     assert abs(float(smooth["contact half-angle"]) / 87.20 - 1) < 1e-3, smooth
     assert abs(float(smooth["peak pressure"]) / 1.2045 - 1) < 1e-3, smooth
     assert 3 <= int(smooth["iterations"]) <= 4 and 3 <= int(rough["iterations"]) <= 4

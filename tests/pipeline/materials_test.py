@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plane strain, two materials and unloading through all three programs, on sheets of examples/lap_joint:
+materials_test.py BIN_FOLDER."""
+import copy
+import json
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+EXAMPLE = Path(__file__).resolve().parents[2] / "examples/lap_joint"
+SHEETS = ("upper", "lower")
+FACTORS = [0.5, 1, 0.5, 0, -1]
+
+
+def run(*words):
+    result = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+
+
+def solve(name, sheets):
+    """S of the sheets, then F and peak hoop stresses of the joint without friction, whose load falls and is reversed."""
+    S = {}
+    joint = json.loads((EXAMPLE / "joint.json").read_text()) | {"increments": FACTORS}
+    for sheet, scene in sheets.items():
+        stem = f"{name}.{sheet}"
+        Path(f"{stem}.json").write_text(json.dumps(scene))
+        run("stage1_plate", f"{stem}.json", "-o", f"{stem}.h5")
+        run("stage2_extract", f"{stem}.h5", "-o", f"{stem}.matrices.h5")
+        joint["plates"][sheet] = f"{stem}.matrices.h5"
+        with h5py.File(f"{stem}.matrices.h5") as f:
+            S[sheet] = f["S_dd"][-1]
+    for fastener in joint["fasteners"]:
+        del fastener["friction"]
+    Path(f"{name}.json").write_text(json.dumps(joint))
+    run("stage3_nonlinear", f"{name}.json", "-o", f"{name}.h5")
+    with h5py.File(f"{name}.h5") as f:
+        assert f["load_factor"][:].tolist() == FACTORS, "all increments are there"
+        return S, f["F"][:], np.hstack([f[f"plates/{sheet}/rim/peak_hoop"][:] for sheet in SHEETS])
+
+
+def in_plane_strain(sheets):
+    """A plate in plane strain, and the one in plane stress that is the same: E / (1 - nu^2), nu / (1 - nu)."""
+    strain, stress = copy.deepcopy(sheets), copy.deepcopy(sheets)
+    for scene in strain.values():
+        scene["analysis"] = "plane strain"
+        for hole in scene["holes"]:
+            hole["spring"]["disk"]["law"] = "plane strain"
+    for scene in stress.values():
+        for solid in [*scene["materials"].values(), *(hole["spring"]["disk"] for hole in scene["holes"])]:
+            nu = solid["nu"]
+            solid["E"], solid["nu"] = solid["E"] / (1 - nu**2), nu / (1 - nu)
+    return strain, stress
+
+
+def check_plane_strain(sheets, plain):
+    strain, stress = (solve(name, scenes) for name, scenes in zip(("strain", "stress"), in_plane_strain(sheets)))
+    for sheet in SHEETS:
+        assert np.allclose(strain[0][sheet], stress[0][sheet], rtol=1e-10), sheet
+        assert np.linalg.norm(strain[0][sheet] - plain[0][sheet]) > 0.01 * np.linalg.norm(plain[0][sheet]), sheet
+    largest = np.abs(plain[1]).max()
+    assert np.allclose(strain[1], stress[1], rtol=0, atol=1e-8 * largest), strain[1] - stress[1]
+    assert np.allclose(strain[2], stress[2], rtol=1e-7, atol=1e-7), strain[2] - stress[2]
+
+
+def check_two_materials(sheets, plain):
+    """What is far stiffer behind the fasteners is a wall there: it neither stretches nor, held below, contracts."""
+    hard = copy.deepcopy(sheets)
+    grid = hard["upper"]["geometry"]["grid"]
+    (name, soft), = hard["upper"]["materials"].items()
+    hard["upper"]["materials"]["hard"] = {"E": 1e7 * soft["E"], "nu": 0.2}
+    rows, columns = len(grid["y"]) - 1, len(grid["x"]) - 1
+    grid["material"] = [[name] * (columns - 1) + ["hard"]] * rows
+    wall = copy.deepcopy(sheets)
+    wall["upper"]["geometry"]["grid"]["x"].pop()
+    wall["upper"]["supports"].append({"on": "right", "fix": ["y"]})
+    of_hard, of_wall = solve("hard", hard), solve("wall", wall)
+    S, reference = of_hard[0]["upper"], of_wall[0]["upper"]
+    assert np.linalg.norm(S - reference) < 1e-5 * np.linalg.norm(reference), S - reference
+    assert np.linalg.norm(S - plain[0]["upper"]) > 1e-3 * np.linalg.norm(S), "the material of the last column counts"
+    largest = np.abs(plain[1]).max()
+    assert np.allclose(of_hard[1], of_wall[1], rtol=0, atol=1e-4 * largest), of_hard[1] - of_wall[1]
+    assert np.allclose(of_hard[2], of_wall[2], rtol=1e-3, atol=0.01), of_hard[2] - of_wall[2]
+
+
+def check_unloading(plain):
+    """Laws have no memory, and holes bear on both sides: forces go back the way they came, and change their signs."""
+    _, F, peaks = plain
+    largest = np.abs(F).max()
+    assert np.abs(F[1] / F[0] - 2).max() > 0.02, "the joint is not a linear one"
+    for there, back, sign in ((0, 2, 1), (1, 4, -1)):
+        assert np.allclose(F[back], sign * F[there], rtol=0, atol=1e-8 * largest), (F[there], F[back])
+    assert np.abs(F[3]).max() < 1e-8 * largest, F[3]
+    assert np.allclose(peaks[2], peaks[0], rtol=1e-7) and np.abs(peaks[3]).max() < 1e-6 * np.abs(peaks[1]).max()
+
+
+def main(folder):
+    os.environ["PATH"] = os.path.abspath(folder) + os.pathsep + os.environ["PATH"]
+    sheets = {sheet: json.loads((EXAMPLE / f"{sheet}.json").read_text()) for sheet in SHEETS}
+    with tempfile.TemporaryDirectory() as work:
+        os.chdir(work)
+        plain = solve("plain", sheets)
+        check_unloading(plain)
+        check_plane_strain(sheets, plain)
+        check_two_materials(sheets, plain)
+        os.chdir("/")
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
