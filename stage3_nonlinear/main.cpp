@@ -2,7 +2,6 @@
 #include <iostream>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/fit_run.hpp"
 #include "stage3_nonlinear/gsl_solver.hpp"
 #include "stage3_nonlinear/run.hpp"
 
@@ -15,23 +14,13 @@ const fastjoint::program::Command command{
     .summary = "Finds the loads of the fasteners of a joint from its plates' matrices.",
     .input = "JOINT.json",
     .output = "RESULT.h5",
-    .options =
-        {{"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
-         {"--csv", "FILE", "also write one line per increment and shear plane"},
-         {"--sensitivities", "",
-          "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}},
-    .alternatives = {
-        {.option = {"--fit", "TEST.csv",
-                    "fit a law to a test instead, lines of delta, F; -o then names a drawing (.svg) or is left out"},
-         .options = {{"--law", "KIND", "with --fit: power or cubic"}}}}};
+    .options = {
+        {"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
+        {"--csv", "FILE", "also write one line per increment and shear plane"},
+        {"--sensitivities", "",
+         "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}}};
 
 void body(const fastjoint::program::Arguments& arguments, fastjoint::program::Timings& timings) {
-  if (arguments.flag("--fit"))
-    return fastjoint::stage3::run_fit({.data = arguments.input,
-                                       .law = arguments.text("--law"),
-                                       .drawing = arguments.output,
-                                       .quiet = arguments.quiet},
-                                      std::cout, std::cerr, timings);
   fastjoint::stage3::run({.input = arguments.input,
                           .output = arguments.output,
                           .csv = arguments.text("--csv"),

@@ -110,7 +110,7 @@ std::shared_ptr<const Law> read_table_law(const input::Value& law) {
       place.fail(fmt::format("delta = {} after {}", delta, points[i - 1][0]), "displacements that rise");
     if (!(F >= points[i - 1][1]))
       place.fail(fmt::format("F = {} at delta = {} after {}", F, delta, points[i - 1][1]),
-                 "forces that do not fall: smooth the data, or fit a law to it (--fit)");
+                 "forces that do not fall: smooth the data, or fit a law to it (scripts/fit_law)");
   }
   if (!(points.back()[1] > 0)) place.fail("no force at any point", "a force > 0");
   return std::make_shared<TableLaw>(points);

@@ -20,36 +20,14 @@ namespace {
 
 enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, numerical_failure = 4 };
 
-CLI::Option* add(CLI::App& app, const Option& option, Arguments& arguments) {
+void add(CLI::App& app, const Option& option, Arguments& arguments) {
   const auto keep = [&arguments, name = option.name](const std::string& text) { arguments.options[name] = text; };
   if (option.value.empty()) {
     const auto note = [keep] { keep("given"); };
-    return app.add_flag_callback(option.name, note, option.help)->option_text(" ");
+    app.add_flag_callback(option.name, note, option.help)->option_text(" ");
+  } else {
+    app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
   }
-  return app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
-}
-
-/// Which options go together is left to CLI11, whose messages name both.
-void add_alternative(CLI::App& app, const Alternative& alternative, const std::vector<CLI::Option*>& others,
-                     Arguments& arguments) {
-  CLI::Option* instead = add(app, alternative.option, arguments);
-  for (CLI::Option* other : others) instead->excludes(other);
-  for (const auto& option : alternative.options) {
-    CLI::Option* with = add(app, option, arguments);
-    with->needs(instead);
-    instead->needs(with);
-  }
-}
-
-/// Input and output by their names, unless an alternative takes their place.
-void complete(const Command& command, Arguments& arguments) {
-  for (const auto& alternative : command.alternatives)
-    if (arguments.flag(alternative.option.name)) {
-      arguments.input = arguments.text(alternative.option.name);
-      return;
-    }
-  if (arguments.input.empty()) throw CLI::RequiredError(command.input);
-  if (arguments.output.empty()) throw CLI::RequiredError("--output");
 }
 
 /// Nothing if all the user wanted was --help or --version.
@@ -57,18 +35,16 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   Arguments arguments;
   CLI::App app(command.summary, command.name);
   app.set_version_flag("--version", generator(command.name));
-  const bool alone = command.alternatives.empty();
-  std::vector<CLI::Option*> own{
-      app.add_option(command.input, arguments.input, "file to read")->required(alone)->option_text(" ")};
-  app.add_option("-o,--output", arguments.output, "file to write")->required(alone)->option_text(command.output);
-  for (const auto& option : command.options) own.push_back(add(app, option, arguments));
-  for (const auto& alternative : command.alternatives) add_alternative(app, alternative, own, arguments);
+  app.add_option(command.input, arguments.input, "file to read")->required()->option_text(" ");
+  app.add_option("-o,--output", arguments.output, "file to write")->required()->option_text(command.output);
+  for (const auto& option : command.options) add(app, option, arguments);
   app.add_option("--timings", arguments.timings, "also write what each phase took, as JSON")->option_text("FILE");
   app.add_flag("--quiet", arguments.quiet, "print no summary");
   app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage or input, 3 bad file, 4 numerical failure.");
   try {
     app.parse(argc, argv);
-    complete(command, arguments);
+    if (arguments.input.empty()) throw CLI::RequiredError(command.input);  // CLI11 takes "" for a name
+    if (arguments.output.empty()) throw CLI::RequiredError("--output");
     return arguments;
   } catch (const CLI::Success& e) {
     app.exit(e, std::cout);

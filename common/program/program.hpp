@@ -17,13 +17,6 @@ struct Option {
   std::string help;   ///< one line
 };
 
-/// Something else that a program does when `option` stands in INPUT's place: its value is the input then, -o may be
-/// left out, `options` must be given and those of the command must not.
-struct Alternative {
-  Option option;
-  std::vector<Option> options;
-};
-
 /// What the three programs differ in; `INPUT -o OUTPUT --timings FILE --quiet --help --version` all have.
 struct Command {
   std::string name;
@@ -31,13 +24,11 @@ struct Command {
   std::string input;   ///< "PLATE.json"
   std::string output;  ///< "PLATE.h5"
   std::vector<Option> options;
-  std::vector<Alternative> alternatives = {};
 };
 
 /// The user's words, parsed.
 struct Arguments {
-  std::string input;
-  std::string output;   ///< may be empty in an alternative only
+  std::string input, output;
   std::string timings;  ///< path of the file of times, or empty
   bool quiet = false;
   std::map<std::string, std::string> options;  ///< only those that were given

@@ -37,6 +37,10 @@ TEST_P(Usage, WrongWords) {
     EXPECT_EQ(run.status, 2) << words;
     EXPECT_THAT(run.err, HasSubstr("see --help")) << words;
   }
+  for (const char* words : {"in.json", "in.json -o ''"})
+    EXPECT_THAT(call(words).err, HasSubstr("error: --output is required; see --help")) << words;
+  for (const char* words : {"-o out.h5", "'' -o out.h5"})
+    EXPECT_THAT(call(words).err, HasSubstr("is required; see --help")) << words;
 }
 
 TEST_P(Usage, OutputsThatCannotBe) {
