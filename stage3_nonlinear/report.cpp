@@ -8,6 +8,8 @@
 #include <cmath>
 #include <set>
 
+#include "stage3_nonlinear/implicit_slopes.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -118,6 +120,36 @@ void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vecto
   }
 }
 
+/// Laws have no memory: of the first increment at which planes are unloaded that have slipped, yielded or been on a
+/// curved law.
+void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                       std::vector<std::string>& result) {
+  constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
+  const ContactMarks marks(equations.contacts);
+  const Index n = equations.n_planes(), a = equations.n_directions();
+  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(a, n);
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const PathStep& step = path.steps[i];
+    const Eigen::MatrixXd c = coordinates(equations.contacts, step.F, step.delta).reshaped(a, n);
+    std::vector<Index> unloaded;
+    for (Index j = 0; j < n; ++j) {
+      const double before = most.col(j).norm(), now = c.col(j).norm();
+      const bool falls = now < less * before || most.col(j).dot(c.col(j)) < turned * now * before;
+      if (now > before) most.col(j) = c.col(j);
+      const auto passed = [&](const Mark& mark) { return mark.corner != Corner::contact && mark.at < before; };
+      const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+      const bool curved = !contact.law->kinks(contact.stiffness, contact.clearance);
+      if (falls && (curved || std::any_of(marks.of(j).begin(), marks.of(j).end(), passed))) unloaded.push_back(j);
+    }
+    if (unloaded.empty()) continue;
+    result.push_back(fmt::format(
+        "{}: increment {} (load factor {:.6g}) unloads {} after a yield or slip: laws have no memory and go back along "
+        "their loading curve, where real fasteners keep a permanent set; forces from there on are not theirs",
+        joint.file, i + 1, step.load_factor, names(joint, unloaded)));
+    return;
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
@@ -127,6 +159,7 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   warn_mechanism(joint, path, result);
   warn_of_other_solutions(joint, equations, path, result);
   warn_self_locking(joint, path, result);
+  warn_of_unloading(joint, equations, path, result);
   return result;
 }
 
@@ -144,7 +177,8 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.locking ? fmt::format("On the sides that bear {}. ", locking_text(*failure.locking)) : "";
   const std::string advice = fmt::format(
       "Check the law and the clearance of that fastener (a cubic that turns down carries no more than its "
-      "peak, a law that ends level no more than its last force), take smaller increments, allow more than {} iterations or, if the residual is close to it, a "
+      "peak, a law that ends level no more than its last force), take smaller increments, allow more than {} "
+      "iterations or, if the residual is close to it, a "
       "larger tolerance than {:.0e}; and see that each plate is held in the sense of its load: one that "
       "only fasteners hold has no stiffness while all of them are open, and one-sided fasteners cannot "
       "pull it",

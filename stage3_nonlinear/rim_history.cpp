@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <set>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -44,19 +44,49 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
   return n;
 }
 
-/// {plate, rim} of the rims of which `what` holds at some step.
-std::vector<std::pair<std::size_t, std::size_t>> rims_that(const JointModel& joint,
-                                                           const std::vector<JointState>& states,
-                                                           bool RimState::*what) {
-  std::vector<std::pair<std::size_t, std::size_t>> result;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    for (std::size_t rim = 0; rim < joint.plates[i].stresses.rim_hole.size(); ++rim) {
-      const auto holds = [&](const JointState& state) {
-        return rim < state.plates[i].rims.size() && state.plates[i].rims[rim].*what;
-      };
-      if (std::any_of(states.begin(), states.end(), holds)) result.emplace_back(i, rim);
-    }
-  return result;
+/// A doubt about rims: how much of it a rim gives cause for, 0 or NaN if none, and what to say where that is most.
+struct Doubt {
+  double (*amount)(const RimState&, bool loose);
+  const char* text;  ///< {amount}, {stress} of bearing, {peak}; {at} the hole, increment and number of others
+};
+
+constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
+
+constexpr std::array<Doubt, 6> doubts = {{
+    {[](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
+     "the springs of {at} pull the sheet instead of pushing it: they act on the arc that does not bear under these "
+     "loads; give the hole's spring the other \"arc\" in PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
+     "the springs all around {at} pull on its rim by up to {amount:.4g} {unit}, beside a bearing stress of "
+     "{stress:.4g}: a "
+     "fastener can only push, and hoop peaks come out too low; give the hole's spring the \"arc\" on which it bears in "
+     "PLATE.json"},
+    {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
+     "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
+     "peak {peak:.4g} too low; give the hole's spring the \"arc\" on which it bears in PLATE.json"},
+    {[](const RimState& rim, bool) {
+       return rim.net_concentration > 0 && rim.net_concentration < 1 ? 1 / rim.net_concentration : 0;
+     },
+     "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
+     "springs "
+     "pull on its rim; give the hole's spring the \"arc\" on which it bears in PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? rim.across_share : 0; },
+     "the disc of {at} is held across its one direction by {across:.4g} {force}, {percent:.3g} % of its bearing force, "
+     "which nothing in the joint gives; let the discs move: \"disc_directions\": [\"x\", \"y\"] in PLATE.json of all "
+     "sheets"},
+    {[](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
+     "friction acts off the axes, by its components along x and y, at {at}: the loads hold, but peak hoop stresses "
+     "there "
+     "may lack what friction adds to them, most of it at 45 degrees"},
+}};
+
+/// "plate:hole" of all holes whose fastener has a clearance.
+std::set<std::string> loose_holes(const JointModel& joint) {
+  std::set<std::string> names;
+  for (const auto& plane : joint.planes)
+    if (plane.clearance > 0)
+      names.merge(std::set{joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane))});
+  return names;
 }
 
 std::string stress_row(const PlateModel& plate, std::size_t rim, const RimState& state) {
@@ -66,9 +96,11 @@ std::string stress_row(const PlateModel& plate, std::size_t rim, const RimState&
   text += known ? fmt::format(" {:>14.6g}", state.bypass_load) : fmt::format(" {:>14}", "-");
   text += fmt::format(" {:>14.6g} {:>9.1f}", state.peak_hoop, state.peak_angle);
   text += std::isfinite(state.peak_error) ? fmt::format(" {:>9.1e}", state.peak_error) : fmt::format(" {:>9}", "?");
-  if (known && state.gross_concentration != 0)
-    return text + fmt::format(" {:>8.3f} {:>8.3f}\n", state.gross_concentration, state.net_concentration);
-  return text + fmt::format(" {:>8} {:>8}\n", "-", "-");
+  text += known && state.gross_concentration != 0
+              ? fmt::format(" {:>8.3f} {:>8.3f}", state.gross_concentration, state.net_concentration)
+              : fmt::format(" {:>8} {:>8}", "-", "-");
+  return text +
+         (std::isfinite(state.across) ? fmt::format(" {:>12.6g}\n", state.across) : fmt::format(" {:>12}\n", "-"));
 }
 
 }  // namespace
@@ -110,25 +142,39 @@ std::string rim_csv_fields(const RimHistory& rims, const std::string& hole, Inde
   return text;
 }
 
-std::vector<std::string> pulled_rims(const JointModel& joint, const std::vector<JointState>& states) {
+std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
+  const auto loose = loose_holes(joint);
   std::vector<std::string> result;
-  for (const auto& [plate, rim] : rims_that(joint, states, &RimState::pulls))
-    result.push_back(fmt::format(
-        "{}: rim/sigma_rr: the springs of hole \"{}\" pull the sheet instead of pushing it: they act on the "
-        "arc that does not bear under these loads; give its spring the other \"arc\" in PLATE.json",
-        joint.plates[plate].file, joint.plates[plate].stresses.rim_hole[rim]));
+  for (const auto& doubt : doubts) {
+    double most = 0;
+    std::string at;
+    const RimState* worst = nullptr;
+    std::set<std::string> holes;
+    for (std::size_t step = 0; step < states.size(); ++step)
+      for (std::size_t i = 0; i < joint.plates.size(); ++i)
+        for (std::size_t rim = 0; rim < states[step].plates[i].rims.size(); ++rim) {
+          const RimState& state = states[step].plates[i].rims[rim];
+          const std::string hole = fmt::format("{}:{}", joint.plates[i].name, joint.plates[i].stresses.rim_hole[rim]);
+          const double amount = doubt.amount(state, loose.contains(hole));
+          if (!(amount > 0)) continue;
+          holes.insert(hole);
+          if (amount <= most) continue;
+          most = amount;
+          worst = &state;
+          at = fmt::format("hole \"{}\" (increment {}", hole, step + 1);
+        }
+    if (!worst) continue;
+    const std::size_t others = holes.size() - 1;
+    at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
+    using fmt::arg;
+    result.push_back(
+        joint.file + ": " +
+        fmt::format(fmt::runtime(doubt.text), arg("at", at), arg("amount", most), arg("stress", worst->bearing_stress),
+                    arg("peak", worst->peak_hoop), arg("net", worst->net_concentration), arg("across", worst->across),
+                    arg("percent", 100 * worst->across_share), arg("force", formats::unit(joint.units, 0, 1)),
+                    arg("unit", formats::unit(joint.units, -2, 1))));
+  }
   return result;
-}
-
-std::vector<std::string> friction_off_axes(const JointModel& joint, const std::vector<JointState>& states) {
-  std::vector<std::string> holes;
-  for (const auto& [plate, rim] : rims_that(joint, states, &RimState::by_components))
-    holes.push_back(fmt::format("{}:{}", joint.plates[plate].name, joint.plates[plate].stresses.rim_hole[rim]));
-  if (holes.empty()) return {};
-  return {
-      fmt::format("{}: friction acts off the axes, by its components along x and y, at {}: the loads hold, but peak "
-                  "hoop stresses there may lack what friction adds to them, most of it at 45 degrees",
-                  joint.file, fmt::join(holes, ", "))};
 }
 
 std::string rim_table(const JointModel& joint, const JointState& state) {
@@ -139,9 +185,9 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   if (rows.empty()) return rows;
   const std::string stress = fmt::format("[{}]", formats::unit(joint.units, -2, 1));
   const std::string force = fmt::format("[{}]", formats::unit(joint.units, 0, 1));
-  return fmt::format("  {:<24} {:>14} {:>14} {:>14} {:>9} {:>9} {:>8} {:>8}\n", "hole", "bearing F/(d t)", "bypass",
-                     "peak hoop", "at [deg]", "+-", "Kt gross", "Kt net") +
-         fmt::format("  {:<24} {:>14} {:>14} {:>14}\n", "", stress, force, stress) + rows;
+  return fmt::format("  {:<24} {:>14} {:>14} {:>14} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "hole", "bearing F/(d t)",
+                     "bypass", "peak hoop", "at [deg]", "+-", "Kt gross", "Kt net", "held across") +
+         fmt::format("  {:<24} {:>14} {:>14} {:>14} {:>50}\n", "", stress, force, stress, force) + rows;
 }
 
 }  // namespace fastjoint::stage3

@@ -19,12 +19,8 @@ namespace fastjoint::stage3 {
 /// Their values for a hole at a step.
 [[nodiscard]] std::string rim_csv_fields(const formats::RimHistory& rims, const std::string& hole, Eigen::Index step);
 
-/// One sentence for each hole whose springs pull at some step: they act on the arc that does not bear.
-[[nodiscard]] std::vector<std::string> pulled_rims(const JointModel& joint, const std::vector<JointState>& states);
-
-/// One sentence on the holes where friction acts off the axes at some step; none if there are none.
-[[nodiscard]] std::vector<std::string> friction_off_axes(const JointModel& joint,
-                                                         const std::vector<JointState>& states);
+/// One sentence for each kind of doubt about rims, naming the hole and the increment where it is largest.
+[[nodiscard]] std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states);
 
 /// The table of the summary: every hole of every plate at one increment. Empty if no plate has stresses.
 [[nodiscard]] std::string rim_table(const JointModel& joint, const JointState& state);

@@ -80,6 +80,15 @@ class Rim {
     return bearing / sigma_rr.lpNorm<1>();
   }
 
+  /// Force on the rim along an axis by the pressure around a whole circle in equal steps, else NaN.
+  /// @param area d t
+  [[nodiscard]] double force(const VectorXd& sigma_rr, int axis, double area) const {
+    const auto n = static_cast<double>(angle_.size());
+    if (std::abs(distance(angle_.size() - 1, 0) - 360 / n) > same_step * 360) return std::nan("");
+    const Eigen::ArrayXd off_axis = (angle_.array() - 90 * axis) * (std::numbers::pi / 180);
+    return -off_axis.cos().matrix().dot(sigma_rr) / n * std::numbers::pi * area;
+  }
+
   /// Largest change within 45 degrees of a point.
   [[nodiscard]] double change_around(Index at, const VectorXd& change) const {
     constexpr double around = 45;
@@ -199,9 +208,15 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
     state.by_components = jumps[0] != 0 && jumps[1] != 0;
     const Rim points(a, rim, jumps);
     read_peak(a, points, level, loading.amounts, state);
+    const VectorXd radial = points.stress(a.sigma_rr[level], loading.amounts);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
-    state.pulls = bearing.norm() > 1e-9 * largest &&
-                  points.bearing_share(points.stress(a.sigma_rr[level], loading.amounts), bearing) < hardly;
+    state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
+    const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();
+    state.filled = static_cast<double>(touched) > (1 - hardly) * static_cast<double>(radial.size());
+    if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
+    if (const int across = 1 - plate.axes[0]; plate.axes.size() == 1 && hole < std::ssize(plate.holes))
+      state.across = points.force(radial, across, a.bearing_area(rim, across));
+    state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
     read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);
     states.push_back(state);
   }

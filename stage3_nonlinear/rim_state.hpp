@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <vector>
 
 #include "stage3_nonlinear/plate_model.hpp"
@@ -20,6 +21,12 @@ struct RimState {
   double peak_error = 0;      ///< estimated; infinite where there is no degree below, stress
   /// The springs pull instead of pushing: they act on the side that does not bear.
   bool pulls = false;
+  bool filled = false;  ///< springs act all around
+  double pull = 0;      ///< largest tension of springs all around; 0 of those on an arc, stress
+  /// Force that holds the disc across its one direction: the integral of the pressure around a whole circle. NaN of a
+  /// part of one, whose disc a line of symmetry holds, and of discs that move along x and y.
+  double across = std::numeric_limits<double>::quiet_NaN();
+  double across_share = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
   /// Friction of both components acts: its stresses are not those of friction along the force.
   bool by_components = false;
   double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded

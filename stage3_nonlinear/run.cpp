@@ -67,8 +67,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   std::vector<JointState> states;
   states.reserve(path.steps.size());
   for (const auto& step : path.steps) states.push_back(joint_state(joint, equations.system, step));
-  warn(log, pulled_rims(joint, states));
-  warn(log, friction_off_axes(joint, states));
+  warn(log, rim_warnings(joint, states));
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};
   result.F_error = force_errors(joint, equations, path, states);

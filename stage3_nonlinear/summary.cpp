@@ -136,10 +136,15 @@ std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen
 
 std::string stress_table(const JointModel& joint, const JointState& state) {
   std::string text;
-  for (const auto& plate : joint.plates)
-    if (!plate.stress_level && plate.stresses.p.size() > 0)
+  for (const auto& plate : joint.plates) {
+    if (plate.stress_level) continue;
+    if (plate.stresses.p.size() > 0)
       text += fmt::format("no stresses of {}: {} holds them at p = {} only\n", plate.name, plate.file,
                           fmt::join(plate.stresses.p, ", "));
+    if (joint.n_directions() == 1)
+      text += fmt::format("force that holds the discs of {} across {}: not known without stresses\n", plate.name,
+                          joint.axis_name(0));
+  }
   const std::string table = rim_table(joint, state);
   return table.empty() ? text : fmt::format("{}stresses at the last increment\n{}", text, table);
 }

@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -69,8 +70,74 @@ def check_csv(path, result):
                 assert float(row[f"{name}_{end}"]) == rim[name][step, i], (row["fastener"], name)
 
 
+def across(folder, plate, i):
+    """Force on the disc of a rim along y, by the pressure around it, at every increment, over the bearing force along x."""
+    with h5py.File(folder / f"{plate}.matrices.h5") as matrices, h5py.File(folder / "joint.h5") as result:
+        points = slice(*matrices["rim/start"][i:i + 2])
+        angle = np.radians(matrices["rim/angle"][points])
+        rim = result[f"plates/{plate}/rim"]
+        forces = [-(matrices["rim/sigma_rr"][-1, points] @ amounts(result[f"plates/{plate}"], step) * np.sin(angle)).mean()
+                  * np.pi * matrices["rim/bearing_area"][i, 1] for step in range(len(result["load_factor"]))]
+        return np.array(forces), rim["bearing_load"][:, i]
+
+
+def check_default(folder):
+    """Default settings of the README's own joint: each doubt is told once, with its worst hole, increment and numbers."""
+    run = subprocess.run(["stage3_nonlinear", folder / "joint.json", "-o", folder / "joint.h5"], check=True,
+                         capture_output=True, text=True)
+    said = [line for line in run.stderr.splitlines() if line]
+    assert len(said) == 4 and all("warning: " in line for line in said), run.stderr
+    for line, words in zip(said, (r'springs all around hole "upper:d" \(increment 4; 7 other holes likewise\) pull on its rim by '
+                                  r"up to [\d.]+ N/mm\^2, beside a bearing stress of [\d.]+: a fastener can only push",
+                                  r'a fastener with a clearance fills hole "lower:b" \(increment 4; 1 other hole likewise\)',
+                                  r'Kt net is 0\.8\d+ at hole "upper:b" \(increment 1\): no hole',
+                                  r'the disc of hole "lower:b" \(increment 1; 7 other holes likewise\) is held across')):
+        assert re.search(words, line), (words, line)
+    forces, bearing = across(folder, "lower", 1)
+    told = re.search(r"across its one direction by ([\d.]+) N, ([\d.]+) %", said[3])
+    assert np.isclose(float(told[1]), abs(forces[0]), rtol=1e-3), (told, forces)
+    assert np.isclose(float(told[2]), 100 * abs(forces[0] / bearing[0]), rtol=5e-3), (told, forces, bearing)
+    column = re.search(r"lower:b .* ([\d.-]+)$", run.stdout, re.M)
+    assert np.isclose(float(column[1]), forces[-1], rtol=1e-4), (column, forces)
+
+
+def check_loads_only(folder):
+    """Without stresses the summary says what it does not know."""
+    for plate in ("upper", "lower"):
+        subprocess.run(["stage1_plate", folder / f"{plate}.json", "-o", folder / f"{plate}.h5", "--quiet", "--loads-only"], check=True)
+        subprocess.run(["stage2_extract", folder / f"{plate}.h5", "-o", folder / f"{plate}.matrices.h5", "--quiet"], check=True)
+    run = subprocess.run(["stage3_nonlinear", folder / "joint.json", "-o", folder / "joint.h5"], check=True,
+                         capture_output=True, text=True)
+    assert run.stdout.count("force that holds the discs of ") == 2, run.stdout
+    assert "force that holds the discs of upper across x: not known without stresses\n" in run.stdout, run.stdout
+
+
+def check_free(folder):
+    """Discs that move along x and y, and half holes on a line of symmetry, are held by nothing that wants a warning."""
+    for name, change in (("plane", lambda scene: scene.update(disc_directions=["x", "y"])), ("half", None)):
+        case = folder / name
+        case.mkdir()
+        joint = json.loads((folder / "joint.json").read_text())
+        for plate in ("upper", "lower"):
+            scene = json.loads((folder / f"{plate}.json").read_text())
+            if change:
+                change(scene)
+            else:  # one row of rivets on the lower border, where symmetry holds the sheet
+                scene["geometry"]["grid"]["y"] = [10, 25]
+                scene["holes"] = [hole for hole in scene["holes"] if hole["center"][1] == 10]
+                joint["fasteners"] = [each for each in joint["fasteners"] if each["id"] in "ac"]
+            (case / f"{plate}.json").write_text(json.dumps(scene))
+            subprocess.run(["stage1_plate", case / f"{plate}.json", "-o", case / f"{plate}.h5", "--quiet"], check=True)
+            subprocess.run(["stage2_extract", case / f"{plate}.h5", "-o", case / f"{plate}.matrices.h5", "--quiet"], check=True)
+        (case / "joint.json").write_text(json.dumps(joint))
+        run = subprocess.run(["stage3_nonlinear", case / "joint.json", "-o", case / "joint.h5"], check=True,
+                             capture_output=True, text=True)
+        assert "held across its one direction" not in run.stderr, run.stderr
+        assert re.search(r"upper:a .* -$", run.stdout, re.M), run.stdout
+
+
 def check_warning(folder):
-    """Springs on the arc that does not bear are noticed; on the one that does, nothing is said."""
+    """Springs on the arc that does not bear are noticed; on the one that does, nothing is said of them."""
     for name, arcs, warned in (("right", {"upper": [90, 270], "lower": [-90, 90]}, False),
                                ("wrong", {"upper": [-90, 90], "lower": [-90, 90]}, True)):
         case = folder / name
@@ -85,8 +152,9 @@ def check_warning(folder):
             subprocess.run(["stage2_extract", case / f"{plate}.h5", "-o", case / f"{plate}.matrices.h5", "--quiet"], check=True)
         run = subprocess.run(["stage3_nonlinear", case / "joint.json", "-o", case / "joint.h5", "--quiet"], check=True,
                              capture_output=True, text=True)
-        assert (run.stderr.count("pull the sheet instead of pushing it") == 4) == warned, run.stderr
-        assert warned or not run.stderr, run.stderr
+        assert (re.search("3 other holes likewise. pull the sheet instead of pushing it", run.stderr) is not None) == warned, \
+            run.stderr
+        assert warned or "held across" in run.stderr and len(run.stderr.splitlines()) == 1, run.stderr
 
 
 def main(bin_folder):
@@ -105,7 +173,10 @@ def main(bin_folder):
                             check_hole(matrices, state, i, step)
                         check_pressure(matrices, state, step)
             check_csv(folder / "joint.csv", result)
+        check_default(folder)
+        check_free(folder)
         check_warning(folder)
+        check_loads_only(folder)
 
 
 if __name__ == "__main__":

@@ -5,6 +5,7 @@ Two sheets with three fasteners off the line of the load, as explicit meshes, tu
 forces turn along; with friction, which acts by its components along x and y, they differ by what the README's limits say."""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -71,9 +72,10 @@ def solve(load, friction):
              "solver": {"tolerance": 1e-12}}
     Path("joint.json").write_text(json.dumps(joint))
     warning = call("stage3_nonlinear", "joint.json", "-o", "joint.h5", "--quiet").stderr
-    assert ("joint.json: friction acts off the axes, by its components along x and y, at lower:a, lower:b, lower:c, upper:a, "
-            "upper:b, upper:c: the loads hold, but peak hoop stresses there may lack what friction adds to them, most of it "
-            "at 45 degrees\n" in warning) == (friction > 0), warning
+    said = re.search(r'joint\.json: friction acts off the axes, by its components along x and y, at hole "(upper|lower):[abc]" '
+                     r"\(increment 1; 5 other holes likewise\): the loads hold, but peak hoop stresses there may lack what "
+                     r"friction adds to them, most of it at 45 degrees\n", warning)
+    assert (said is not None) == (friction > 0), warning
     with h5py.File("joint.h5") as f:
         rim = f["plates/upper/rim"]
         on_upper = np.column_stack([rim["bearing_load"][-1], rim["bearing_load_y"][-1]])

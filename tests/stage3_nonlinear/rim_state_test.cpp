@@ -179,6 +179,48 @@ TEST(RimState, SpringsOnTheWrongArcPull) {
   EXPECT_FALSE(state(model, 0, 0).pulls) << "nothing to push";
 }
 
+/// A plate whose radial stress in the first case is `sigma` of the angle.
+PlateModel pressed(double from, double to, const std::function<double(double)>& sigma) {
+  PlateModel model = plate(from, to, [](double) { return 4.0; });
+  model.stresses.sigma_rr.assign(2, Eigen::MatrixXd::Zero(model.stresses.angle.size(), 2));
+  for (Index i = 0; i < model.stresses.angle.size(); ++i)
+    model.stresses.sigma_rr[1](i, 0) = sigma(model.stresses.angle[i] * degree);
+  return model;
+}
+
+/// Of p = cos + 0.2 sin + 3 cos 2, twice, over d t = 0.5: the force along x is 2 pi / 2 d t, across it a fifth.
+TEST(RimState, ForceAcrossIsThatOfThePressure) {
+  const auto sigma = [](double t) { return -std::cos(t) - 0.2 * std::sin(t) - 3 * std::cos(2 * t); };
+  const double along = std::numbers::pi * 0.5;
+  const auto s = state(pressed(0, 360, sigma), along, 0);
+  EXPECT_NEAR(s.across, 0.2 * along, 1e-12);
+  EXPECT_NEAR(s.across_share, 0.2, 1e-12);
+  PlateModel y = pressed(0, 360, sigma);
+  y.axes = {1};
+  EXPECT_NEAR(state(y, 0.2 * along, 0).across, along, 1e-12);
+}
+
+TEST(RimState, NothingIsKnownToHoldADiscAcrossOnALineOfSymmetryOrInThePlane) {
+  const auto sigma = [](double t) { return -std::sin(t); };
+  EXPECT_TRUE(std::isnan(state(pressed(0, 180, sigma), 1, 0).across)) << "symmetry holds it";
+  PlateModel both = pressed(0, 360, sigma);
+  both.axes = {0, 1};
+  EXPECT_TRUE(std::isnan(plane_state(both, {1, 0}, 0).across)) << "it moves";
+  PlateModel open = pressed(0, 360, sigma);
+  open.stresses.rim_hole = {"open"};
+  EXPECT_TRUE(std::isnan(state(open, 1, 0).across)) << "no disc";
+}
+
+TEST(RimState, SpringsAllAroundPullOnTheSideThatDoesNotBear) {
+  const auto all = state(pressed(0, 360, [](double t) { return -std::cos(t + 0.01) - 0.5; }), 1, 0);
+  EXPECT_TRUE(all.filled);
+  EXPECT_NEAR(all.pull, 1, 1e-2);
+  const auto arc = state(pressed(0, 360, [](double t) { return -std::max(std::cos(t), 0.0); }), 1, 0);
+  EXPECT_FALSE(arc.filled);
+  EXPECT_EQ(arc.pull, 0);
+  EXPECT_FALSE(state(pressed(0, 360, [](double) { return 0.0; }), 1, 0).filled) << "an open hole";
+}
+
 TEST(RimState, NoConcentrationOnAnUnloadedSection) {
   PlateModel model = plate(0, 360, [](double) { return 4.0; });
   model.stresses.section_force[1].setZero();

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a run says if it does not converge, or if its results are to be doubted.
+#include <fmt/format.h>
+
 #include "common/errors.hpp"
 #include "stage3_nonlinear/report.hpp"
 #include "tests/stage3_nonlinear/run_fixture.hpp"
@@ -133,6 +135,49 @@ TEST_F(Run, WarnsWhereTheSolutionMayBeOneOfSeveral) {
   run();
   EXPECT_EQ(log_.str(), "");
 }
+
+/// Two bolts that share 100: F = 50 each.
+struct Unloading {
+  const char* name;
+  const char* law;
+  const char* increments;
+  const char* warned;  ///< of its warning, empty if there is none
+};
+class UnloadingOf : public Run, public testing::WithParamInterface<Unloading> {};
+
+TEST_P(UnloadingOf, IsSaidWhereTheLawHasNoMemoryOfWhatHappened) {
+  write({{"laws", fmt::format(R"({{"lin": {}}})", GetParam().law)}, {"increments", GetParam().increments}});
+  run();
+  const std::string warned = GetParam().warned;
+  const auto said = HasSubstr(
+      "after a yield or slip: laws have no memory and go back along their loading curve, where "
+      "real fasteners keep a permanent set; forces from there on are not theirs\n");
+  if (warned.empty()) {
+    EXPECT_THAT(log_.str(), Not(HasSubstr("no memory")));
+  } else {
+    EXPECT_THAT(log_.str(), AllOf(said, HasSubstr("joint.json: increment " + warned +
+                                                  " unloads fastener \"f1\", fastener \"f2\" ")));
+    EXPECT_EQ(log_.str().find("no memory"), log_.str().rfind("no memory")) << "once";
+  }
+}
+
+constexpr const char* yields = R"({"type": "bilinear", "k": 1000, "F_yield": 40, "k_yield": 100})";
+constexpr const char* slips =
+    R"({"type": "four stage", "k_stick": 9000, "F_slip": 20, "slip": 0.1, "k_bearing": 1000, "F_yield": 90, "k_yield": 9})";
+constexpr const char* points = R"({"type": "table", "delta": [0, 0.1, 0.2, 0.4], "F": [0, 30, 50, 70]})";
+INSTANTIATE_TEST_SUITE_P(Each, UnloadingOf,
+                         testing::Values(Unloading{"yielded", yields, "[1, 0.9, 0.5]", "2 (load factor 0.9)"},
+                                         Unloading{"reversed", yields, "[0.5, 1, 1.1, -1]", "4 (load factor -1)"},
+                                         Unloading{"elastic", yields, "[0.7, 0.1, -0.7]", ""},
+                                         Unloading{"rising", yields, "[0.5, 1, 1.1]", ""},
+                                         Unloading{"slipped", slips, "[0.3, 0.6, 0.3]", "3 (load factor 0.3)"},
+                                         Unloading{"stuck", slips, "[0.3, 0.1, -0.3]", ""},
+                                         Unloading{"table", points, "[1, 0]", "2 (load factor 0)"},
+                                         Unloading{"table_rising", points, "4", ""},
+                                         Unloading{"elastic_with_a_gap",
+                                                   R"({"type": "power", "A": 900, "n": 1, "delta0": 0.1})",
+                                                   "[1, 0, -1]", ""}),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(Warnings, TellOfASolutionPastTheLargestLoad) {
   const JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1));
