@@ -101,6 +101,17 @@ def check_default(folder):
     assert np.isclose(float(column[1]), forces[-1], rtol=1e-4), (column, forces)
 
 
+def check_arc(folder):
+    """The highest peaks that the README tells of, by the command that it names."""
+    def peak():
+        run = subprocess.run(["make", "-s", "-B", *words], cwd=folder, check=True, capture_output=True, text=True)
+        return max(float(row[2]) for row in re.findall(r"^  (?:upper|lower):\w( +[\d.-]+)( +[\d.-]+) +([\d.-]+)", run.stdout, re.M))
+    told = re.search(r"its highest peak is (\d+) N/mm² \(`make -C examples/lap_joint`\), and (\d+) with springs on the `arc`",
+                     (ROOT / "README.md").read_text())
+    for words, value in (([], told[1]), (["arc"], told[2])):
+        assert round(peak()) == int(value), (words, peak(), value)
+
+
 def check_loads_only(folder):
     """Without stresses the summary says what it does not know."""
     for plate in ("upper", "lower"):
@@ -174,6 +185,7 @@ def main(bin_folder):
                         check_pressure(matrices, state, step)
             check_csv(folder / "joint.csv", result)
         check_default(folder)
+        check_arc(folder)
         check_free(folder)
         check_warning(folder)
         check_loads_only(folder)
