@@ -120,22 +120,21 @@ void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vecto
   }
 }
 
-/// Laws have no memory: of the first increment at which planes are unloaded that have slipped, yielded or been on a
-/// curved law.
+/// Of the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                        std::vector<std::string>& result) {
   constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
   const ContactMarks marks(equations.contacts);
-  const Index n = equations.n_planes(), a = equations.n_directions();
-  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(a, n);
+  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(equations.n_directions(), equations.n_planes());
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
     const PathStep& step = path.steps[i];
-    const Eigen::MatrixXd c = coordinates(equations.contacts, step.F, step.delta).reshaped(a, n);
+    const Eigen::VectorXd all = coordinates(equations.contacts, step.F, step.delta);
     std::vector<Index> unloaded;
-    for (Index j = 0; j < n; ++j) {
-      const double before = most.col(j).norm(), now = c.col(j).norm();
-      const bool falls = now < less * before || most.col(j).dot(c.col(j)) < turned * now * before;
-      if (now > before) most.col(j) = c.col(j);
+    for (Index j = 0; j < most.cols(); ++j) {
+      const Eigen::VectorXd c = all.segment(j * most.rows(), most.rows());
+      const double before = most.col(j).norm();
+      const bool falls = c.norm() < less * before || most.col(j).dot(c) < turned * c.norm() * before;
+      if (c.norm() > before) most.col(j) = c;
       const auto passed = [&](const Mark& mark) { return mark.corner != Corner::contact && mark.at < before; };
       const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
       const bool curved = !contact.law->kinks(contact.stiffness, contact.clearance);

@@ -47,7 +47,7 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
 /// A doubt about rims: how much of it a rim gives cause for, 0 or NaN if none, and what to say where that is most.
 struct Doubt {
   double (*amount)(const RimState&, bool loose);
-  const char* text;  ///< {amount}, {stress} of bearing, {peak}; {at} the hole, increment and number of others
+  const char* text;  ///< {at} the hole with the increment and the number of others, other fields as arguments name them
 };
 
 constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
@@ -57,37 +57,22 @@ constexpr std::array<Doubt, 6> doubts = {{
      "the springs of {at} pull the sheet instead of pushing it: they act on the arc that does not bear under these "
      "loads; give the hole's spring the other \"arc\" in PLATE.json"},
     {[](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
-     "the springs all around {at} pull on its rim by up to {amount:.4g} {unit}, beside a bearing stress of "
-     "{stress:.4g}: a "
-     "fastener can only push, and hoop peaks come out too low; give the hole's spring the \"arc\" on which it bears in "
+     "the springs all around {at} pull on its rim by up to {pull:.4g} {unit}, beside a bearing stress of {stress:.4g}: "
+     "a fastener only pushes, and hoop peaks come out too low; give the hole's spring the \"arc\" that bears in "
      "PLATE.json"},
     {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
      "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
-     "peak {peak:.4g} too low; give the hole's spring the \"arc\" on which it bears in PLATE.json"},
-    {[](const RimState& rim, bool) {
-       return rim.net_concentration > 0 && rim.net_concentration < 1 ? 1 / rim.net_concentration : 0;
-     },
+     "peak {peak:.4g} {unit} too low; give the hole's spring the \"arc\" that bears in PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
-     "springs "
-     "pull on its rim; give the hole's spring the \"arc\" on which it bears in PLATE.json"},
+     "springs pull on its rim; give the hole's spring the \"arc\" that bears in PLATE.json"},
     {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? rim.across_share : 0; },
      "the disc of {at} is held across its one direction by {across:.4g} {force}, {percent:.3g} % of its bearing force, "
-     "which nothing in the joint gives; let the discs move: \"disc_directions\": [\"x\", \"y\"] in PLATE.json of all "
-     "sheets"},
+     "which nothing in the joint gives; let the discs move: \"disc_directions\": [\"x\", \"y\"] in all PLATE.json"},
     {[](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
      "friction acts off the axes, by its components along x and y, at {at}: the loads hold, but peak hoop stresses "
-     "there "
-     "may lack what friction adds to them, most of it at 45 degrees"},
+     "there may lack what friction adds to them, most of it at 45 degrees"},
 }};
-
-/// "plate:hole" of all holes whose fastener has a clearance.
-std::set<std::string> loose_holes(const JointModel& joint) {
-  std::set<std::string> names;
-  for (const auto& plane : joint.planes)
-    if (plane.clearance > 0)
-      names.merge(std::set{joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane))});
-  return names;
-}
 
 std::string stress_row(const PlateModel& plate, std::size_t rim, const RimState& state) {
   const std::string& hole = plate.stresses.rim_hole[rim];
@@ -143,7 +128,10 @@ std::string rim_csv_fields(const RimHistory& rims, const std::string& hole, Inde
 }
 
 std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
-  const auto loose = loose_holes(joint);
+  std::set<std::string> loose;
+  for (const auto& plane : joint.planes)
+    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
+      if (plane.clearance > 0) loose.insert(joint.name(*hole));
   std::vector<std::string> result;
   for (const auto& doubt : doubts) {
     double most = 0;
@@ -154,11 +142,10 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
       for (std::size_t i = 0; i < joint.plates.size(); ++i)
         for (std::size_t rim = 0; rim < states[step].plates[i].rims.size(); ++rim) {
           const RimState& state = states[step].plates[i].rims[rim];
-          const std::string hole = fmt::format("{}:{}", joint.plates[i].name, joint.plates[i].stresses.rim_hole[rim]);
+          const std::string hole = joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim];
           const double amount = doubt.amount(state, loose.contains(hole));
-          if (!(amount > 0)) continue;
-          holes.insert(hole);
-          if (amount <= most) continue;
+          if (amount > 0) holes.insert(hole);
+          if (!(amount > most)) continue;
           most = amount;
           worst = &state;
           at = fmt::format("hole \"{}\" (increment {}", hole, step + 1);
@@ -167,12 +154,11 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
     const std::size_t others = holes.size() - 1;
     at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
     using fmt::arg;
-    result.push_back(
-        joint.file + ": " +
-        fmt::format(fmt::runtime(doubt.text), arg("at", at), arg("amount", most), arg("stress", worst->bearing_stress),
-                    arg("peak", worst->peak_hoop), arg("net", worst->net_concentration), arg("across", worst->across),
-                    arg("percent", 100 * worst->across_share), arg("force", formats::unit(joint.units, 0, 1)),
-                    arg("unit", formats::unit(joint.units, -2, 1))));
+    result.push_back(fmt::format(
+        fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file), arg("at", at),
+        arg("pull", worst->pull), arg("stress", worst->bearing_stress), arg("peak", worst->peak_hoop),
+        arg("net", worst->net_concentration), arg("across", worst->across), arg("percent", 100 * worst->across_share),
+        arg("force", formats::unit(joint.units, 0, 1)), arg("unit", formats::unit(joint.units, -2, 1))));
   }
   return result;
 }

@@ -177,6 +177,7 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
   const Index loaded = plus ? *at.plus : *at.minus;
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
+  state.in_tension = force[loaded] > 0;
   state.gross_concentration = state.peak_hoop * a.gross_area[loaded] / std::abs(force[loaded]);
   state.net_concentration = state.peak_hoop * a.net_area[loaded] / std::abs(force[loaded]);
 }

@@ -39,19 +39,18 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
   return {F, delta};
 }
 
-/// dG / dmu of a hole for one row of its fastener's and one of its sides, over the unknowns of the row's plate, (m+e).
-VectorXd change_of_row(const JointModel& joint, const FrictionHole& by, const FrictionRow& row, Side side) {
+/// dG / dmu of a hole for a row of its fastener and the side that bears there, over the unknowns of the row's plate.
+VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side side, std::size_t by) {
   const FastenerModel& fastener = joint.fasteners[row.fastener];
   const HoleModel& hole = fastener.holes[row.hole];
-  const double mu = fastener.holes[by.hole].mu;
   const FrictionLoad& friction = hole.friction[static_cast<std::size_t>(row.direction)][side];
-  const bool own = row.hole == by.hole;
-  const double transferred = friction.bearing + friction.resultant;
-  double relative = own ? -friction.resultant / transferred / mu : 0;  // d ln bearing / d mu
+  const double mu = fastener.holes[by].mu, transferred = friction.bearing + friction.resultant;
+  double relative = row.hole == by ? -friction.resultant / transferred / mu : 0;  // d ln bearing / d mu
   if (!fastener.law_includes_friction)
-    relative += part_of_mean_share(fastener, by.hole, row.hole, row.direction, side) / transferred / mu;
+    relative += part_of_mean_share(fastener, by, row.hole, row.direction, side) / transferred / mu;
   VectorXd change = VectorXd::Zero(joint.plates[hole.plate].n_unknowns());
-  for (Index i = 0; i < friction.load.size(); ++i) change[i] = (relative + (own ? 1 / mu : 0)) * friction.load[i];
+  for (Index i = 0; i < friction.load.size(); ++i)
+    change[i] = (relative + (row.hole == by ? 1 / mu : 0)) * friction.load[i];
   change[hole.disc + row.direction] -= (side == plus_side ? 1 : -1) * relative * friction.bearing;
   return change;
 }
@@ -59,16 +58,14 @@ VectorXd change_of_row(const JointModel& joint, const FrictionHole& by, const Fr
 /// By reciprocity, what D_delta does with a load on the plates' unknowns, H does with G.
 FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, std::size_t fastener,
                            std::size_t hole) {
-  FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}, {}, {}};
-  for (std::size_t i = 0; i < system.friction.size(); ++i)
-    if (system.friction[i].fastener == fastener) result.rows.push_back(static_cast<Index>(i));
-  result.plus = result.minus = MatrixXd(system.q.size(), std::ssize(result.rows));
-  for (Index i = 0; i < result.plus.cols(); ++i) {
-    const FrictionRow& row = system.friction[static_cast<std::size_t>(result.rows[static_cast<std::size_t>(i)])];
+  FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}};
+  for (std::size_t i = 0; i < system.friction.size(); ++i) {
+    const FrictionRow& row = system.friction[i];
+    if (row.fastener != fastener) continue;
     const std::size_t plate = joint.fasteners[fastener].holes[row.hole].plate;
     const auto D = system.D_delta.middleRows(joint.offset(plate), joint.plates[plate].n_unknowns());
-    result.plus.col(i) = D.transpose() * change_of_row(joint, result, row, plus_side);
-    result.minus.col(i) = D.transpose() * change_of_row(joint, result, row, minus_side);
+    const auto dH = [&](Side side) -> VectorXd { return D.transpose() * change_of_row(joint, row, side, hole); };
+    result.rows.push_back({static_cast<Index>(i), dH(plus_side), dH(minus_side)});
   }
   return result;
 }
@@ -77,13 +74,9 @@ FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& syste
 MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
   const VectorXd b = system.E * F;
-  for (Index i = 0; i < changes.cols(); ++i) {
-    const FrictionHole& hole = holes[static_cast<std::size_t>(i)];
-    for (Index k = 0; k < hole.plus.cols(); ++k) {
-      const double force = b[hole.rows[static_cast<std::size_t>(k)]];
-      changes.col(i) += std::abs(force) * (force < 0 ? hole.minus : hole.plus).col(k);
-    }
-  }
+  for (Index i = 0; i < changes.cols(); ++i)
+    for (const auto& [row, plus, minus] : holes[static_cast<std::size_t>(i)].rows)
+      changes.col(i) += std::abs(b[row]) * (b[row] < 0 ? minus : plus);
   return changes;
 }
 

@@ -10,12 +10,15 @@
 
 namespace fastjoint::stage3 {
 
-/// A hole with friction and what its coefficient does to the r rows of its fastener among CondensedSystem::friction.
+/// A hole with friction and what its coefficient does to the rows of its fastener.
 struct FrictionHole {
-  std::string name;                ///< "plate:hole"
-  std::size_t fastener, hole;      ///< hole of the fastener
-  std::vector<Eigen::Index> rows;  ///< (r)
-  Eigen::MatrixXd plus, minus;     ///< (n a, r) dH+ / dmu, dH- / dmu, dimensionless
+  struct Row {
+    Eigen::Index at;              ///< among CondensedSystem::friction
+    Eigen::VectorXd plus, minus;  ///< (n a) dH+ / dmu, dH- / dmu, dimensionless
+  };
+  std::string name;            ///< "plate:hole"
+  std::size_t fastener, hole;  ///< hole of the fastener
+  std::vector<Row> rows;
 };
 
 /// A number of a law, which all planes with that law share.
