@@ -154,11 +154,12 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
     const std::size_t others = holes.size() - 1;
     at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
     using fmt::arg;
-    result.push_back(fmt::format(
-        fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file), arg("at", at),
-        arg("pull", worst->pull), arg("stress", worst->bearing_stress), arg("peak", worst->peak_hoop),
-        arg("net", worst->net_concentration), arg("across", worst->across), arg("percent", 100 * worst->across_share),
-        arg("force", formats::unit(joint.units, 0, 1)), arg("unit", formats::unit(joint.units, -2, 1))));
+    result.push_back(fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file),
+                                 arg("at", at), arg("pull", worst->pull), arg("stress", worst->bearing_stress),
+                                 arg("peak", worst->peak_hoop), arg("net", worst->net_concentration),
+                                 arg("across", std::abs(worst->across)), arg("percent", 100 * worst->across_share),
+                                 arg("force", formats::unit(joint.units, 0, 1)),
+                                 arg("unit", formats::unit(joint.units, -2, 1))));
   }
   return result;
 }

@@ -29,7 +29,7 @@ struct RimState {
   double across_share = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
   /// Friction of both components acts: its stresses are not those of friction along the force.
   bool by_components = false;
-  bool in_tension = false;  ///< the section of the concentrations
+  bool in_tension = false;                                ///< the section of the concentrations
   double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
 };
 
