@@ -26,8 +26,8 @@ void raise_degree(Accuracy& model) {
   const auto nc = problem.K_cc.cols();
   if (nc == 0)
     throw InputError(
-        fmt::format("{}: --accuracy is of S, and there is nothing that S is of; allowed: a scene with "
-                    "a disc or a rigid external",
+        fmt::format("{}: --accuracy is the error of the stiffness S of discs and rigid externals, of which there is "
+                    "none; allowed: a scene with a disc or a rigid external",
                     model.scene.file));
   const Outline outline(problem);
   const int highest = model.scene.p_high;

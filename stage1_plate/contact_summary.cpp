@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "common/program/program.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -23,8 +25,8 @@ std::string arcs_text(const HoleContact& contact) {
 std::string contact_summary(const PlateScene& scene, const ContactState& state) {
   std::string text;
   for (const auto& contact : state.holes) {
-    text += fmt::format("  hole {}: {}, {} iterations", scene.holes[static_cast<std::size_t>(contact.hole)].id,
-                        arcs_text(contact), contact.iterations);
+    text += fmt::format("  hole {}: {}, {}", scene.holes[static_cast<std::size_t>(contact.hole)].id, arcs_text(contact),
+                        program::counted(contact.iterations, "iteration"));
     if (!contact.arcs.empty())
       text +=
           fmt::format(", peak pressure {:.6g} at {:.2f} degrees", contact.peak_pressure, contact.peak_angle / degree);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <Eigen/LU>
 #include <iostream>
 #include <optional>
 
@@ -29,14 +29,36 @@ const program::Command command = {
      {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
-/// Section 3 of the paper: what line springs and links do converges slowly or not at all.
-void warn(const stage1::PlateScene& scene) {
-  const bool has_links = std::any_of(scene.holes.begin(), scene.holes.end(),
-                                     [](const stage1::Hole& hole) { return hole.spring && hole.spring->link > 0; });
-  if (has_links || !scene.points.empty())
-    std::cerr << fmt::format(
-        "{}: warning: {}: points and links concentrate their load at nodes: the results depend on the mesh\n",
-        command.name, scene.file);
+/// Says what is to be doubted: links (section 3 of the paper: what they do converges slowly or not at all), a thickness
+/// or a disk's modulus far from the sheet's other numbers.
+void warn(const stage1::SolvedPlate& plate) {
+  constexpr double foil = 1e-4, apart = 300;  // GPa beside MPa are 1000
+  const auto& [scene, mesh] = std::tie(plate.scene, plate.solution.mesh);
+  const auto say = [&](const std::string& doubt) {
+    std::cerr << fmt::format("{}: warning: {}: {}\n", command.name, plate.scene.file, program::one_line(doubt));
+  };
+  const double width = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).minCoeff();
+  const double thinnest = mesh.thickness.minCoeff(), thickest = mesh.thickness.maxCoeff();
+  bool has_links = !scene.points.empty();
+  std::string thin, stiff;
+  if (thickest > width) thin = fmt::format("the thickness {:g} is above the width {:g} of the sheet", thickest, width);
+  for (std::size_t i = 0; i < scene.holes.size(); ++i) {
+    const auto& hole = scene.holes[i];
+    if (thinnest < foil * hole.radius)
+      thin = fmt::format("the thickness {:g} is below {:g} of the radius {:g} of hole \"{}\"", thinnest, foil,
+                         hole.radius, hole.id);
+    if (!hole.spring) continue;
+    has_links |= hole.spring->link > 0;
+    for (const auto& D : scene.elasticity) {
+      const double E = D.inverse().diagonal().head<2>().cwiseInverse().maxCoeff(), disk = hole.spring->disk_E;
+      if (disk > 0 && (disk > apart * E || disk < E / apart))
+        stiff = fmt::format("/holes/{}/spring/disk/E: {:g} is {:.3g} times the modulus {:g} of the sheet", i, disk,
+                            disk / E, E);
+    }
+  }
+  if (has_links) say("points and links concentrate their load at nodes: the results depend on the mesh");
+  if (!thin.empty()) say(fmt::format("/geometry: {}: one of them may be in another unit of length", thin));
+  if (!stiff.empty()) say(stiff + ": one of them may be in another unit of stress");
 }
 
 /// The model that reaches the accuracy asked for, if one is.
@@ -65,9 +87,9 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   if (arguments.flag("--accuracy")) timings.phase("search");
   const auto accuracy = meet_accuracy(scene, arguments);
   if (accuracy) scene = accuracy->scene;
-  warn(scene);
   const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
   const auto plate = stage1::solve_plate(std::move(scene), wanted, program::generator(command.name), timings);
+  warn(plate);
   timings.phase("write");
   formats::write(arguments.output, plate.solution);
   if (arguments.quiet) return;

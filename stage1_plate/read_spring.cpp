@@ -40,7 +40,10 @@ Spring read_spring(const Value& value, double radius) {
   if (disk.has_value() + modulus.has_value() + links.has_value() != 1)
     value.not_allowed("either \"disk\" or \"modulus\" or \"links\"");
   Spring spring;
-  if (disk) spring.modulus = read_disk(*disk, radius);
+  if (disk) {
+    spring.modulus = read_disk(*disk, radius);
+    spring.disk_E = disk->at("E").number();
+  }
   if (modulus) spring.modulus = modulus->number(input::positive);
   if (links) spring.link = links->number(input::positive);
   const auto arc = value.find("arc");

@@ -54,6 +54,7 @@ struct MeshGeometry {
 /// Springs between the rim of a hole and a rigid disc in it: distributed, or links at the nodes of the rim.
 struct Spring {
   double modulus = 0;  ///< force / length^3; 0 with links
+  double disk_E = 0;   ///< Young's modulus of the disk that the modulus is of, stress; 0 without one
   double link = 0;     ///< force / length at each node, half of it for either side that ends there; 0 without links
   std::vector<pfem::AngleRange> acts = {{-pfem::full_turn / 2, pfem::full_turn / 2}};  ///< the sprung part of the rim
   bool has_arc = false;           ///< whether the scene says which part

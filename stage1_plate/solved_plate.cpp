@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/program/program.hpp"
 #include "common/program/memory.hpp"
 #include "stage1_plate/contact_summary.hpp"
 #include "stage1_plate/degree_range.hpp"
@@ -37,12 +38,14 @@ SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& gene
 }
 
 std::string summary(const SolvedPlate& plate, const std::string& file) {
+  using program::counted;
   const auto& a = plate.solution;
-  std::string text =
-      fmt::format("{}: {} elements, {} nodes, {} discs, {} rigid externals, {} tractions; needs about {}\n", file,
-                  a.mesh.n_elements(), a.mesh.n_nodes(), a.disc_hole.size(), a.external_id.size(), a.traction_id.size(),
-                  bytes_text(plate.need.total()));
-  for (Eigen::Index i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {} unknowns\n", a.p[i], a.ndof[i]);
+  std::string text = fmt::format("{}: {}, {}, {}, {}, {}; the run needs about {}\n", file,
+                                 counted(a.mesh.n_elements(), "element"), counted(a.mesh.n_nodes(), "node"),
+                                 counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
+                                 counted(a.traction_id.size(), "traction"), bytes_text(plate.need.total()));
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
   return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;
 }
 

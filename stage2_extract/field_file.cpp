@@ -5,6 +5,7 @@
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
+#include "common/program/program.hpp"
 #include "stage2_extract/vtu.hpp"
 
 namespace fastjoint::stage2 {
@@ -15,9 +16,9 @@ std::string summary(const std::string& output, const formats::PlateSolution& pla
   Eigen::Index at = 0;
   const double largest = von_mises(field.stress).maxCoeff(&at);
   const auto& units = plate.header.units;
-  return fmt::format("{}: {}, {} cells of degree {}\n  largest von Mises stress {:.6g} {} at ({:.4g}, {:.4g}) {}\n",
-                     output, state.words, plate.mesh.n_elements(), field.p, largest, formats::unit(units, -2, 1),
-                     field.points(0, at), field.points(1, at), formats::unit(units, 1, 0));
+  return fmt::format("{}: {}, {} of degree {}\n  largest von Mises stress {:.6g} {} at ({:.4g}, {:.4g}) {}\n", output,
+                     state.words, program::counted(plate.mesh.n_elements(), "cell"), field.p, largest,
+                     formats::unit(units, -2, 1), field.points(0, at), field.points(1, at), formats::unit(units, 1, 0));
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ const program::Command command = {
     {{"--field", "SPEC",
       "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, loads (the scene's own), or cases "
       "with amounts, external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
-     {"--plate", "NAME", "of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
-     {"--increment", "N", "of RESULT.h5; default: the last"},
+     {"--plate", "NAME", "name of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
+     {"--increment", "N", "increment of RESULT.h5 to show; default: the last"},
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
 void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate,
@@ -35,9 +35,10 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
   timings.phase("write");
   formats::write(arguments.output, a);
   if (arguments.quiet) return;
-  std::cout << fmt::format("{}: {} discs, {} externals, {} friction cases, {} tractions, p = {}..{}\n",
-                           arguments.output, a.n_discs(), a.n_externals(), a.n_friction_cases(), a.n_tractions(),
-                           a.p[0], a.p[a.p.size() - 1]);
+  using program::counted;
+  std::cout << fmt::format("{}: {}, {}, {}, {}, p = {}..{}\n", arguments.output, counted(a.n_discs(), "disc"),
+                           counted(a.n_externals(), "external"), counted(a.n_friction_cases(), "friction case"),
+                           counted(a.n_tractions(), "traction"), a.p[0], a.p[a.p.size() - 1]);
   using stage2::largest;
   const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
   std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/stresses.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <iterator>
 
@@ -16,13 +17,15 @@ constexpr double degrees = 360 / pfem::full_turn;
 /// Every point of every rim.
 using Rims = std::vector<std::vector<RimPoint>>;
 
-/// Names, places and areas.
-void describe_rims(const UnitFields& fields, const Rims& rims, formats::PlateStresses& a) {
-  const auto& plate = fields.plate();
+/// Names, places, areas and what the sheet is there.
+void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges, const Rims& rims,
+                   formats::PlateStresses& a) {
   const auto r = static_cast<Eigen::Index>(rims.size());
   a.rim_hole = plate.hole_id;
   a.rim_center.resize(r, 2);
   a.rim_radius.resize(r);
+  a.rim_thickness = Eigen::VectorXd::Zero(r);
+  a.rim_modulus = Eigen::MatrixXd::Zero(r, 2);
   a.bearing_area.resize(r, 2);
   a.rim_start = Eigen::VectorXi::Zero(r + 1);
   std::vector<double> angle;
@@ -30,8 +33,15 @@ void describe_rims(const UnitFields& fields, const Rims& rims, formats::PlateStr
     const auto hole = static_cast<std::size_t>(i);
     a.rim_center.row(i) = plate.hole_rim[hole].center.transpose();
     a.rim_radius[i] = plate.hole_rim[hole].radius;
+    const auto& sides = plate.hole_rim[hole].sides;
+    const auto n = static_cast<double>(sides.size());
+    for (const auto& side : sides) {
+      const auto& D = plate.elasticity[static_cast<std::size_t>(plate.mesh.material[side.element])];
+      a.rim_thickness[i] += plate.mesh.thickness[side.element] / n;
+      a.rim_modulus.row(i) += D.inverse().diagonal().head<2>().cwiseInverse().transpose() / n;
+    }
     const auto area = [&](const char* side) {
-      return pfem::bearing(plate.mesh, fields.edges(), plate.hole_rim[hole], bearing_direction(side)).area;
+      return pfem::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(side)).area;
     };
     a.bearing_area.row(i) << std::max(area("+x"), area("-x")), std::max(area("+y"), area("-y"));
     for (const auto& point : rims[hole]) angle.push_back(degrees * point.angle);
@@ -80,11 +90,13 @@ void add_level(const UnitFields& fields, const Rims& rims, formats::PlateStresse
 formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, const std::string& file) {
   formats::PlateStresses a;
   a.p = plate.stress_p;
+  const auto edges = pfem::find_edges(plate.mesh);
+  Rims rims(plate.hole_rim.size());
+  for (std::size_t i = 0; i < rims.size() && a.p.size() > 0; ++i)
+    rims[i] = rim_points(plate.mesh, edges, plate.hole_rim[i]);
+  describe_rims(plate, edges, rims, a);
   if (a.p.size() == 0) return a;
   UnitFields fields(plate, file);
-  Rims rims;
-  for (const auto& rim : plate.hole_rim) rims.push_back(rim_points(plate.mesh, fields.edges(), rim));
-  describe_rims(fields, rims, a);
   describe_sections(fields, a);
   for (const int p : a.p) {
     fields.use(static_cast<std::size_t>(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p))));

@@ -2,7 +2,9 @@
 #include "stage3_nonlinear/joint_history.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "stage3_nonlinear/contact_event.hpp"
@@ -50,13 +52,20 @@ std::string field(const std::string& text) {
   return quoted + "\"";
 }
 
-/// Columns for the components of delta and F, each with a comma before it; none where there is one direction.
-std::string component_names(const JointModel& joint) {
-  std::string text;
-  for (const char* vector : {"delta", "F"})
+/// Heads of the columns with their units; the components of delta and F where there are two directions.
+std::string csv_heads(const JointModel& joint) {
+  const std::string length = formats::unit(joint.units, 1, 0), force = formats::unit(joint.units, 0, 1);
+  const auto with_unit = [](const std::string& name, const std::string& unit) { return name + " [" + unit + "]"; };
+  std::vector<std::string> heads{"increment", "load_factor", "fastener", with_unit("delta", length)};
+  for (const char* name : {"F", "transferred_first", "transferred_second"}) heads.push_back(with_unit(name, force));
+  heads.insert(heads.end(), {"share [%]", "iterations", "residual", "first", "second"});
+  for (const auto& [vector, unit] : {std::pair("delta_", length), std::pair("F_", force)})
     for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
-      text += fmt::format(",{}_{}", vector, joint.axis_name(d));
-  return text;
+      heads.push_back(with_unit(std::string(vector) + joint.axis_name(d), unit));
+  for (const char* end : {"first", "second"}) add_rim_csv_heads(end, joint.units, heads);
+  heads.insert(heads.end(), {with_unit("F_error", force), "event"});
+  std::transform(heads.begin(), heads.end(), heads.begin(), field);
+  return fmt::format("{}\n", fmt::join(heads, ","));
 }
 
 std::string component_fields(const JointModel& joint, const formats::JointResult& result, Index step, Index plane) {
@@ -110,12 +119,7 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
 }
 
 std::string csv(const JointModel& joint, const formats::JointResult& a) {
-  std::string text =
-      "increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,iterations,residual,first,"
-      "second";
-  text += component_names(joint);
-  for (const char* end : {"first", "second"}) text += rim_csv_names(end);
-  text += ",F_error,event\n";
+  std::string text = csv_heads(joint);
   for (Index i = 0; i < a.F.rows(); ++i) {
     const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {

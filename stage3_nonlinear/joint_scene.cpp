@@ -9,6 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/input/value.hpp"
+#include "common/program/program.hpp"
 #include "stage3_nonlinear/scene_check.hpp"
 #include "stage3_nonlinear/solver.hpp"
 
@@ -41,7 +42,7 @@ std::vector<PlateScene> read_plates(const std::string& file, const Value& plates
       path.fail("name of a plate", "names without ':' and '/', other than \".\"");
     result.push_back({name, (folder / path.text()).string(), where(file, path)});
   }
-  if (result.size() < 2) plates.fail(fmt::format("{} plate(s)", result.size()), "at least 2");
+  if (result.size() < 2) plates.fail(program::counted(result.size(), "plate"), "at least 2");
   return result;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -35,10 +36,12 @@ struct Parameter {
   double length, force;
 };
 
-/// Where the numbers of a law come from, if not from the input itself.
+/// Where the numbers of a law come from, if not from the input itself: a formula for these sheets and this shank.
 struct Source {
   std::string text;       ///< for the summary: formula, who and where
   bool bearing_of_sheet;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too
+  std::array<double, 2> t{}, E{};  ///< of the sheets: thickness, length; Young's modulus, stress
+  double d = 0;                    ///< diameter, length
 };
 
 /// What a fastener answers to the relative displacement of its discs, delta >= 0, its clearance included.

@@ -16,6 +16,7 @@ const fastjoint::program::Command command{
     .output = "RESULT.h5",
     .options = {
         {"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
+        {"--all-stresses", "", "print the stresses around the holes at every increment, not at the last alone"},
         {"--csv", "FILE", "also write one line per increment and shear plane"},
         {"--sensitivities", "",
          "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}}};
@@ -26,6 +27,7 @@ void body(const fastjoint::program::Arguments& arguments, fastjoint::program::Ti
                           .csv = arguments.text("--csv"),
                           .timings = arguments.timings,
                           .p = arguments.integer("--p", 1, highest_p, 0),
+                          .all_stresses = arguments.flag("--all-stresses"),
                           .sensitivities = arguments.flag("--sensitivities"),
                           .quiet = arguments.quiet,
                           .generator = fastjoint::program::generator(command.name)},

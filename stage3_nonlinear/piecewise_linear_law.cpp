@@ -117,7 +117,9 @@ std::shared_ptr<const Law> linear_law(double k, std::optional<Source> source) {
 
 std::shared_ptr<const Law> read_formula_law(const input::Value& law) {
   const Flexibility flexibility = read_flexibility(law);
-  return linear_law(flexibility.stiffness, Source{flexibility.provenance, flexibility.mode == FlexibilityMode::total});
+  const FastenerGeometry& g = flexibility.geometry;
+  return linear_law(flexibility.stiffness,
+                    Source{flexibility.provenance, flexibility.mode == FlexibilityMode::total, g.t, g.E, g.d});
 }
 
 std::shared_ptr<const Law> read_linear_law(const input::Value& law) {

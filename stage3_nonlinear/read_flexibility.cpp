@@ -5,8 +5,6 @@
 
 #include <algorithm>
 
-#include "stage3_nonlinear/flexibility_formula.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
@@ -64,17 +62,19 @@ Flexibility read_flexibility(const input::Value& law) {
   const auto& formula = read_formula(law);
   const std::string mode = law.at("mode").choice({"total", "fastener only"});
   const int n_shear = read_shear(law, formula);
-  const auto terms = formula.terms({.t = read_pair(law, "t"),
-                                    .E = read_pair(law, "E"),
-                                    .d = law.at("d").number(input::positive),
-                                    .E_f = law.at("E_f").number(input::positive),
-                                    .nu_f = read_nu(law, formula),
-                                    .n_shear = n_shear,
-                                    .rows = read_rows(law, formula)});
+  const FastenerGeometry geometry{.t = read_pair(law, "t"),
+                                  .E = read_pair(law, "E"),
+                                  .d = law.at("d").number(input::positive),
+                                  .E_f = law.at("E_f").number(input::positive),
+                                  .nu_f = read_nu(law, formula),
+                                  .n_shear = n_shear,
+                                  .rows = read_rows(law, formula)};
+  const auto terms = formula.terms(geometry);
   const double total = total_flexibility(terms), fastener = fastener_flexibility(terms);
   const bool whole = mode == "total";
   return {.stiffness = 1 / (n_shear * (whole ? total : fastener)),
           .mode = whole ? FlexibilityMode::total : FlexibilityMode::fastener_only,
+          .geometry = geometry,
           .provenance =
               fmt::format("{} in {} shear, {}: {}; flexibility {:.6g}, of which {:.6g} of the fastener{}, in the "
                           "units of the joint",

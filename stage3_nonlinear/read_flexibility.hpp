@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/input/value.hpp"
+#include "stage3_nonlinear/flexibility_formula.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -17,6 +18,7 @@ enum class FlexibilityMode {
 struct Flexibility {
   double stiffness;  ///< of one shear plane, force / length: in double shear half of 1 / flexibility
   FlexibilityMode mode;
+  FastenerGeometry geometry;
   std::string provenance;  ///< one sentence: formula, mode, shear, who and where, both flexibilities
 };
 

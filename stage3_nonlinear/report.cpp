@@ -80,7 +80,7 @@ void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<s
     const Mechanism& mechanism = *step.check.mechanism;
     result.push_back(fmt::format(
         "{}: at load factor {:.6g} the joint is a mechanism within the gaps of {}: the forces are right, the "
-        "displacements are one of many; free is, in proportion, {}",
+        "displacements are one of many; in proportion, it is free to move {}",
         joint.file, step.load_factor, names(joint, mechanism.open), motion_text(joint, mechanism.motion)));
     return;
   }
@@ -106,7 +106,7 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
 /// @param factor At most 1.
 std::string locking_text(double factor) {
   return fmt::format(
-      "friction {:.4g} times as large makes I - R M singular: the joint locks itself, friction alone carries "
+      "with friction {:.4g} times as large the joint locks itself: friction alone carries "
       "the load there, and beyond it a solution need neither exist nor be the only one",
       factor);
 }
@@ -173,7 +173,7 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.increment + 1, n_increments, failure.load_factor, max_halvings, failure.reached, at,
       joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
   const std::string locking =
-      failure.locking ? fmt::format("On the sides that bear {}. ", locking_text(*failure.locking)) : "";
+      failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
   const std::string advice = fmt::format(
       "Check the law and the clearance of that fastener (a cubic that turns down carries no more than its "
       "peak, a law that ends level no more than its last force), take smaller increments, allow more than {} "

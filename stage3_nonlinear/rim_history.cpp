@@ -17,23 +17,23 @@ using formats::RimHistory;
 
 /// One quantity of a hole: where it comes from, where it goes.
 struct Column {
-  const char* name;
+  const char* head;  ///< in the CSV, {0} for the side of the plane, {1} for the unit of force, {2} for that of stress
   double RimState::*state;
   Eigen::MatrixXd RimHistory::*table;
   bool needs_section;
 };
 
 constexpr std::array<Column, 10> columns = {{
-    {"bearing_load", &RimState::bearing_load, &RimHistory::bearing_load, false},
-    {"bearing_load_y", &RimState::bearing_load_y, &RimHistory::bearing_load_y, false},
-    {"bearing_stress", &RimState::bearing_stress, &RimHistory::bearing_stress, false},
-    {"bypass_load", &RimState::bypass_load, &RimHistory::bypass_load, true},
-    {"bypass_error", &RimState::bypass_error, &RimHistory::bypass_error, true},
-    {"peak_hoop", &RimState::peak_hoop, &RimHistory::peak_hoop, false},
-    {"peak_angle", &RimState::peak_angle, &RimHistory::peak_angle, false},
-    {"peak_error", &RimState::peak_error, &RimHistory::peak_error, false},
-    {"gross_concentration", &RimState::gross_concentration, &RimHistory::gross_concentration, true},
-    {"net_concentration", &RimState::net_concentration, &RimHistory::net_concentration, true},
+    {"bearing_load_{0} [{1}]", &RimState::bearing_load, &RimHistory::bearing_load, false},
+    {"bearing_load_y_{0} [{1}]", &RimState::bearing_load_y, &RimHistory::bearing_load_y, false},
+    {"bearing_stress_{0} [{2}]", &RimState::bearing_stress, &RimHistory::bearing_stress, false},
+    {"bypass_load_{0} [{1}]", &RimState::bypass_load, &RimHistory::bypass_load, true},
+    {"bypass_error_{0} [{1}]", &RimState::bypass_error, &RimHistory::bypass_error, true},
+    {"peak_hoop_{0} [{2}]", &RimState::peak_hoop, &RimHistory::peak_hoop, false},
+    {"peak_angle_{0} [deg]", &RimState::peak_angle, &RimHistory::peak_angle, false},
+    {"peak_error_{0} [{2}]", &RimState::peak_error, &RimHistory::peak_error, false},
+    {"gross_concentration_{0}", &RimState::gross_concentration, &RimHistory::gross_concentration, true},
+    {"net_concentration_{0}", &RimState::net_concentration, &RimHistory::net_concentration, true},
 }};
 
 /// How many sections across x the plate has beside the hole.
@@ -108,10 +108,10 @@ RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& s
   return rims;
 }
 
-std::string rim_csv_names(const std::string& end) {
-  std::string text;
-  for (const auto& column : columns) text += fmt::format(",{}_{}", column.name, end);
-  return text;
+void add_rim_csv_heads(const std::string& end, const formats::Units& units, std::vector<std::string>& heads) {
+  for (const auto& column : columns)
+    heads.push_back(
+        fmt::format(fmt::runtime(column.head), end, formats::unit(units, 0, 1), formats::unit(units, -2, 1)));
 }
 
 std::string rim_csv_fields(const RimHistory& rims, const std::string& hole, Index step) {

@@ -13,8 +13,8 @@ namespace fastjoint::stage3 {
 [[nodiscard]] formats::RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states,
                                               std::size_t at);
 
-/// Columns of the CSV for one side of a shear plane ("first" or "second"), each with a comma before it.
-[[nodiscard]] std::string rim_csv_names(const std::string& end);
+/// Adds the columns of the CSV for one side of a shear plane ("first" or "second").
+void add_rim_csv_heads(const std::string& end, const formats::Units& units, std::vector<std::string>& heads);
 
 /// Their values for a hole at a step.
 [[nodiscard]] std::string rim_csv_fields(const formats::RimHistory& rims, const std::string& hole, Eigen::Index step);

@@ -63,6 +63,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   const LoadPath path =
       scene.at_events ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
   warn(log, warnings(joint, equations, path));
+  warn(log, implausible_numbers(scene, joint, path));
 
   std::vector<JointState> states;
   states.reserve(path.steps.size());
@@ -75,7 +76,7 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   timings.phase("write");
   formats::write(options.output, result);
   if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
-  if (!options.quiet) out << summary(scene, joint, path, states, result.F_error);
+  if (!options.quiet) out << summary(scene, joint, path, states, result.F_error, options.all_stresses);
   if (path.failure)
     throw IncompleteResult(failure_message(scene, joint, *path.failure, path.n_increments, options.output));
 }

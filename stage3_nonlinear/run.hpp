@@ -15,6 +15,7 @@ struct RunOptions {
   std::string csv;             ///< empty: none
   std::string timings = {};    ///< path of the file of times, written by the caller; empty: none
   int p = 0;                   ///< 0: the highest degree that all plates have
+  bool all_stresses = false;   ///< print those of every increment
   bool sensitivities = false;  ///< also write derivatives of the forces
   bool quiet = false;
   std::string generator;  ///< program and version, for the file's header

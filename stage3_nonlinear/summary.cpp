@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/program/program.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
 #include "stage3_nonlinear/solver.hpp"
 
@@ -16,6 +17,11 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t least_name = 12;
+constexpr const char* legend =
+    "  forces on a plate are positive along +x, +y; delta = D(first plate) - D(second plate), and F > 0 (F_x, F_y > 0 "
+    "where "
+    "there are two) pushes the second along +\n  share: of what all fasteners transfer between the same two plates, "
+    "friction included\n";
 
 /// Width of the column of names: fasteners and plates share it.
 std::size_t name_width(const JointModel& joint) {
@@ -45,19 +51,23 @@ std::string method(const JointScene& scene, const LoadPath& path) {
                                                         : fmt::format("{}, {}", exact_path_name, iterative);
 }
 
-const char* counted(const LoadPath& path, const PathStep& step) {
-  return path.linear ? "linear solves" : step.exact ? "pieces without iterations" : "iterations";
+std::string effort(const LoadPath& path, const PathStep& step) {
+  using program::counted;
+  if (path.linear) return counted(step.iterations, "linear solve");
+  return step.exact ? counted(step.iterations, "piece") + " without iterations" : counted(step.iterations, "iteration");
 }
 
 std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
-  std::string text = fmt::format("joint{}: {} plates, {} fasteners, p = {}, {}\n",
-                                 scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name), joint.plates.size(),
-                                 joint.fasteners.size(), joint.p, method(scene, path));
+  std::string text =
+      fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
+                  program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
+                  joint.p, method(scene, path));
   for (const auto& [name, law] : scene.laws)
     if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)
     if (plate.relative_error)
-      text += fmt::format("stiffness of {} known to {:.1e} of its largest entry\n", plate.name, *plate.relative_error);
+      text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name,
+                          *plate.relative_error);
   return text;
 }
 
@@ -129,41 +139,44 @@ std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen
       plane = at;
     }
   }
-  return fmt::format("largest F = {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
+  return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
                      largest, F_error(step, plane), formats::unit(joint.units, 0, 1),
                      joint.name(joint.planes[static_cast<std::size_t>(plane)]), step + 1);
 }
 
-std::string stress_table(const JointModel& joint, const JointState& state) {
+std::string stress_tables(const JointModel& joint, const std::vector<JointState>& states, bool all) {
   std::string text;
   for (const auto& plate : joint.plates) {
     if (plate.stress_level) continue;
     if (plate.stresses.p.size() > 0)
-      text += fmt::format("no stresses of {}: {} holds them at p = {} only\n", plate.name, plate.file,
+      text += fmt::format("there are no stresses of {}: {} holds them at p = {} only\n", plate.name, plate.file,
                           fmt::join(plate.stresses.p, ", "));
     if (joint.n_directions() == 1)
-      text += fmt::format("force that holds the discs of {} across {}: not known without stresses\n", plate.name,
+      text += fmt::format("the force that holds the discs of {} across {} is not known without stresses\n", plate.name,
                           joint.axis_name(0));
   }
-  const std::string table = rim_table(joint, state);
-  return table.empty() ? text : fmt::format("{}stresses at the last increment\n{}", text, table);
+  for (std::size_t i = all ? 0 : states.size() - 1; i < states.size(); ++i)
+    if (const std::string table = rim_table(joint, states[i]); !table.empty())
+      text += fmt::format("stresses at {}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment", table);
+  return text;
 }
 
 }  // namespace
 
 std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                    const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error) {
+                    const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error,
+                    bool all_stresses) {
   const std::size_t width = name_width(joint);
   std::string text = title(scene, joint, path);
   for (std::size_t i = 0; i < states.size(); ++i) {
     const PathStep& step = path.steps[i];
-    text += fmt::format("increment {} of {}: load factor {:.6g}, {} {}, residual {:.1e} of the largest force\n", i + 1,
-                        path.n_increments, step.load_factor, step.iterations, counted(path, step), step.residual);
+    text += fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
+                        path.n_increments, step.load_factor, effort(path, step), step.residual);
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }
   if (!states.empty() && F_error) text += error_bar(joint, path, *F_error);
-  if (!states.empty()) text += stress_table(joint, states.back());
+  if (!states.empty()) text += legend + stress_tables(joint, states, all_stresses);
   return text;
 }
 

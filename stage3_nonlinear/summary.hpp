@@ -14,7 +14,9 @@ namespace fastjoint::stage3 {
 ///
 /// @param states  One per step of the path.
 /// @param F_error (steps, n) of the forces, where it is known.
+/// @param all_stresses Print those of every increment, not of the last alone.
 [[nodiscard]] std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                                  const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error);
+                                  const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error,
+                                  bool all_stresses);
 
 }  // namespace fastjoint::stage3

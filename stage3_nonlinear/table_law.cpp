@@ -103,7 +103,7 @@ std::shared_ptr<const Law> read_table_law(const input::Value& law) {
       place.fail(fmt::format("F = {} at delta = 0", points[0][1]), "0 there: stiff contact is a power law");
     points.erase(points.begin());
   }
-  if (points.size() < 2) place.fail(fmt::format("{} point(s) beyond (0, 0)", points.size()), "at least 2");
+  if (points.size() < 2) place.fail(points.empty() ? "no point beyond (0, 0)" : "1 point beyond (0, 0)", "at least 2");
   for (std::size_t i = 1; i < points.size(); ++i) {
     const auto& [delta, F] = points[i];
     if (!(delta > points[i - 1][0]))

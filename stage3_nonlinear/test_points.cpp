@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 
 namespace fastjoint::stage3 {
@@ -77,7 +78,8 @@ TestPoints read_points(const std::string& path) {
     const std::string place = fmt::format("{}:{}", path, n_line);
     const Fields fields = split(line);
     if (fields.size() != 2)
-      throw InputError(fmt::format("{}: {} columns in '{}'; allowed: {}", place, fields.size(), line, columns));
+      throw InputError(
+          fmt::format("{}: {} in '{}'; allowed: {}", place, program::counted(fields.size(), "column"), line, columns));
     if (!std::exchange(first, false) || !is_header(fields))
       points.push_back({checked(fields[0], place), checked(fields[1], place)});
   }

@@ -8,7 +8,7 @@ namespace {
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 3;
+constexpr int minor = 4;
 
 /// A stack that is missing altogether is one of zero-width matrices.
 std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,

@@ -32,6 +32,8 @@ void write_stresses(h5::Writer& file, const PlateStresses& a, const Units& units
   file.write("rim/hole", a.rim_hole, {"1", "holes, open ones included"});
   file.write("rim/center", a.rim_center, {length, "x and y of each hole's centre"});
   file.write("rim/radius", a.rim_radius, {length, "radius of each hole"});
+  file.write("rim/thickness", a.rim_thickness, {length, "mean thickness of the sheet at the rim"});
+  file.write("rim/modulus", a.rim_modulus, {unit(units, -2, 1), "mean modulus in tension there along x, along y"});
   file.write("rim/bearing_area", a.bearing_area, {area, "projected area of the rim that bears along x, along y"});
   file.write("rim/start", a.rim_start, {"1", "first point of each rim, and the number of points"});
   file.write("rim/angle", a.angle, {"deg", "place of each point on its rim, counter-clockwise from x"});
@@ -52,13 +54,17 @@ PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const 
   PlateStresses a;
   if (!file.has("stress/p")) return a;
   a.p = file.integers("stress/p", h5::any);
-  if (a.p.size() == 0) return a;
   const std::string length = expected_unit(units, 1, 0);
   const std::string area = expected_unit(units, 2, 0);
   a.rim_hole = file.strings("rim/hole", h5::any);
   const auto r = count(a.rim_hole);
+  if (r == 0 && a.p.size() == 0) return a;
   a.rim_center = file.matrix("rim/center", r, 2, length);
   a.rim_radius = file.vector("rim/radius", r, length);
+  a.rim_thickness = Eigen::VectorXd::Zero(r);
+  a.rim_modulus = Eigen::MatrixXd::Zero(r, 2);
+  if (file.has("rim/thickness")) a.rim_thickness = file.vector("rim/thickness", r, length);
+  if (file.has("rim/modulus")) a.rim_modulus = file.matrix("rim/modulus", r, 2, expected_unit(units, -2, 1));
   a.bearing_area = file.matrix("rim/bearing_area", r, 2, area);
   a.rim_start = file.integers("rim/start", r + 1);
   a.angle = file.vector("rim/angle", h5::any, "deg");
@@ -66,6 +72,7 @@ PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const 
   if ((a.bearing_area.array() <= 0).any())
     throw FileError(
         fmt::format("{}:rim/bearing_area: holds {}, expected numbers > 0", file.path(), a.bearing_area.minCoeff()));
+  if (a.p.size() == 0) return a;
   const auto stack = [&](const char* dataset, Eigen::Index rows) {
     return file.stack(dataset, a.p.size(), rows, n_cases, per_case);
   };

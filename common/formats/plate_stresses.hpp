@@ -21,6 +21,8 @@ struct PlateStresses {
   std::vector<std::string> rim_hole;  ///< (r)
   Eigen::MatrixXd rim_center;         ///< (r, 2) length
   Eigen::VectorXd rim_radius;         ///< (r) length
+  Eigen::VectorXd rim_thickness;      ///< (r) mean thickness of the sheet there, length; 0 where the file does not say
+  Eigen::MatrixXd rim_modulus;        ///< (r, 2) mean modulus in tension along x, along y, stress; 0 likewise
   Eigen::MatrixXd bearing_area;       ///< (r, 2) d t of a whole hole, for bearing along x and along y, length^2
   Eigen::VectorXi rim_start;          ///< (r + 1) first point of each rim
   Eigen::VectorXd angle;              ///< (k) of each point, degrees counter-clockwise from x

@@ -155,10 +155,11 @@ void check_readable(const std::string& path) {
 void check_version(const Reader& reader, hid_t file, const std::string& format, int major) {
   const std::string found = reader.attribute("format", "");
   if (found != format)
-    throw FileError(found.empty()
-                        ? fmt::format("{}: is not one of our files (no attribute 'format'), expected a '{}' file",
-                                      reader.path(), format)
-                        : fmt::format("{}: is a '{}' file, expected '{}'", reader.path(), found, format));
+    throw FileError(
+        found.empty()
+            ? fmt::format("{}: is not a file of fastjoint (it has no attribute 'format'), expected a '{}' file",
+                          reader.path(), format)
+            : fmt::format("{}: is a '{}' file, expected '{}'", reader.path(), found, format));
   std::vector<int> version(2, -1);
   const Attribute attribute(H5Aopen(file, "version", H5P_DEFAULT));
   const Space space(H5Aget_space(attribute.get()));

@@ -54,6 +54,12 @@ int run(const Command& command, int argc, char** argv, const Body& body);
 /// The text with line breaks and other control characters, which names in the input may hold, as JSON escapes them.
 [[nodiscard]] std::string one_line(const std::string& text);
 
+/// "1 piece", "2 pieces".
+template <class Integer>
+[[nodiscard]] std::string counted(Integer n, const std::string& noun) {
+  return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
+}
+
 /// Name and version that every file carries: "stage1_plate 1.0.0".
 [[nodiscard]] std::string generator(const std::string& program);
 

@@ -118,8 +118,8 @@ TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
     s.p = a.p;
     s.rim_hole = s.section_hole = {"a"};
     s.rim_center = Eigen::MatrixXd::Zero(1, 2);
-    s.rim_radius = s.gross_area = s.net_area = s.angle = Eigen::VectorXd::Ones(1);
-    s.bearing_area = Eigen::MatrixXd::Constant(1, 2, area);
+    s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.angle = Eigen::VectorXd::Ones(1);
+    s.bearing_area = s.rim_modulus = Eigen::MatrixXd::Constant(1, 2, area);
     s.rim_start = Eigen::VectorXi::LinSpaced(2, 0, 1);
     s.sigma_rr = s.sigma_tt = s.sigma_rt = s.section_force = {one};
     s.section_side = {side};

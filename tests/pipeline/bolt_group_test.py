@@ -99,9 +99,9 @@ def check_csv():
     with h5py.File("joint.h5") as f:
         rows = list(csv.DictReader(open("joint.csv", encoding="utf-8")))
         assert len(rows) == 3 * 12
-        F = np.array([[float(row[f"F_{d}"]) for d in "xy"] for row in rows])
+        F = np.array([[float(row[f"F_{d} [N]"]) for d in "xy"] for row in rows])
         assert np.array_equal(F.ravel(), f["F_vector"][:].ravel())
-        assert np.array_equal([float(row["F"]) for row in rows], f["F"][:].ravel())
+        assert np.array_equal([float(row["F [N]"]) for row in rows], f["F"][:].ravel())
 
 
 def check_field():

@@ -72,7 +72,7 @@ def joint(plates, holes, dice):
 def ratios(scene):
     fine, unknown = solve(scene, "fine")
     assert unknown is None, "one degree alone shows no error"
-    assert ",F_error," in Path("joint.csv").read_text().splitlines()[0]
+    assert ",F_error [" in Path("joint.csv").read_text().splitlines()[0]
     found = []
     for p in DEGREES:
         F, bar = solve(scene, "coarse", "--p", p)

@@ -162,7 +162,11 @@ TEST_P(RimStress, LoadsOnlyLeavesThemOut) {
   EXPECT_EQ(solution.cases.back().W.cols() + solution.cases.back().U.cols(), 0) << "the probe checks reciprocity";
   const auto extraction = stage2::extract(solution, "plate.h5", "test");
   EXPECT_EQ(extraction.matrices.stresses.p.size(), 0);
-  EXPECT_EQ(extraction.matrices.stresses.angle.size(), 0);
+  const auto& rims = extraction.matrices.stresses;
+  EXPECT_EQ(rims.angle.size(), 0);
+  EXPECT_EQ(rims.rim_radius, Eigen::Vector3d(0.125, 0.15, 0.2)) << "a joint compares what its input says with the sheet";
+  EXPECT_LT((rims.rim_thickness.array() - 0.1).abs().maxCoeff(), 1e-15);
+  EXPECT_LT((rims.rim_modulus.array() / 1e7 - 1).abs().maxCoeff(), 1e-14);
   ASSERT_TRUE(extraction.checks.reciprocity);
   EXPECT_LT(*extraction.checks.reciprocity, 1e-10);
 }

@@ -124,7 +124,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{{"version", "2"}}, "/version: 2 is not allowed"},
         Refusal{{{"weight", "2"}}, "/weight: unknown key; allowed: $schema, format"},
         Refusal{{{"plates", ""}}, R"(key "plates" is missing)"},
-        Refusal{{{"plates", R"({"a": "a.h5"})"}}, "/plates: 1 plate(s); allowed: at least 2"},
+        Refusal{{{"plates", R"({"a": "a.h5"})"}}, "/plates: 1 plate; allowed: at least 2"},
         Refusal{{{"plates", R"({"a:b": "a.h5", "b": "b.h5"})"}},
                 R"(/plates/a:b: name of a plate; allowed: names without ':' and '/')"},
         Refusal{{{"plates", R"({"a/b": "a.h5", "b": "b.h5"})"}},

@@ -364,7 +364,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"type": "table", "delta": [1, 2], "F": [2, 1]})",
                 "F = 1 at delta = 2 after 2; allowed: forces that do not fall: smooth the data, or fit a law to it "
                 "(scripts/fit_law)"},
-        Refusal{R"({"type": "table", "delta": [0, 2], "F": [0, 1]})", "1 point(s) beyond (0, 0); allowed: at least 2"},
+        Refusal{R"({"type": "table", "delta": [0, 2], "F": [0, 1]})", "1 point beyond (0, 0); allowed: at least 2"},
         Refusal{R"({"type": "table", "delta": [0, 1, 2], "F": [5, 6, 7]})",
                 "F = 5 at delta = 0; allowed: 0 there: stiff contact is a power law"},
         Refusal{R"({"type": "table", "delta": [1, 2], "F": [0, 0]})", "no force at any point; allowed: a force > 0"},

@@ -85,7 +85,8 @@ TEST_F(PlaneRun, ShowsTheDirectionOfForces) {
   std::string header, line;
   std::getline(csv, header);
   std::getline(csv, line);
-  EXPECT_THAT(header, HasSubstr(",first,second,delta_x,delta_y,F_x,F_y,bearing_load_first,"));
+  EXPECT_THAT(header,
+              HasSubstr(",first,second,delta_x [in],delta_y [in],F_x [lbf],F_y [lbf],bearing_load_first [lbf],"));
   std::vector<std::string> cells;
   std::istringstream row(line);
   for (std::string cell; std::getline(row, cell, ',');) cells.push_back(cell);

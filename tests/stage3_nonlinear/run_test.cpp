@@ -60,8 +60,8 @@ TEST_F(Run, PrintsATable) {
   run();
   EXPECT_EQ(log_.str(), "");
   EXPECT_THAT(out_.str(), StartsWith("joint \"lap\": 2 plates, 2 fasteners, p = 8, linear\n"
-                                     "stiffness of a known to 0.0e+00 of its largest entry\n"));
-  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 1 linear solves, residual "));
+                                     "the stiffness of a is known to 0.0e+00 of its largest entry\n"));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 1 linear solve, residual "));
   EXPECT_THAT(out_.str(), HasSubstr("  fastener           delta [in]          F [lbf]    transferred [lbf] share [%]\n"
                                     "  f1                       0.05               50                   50    50.000\n"
                                     "  f2                       0.05               50                   50    50.000\n"
@@ -86,7 +86,7 @@ TEST_F(Run, EventsStandInAllThatItWrites) {
          {"increments", R"("events")"}});
   run();  // load_path_test.cpp: at 0.05 / (1 / 1000 + 1 / 1000) = 25 of 100
   EXPECT_THAT(out_.str(), StartsWith("joint: 2 plates, 2 fasteners, p = 8, exact path\n"));
-  EXPECT_THAT(out_.str(), HasSubstr("increment 1 of 2: load factor 0.25, 1 pieces without iterations, residual "));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 1 of 2: load factor 0.25, 1 piece without iterations, residual "));
   EXPECT_THAT(out_.str(), HasSubstr("of the largest force\n  f2 closes\n"));
   EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 2 pieces without iterations, residual "));
   EXPECT_THAT(result().event, ElementsAre("f2 closes", ""));
@@ -120,8 +120,12 @@ TEST_F(Run, WritesACsvWithAllDigits) {
   write({{"increments", "[0.1]"}, {"fasteners", R"([{"id": "a, \"b\"", "between": ["a:1", "b:1"], "law": "lin"}])"}});
   run();
   EXPECT_THAT(test::read_file(options_.csv),
-              StartsWith("increment,load_factor,fastener,delta,F,transferred_first,transferred_second,share,"
-                         "iterations,residual,first,second,bearing_load_first,bearing_load_y_first,"));
+              StartsWith("increment,load_factor,fastener,delta [in],F [lbf],transferred_first [lbf],"
+                         "transferred_second [lbf],share [%],iterations,residual,first,second,bearing_load_first [lbf],"
+                         "bearing_load_y_first [lbf],bearing_stress_first [lbf/in^2],bypass_load_first [lbf],"
+                         "bypass_error_first [lbf],peak_hoop_first [lbf/in^2],peak_angle_first [deg],"
+                         "peak_error_first [lbf/in^2],gross_concentration_first,net_concentration_first,"));
+  EXPECT_THAT(test::read_file(options_.csv), HasSubstr(",net_concentration_second,F_error [lbf],event\n"));
   std::istringstream lines(test::read_file(options_.csv));
   std::string header, line;
   std::getline(lines, header);
@@ -146,9 +150,10 @@ TEST_F(Run, ShowsTheErrorBarOfTheLargestForce) {
   EXPECT_NEAR((*error)(0, 0) / (*error)(1, 0), 2, 1e-9);
   Eigen::Index largest = 0;  // of two that are equal but for rounding
   result().F.row(0).maxCoeff(&largest);
-  EXPECT_THAT(out_.str(), HasSubstr(fmt::format("largest F = 50 +- {:.1g} lbf (fastener \"f{}\", increment 1), by the "
-                                                "errors of the plates' matrices\n",
-                                                (*error)(0, largest), largest + 1)));
+  EXPECT_THAT(out_.str(),
+              HasSubstr(fmt::format("the largest F is 50 +- {:.1g} lbf (fastener \"f{}\", increment 1), by the "
+                                    "errors of the plates' matrices\n",
+                                    (*error)(0, largest), largest + 1)));
   lap.a.S_dd_error.setConstant(std::numeric_limits<double>::infinity());
   write({}, lap);
   out_.str("");

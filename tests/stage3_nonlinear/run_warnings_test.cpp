@@ -88,7 +88,7 @@ TEST_F(Run, WarnsOfDoubtfulLawsAndOpenPlaces) {
   EXPECT_THAT(log_.str(), HasSubstr("joint.json: /laws/lin: n = 0.3 is below the practical range"));
   EXPECT_THAT(log_.str(), HasSubstr("joint.json: at load factor 1 the joint is a mechanism within the gaps of fastener "
                                     "\"f1\", fastener \"f2\": the forces are right, the displacements are one of many; "
-                                    "free is, in proportion, plate \"b\" by 1 along x\n"));
+                                    "in proportion, it is free to move plate \"b\" by 1 along x\n"));
   EXPECT_THAT(out_.str(), HasSubstr("         -\n")) << "no sum, no shares";
 }
 

@@ -62,7 +62,7 @@ TEST_F(TestPoints, RefusesOtherThanTwoColumns) {
   const std::string columns = "allowed: two columns, delta and F, parted by a comma, semicolon or tab";
   EXPECT_THAT(refusal("0,0\n1,2,3\n"), EndsWith("test.csv:2: 3 columns in '1,2,3'; " + columns));
   EXPECT_THAT(refusal("the force was measured\n"),
-              EndsWith("test.csv:1: 1 columns in 'the force was measured'; " + columns));
+              EndsWith("test.csv:1: 1 column in 'the force was measured'; " + columns));
   EXPECT_THAT(refusal(""), EndsWith("test.csv: no points; " + columns));
   EXPECT_THAT(refusal("# nothing\ndelta,F\n"), EndsWith("test.csv: no points; " + columns));
 }

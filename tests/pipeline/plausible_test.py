@@ -1,0 +1,108 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Numbers that no joint has are warned of, those of the examples are not: plausible_test.py BIN_FOLDER.
+
+Each kind of warning is shown by the lap joint with one number spoiled, so that its words are those looked for.
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+LAP = ROOT / "examples/lap_joint"
+
+
+def run(*words):
+    """What a program says on stderr; of a joint also if it does not converge."""
+    result = subprocess.run([str(word) for word in words], capture_output=True, text=True)
+    assert result.returncode in (0, 4), result.stderr
+    return result.stderr
+
+
+def solved(folder, sheets, joints, p):
+    """All that is said of sheets and joints, each a scene by its name."""
+    said = ""
+    for name, sheet in sheets.items():
+        (folder / f"{name}.json").write_text(json.dumps(sheet))
+        low, high = sheet.get("p", [1, 8])
+        said += run("stage1_plate", folder / f"{name}.json", "-o", folder / f"{name}.h5", "--p", max(low, min(p, high)), "--quiet")
+        run("stage2_extract", folder / f"{name}.h5", "-o", folder / f"{name}.matrices.h5", "--quiet")
+    for name, joint in joints.items():
+        (folder / f"{name}.json").write_text(json.dumps(joint))
+        said += run("stage3_nonlinear", folder / f"{name}.json", "-o", folder / "result.h5", "--quiet")
+    return said
+
+
+def scene(path):
+    text = re.sub(r"^\s*//.*$", "", path.read_text(), flags=re.M)
+    return json.loads(text)
+
+
+def spoiled(change):
+    sheets = {name: scene(LAP / f"{name}.json") for name in ("upper", "lower")}
+    joint = scene(LAP / "joint.json")
+    change(sheets, joint)
+    with tempfile.TemporaryDirectory() as name:
+        return solved(Path(name), sheets, {"joint": joint}, 2)
+
+
+def swap(sheets, joint):
+    first, second = (fastener["between"] for fastener in joint["fasteners"][:2])
+    first[1], second[1] = second[1], first[1]
+
+
+def formula(sheets, joint):
+    joint["laws"]["rivet"] = {"type": "formula", "formula": "huth rivet", "mode": "fastener only", "shear": "single",
+                              "t": [0.16, 0.16], "E": [72400, 72400], "d": 4.8, "E_f": 71000}
+
+
+def disk(sheets, joint):
+    sheets["upper"]["materials"]["2024-T3"]["E"] = 72.4
+
+
+KINDS = {
+    "may be another fastener's hole": swap,
+    "/clearance: the gap": lambda sheets, joint: joint["fasteners"][1].update(clearance=20),
+    "/friction: 15 is above 1": lambda sheets, joint: joint["fasteners"][0].update(friction=15),
+    "the formula has t = 0.16, 0.16 instead of 1.6": formula,
+    "is above the radius 2.4 of the hole": lambda sheets, joint: joint["loads"][0].update(force=4e8),
+    "is above the width 40 of the sheet": lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1600),
+    "of the radius 2.4 of hole": lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1.6e-6),
+    "/holes/3/spring/disk/E: 71000 is 981 times": disk,
+}
+
+
+def check_kinds():
+    for words, change in KINDS.items():
+        said = spoiled(change)
+        assert words in said and "warning: " in said, (words, said)
+
+
+def examples():
+    """Folder, sheets and joints of every example, as far as the joints' sheets are among them."""
+    for folder in sorted(path for path in (ROOT / "examples").iterdir() if path.is_dir()):
+        scenes = {path.stem: scene(path) for path in folder.glob("*.json")}
+        sheets = {name: each for name, each in scenes.items() if each.get("format") == "plate"}
+        known = {f"{name}.matrices.h5" for name in sheets}
+        yield folder.name, sheets, {name: each for name, each in scenes.items()
+                                    if each.get("format") == "joint" and set(each["plates"].values()) <= known}
+
+
+def check_examples():
+    n_sheets = n_joints = 0
+    for folder, sheets, joints in examples():
+        with tempfile.TemporaryDirectory() as name:
+            said = solved(Path(name), sheets, joints, 2)
+        for words in ["may be", *KINDS]:
+            assert words not in said, (folder, said)
+        n_sheets, n_joints = n_sheets + len(sheets), n_joints + len(joints)
+    assert n_sheets >= 8 and n_joints >= 3, (n_sheets, n_joints)
+
+
+if __name__ == "__main__":
+    os.environ["PATH"] = os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"]
+    check_kinds()
+    check_examples()

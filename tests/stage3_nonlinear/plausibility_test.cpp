@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers that hardly any joint has are said, with where they stand and what they may be; those of real joints are not.
+#include "tests/stage3_nonlinear/run_fixture.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr double E = 72000, t = 2, radius = 2.5;
+
+/// Sheets with n fasteners 20 apart along x, described as stage 2 does; `shift` moves the second sheet's drawing.
+test::Lap described(int n, const Eigen::Vector2d& shift = {0, 0}) {
+  const auto sheet = [&](int externals, const std::vector<test::Spring>& held, const Eigen::Vector2d& origin) {
+    auto plate = test::chain(n, externals, 1e4, held);
+    auto& a = plate.stresses;
+    a.rim_hole = plate.disc_hole;
+    a.rim_radius = Eigen::VectorXd::Constant(n, radius);
+    a.rim_thickness = Eigen::VectorXd::Constant(n, t);
+    a.rim_modulus = Eigen::MatrixXd::Constant(n, 2, E);
+    a.bearing_area = Eigen::MatrixXd::Constant(n, 2, 2 * radius * t);
+    a.rim_center.resize(n, 2);
+    for (int i = 0; i < n; ++i) a.rim_center.row(i) = (origin + 20 * i * Eigen::Vector2d::UnitX()).transpose();
+    a.rim_start = Eigen::VectorXi::Zero(n + 1);
+    return plate;
+  };
+  return {sheet(1, {{0, n, 1e4}}, {0, 0}), sheet(0, {{n - 1, test::ground, 1e4}}, shift)};
+}
+
+/// Fasteners "f1", ... with what else they have, by the holes of the second sheet.
+Members fasteners(const std::vector<int>& second, const std::string& more = "") {
+  std::string list;
+  for (std::size_t i = 0; i < second.size(); ++i)
+    list += (i == 0 ? "" : ", ") + std::string(R"({"id": "f)") + std::to_string(i + 1) + R"(", "between": ["a:)" +
+            std::to_string(i + 1) + R"(", "b:)" + std::to_string(second[i]) + R"("], "law": "lin")" + more + "}";
+  return {{"fasteners", "[" + list + "]"}};
+}
+
+class Plausibility : public Run {
+ protected:
+  std::string warnings(const Members& members, const test::Lap& lap) {
+    write(members, lap);
+    log_.str("");
+    run();
+    return log_.str();
+  }
+};
+
+TEST_F(Plausibility, NothingIsSaidOfAJointThatFits) {
+  EXPECT_EQ(warnings(fasteners({1, 2, 3}, R"(, "clearance": 0.1)"), described(3)), "");
+}
+
+TEST_F(Plausibility, SwappedHolesAreNamed) {
+  const std::string said = warnings(fasteners({1, 3, 2, 4}), described(4));
+  EXPECT_THAT(said,
+              HasSubstr("joint.json: /fasteners/1/between: the centres of holes \"a:2\" and \"b:3\" are 20 apart, "
+                        "more than the radius 2.5: one of them may be another fastener's hole, or the sheets are "
+                        "drawn in different coordinates\n"));
+  EXPECT_THAT(
+      said, AllOf(HasSubstr("/fasteners/2/between"), Not(HasSubstr("/fasteners/0/")), Not(HasSubstr("/fasteners/3/"))));
+}
+
+TEST_F(Plausibility, TheOnlyFastenerOfTwoSheetsIsComparedAsTheyAreDrawn) {
+  EXPECT_EQ(warnings(fasteners({1}), described(1)), "");
+  EXPECT_THAT(warnings(fasteners({1}), described(1, {0, 18})), HasSubstr("\"b:1\" are 18 apart"));
+}
+
+TEST_F(Plausibility, SheetsMayHaveCoordinatesOfTheirOwn) {
+  EXPECT_EQ(warnings(fasteners({1, 2, 3}), described(3, {-100, 30})), "");
+  const std::string said = warnings(fasteners({1, 2, 4, 3, 5}), described(5, {-100, 30}));
+  EXPECT_THAT(said, AllOf(HasSubstr("/fasteners/2/between"), HasSubstr("/fasteners/3/between"),
+                          Not(HasSubstr("/fasteners/0/")), Not(HasSubstr("/fasteners/1/"))));
+}
+
+TEST_F(Plausibility, OneOfTwoFastenersIsEnoughToTellWhichIsOff) {
+  auto lap = described(3);
+  lap.b.stresses.rim_center.row(1) << 38, 0;
+  const std::string said = warnings(fasteners({1, 2, 3}), lap);
+  EXPECT_THAT(said, AllOf(HasSubstr("/fasteners/1/between"), HasSubstr(" 18 apart"), Not(HasSubstr("/fasteners/0/"))));
+}
+
+TEST_F(Plausibility, GapsAboveARadiusAreNamed) {
+  EXPECT_THAT(warnings(fasteners({1}, R"(, "clearance": 2.6)"), described(1)),
+              HasSubstr("joint.json: /fasteners/0/clearance: the gap 2.6 (that of law \"lin\" included) is above the "
+                        "radius 2.5 of the hole: one of them may be in another unit of length\n"));
+}
+
+TEST_F(Plausibility, FrictionAboveOneIsNamed) {
+  auto lap = described(1);
+  std::mt19937 random(7);
+  test::add_friction(lap.a, random);
+  test::add_friction(lap.b, random);
+  const auto said = [&](const char* mu) {
+    write(fasteners({1}, std::string(R"(, "friction": )") + mu), lap);
+    log_.str("");
+    try {
+      run();
+    } catch (const std::exception&) {  // such friction may lock the joint
+    }
+    return log_.str();
+  };
+  EXPECT_THAT(said("15"), HasSubstr("joint.json: /fasteners/0/friction: 15 is above 1, which dry metals hardly reach: "
+                                    "it may be a percentage\n"));
+  EXPECT_THAT(said("0.15"), Not(HasSubstr("percentage")));
+}
+
+std::string formula(const std::string& thickness, const std::string& modulus, const std::string& diameter) {
+  return R"({"lin": {"type": "formula", "formula": "swift", "mode": "total", "shear": "single", "t": )" + thickness +
+         R"(, "E": )" + modulus + R"(, "d": )" + diameter + R"(, "E_f": 110000}})";
+}
+
+TEST_F(Plausibility, AFormulaForOtherSheetsIsNamedOnce) {
+  auto lap = described(2);
+  lap.b.stresses.rim_thickness.setConstant(3);
+  auto members = fasteners({1, 2}, R"(, "clearance": 0.1)");
+  members["laws"] = formula("[3, 2]", "[73000, 71000]", "4.8");
+  EXPECT_EQ(warnings(members, lap), "") << "either order of sheets, a shank a little thinner than its hole";
+  members["laws"] = formula("[2.1, 3]", "[72, 72]", "2.5");
+  const std::string said = warnings(members, lap);
+  EXPECT_THAT(said,
+              HasSubstr("joint.json: /laws/lin: the formula has t = 2.1, 3 instead of 2, 3, E = 72, 72 instead of "
+                        "72000, 72000, d = 2.5, 2.5 instead of 5, 5 of the sheets at fastener \"f1\": it may be "
+                        "for another fastener, or in other units\n"));
+  EXPECT_EQ(said.find("the formula has"), said.rfind("the formula has"));
+  lap.b.stresses.rim_thickness.setZero();  // as a file of an earlier version has it
+  members["laws"] = formula("[2, 7]", "[72000, 72000]", "5");
+  EXPECT_EQ(warnings(members, lap), "");
+}
+
+TEST_F(Plausibility, DisplacementsAboveARadiusAreNamedOnceWithTheirIncrement) {
+  auto members = fasteners({1});
+  members["loads"] = R"([{"external": "a:P", "force": 4000}])";
+  members["increments"] = "4";
+  const std::string said = warnings(members, described(1));
+  EXPECT_THAT(said,
+              HasSubstr("joint.json: fastener \"f1\": delta = 3 at increment 3 is above the radius 2.5 of the hole: "
+                        "loads, laws or moduli may be in different units\n"));
+  EXPECT_EQ(said.find("delta = "), said.rfind("delta = "));
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3
