@@ -15,6 +15,11 @@ namespace {
 
 using Eigen::Index;
 
+/// "increment 2 (load factor 0.5)"
+std::string increment_text(const LoadPath& path, const PathStep& step) {
+  return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
+}
+
 /// Named with the first increment at which it happens, once per plane.
 void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
   for (std::size_t j = 0; j < joint.planes.size(); ++j) {
@@ -25,9 +30,9 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
       const bool open = plane.one_sided && delta < 0;
       if (open || std::abs(delta) <= last) continue;
       result.push_back(
-          fmt::format("{}: {}: delta = {:.6g} at load factor {:.6g} is beyond the last point "
+          fmt::format("{}: {}: delta = {:.6g} at {} is beyond the last point "
                       "{:.6g} of its law (gap included), which is extrapolated there",
-                      joint.file, joint.name(plane), delta, step.load_factor, last));
+                      joint.file, joint.name(plane), delta, increment_text(path, step), last));
       break;
     }
   }
@@ -115,7 +120,7 @@ void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vecto
   for (const auto& step : path.steps) {
     if (!step.check.locking) continue;
     result.push_back(
-        fmt::format("{}: at load factor {:.6g} {}", joint.file, step.load_factor, locking_text(*step.check.locking)));
+        fmt::format("{}: at {}, {}", joint.file, increment_text(path, step), locking_text(*step.check.locking)));
     return;
   }
 }

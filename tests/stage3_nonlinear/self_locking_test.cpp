@@ -81,7 +81,7 @@ TEST_F(Locking, IsSolvedOnBothSidesOfTheLevelAndSaidBeyondIt) {
       }
     }
   run(0.625, spring);
-  EXPECT_THAT(log_.str(), HasSubstr("joint.json: at load factor 1 with friction 0.8 times as large the "
+  EXPECT_THAT(log_.str(), HasSubstr("joint.json: at increment 1 (load factor 1), with friction 0.8 times as large the "
                                     "joint locks itself: friction alone carries the load there, and beyond it a "
                                     "solution need neither exist nor be the only one"));
 }
