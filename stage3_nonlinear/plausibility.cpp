@@ -109,15 +109,19 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
           fmt::format("{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another "
                       "fastener, or in other units",
                       joint.file, plane.law_name, other, joint.name(plane)));
-    const auto far = [&](const PathStep& step) {
-      return std::abs(amounts(step.delta, joint.n_directions())[known.at]) > radius;
-    };
-    if (const auto step = std::find_if(path.steps.begin(), path.steps.end(), far); step != path.steps.end())
+    const double crushing = (known.d * known.t * known.E).minCoeff();  // 0: not known
+    for (const auto& step : path.steps) {
+      const double delta = amounts(step.delta, joint.n_directions())[known.at];
+      const double F = amounts(step.F, joint.n_directions())[known.at];
+      const bool far = std::abs(delta) > radius;
+      if (!far && !(crushing > 0 && std::abs(F) > crushing)) continue;
+      const std::string what = far ? fmt::format("delta = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
+                                   : fmt::format("F = {:.6g} is above d t E = {:.6g} of a sheet", F, crushing);
       result.push_back(
-          fmt::format("{}: {}: delta = {:.6g} at increment {} is above the radius {:.6g} of the hole: "
-                      "loads, laws or moduli may be in different units",
-                      joint.file, joint.name(plane), amounts(step->delta, joint.n_directions())[known.at],
-                      step - path.steps.begin() + 1, radius));
+          fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
+                      joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
+      break;
+    }
   }
   return result;
 }

@@ -16,7 +16,8 @@ namespace fastjoint::stage3 {
 
 /// Numbers that hardly any joint has, one sentence each: friction above 1, a gap or |delta| above a radius, centres of
 /// a fastener's holes apart (of three and more fasteners between two sheets: from the median, since sheets may be drawn
-/// in coordinates of their own), a formula for other sheets. What MATRICES.h5 does not tell of a hole is not compared.
+/// in coordinates of their own), a formula for other sheets, F above d t E. What MATRICES.h5 does not tell of a hole is
+/// not compared.
 [[nodiscard]] std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint,
                                                            const LoadPath& path);
 

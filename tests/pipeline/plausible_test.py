@@ -63,6 +63,13 @@ def disk(sheets, joint):
     sheets["upper"]["materials"]["2024-T3"]["E"] = 72.4
 
 
+def gigapascals(sheets, joint):
+    for sheet in sheets.values():
+        sheet["materials"]["2024-T3"]["E"] = 72.4
+        for hole in sheet["holes"]:
+            hole["spring"]["disk"]["E"] = 71
+
+
 KINDS = {
     "may be another fastener's hole": swap,
     "/clearance: the gap": lambda sheets, joint: joint["fasteners"][1].update(clearance=20),
@@ -71,6 +78,7 @@ KINDS = {
     "is above the radius 2.4 of the hole": lambda sheets, joint: joint["loads"][0].update(force=4e8),
     "is above the width 40 of the sheet": lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1600),
     "of the radius 2.4 of hole": lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1.6e-6),
+    "is above d t E = ": gigapascals,
     "/holes/3/spring/disk/E: 71000 is 981 times": disk,
 }
 

@@ -134,10 +134,20 @@ TEST_F(Plausibility, DisplacementsAboveARadiusAreNamedOnceWithTheirIncrement) {
   members["loads"] = R"([{"external": "a:P", "force": 4000}])";
   members["increments"] = "4";
   const std::string said = warnings(members, described(1));
-  EXPECT_THAT(said,
-              HasSubstr("joint.json: fastener \"f1\": delta = 3 at increment 3 is above the radius 2.5 of the hole: "
-                        "loads, laws or moduli may be in different units\n"));
+  EXPECT_THAT(said, HasSubstr("joint.json: fastener \"f1\": delta = 3 is above the radius 2.5 of the hole at "
+                              "increment 3: loads, laws, lengths or moduli may be in different units\n"));
   EXPECT_EQ(said.find("delta = "), said.rfind("delta = "));
+}
+
+TEST_F(Plausibility, ForcesThatWouldCrushTheSheetAreNamed) {
+  auto lap = described(1);
+  auto members = fasteners({1});
+  members["loads"] = R"([{"external": "a:P", "force": 1000}])";
+  EXPECT_EQ(warnings(members, lap), "");
+  lap.a.stresses.rim_modulus.setConstant(72);  // GPa beside N and mm
+  EXPECT_THAT(warnings(members, lap),
+              HasSubstr("joint.json: fastener \"f1\": F = 1000 is above d t E = 720 of a sheet at "
+                        "increment 1: loads, laws, lengths or moduli may be in different units\n"));
 }
 
 }  // namespace
