@@ -65,26 +65,50 @@ void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
              "at most 2");
 }
 
-/// A node inside the straight edge of a neighbour would make the displacements discontinuous.
+/// Place of a point on an edge: 0 to 1 from its first to its last node, and how far off the edge it lies over its
+/// length.
+struct Place {
+  double along, off;
+};
+
+Place place_on(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge, const Eigen::Vector2d& point) {
+  const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge)), b = mesh.nodes.col(edges.nodes(1, edge));
+  const int arc = edges.arc[static_cast<std::size_t>(edge)];
+  if (arc < 0) {
+    const double along = (point - a).dot(b - a) / (b - a).squaredNorm();
+    return {along, (point - a - along * (b - a)).norm() / (b - a).norm()};
+  }
+  const Eigen::Vector2d& center = mesh.arcs[static_cast<std::size_t>(arc)].center;
+  const auto curve = pfem::Curve::arc(a, b, center);
+  const Eigen::Vector2d ray = point - center;
+  const double turned = std::remainder(std::atan2(ray.y(), ray.x()) - curve.start_angle(), pfem::full_turn);
+  const double radius = (a - center).norm();
+  return {turned / curve.sweep(), std::abs(ray.norm() - radius) / (radius * std::abs(curve.sweep()))};
+}
+
+/// A node on the edge of an element that does not have it would make the displacements discontinuous.
 void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
-  constexpr double tolerance = 1e-9;
+  constexpr double same = 1e-9, tolerance = 1e-6;  // of the edge's length: digits that a hand-written file has
   std::vector<int> border;
   for (int edge = 0; edge < edges.size(); ++edge)
     if (edges.n_elements[static_cast<std::size_t>(edge)] == 1) border.push_back(edge);
-  for (const int edge : border) {
-    if (edges.arc[static_cast<std::size_t>(edge)] >= 0) continue;
-    const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge));
-    const Eigen::Vector2d ab = mesh.nodes.col(edges.nodes(1, edge)) - a;
+  for (const int edge : border)
     for (const int node : edges.nodes(Eigen::all, border).reshaped()) {
-      const Eigen::Vector2d at = mesh.nodes.col(node) - a;
-      const double along = at.dot(ab) / ab.squaredNorm();
-      const double off = (at - along * ab).norm() / ab.norm();
-      if (off < tolerance && along > tolerance && along < 1 - tolerance)
-        reject(scene, fmt::format("/geometry/mesh/nodes/{}", node),
+      if ((edges.nodes.col(edge).array() == node).any()) continue;
+      const auto [along, off] = place_on(mesh, edges, edge, mesh.nodes.col(node));
+      if (!(off < tolerance && along > -same && along < 1 + same)) continue;
+      const std::string place = fmt::format("/geometry/mesh/nodes/{}", node);
+      const int nearest = along < 0.5 ? 0 : 1;
+      if (std::hypot(along - nearest, off) < same)
+        reject(scene, place,
+               fmt::format("it lies on node {}, but no element joins the two, so that a slit opens between them",
+                           edges.nodes(nearest, edge)),
+               "one node at each place, which the elements on both sides share");
+      if (along > same && along < 1 - same)
+        reject(scene, place,
                fmt::format("it hangs on the edge between nodes {} and {}", edges.nodes(0, edge), edges.nodes(1, edge)),
                "elements that share whole edges");
     }
-  }
 }
 
 }  // namespace

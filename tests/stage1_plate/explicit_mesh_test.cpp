@@ -2,7 +2,11 @@
 #include "stage1_plate/explicit_mesh.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
 
 #include "common/errors.hpp"
 #include "tests/support/message.hpp"
@@ -55,6 +59,68 @@ TEST(ExplicitMesh, HangingNodesAreFound) {
   const std::string nodes = "[0,0],[1,0],[1,1],[0,1],[2,0],[2,0.5],[1,0.5],[2,1]";
   EXPECT_THAT(message(mesh_scene(nodes, "[0,1,2,3],[1,4,5,6],[6,5,7,2]")),
               HasSubstr("/geometry/mesh/nodes/6: it hangs on the edge between nodes 1 and 2"));
+}
+
+/// A node of a ring by its radius and its angle in degrees.
+std::string polar(double radius, double angle) {
+  const double radians = angle * std::numbers::pi / 180;
+  return fmt::format("[{},{}]", radius * std::cos(radians), radius * std::sin(radians));
+}
+
+/// A ring from radius 1 to 2 of so many sectors inside one from 2 to 3 of others, whose nodes at radius 2 are shared
+/// where they lie at equal angles.
+std::string rings_scene(int inner, int outer) {
+  std::vector<std::string> nodes, quads, arcs;
+  const auto ring = [&](double radius, int n) {
+    std::vector<int> ids;
+    for (int i = 0; i < n; ++i) {
+      nodes.push_back(polar(radius, 360.0 * i / n));
+      ids.push_back(static_cast<int>(nodes.size()) - 1);
+    }
+    return ids;
+  };
+  const auto sectors = [&](const std::vector<int>& in, const std::vector<int>& out) {
+    for (std::size_t i = 0; i < in.size(); ++i) {
+      const std::size_t next = (i + 1) % in.size();
+      quads.push_back(fmt::format("[{},{},{},{}]", in[i], out[i], out[next], in[next]));
+      for (const auto& list : {in, out})
+        arcs.push_back(fmt::format(R"({{"edge": [{}, {}], "center": [0, 0]}})", list[i], list[next]));
+    }
+  };
+  const auto first = ring(1, inner), middle = ring(2, inner), last = ring(3, outer);
+  std::vector<int> shared;
+  for (int i = 0; i < outer; ++i) shared.push_back(middle[static_cast<std::size_t>(i * inner / outer)]);
+  sectors(first, middle);
+  sectors(shared, last);
+  return mesh_scene(fmt::format("{}", fmt::join(nodes, ",")), fmt::format("{}", fmt::join(quads, ",")),
+                    fmt::format(R"(, "arcs": [{}])", fmt::join(arcs, ",")));
+}
+
+TEST(ExplicitMesh, NodesThatHangOnArcsAreFound) {
+  EXPECT_EQ(message(rings_scene(4, 4)), "no error");
+  EXPECT_EQ(message(rings_scene(8, 8)), "no error");
+  EXPECT_THAT(message(rings_scene(8, 4)),
+              HasSubstr("/geometry/mesh/nodes/9: it hangs on the edge between nodes 8 and 10"));
+  // two straight edges whose common node lies on the neighbour's arc, with the digits of a hand-written file
+  const std::string nodes =
+      "[0,0],[1,0],[0.70710678,0.70710678],[0.3,0.3],[2,0],[2,1.5],[0.9238795,0.3826834],[1.6,0.6]";
+  EXPECT_THAT(
+      message(mesh_scene(nodes, "[0,1,2,3],[1,4,7,6],[6,7,5,2]", R"(, "arcs": [{"edge": [1, 2], "center": [0, 0]}])")),
+      HasSubstr("/geometry/mesh/nodes/6: it hangs on the edge between nodes 1 and 2"));
+}
+
+/// Two squares side by side that do not share the two nodes between them.
+TEST(ExplicitMesh, ASlitBetweenNodesThatLieOnOneAnotherIsFound) {
+  const std::string nodes = square + ",[1,0],[2,0],[2,1],[1,1]";
+  EXPECT_THAT(message(mesh_scene(nodes, "[0,1,2,3],[4,5,6,7]")),
+              AllOf(HasSubstr("/geometry/mesh/nodes/4: it lies on node 1, but no element joins the two"),
+                    HasSubstr("allowed: one node at each place")));
+  EXPECT_THAT(message(mesh_scene(square + ",[2,0],[2,1],[1,1]", "[0,1,2,3],[1,4,5,6]")),
+              HasSubstr("/geometry/mesh/nodes/6: it lies on node 2"));
+  EXPECT_EQ(message(mesh_scene(square + ",[2,0],[2,1]", "[0,1,2,3],[1,4,5,2]")), "no error");
+  EXPECT_EQ(message(mesh_scene(square + ",[1.0000001,0],[1.0000001,1],[2,0],[2,1]", "[0,1,2,3],[1,4,5,2],[4,6,7,5]")),
+            "no error")
+      << "a short edge is an edge";
 }
 
 TEST(ExplicitMesh, HolesMustBeInTheMesh) {
