@@ -22,56 +22,80 @@ Eigen::MatrixXd legendre(int n, const Eigen::VectorXd& x) {
 
 }  // namespace
 
-int geometric_degree(const ElementMap& map) {
-  constexpr int n = 20;  // of higher degree are maps that are nearly folded
+GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
+  constexpr int n = highest_geometric_degree + 1;
   constexpr double left_out = 1e-11;
   if (!map.is_curved() && (map.point(-1, -1) + map.point(1, 1) - map.point(1, -1) - map.point(-1, 1)).isZero(0))
-    return 0;
+    return {0, 0};
   static const Rule rule = gauss(n);
   static const Eigen::MatrixXd P = legendre(n, rule.x) * rule.w.asDiagonal();  // coefficients from values
   Eigen::MatrixXd values(n, 3 * n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {
-      const Eigen::Matrix2d J = map.jacobian(rule.x[i], rule.x[j]);
+      const Eigen::Vector2d at = box.middle + box.half.cwiseProduct(Eigen::Vector2d(rule.x[i], rule.x[j]));
+      const Eigen::Matrix2d J = map.jacobian(at.x(), at.y());
       const double det = J.determinant();
       values(i, j) = J.col(0).squaredNorm() / det;
       values(i, n + j) = J.col(1).squaredNorm() / det;
       values(i, 2 * n + j) = J.col(0).dot(J.col(1)) / det;
     }
-  Eigen::VectorXd largest = Eigen::VectorXd::Zero(n);  // of all coefficients of a degree
+  Eigen::MatrixX2d largest = Eigen::MatrixX2d::Zero(n, 2);  // of all coefficients of a degree in xi, in eta
   for (int k = 0; k < 3; ++k) {
     const Eigen::MatrixXd C = (P * values.middleCols(Eigen::Index{k} * n, n) * P.transpose()).cwiseAbs();
-    for (int degree = 0; degree < n; ++degree)
-      largest[degree] = std::max(
-          {largest[degree], C.row(degree).head(degree + 1).maxCoeff(), C.col(degree).head(degree + 1).maxCoeff()});
+    largest.col(0) = largest.col(0).cwiseMax(C.rowwise().maxCoeff());
+    largest.col(1) = largest.col(1).cwiseMax(C.colwise().maxCoeff().transpose());
   }
   int degree = n - 1;
-  while (degree > 0 && largest[degree] <= left_out * largest.maxCoeff()) --degree;
-  return degree;
+  while (degree > 0 && largest.row(degree).maxCoeff() <= left_out * largest.maxCoeff()) --degree;
+  return {degree, largest(degree, 0) > largest(degree, 1) ? 0 : 1};
 }
 
 ElementStiffness::ElementStiffness(Space space, int p, int extra) : space_(space), p_(p), extra_(extra) {}
 
-const ElementStiffness::Table& ElementStiffness::table(int n_points) const {
-  const std::lock_guard lock(mutex_);
-  const auto [found, is_new] = tables_.try_emplace(n_points);
-  if (!is_new) return found->second;
-  Table& table = found->second;
+ElementStiffness::Table ElementStiffness::make_table(int n_points, const Box& box) const {
+  Table table;
   const Rule rule = gauss(n_points);
-  table.xi = rule.x.replicate(n_points, 1);
+  const Eigen::VectorXd eta = box.middle.y() + box.half.y() * rule.x.array();
+  table.xi = (box.middle.x() + box.half.x() * rule.x.array()).replicate(n_points, 1);
   table.eta.resize(table.xi.size());
   table.w.resize(table.xi.size());
   for (Eigen::Index j = 0; j < n_points; ++j) {
-    table.eta.segment(j * n_points, n_points).setConstant(rule.x[j]);
-    table.w.segment(j * n_points, n_points) = rule.w[j] * rule.w;
+    table.eta.segment(j * n_points, n_points).setConstant(eta[j]);
+    table.w.segment(j * n_points, n_points) = box.half.prod() * rule.w[j] * rule.w;
   }
   table.shape = shape_values(space_, p_, table.xi, table.eta);
   return table;
 }
 
+const ElementStiffness::Table& ElementStiffness::table(int n_points) const {
+  const std::lock_guard lock(mutex_);
+  const auto [found, is_new] = tables_.try_emplace(n_points);
+  if (is_new) found->second = make_table(n_points, {});
+  return found->second;
+}
+
 Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness) const {
+  return over(map, {}, D, thickness);
+}
+
+Eigen::MatrixXd ElementStiffness::over(const ElementMap& map, const Box& box, const Eigen::Matrix3d& D,
+                                       double thickness) const {
+  const auto [degree, steeper] = geometric_degree(map, box);
+  constexpr double smallest = 1e-4;  // half a side of a part; rounding is all that is left of what is smaller
+  if (degree == highest_geometric_degree && box.half[steeper] > smallest) {
+    Box low = box, high = box;
+    low.half[steeper] = high.half[steeper] = box.half[steeper] / 2;
+    low.middle[steeper] -= low.half[steeper];
+    high.middle[steeper] += high.half[steeper];
+    return over(map, low, D, thickness) + over(map, high, D, thickness);
+  }
   // The integrand has degree 2 p + the geometry's in each direction, n points are exact up to 2 n - 1.
-  const Table& table = this->table(p_ + 1 + geometric_degree(map) / 2 + extra_);
+  const int n_points = p_ + 1 + degree / 2 + extra_;
+  return integral(map, box.half.isOnes(0) ? table(n_points) : make_table(n_points, box), D, thickness);
+}
+
+Eigen::MatrixXd ElementStiffness::integral(const ElementMap& map, const Table& table, const Eigen::Matrix3d& D,
+                                           double thickness) const {
   const auto n_points = table.w.size();
   const auto n = table.shape.N.rows();
   Eigen::MatrixXd Nx(n, n_points), Ny(n, n_points);  // derivatives by x and y, times the root of the weight

@@ -11,8 +11,14 @@
 
 namespace fastjoint::pfem {
 
+/// A rectangle of [-1, 1]^2, by default all of it.
+struct Box {
+  Eigen::Vector2d middle{0, 0}, half{1, 1};
+};
+
 /// Stiffness matrices of elements of one space and degree p. Shape functions are tabulated once for each number
-/// of points; how many an element takes follows from its geometric degree.
+/// of points; how many an element takes follows from its geometric degree. An element of more than the highest is
+/// nearly folded: it is integrated by halves, and these by theirs, until each has less.
 class ElementStiffness {
  public:
   /// @param extra Points added in each direction to those chosen from p and the element's shape (for tests).
@@ -28,8 +34,13 @@ class ElementStiffness {
     Eigen::VectorXd xi, eta, w;
     ShapeValues shape;
   };
-  /// Made when first asked for, from any thread.
+  [[nodiscard]] Table make_table(int n_points, const Box& box) const;
+  /// That of all of [-1, 1]^2, made when first asked for, from any thread.
   [[nodiscard]] const Table& table(int n_points) const;
+  [[nodiscard]] Eigen::MatrixXd over(const ElementMap& map, const Box& box, const Eigen::Matrix3d& D,
+                                     double thickness) const;
+  [[nodiscard]] Eigen::MatrixXd integral(const ElementMap& map, const Table& table, const Eigen::Matrix3d& D,
+                                         double thickness) const;
 
   Space space_;
   int p_, extra_;
@@ -37,10 +48,15 @@ class ElementStiffness {
   mutable std::map<int, Table> tables_;
 };
 
-/// Degree, in either coordinate, of the polynomials that det J J^-1 J^-T comes down to: all that the geometry brings
-/// into a stiffness. 0 of a parallelogram; a bilinear map makes it rational, arcs make it transcendental, and what is
-/// left out is then 1e-11 of the largest.
-[[nodiscard]] int geometric_degree(const ElementMap& map);
+/// Degree, in either coordinate, of the polynomials that det J J^-1 J^-T comes down to on a part of an element: all
+/// that the geometry brings into a stiffness. 0 of a parallelogram; a bilinear map makes it rational, arcs make it
+/// transcendental, and what is left out is then 1e-11 of the largest.
+struct GeometricDegree {
+  int degree;   ///< the highest also stands for all that are higher
+  int steeper;  ///< the coordinate, 0 or 1, in which it has more of that degree
+};
+inline constexpr int highest_geometric_degree = 19;
+[[nodiscard]] GeometricDegree geometric_degree(const ElementMap& map, const Box& box = {});
 
 /// Smallest Jacobian determinant of an element at its integration points and vertices, over its mean.
 /// The map is one to one only if it is positive.
