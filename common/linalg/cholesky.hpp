@@ -27,11 +27,6 @@ class Cholesky {
   /// L within the border, its first k columns, shape (n_border, k): the Schur complement of these rows and columns is
   /// their product with their transpose.
   [[nodiscard]] Eigen::MatrixXd border(Eigen::Index k) const;
-  /// Smallest and largest entry of L's diagonal before the border; infinity and 0 if all is border.
-  struct Pivots {
-    double smallest, largest;
-  };
-  [[nodiscard]] Pivots pivots() const;
 
  private:
   struct Impl;

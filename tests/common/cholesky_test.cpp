@@ -6,6 +6,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 #include "common/errors.hpp"
 
@@ -53,6 +54,26 @@ TEST(Cholesky, RefusesAMatrixThatIsSingularToWorkingPrecision) {
   EXPECT_THAT([&] { Cholesky c(chain(50, floats + 1e-15)); },
               ThrowsMessage<NumericalError>(HasSubstr("singular to working precision")));
   EXPECT_NO_THROW(Cholesky c(chain(50, floats + 1e-11)));
+}
+
+/// Rows in other units, or parts of other stiffness, are no reason to call a matrix singular, nor do they hide that it
+/// is.
+TEST(Cholesky, JudgesAMatrixWhateverTheScaleOfItsRows) {
+  constexpr int n = 50;
+  const auto scaled = [](double last) {
+    Sparse A = chain(n, last);
+    for (int j = 0; j < n; ++j)
+      for (Sparse::InnerIterator entry(A, j); entry; ++entry)
+        entry.valueRef() *= std::pow(10, (static_cast<double>(entry.row() % 5 + j % 5)) * 4 - 16);
+    return A;
+  };
+  const Eigen::MatrixXd A = Eigen::MatrixXd(scaled(2)).selfadjointView<Eigen::Lower>();
+  const Eigen::VectorXd x = A.diagonal().cwiseSqrt().cwiseInverse();
+  EXPECT_LT((Cholesky(scaled(2)).solve(A * x) - x).cwiseQuotient(x).norm(), 1e-15 * n * n);
+  const double floats = 1.0 - 1.0 / n;
+  EXPECT_THAT([&] { Cholesky c(scaled(floats + 1e-14)); },
+              ThrowsMessage<NumericalError>(HasSubstr("diagonal entry of row 49 of 50")));
+  EXPECT_NO_THROW(Cholesky c(scaled(floats + 1e-11)));
 }
 
 /// A random symmetric positive definite matrix of few entries.
