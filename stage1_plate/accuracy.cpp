@@ -7,7 +7,6 @@
 
 #include "common/errors.hpp"
 #include "common/pfem/condensed_stiffness.hpp"
-#include "common/pfem/stiffness_error.hpp"
 #include "stage1_plate/holding.hpp"
 #include "stage1_plate/plate_factor.hpp"
 
@@ -26,17 +25,21 @@ void raise_degree(Accuracy& model) {
   const auto nc = problem.K_cc.cols();
   if (nc == 0)
     throw InputError(
-        fmt::format("{}: --accuracy is the error of the stiffness S of discs and rigid externals, of which there is "
-                    "none; allowed: a scene with a disc or a rigid external",
+        fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
+                    "missing; allowed: a scene with a disc or a rigid external",
                     model.scene.file));
   const Outline outline(problem);
   const int highest = model.scene.p_high;
-  std::vector<Eigen::MatrixXd> S;
+  pfem::CondensedLevels levels;
   for (int p = model.scene.p_low; p <= highest; ++p) {
-    const Eigen::MatrixXd E = PlateFactor(problem, outline, p).energy_rows();
-    S.push_back(pfem::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
-    const auto degrees = Eigen::VectorXi::LinSpaced(std::ssize(S), model.scene.p_low, p);
-    model.error = pfem::relative_error(pfem::stiffness_error(S, degrees), S.back());
+    const PlateFactor K(problem, outline, p);
+    const Eigen::MatrixXd E = K.energy_rows();
+    levels.S.push_back(pfem::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
+    levels.R.push_back(E.topRows(nc) * E.bottomRows(E.rows() - nc).transpose());
+    const Eigen::MatrixXd T = problem.T_f.topRows(problem.unknowns.n_free[static_cast<std::size_t>(p)]);
+    levels.C.push_back(T.transpose() * K.solve(T));
+    const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
+    model.errors = pfem::relative_errors(levels, degrees, problem.K_cc, pfem::fastest_rate(model.scene.elasticity));
     model.scene.p_high = p;
     if (model.is_reached()) return;
   }
@@ -59,7 +62,7 @@ Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
   check(scene);
   constexpr int most_rings = 4;
   constexpr double worth = 0.5;  // of the error before, that another ring must come below
-  Accuracy start{scene, accuracy, 0, false};
+  Accuracy start{scene, accuracy, {}, false};
   if (!scene.has_space) start.scene.space = pfem::Space::product;
   Accuracy best = start;
   for (int rings = 1; rings <= most_rings; ++rings) {
@@ -70,7 +73,7 @@ Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
         model.free_rings = true;
       }
     raise_degree(model);
-    const bool helps = rings == 1 || model.is_reached() || model.error < worth * best.error;
+    const bool helps = rings == 1 || model.is_reached() || model.error() < worth * best.error();
     if (helps) best = model;
     if (!helps || best.is_reached() || !best.free_rings) break;
   }
@@ -81,9 +84,9 @@ std::string to_text(const Accuracy& chosen) {
   int rings = 0;
   for (const auto& hole : chosen.scene.holes)
     if (leaves_rings(chosen.scene, hole)) rings = hole.rings;
-  return fmt::format("accuracy {:g}: {} space, p = {}{}: error of S about {:.0e}", chosen.asked,
-                     pfem::name_of(chosen.scene.space), chosen.scene.p_high,
-                     chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(), chosen.error);
+  return fmt::format("accuracy {:g}: {} space, p = {}{}: {}{}", chosen.asked, pfem::name_of(chosen.scene.space),
+                     chosen.scene.p_high, chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(),
+                     pfem::to_text(chosen.errors), chosen.is_reached() ? "" : ", not reached");
 }
 
 }  // namespace fastjoint::stage1

@@ -24,8 +24,8 @@ const program::Command command = {
     "PLATE.h5",
     {{"--p", "N or A..B", "degree 1..8, or a range of degrees; default: \"p\" of the input, else 1..8"},
      {"--accuracy", "A",
-      "relative error of S (Frobenius norm) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the input leaves "
-      "open and the least degree within --p that do, and says so; warns where nothing does"},
+      "relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the "
+      "input leaves open and the least degree within --p that do, and says so; warns where nothing does"},
      {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
@@ -69,7 +69,7 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
   auto chosen = stage1::meet_accuracy(scene, accuracy);
   if (!chosen.is_reached())
     std::cerr << fmt::format(
-        "{}: warning: {}: {}, the best that there is: finer cells, above all at ends of clamped "
+        "{}: warning: {}: {}; it is the best that there is: finer cells, above all at ends of clamped "
         "edges and of steps in thickness, come closer\n",
         command.name, scene.file, stage1::to_text(chosen));
   return chosen;

@@ -92,8 +92,7 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
   // The friction cases come last: what stands on their diagonal changes nothing before them, if it is only large enough
   // for a factor, that is above L^T K^-1 L.
   const auto s = shift(problem_);
-  const double K = largest(A), L = largest(problem_.L_f);
-  const double large = L > 0 && K > 0 ? 1e30 * L * L / K : 1;
+  const double L = largest(problem_.L_f), large = L > 0 ? 1e30 * L * L / s.maxCoeff() : 1;
   for (int i = 0; i < rows_.n_border; ++i)
     assembler.add(rows_.n_outline + i, rows_.n_outline + i, i < s.size() ? s[i] : large);
   return A;

@@ -6,7 +6,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <limits>
 
 #include "common/errors.hpp"
 
@@ -21,6 +20,17 @@ constexpr double worst_allowed = 1e-7;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
+/// The largest stiffness, or, of a sheet that offers next to none, such that what rounding leaves of K_cc is allowed.
+double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
+  constexpr double least = 1e-5;
+  return std::max(largest(S), least * largest(plate.K_cc));
+}
+
+/// The largest entry of R, or of a thousandth of the bearing forces if it has next to none.
+double scale_of_friction(const PlateMatrices& matrices, const Eigen::MatrixXd& R) {
+  return std::max(largest(R), 1e-3 * largest(matrices.friction_unit_force));
+}
+
 Eigen::MatrixXd stacked(const Eigen::MatrixXd& above, const Eigen::MatrixXd& below) {
   Eigen::MatrixXd A(above.rows() + below.rows(), above.cols());
   A << above, below;
@@ -32,7 +42,7 @@ std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& 
   if (S.size() == 0) return std::nullopt;
   const auto& probe = plate.probe;
   const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.u + plate.K_cc * probe.displacement;
-  return ratio(largest(solved - S * probe.displacement), largest(S));
+  return ratio(largest(solved - S * probe.displacement), scale_of(plate, S));
 }
 
 /// What friction and tractions do to externals and discs, by the probe's fields, against R and T.
@@ -43,7 +53,7 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrice
   if (plate.L_c.cols() > 0) {
     const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
     const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.w - plate.L_c * probe.friction;
-    worst = ratio(largest(solved - R * probe.friction), largest(R));
+    worst = ratio(largest(solved - R * probe.friction), scale_of_friction(matrices, R));
   }
   if (plate.T_c.cols() > 0) {
     const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
@@ -55,14 +65,12 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrice
 
 /// The smallest eigenvalue if it is too far below zero. A factor of S, raised by what is allowed, costs a tenth of the
 /// eigenvalues.
-std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S) {
+std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale) {
   if (S.size() == 0) return std::nullopt;
-  const double allowed = worst_allowed * largest(S);
-  const Eigen::MatrixXd raised =
-      S + std::max(allowed, std::numeric_limits<double>::min()) * Eigen::MatrixXd::Identity(S.rows(), S.rows());
+  const Eigen::MatrixXd raised = S + worst_allowed * scale * Eigen::MatrixXd::Identity(S.rows(), S.rows());
   if (Eigen::LLT<Eigen::MatrixXd>(raised).info() == Eigen::Success) return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S, Eigen::EigenvaluesOnly);
-  return ratio(eigen.eigenvalues()[0], largest(S));
+  return ratio(eigen.eigenvalues()[0], scale);
 }
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.
@@ -72,11 +80,12 @@ double residual_force(const PlateSolution& plate, const PlateMatrices& matrices,
   Eigen::Index i = 0;
   for (const auto& d : plate.external_direction) together[i++] = d == direction ? 1 : 0;
   for (const auto& d : plate.disc_direction) together[i++] = d == direction ? 1 : 0;
-  double worst = ratio(largest(S * together), largest(S));
+  double worst = ratio(largest(S * together), scale_of(plate, S));
   const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
   for (Eigen::Index j = 0; j < R.cols(); ++j)
     if (matrices.friction_bearing[static_cast<std::size_t>(j)].substr(1) == direction)
-      worst = std::max(worst, ratio(std::abs(R.col(j).dot(together) + matrices.friction_resultant[j]), largest(R)));
+      worst = std::max(worst, ratio(std::abs(R.col(j).dot(together) + matrices.friction_resultant[j]),
+                                    scale_of_friction(matrices, R)));
   const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
   for (Eigen::Index k = 0; k < T.cols(); ++k) {
     const double applied = plate.traction_direction[static_cast<std::size_t>(k)] == direction ? 1 : 0;
@@ -108,7 +117,8 @@ std::string shown(const std::optional<double>& value, const char* otherwise) {
 double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 
 Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
-  return {energy(plate, S), reciprocity(plate, matrices), negative_eigenvalue(S), equilibrium(plate, matrices, S)};
+  return {energy(plate, S), reciprocity(plate, matrices), negative_eigenvalue(S, scale_of(plate, S)),
+          equilibrium(plate, matrices, S)};
 }
 
 void require_good(const Checks& checks, const std::string& file) {

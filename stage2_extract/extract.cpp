@@ -2,7 +2,6 @@
 #include "stage2_extract/extract.hpp"
 
 #include "common/pfem/condensed_stiffness.hpp"
-#include "common/pfem/stiffness_error.hpp"
 #include "stage2_extract/friction_constants.hpp"
 #include "stage2_extract/load_reactions.hpp"
 #include "stage2_extract/stresses.hpp"
@@ -60,17 +59,19 @@ void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrice
 }  // namespace
 
 Extraction extract(const formats::PlateSolution& plate, const std::string& file, const std::string& generator) {
-  Extraction result{names(plate, generator), 0, {}};
+  Extraction result{names(plate, generator), {}, {}};
   auto& a = result.matrices;
   const auto e = a.n_externals();
   const auto m = a.n_discs();
-  std::vector<Eigen::MatrixXd> S;
+  pfem::CondensedLevels levels;
+  auto& S = levels.S;
   for (std::size_t level = 0; level < plate.cases.size(); ++level) {
     S.push_back(pfem::condensed_stiffness(plate.cases[level].E_c, plate.shift, plate.K_cc));
     a.S_ee.push_back(S.back().topLeftCorner(e, e));
     a.S_ed.push_back(S.back().topRightCorner(e, m));
     a.S_dd.push_back(S.back().bottomRightCorner(m, m));
     const Eigen::MatrixXd R = friction_reactions(plate, level);
+    levels.R.push_back(R);
     a.R_ef.push_back(R.topRows(e));
     a.R_df.push_back(R.bottomRows(m));
     const Eigen::MatrixXd T = traction_reactions(plate, level);
@@ -78,13 +79,15 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
     a.T_d.push_back(T.bottomRows(m));
     a.C_t.push_back(traction_compliance(plate, level));
   }
-  const Eigen::MatrixXd error = pfem::stiffness_error(S, plate.p);
+  levels.C = a.C_t;
+  const double fastest = pfem::fastest_rate(plate.elasticity);
+  const Eigen::MatrixXd error = pfem::stiffness_error(S, plate.p, fastest);
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, file);
   carry_over_loads(plate, a);
-  result.relative_error = pfem::relative_error(error, S.back());
+  result.errors = pfem::relative_errors(levels, plate.p, plate.K_cc, fastest);
   result.checks = check(plate, a, S.back());
   return result;
 }

@@ -3,6 +3,7 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "common/formats/plate_solution.hpp"
+#include "common/pfem/stiffness_error.hpp"
 #include "stage2_extract/checks.hpp"
 
 namespace fastjoint::stage2 {
@@ -10,7 +11,7 @@ namespace fastjoint::stage2 {
 /// Everything linear about the plate, for every p, and how well it satisfies what must hold.
 struct Extraction {
   formats::PlateMatrices matrices;
-  double relative_error;  ///< estimated, of S at the highest p by the Frobenius norm; infinite with one degree
+  std::vector<pfem::RelativeError> errors;  ///< estimated, at the highest p; infinite with one degree
   Checks checks;
 };
 

@@ -42,8 +42,8 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
   using stage2::largest;
   const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
   std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),
-                           std::isfinite(extraction.relative_error)
-                               ? fmt::format("error of S about {:.0e}", extraction.relative_error)
+                           std::isfinite(pfem::largest(extraction.errors))
+                               ? pfem::to_text(extraction.errors)
                                : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks);
 }

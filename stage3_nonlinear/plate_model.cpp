@@ -84,9 +84,9 @@ void check_not_negative(const std::string& file, const MatrixXd& S) {
                     file, least));
 }
 
-/// Over the largest entry; unknown if the file has no estimate or p is not its highest degree.
+/// Over the largest entry; unknown if the file has no estimate, p is not its highest degree, or S is zero.
 std::optional<double> relative_error(const MatrixXd& error, const MatrixXd& S) {
-  if (!error.allFinite()) return std::nullopt;
+  if (!error.allFinite() || S.isZero(0)) return std::nullopt;
   return error.cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
 }
 

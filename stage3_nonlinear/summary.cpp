@@ -68,6 +68,8 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
     if (plate.relative_error)
       text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name,
                           *plate.relative_error);
+    else if (plate.S.isZero(0))
+      text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
   return text;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/pfem/stiffness_error.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,10 +16,10 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 double tail(double p, double s) { return p / (s - 1) - 0.5 + s / (12 * p); }
 
 /// s of the differences of a sequence, from its last three.
-double rate(const Eigen::VectorXd& values, const Eigen::VectorXi& p) {
-  constexpr double slowest = 1.5, unknown = 3, fastest = 5;
+double rate(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest) {
+  constexpr double slowest = 1.5, unknown = 3;
   const auto n = values.size();
-  if (n < 4) return unknown;
+  if (n < 4) return std::min(unknown, fastest - 1);
   const double before = values[n - 4] - values[n - 3], last = values[n - 2] - values[n - 1];
   if (!(before > 0 && last > 0)) return slowest;
   return std::clamp(std::log(before / last) / std::log(double(p[n - 1]) / p[n - 3]), slowest, fastest);
@@ -28,25 +30,34 @@ double last_difference(const Eigen::VectorXd& values) {
   return std::abs(values[n - 2] - values[n - 1]);
 }
 
+/// Diagonal entry i of each matrix.
+Eigen::VectorXd diagonal(const std::vector<Eigen::MatrixXd>& S, Eigen::Index i) {
+  Eigen::VectorXd values(std::ssize(S));
+  for (std::size_t level = 0; level < S.size(); ++level) values[static_cast<Eigen::Index>(level)] = S[level](i, i);
+  return values;
+}
+
 }  // namespace
 
-double extrapolated_error(const Eigen::VectorXd& values, const Eigen::VectorXi& p) {
+double fastest_rate(const std::vector<Eigen::Matrix3d>& elasticity) {
+  constexpr double smooth = 5, at_rollers = 3, nothing = 1e-9;
+  const auto couples = [](const Eigen::Matrix3d& D) { return D.col(2).head<2>().norm() > nothing * D.norm(); };
+  return std::any_of(elasticity.begin(), elasticity.end(), couples) ? at_rollers : smooth;
+}
+
+double extrapolated_error(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest) {
   const auto n = values.size();
   if (n < 2) return infinite;
   const double rounding = 1e-13 * std::abs(values[n - 1]);
-  return std::max(tail(p[n - 1], rate(values, p)) * last_difference(values), rounding);
+  return std::max(tail(p[n - 1], rate(values, p, fastest)) * last_difference(values), rounding);
 }
 
-Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p) {
+Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p, double fastest) {
   const auto n = S.back().rows();
   if (S.size() < 2) return Eigen::MatrixXd::Constant(n, n, infinite);
   const Eigen::MatrixXd last = S[S.size() - 2] - S.back();
   Eigen::VectorXd error(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    Eigen::VectorXd values(p.size());
-    for (Eigen::Index level = 0; level < p.size(); ++level) values[level] = S[static_cast<std::size_t>(level)](i, i);
-    error[i] = extrapolated_error(values, p);
-  }
+  for (Eigen::Index i = 0; i < n; ++i) error[i] = extrapolated_error(diagonal(S, i), p, fastest);
   constexpr double least = 0.15;  // of the bound
   Eigen::MatrixXd result(n, n);
   for (Eigen::Index j = 0; j < n; ++j)
@@ -58,9 +69,38 @@ Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eig
   return result;
 }
 
-double relative_error(const Eigen::MatrixXd& error, const Eigen::MatrixXd& S) {
-  const double size = S.norm();
-  return size > 0 ? error.norm() / size : 0;
+std::vector<RelativeError> relative_errors(const CondensedLevels& a, const Eigen::VectorXi& p,
+                                           const Eigen::MatrixXd& K_cc, double fastest) {
+  std::vector<RelativeError> errors;
+  if (const auto& S = a.S.back(); S.size() > 0)
+    errors.push_back({"S", stiffness_error(a.S, p, fastest).norm() / (S.isZero(0) ? K_cc : S).norm()});
+  if (const auto& R = a.R.back(); R.size() > 0 && !R.isZero(0)) {
+    Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size());
+    for (Eigen::Index i = 0; i < a.S.back().rows(); ++i) energy += diagonal(a.S, i);
+    const double more = tail(p[p.size() - 1], rate(energy, p, fastest));
+    errors.push_back({"R", a.R.size() < 2 ? infinite : more * (a.R[a.R.size() - 2] - R).norm() / R.norm()});
+  }
+  if (const auto& C = a.C.back(); C.size() > 0) {
+    std::vector<Eigen::MatrixXd> falling;
+    for (const auto& each : a.C) falling.push_back(-each);
+    errors.push_back({"C_t", stiffness_error(falling, p, fastest).norm() / C.norm()});
+  }
+  return errors;
+}
+
+double largest(const std::vector<RelativeError>& errors) {
+  double worst = 0;
+  for (const auto& error : errors) worst = std::max(worst, error.value);
+  return worst;
+}
+
+std::string to_text(const std::vector<RelativeError>& errors) {
+  constexpr double rounding = 1e-10;
+  std::string text;
+  for (const auto& [of, value] : errors)
+    text += fmt::format("{} {} {}", text.empty() ? "error of" : ", of", of,
+                        value < rounding ? "below 1e-10" : fmt::format("about {:.2e}", value));
+  return text;
 }
 
 }  // namespace fastjoint::pfem

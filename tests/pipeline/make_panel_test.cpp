@@ -25,12 +25,20 @@ json printed(const std::string& words) {
 }
 
 TEST(MakePanel, PrintsThePanelOfTheTests) {
-  EXPECT_EQ(printed("1 1"), json::parse(test::panel(1, 1)));
+  EXPECT_EQ(printed("1 1 --rings 0"), json::parse(test::panel(1, 1)));
   EXPECT_EQ(printed("3 2 --rings 2"), json::parse(test::panel(3, 2, 2)));
+}
+
+/// What a scene says of rings, --accuracy keeps.
+TEST(MakePanel, LeavesRingsOpenUnlessAsked) {
+  auto scene = json::parse(test::panel(2, 1));
+  for (auto& hole : scene["holes"]) hole.erase("rings");
+  EXPECT_EQ(printed("2 1"), scene);
 }
 
 TEST(MakePanel, TakesDegreesAndSpace) {
   auto scene = json::parse(test::panel(1, 1));
+  scene["holes"][0].erase("rings");
   scene["p"] = {4, 8};
   EXPECT_EQ(printed("1 1 --p 4..8"), scene);
   scene["space"] = "product";

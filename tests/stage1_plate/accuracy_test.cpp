@@ -57,7 +57,7 @@ TEST(Accuracy, IsTrueOfRandomSheets) {
     const std::string top = R"(, "space": "product", "p": [8, 8])";
     const auto exact = last_stiffness(test::make_plate(test::graded(sheet, 2).json(3, top)));
     const double error = (last_stiffness(plate_of(chosen.scene)) - exact).norm() / exact.norm();
-    EXPECT_LE(error, 1.5 * chosen.error) << seed;
+    EXPECT_LE(error, 1.5 * chosen.errors[0].value) << seed;
     if (chosen.is_reached()) ++reached;
   }
   EXPECT_GT(reached, 15);
@@ -67,8 +67,10 @@ TEST(Accuracy, IsTrueOfRandomSheets) {
 TEST(Accuracy, IsThatOfTheMatrices) {
   const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), 1e-4);
   const auto extraction = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test");
-  EXPECT_NEAR(extraction.relative_error / chosen.error, 1, 1e-3);  // quadrature is of p = 8 in the search
-  EXPECT_EQ(stage1::to_text(chosen), "accuracy 0.0001: product space, p = 5, rings 1: error of S about 1e-05");
+  ASSERT_EQ(extraction.errors.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)  // quadrature is of p = 8 in the search
+    EXPECT_NEAR(extraction.errors[i].value / chosen.errors[i].value, 1, 1e-3);
+  EXPECT_EQ(stage1::to_text(chosen), "accuracy 0.0001: product space, p = 5, rings 1: " + pfem::to_text(chosen.errors));
 }
 
 TEST(Accuracy, TakesAnotherRingWhereTheHighestDegreeDoesNotDo) {
@@ -77,11 +79,11 @@ TEST(Accuracy, TakesAnotherRingWhereTheHighestDegreeDoesNotDo) {
   const auto one = stage1::meet_accuracy(low, 1e-4), more = stage1::meet_accuracy(low, 8e-6);
   EXPECT_EQ(one.scene.holes[0].rings, 1);
   EXPECT_EQ(more.scene.holes[0].rings, 2);
-  EXPECT_LT(more.error, 0.5 * one.error);
+  EXPECT_LT(more.error(), 0.5 * one.error());
 }
 
 TEST(Accuracy, KeepsWhatTheSceneSays) {
-  const auto chosen = stage1::meet_accuracy(scene(test::panel(1, 1, 0, R"(, "space": "trunk", "p": [2, 7])")), 1e-3);
+  const auto chosen = stage1::meet_accuracy(scene(test::panel(1, 1, 0, R"(, "space": "trunk", "p": [2, 7])")), 5e-3);
   EXPECT_EQ(chosen.scene.space, pfem::Space::trunk);
   EXPECT_EQ(chosen.scene.holes[0].rings, 0);
   EXPECT_EQ(chosen.scene.p_low, 2);
@@ -90,7 +92,8 @@ TEST(Accuracy, KeepsWhatTheSceneSays) {
   const auto missed = stage1::meet_accuracy(scene(test::panel(1, 1)), 1e-9);
   EXPECT_FALSE(missed.is_reached());
   EXPECT_EQ(missed.scene.p_high, 8);
-  EXPECT_THAT(stage1::to_text(missed), HasSubstr("accuracy 1e-09: product space, p = 8: error of S about "));
+  EXPECT_THAT(stage1::to_text(missed),
+              AllOf(HasSubstr("accuracy 1e-09: product space, p = 8: error of S about "), HasSubstr(", not reached")));
 }
 
 /// Rings do not help at the ends of a clamped edge: the search ends, and keeps the model that costs less.
@@ -102,6 +105,37 @@ TEST(Accuracy, GivesUpWhereRingsDoNotHelp) {
   EXPECT_FALSE(chosen.is_reached());
   EXPECT_EQ(chosen.scene.holes[0].rings, 1);
   EXPECT_EQ(chosen.scene.p_high, 8);
+}
+
+/// A sheet that one disc and a support across hold has no stiffness: what its load does must be exact enough.
+TEST(Accuracy, IsThatOfTheComplianceWhereTheStiffnessIsZero) {
+  const std::string json = test::grid_scene({0, 1, 2}, {0, 1}, {{"1", 0.5, 0.5, 0.125}, {"2", 1.4, 0.6, 0.2, 0, false}},
+                                            R"(, "supports": [{"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])");
+  constexpr double asked = 1e-5;
+  const auto chosen = stage1::meet_accuracy(scene(without_rings(json)), asked);
+  EXPECT_TRUE(chosen.is_reached());
+  EXPECT_GT(chosen.scene.p_high, 3);
+  const auto extracted = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test").matrices;
+  EXPECT_EQ(extracted.S_dd.back()(0, 0), 0);
+  auto finer = chosen.scene;
+  finer.p_high = 8;
+  for (auto& hole : finer.holes) hole.rings += 2;
+  const auto exact = stage2::extract(test::solve(plate_of(finer)), "plate.h5", "test").matrices;
+  EXPECT_NEAR(extracted.C_t.back()(0, 0) / exact.C_t.back()(0, 0), 1, asked);
+}
+
+/// Friction is exact enough too, where its tractions jump.
+TEST(Accuracy, IsThatOfFriction) {
+  for (const double asked : {1e-3, 1e-5}) {
+    const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), asked);
+    EXPECT_TRUE(chosen.is_reached());
+    const auto R = [](const test::Plate& plate) {
+      return stage2::extract(test::solve(plate), "plate.h5", "test").matrices.R_df.back();
+    };
+    const auto exact = R(test::make_plate(test::panel(2, 1, 3, R"(, "space": "product")")));
+    EXPECT_LT((R(plate_of(chosen.scene)) - exact).norm(), asked * exact.norm());
+  }
 }
 
 TEST(Accuracy, RefusesWhatHasNone) {

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/checks.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <functional>
+#include <random>
 
 #include "common/errors.hpp"
 #include "tests/support/plates.hpp"
@@ -45,6 +49,57 @@ TEST(Checks, RigidMotionsAreTheNullSpaceOfS) {
 
 TEST(Checks, SupportedSheetHasNothingToCheckOfEquilibrium) {
   EXPECT_FALSE(test::extract(test::panel(1, 1)).checks.equilibrium);
+}
+
+/// A sheet of random cells, holes, materials and thicknesses, in units of so many mm and N, which its one disc, a
+/// support across and perhaps a second one hold.
+std::string random_sheet(unsigned seed, double mm, double N) {
+  std::mt19937 engine(seed);
+  const auto between = [&](double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine()) / 4294967296.0);
+  };
+  const auto lines = [&](int n) {
+    std::vector<double> at{0};
+    while (n-- > 0) at.push_back(at.back() + between(15, 30) / mm);
+    return at;
+  };
+  const auto x = lines(1 + static_cast<int>(between(0, 3))), y = lines(1 + static_cast<int>(between(0, 2)));
+  const double MPa = mm * mm / N;
+  std::vector<std::string> holes;
+  for (std::size_t i = 0; i + 1 < x.size(); ++i)
+    holes.push_back(fmt::format(
+        R"({{"id": "{}", "center": [{}, {}], "radius": {}, "rings": {}{}}})", i, (x[i] + x[i + 1]) / 2, y[1] / 2,
+        between(1.5, 4) / mm, static_cast<int>(between(0, 3)),
+        i > 0 ? ""
+              : fmt::format(R"(, "spring": {{"disk": {{"E": {}, "nu": 0.3}}}})", std::pow(10, between(4, 6)) * MPa)));
+  const std::string isotropic = fmt::format(R"("E": {}, "nu": 0.3)", 7e4 * MPa);
+  const std::string ply =
+      fmt::format(R"("E1": {}, "E2": {}, "nu12": 0.3, "G12": {}, "angle": 30)", 1.4e5 * MPa, 9e3 * MPa, 5e3 * MPa);
+  const std::string held = between(0, 1) < 0.3 ? R"(, {"on": "left", "fix": ["x"]})" : "";
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+    "materials": {{"a": {{{}}}}}, "geometry": {{"grid": {{"x": [{}], "y": [{}], "thickness": {}}}}}, "holes": [{}],
+    "supports": [{{"on": "bottom", "fix": ["y"]}}{}],
+    "external": [{{"id": "T", "on": "right", "direction": "x", "kind": "traction"}}]}})",
+                     between(0, 1) < 0.6 ? isotropic : ply, fmt::join(x, ","), fmt::join(y, ","), between(0.5, 5) / mm,
+                     fmt::join(holes, ","), held);
+}
+
+/// Most of these sheets have no stiffness, as one disc alone holds them; their checks and errors are those of any
+/// other.
+TEST(Checks, RandomSheetsAreAsGoodInAllUnits) {
+  int without_stiffness = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    std::string said;
+    for (const auto& [mm, N] : {std::pair{1.0, 1.0}, {1e3, 1.0}, {1e-3, 1e-6}, {25.4, 4.448}, {1e-5, 1e2}}) {
+      const auto result = test::extract(random_sheet(seed, mm, N));
+      EXPECT_NO_THROW(stage2::require_good(result.checks, "f.h5")) << seed << ", " << mm << " mm";
+      if (said.empty()) said = pfem::to_text(result.errors);
+      EXPECT_EQ(pfem::to_text(result.errors), said) << seed << ", " << mm << " mm";
+      if (result.matrices.S_dd.back().isZero(0)) ++without_stiffness;
+    }
+    EXPECT_THAT(said, HasSubstr("of C_t about "));
+  }
+  EXPECT_GT(without_stiffness, 40);
 }
 
 /// The checks can fail: each of them on a solution that is spoilt in the digit that it looks at.

@@ -60,7 +60,7 @@ TEST(ErrorEstimate, OfMatrices) {
   fine << 2, 1, 1, 2;
   coarse << 2.04, 1.02, 1.02, 2.09;
   const VectorXi p = degrees(1, 2);
-  const auto error = pfem::stiffness_error({coarse, fine}, p);
+  const auto error = pfem::stiffness_error({coarse, fine}, p, 5);
   const double factor = pfem::extrapolated_error(Eigen::Vector2d(2.04, 2), p) / 0.04;
   EXPECT_NEAR(error(1, 1), factor * 0.09, 1e-15);
   const double share = 0.02 / std::sqrt(0.04 * 0.09);  // of what Cauchy and Schwarz allow
@@ -68,10 +68,27 @@ TEST(ErrorEstimate, OfMatrices) {
               1e-15);
   EXPECT_EQ(error(0, 1), error(1, 0));
   coarse(0, 1) = coarse(1, 0) = 1;  // passes through zero
-  EXPECT_NEAR(pfem::stiffness_error({coarse, fine}, p)(0, 1), factor * 0.15 * 0.06, 1e-15);
-  EXPECT_DOUBLE_EQ(pfem::relative_error(error, fine), error.norm() / fine.norm());
-  EXPECT_EQ(pfem::relative_error(Eigen::Matrix2d::Zero(), Eigen::Matrix2d::Zero()), 0);
-  EXPECT_TRUE(std::isinf(pfem::relative_error(pfem::stiffness_error({fine}, degrees(8, 8)), fine)));
+  EXPECT_NEAR(pfem::stiffness_error({coarse, fine}, p, 5)(0, 1), factor * 0.15 * 0.06, 1e-15);
+}
+
+/// Each over its own norm; S that is zero over that of K_cc; what a sheet does not have is left out.
+TEST(ErrorEstimate, OfAllMatricesOfASheet) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1), none(0, 0), zero = Eigen::MatrixXd::Zero(1, 1);
+  const VectorXi p = degrees(1, 2);
+  const auto errors =
+      pfem::relative_errors({{2.2 * one, 2 * one}, {3 * one, 4 * one}, {0.9 * one, one}}, p, 8 * one, 5);
+  ASSERT_EQ(errors.size(), 3U);
+  const double factor = pfem::extrapolated_error(Eigen::Vector2d(3, 2), p);
+  EXPECT_NEAR(errors[0].value, factor * 0.2 / 2, 1e-15);
+  EXPECT_NEAR(errors[1].value, factor * 1 / 4, 1e-15);
+  EXPECT_NEAR(errors[2].value, factor * 0.1, 1e-15);
+  EXPECT_EQ(pfem::largest(errors), errors[1].value);
+  EXPECT_EQ(pfem::to_text({{"S", 6.1e-5}, {"R", 3e-11}}), "error of S about 6.10e-05, of R below 1e-10");
+  const auto of_zero = pfem::relative_errors({{0.4 * one, zero}, {none, none}, {none, none}}, p, 8 * one, 5);
+  ASSERT_EQ(of_zero.size(), 1U);
+  EXPECT_NEAR(of_zero[0].value, factor * 0.4 / 8, 1e-15);
+  for (const auto& error : pfem::relative_errors({{one}, {one}, {one}}, degrees(8, 8), one, 5))
+    EXPECT_TRUE(std::isinf(error.value)) << error.of;
 }
 
 /// Entry by entry: the diagonal to a factor, off it mostly a bound.

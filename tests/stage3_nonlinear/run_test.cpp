@@ -71,6 +71,22 @@ TEST_F(Run, PrintsATable) {
                                     "  equilibrium: worst row out of balance by "));
 }
 
+/// A sheet that its fastener alone holds has no stiffness, and none of its digits are to be known.
+TEST_F(Run, SaysThatASheetHasNoStiffness) {
+  test::Lap lap{test::spring_plate(1, 0, {}), test::spring_plate(1, 0, {{0, test::ground, 1000}})};
+  lap.a.traction_id = {"P"};
+  lap.a.traction_direction = {"x"};
+  lap.a.T_d = {Eigen::MatrixXd::Constant(1, 1, -1)};
+  lap.a.T_e = {Eigen::MatrixXd(0, 1)};
+  lap.a.C_t = {Eigen::MatrixXd::Constant(1, 1, 1e-3)};
+  write({{"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"}])"}}, lap);
+  run();
+  EXPECT_THAT(out_.str(), HasSubstr("the stiffness of a is zero: its loads and fasteners balance without it\n"
+                                    "the stiffness of b is known to 0.0e+00 of its largest entry\n"));
+  EXPECT_THAT(out_.str(), Not(HasSubstr("nan")));
+  EXPECT_NEAR(result().F(0, 0), 100, 1e-9);
+}
+
 TEST_F(Run, UnloadedHasNoRoundingToCompareWith) {
   write({{"laws", R"({"lin": {"type": "power", "A": 300, "n": 0.6}})"}, {"increments", "[1, 0]"}});
   run();
