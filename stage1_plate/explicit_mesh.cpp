@@ -65,13 +65,10 @@ void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
              "at most 2");
 }
 
-/// Place of a point on an edge: 0 to 1 from its first to its last node, and how far off the edge it lies over its
+/// Place of a point on an edge, 0 to 1 from its first to its last node, and how far off the edge it lies over its
 /// length.
-struct Place {
-  double along, off;
-};
-
-Place place_on(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge, const Eigen::Vector2d& point) {
+std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge,
+                                   const Eigen::Vector2d& point) {
   const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge)), b = mesh.nodes.col(edges.nodes(1, edge));
   const int arc = edges.arc[static_cast<std::size_t>(edge)];
   if (arc < 0) {

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "common/linalg/threads.hpp"
@@ -59,7 +60,9 @@ PlateFactor::PlateFactor(const PlateProblem& problem, const Outline& outline, in
     const ElementKind& kind = problem.elements.kinds[i];
     kinds_[i] = condense(kind, problem.elements.stiffness[static_cast<std::size_t>(kind.shape)], problem.numbering, p);
   });
-  factor_ = std::make_unique<linalg::Cholesky>(outline_stiffness(outline), rows_.n_border);
+  const Eigen::SparseMatrix<double> A = outline_stiffness(outline);
+  diagonal_ = A.diagonal();
+  factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_border);
 }
 
 const CondensedElement& PlateFactor::condensed(int element) const {
@@ -99,6 +102,13 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
 }
 
 Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(problem_.K_cc.cols()); }
+
+double PlateFactor::rounding(const Eigen::VectorXd& u) const {
+  double sum = 0;
+  for (Eigen::Index i = 0; i < u.size(); ++i)
+    if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0) sum += diagonal_[row] * u[i] * u[i];
+  return std::numeric_limits<double>::epsilon() * sum;
+}
 
 Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
   constexpr Eigen::Index block = 64;  // right-hand sides at a time: what an element has of them fits into the cache

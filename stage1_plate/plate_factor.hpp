@@ -26,6 +26,10 @@ class PlateFactor {
   /// Plate unknowns under loads on them, controlled displacements held, shape (n_p, k).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
+  /// What rounding of the plate's stiffness may change of the energy of a field, u: times the machine's precision, the
+  /// sum of the squares of its unknowns on outlines, each with its diagonal entry.
+  [[nodiscard]] double rounding(const Eigen::VectorXd& u) const;
+
  private:
   [[nodiscard]] const CondensedElement& condensed(int element) const;
   [[nodiscard]] Eigen::SparseMatrix<double> outline_stiffness(const Outline& outline) const;
@@ -33,6 +37,7 @@ class PlateFactor {
   const PlateProblem& problem_;
   std::vector<CondensedElement> kinds_;
   Outline::Rows rows_;
+  Eigen::VectorXd diagonal_;
   std::unique_ptr<linalg::Cholesky> factor_;
 };
 

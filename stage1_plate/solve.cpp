@@ -36,7 +36,8 @@ formats::Probe probe(const PlateProblem& problem, const PlateFactor& K) {
   Eigen::MatrixXd B(problem.K_fc.rows(), 2);
   B << -(problem.K_fc * displacement), problem.L_f * friction;
   const Eigen::MatrixXd X = K.solve(B);
-  return {displacement, friction, X.col(0), X.col(1)};
+  return {displacement, friction, X.col(0), X.col(1),
+          K.rounding(X.col(0)) / std::max(displacement.squaredNorm(), 1e-300)};
 }
 
 }  // namespace

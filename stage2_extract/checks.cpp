@@ -26,11 +26,6 @@ double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), least * largest(plate.K_cc));
 }
 
-/// The largest entry of R, or of a thousandth of the bearing forces if it has next to none.
-double scale_of_friction(const PlateMatrices& matrices, const Eigen::MatrixXd& R) {
-  return std::max(largest(R), 1e-3 * largest(matrices.friction_unit_force));
-}
-
 Eigen::MatrixXd stacked(const Eigen::MatrixXd& above, const Eigen::MatrixXd& below) {
   Eigen::MatrixXd A(above.rows() + below.rows(), above.cols());
   A << above, below;
@@ -53,7 +48,7 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrice
   if (plate.L_c.cols() > 0) {
     const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
     const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.w - plate.L_c * probe.friction;
-    worst = ratio(largest(solved - R * probe.friction), scale_of_friction(matrices, R));
+    worst = ratio(largest(solved - R * probe.friction), largest(R));
   }
   if (plate.T_c.cols() > 0) {
     const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
@@ -84,8 +79,7 @@ double residual_force(const PlateSolution& plate, const PlateMatrices& matrices,
   const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
   for (Eigen::Index j = 0; j < R.cols(); ++j)
     if (matrices.friction_bearing[static_cast<std::size_t>(j)].substr(1) == direction)
-      worst = std::max(worst, ratio(std::abs(R.col(j).dot(together) + matrices.friction_resultant[j]),
-                                    scale_of_friction(matrices, R)));
+      worst = std::max(worst, ratio(std::abs(R.col(j).dot(together) + matrices.friction_resultant[j]), largest(R)));
   const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
   for (Eigen::Index k = 0; k < T.cols(); ++k) {
     const double applied = plate.traction_direction[static_cast<std::size_t>(k)] == direction ? 1 : 0;
@@ -118,7 +112,7 @@ double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs
 
 Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
   return {energy(plate, S), reciprocity(plate, matrices), negative_eigenvalue(S, scale_of(plate, S)),
-          equilibrium(plate, matrices, S)};
+          equilibrium(plate, matrices, S), ratio(plate.probe.rounding, scale_of(plate, S))};
 }
 
 void require_good(const Checks& checks, const std::string& file) {
@@ -136,9 +130,10 @@ void require_good(const Checks& checks, const std::string& file) {
 }
 
 std::string report(const Checks& checks) {
-  return fmt::format("  energy {}, reciprocity {}, equilibrium {}\n", shown(checks.energy, "not applicable (no discs)"),
+  return fmt::format("  energy {}, reciprocity {}, equilibrium {}, rounding {:.0e}\n",
+                     shown(checks.energy, "not applicable (no discs)"),
                      shown(checks.reciprocity, "not applicable (no loads)"),
-                     shown(checks.equilibrium, "not applicable (supported)"));
+                     shown(checks.equilibrium, "not applicable (supported)"), checks.rounding);
 }
 
 }  // namespace fastjoint::stage2

@@ -80,8 +80,9 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
     a.C_t.push_back(traction_compliance(plate, level));
   }
   levels.C = a.C_t;
+  levels.rounding = plate.probe.rounding;
   const double fastest = pfem::fastest_rate(plate.elasticity);
-  const Eigen::MatrixXd error = pfem::stiffness_error(S, plate.p, fastest);
+  const Eigen::MatrixXd error = pfem::stiffness_error(S, plate.p, fastest).cwiseMax(levels.rounding);
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);

@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* format = "plate-solution";
 constexpr int major = 3;
-constexpr int minor = 0;
+constexpr int minor = 1;
 
 using Sparse = Eigen::SparseMatrix<double>;
 
@@ -224,6 +224,8 @@ void write(const std::string& path, const PlateSolution& a) {
   file.write("probe/friction", a.probe.friction, {unit(units, -2, 1), "amounts of friction cases in the field w"});
   file.write("probe/u", a.probe.u, {length, "plate unknowns of the highest degree under these displacements"});
   file.write("probe/w", a.probe.w, {length, "plate unknowns of the highest degree under these friction cases"});
+  file.write("probe/rounding", Eigen::VectorXd(Eigen::VectorXd::Constant(1, a.probe.rounding)),
+             {stiffness, "what rounding may change of S, estimated by the field u"});
   file.commit();
 }
 
@@ -253,7 +255,8 @@ PlateSolution read_plate_solution(const std::string& path) {
   read_loads(file, a);
   for (Eigen::Index i = 0; i < a.p.size(); ++i) a.cases.push_back(read_cases(file, a, i));
   a.probe = {file.vector("probe/displacement", nc, length), file.vector("probe/friction", h, unit(units, -2, 1)),
-             file.vector("probe/u", n, length), file.vector("probe/w", n, length)};
+             file.vector("probe/u", n, length), file.vector("probe/w", n, length),
+             file.has("probe/rounding") ? file.vector("probe/rounding", 1, unit(units, -1, 1))[0] : 0};
   return a;
 }
 

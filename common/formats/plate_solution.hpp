@@ -27,6 +27,7 @@ struct Probe {
   Eigen::VectorXd displacement;  ///< (nc) amount of each controlled displacement in the first, length
   Eigen::VectorXd friction;      ///< (h) amount of each friction case in the second, stress
   Eigen::VectorXd u, w;          ///< (n_f) plate unknowns in the first and the second
+  double rounding = 0;           ///< what rounding may change of S, estimated by the first, force / length
 };
 
 /// Distributed normal springs of a hole.

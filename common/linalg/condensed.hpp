@@ -17,8 +17,6 @@ class Condensed {
   [[nodiscard]] Eigen::Index n_outside() const { return M_.rows() - n_; }
   /// C - X X^T, shape (m, m); its lower triangle counts.
   [[nodiscard]] auto outside() const { return M_.bottomRightCorner(n_outside(), n_outside()); }
-  /// Diagonal of L, shape (n).
-  [[nodiscard]] auto pivots() const { return M_.diagonal().head(n_); }
 
   /// Loads inside, shape (n, k), become y = L^-1 b; what they do outside is taken off, shape (m, k).
   void eliminate(Eigen::MatrixXd& inside, Eigen::MatrixXd& outside) const;

@@ -74,12 +74,8 @@ const ElementStiffness::Table& ElementStiffness::table(int n_points) const {
   return found->second;
 }
 
-Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness) const {
-  return over(map, {}, D, thickness);
-}
-
-Eigen::MatrixXd ElementStiffness::over(const ElementMap& map, const Box& box, const Eigen::Matrix3d& D,
-                                       double thickness) const {
+Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness,
+                                             const Box& box) const {
   const auto [degree, steeper] = geometric_degree(map, box);
   constexpr double smallest = 1e-4;  // half a side of a part; rounding is all that is left of what is smaller
   if (degree == highest_geometric_degree && box.half[steeper] > smallest) {
@@ -87,15 +83,13 @@ Eigen::MatrixXd ElementStiffness::over(const ElementMap& map, const Box& box, co
     low.half[steeper] = high.half[steeper] = box.half[steeper] / 2;
     low.middle[steeper] -= low.half[steeper];
     high.middle[steeper] += high.half[steeper];
-    return over(map, low, D, thickness) + over(map, high, D, thickness);
+    return (*this)(map, D, thickness, low) + (*this)(map, D, thickness, high);
   }
   // The integrand has degree 2 p + the geometry's in each direction, n points are exact up to 2 n - 1.
-  const int n_points = p_ + 1 + degree / 2 + extra_;
-  return integral(map, box.half.isOnes(0) ? table(n_points) : make_table(n_points, box), D, thickness);
-}
-
-Eigen::MatrixXd ElementStiffness::integral(const ElementMap& map, const Table& table, const Eigen::Matrix3d& D,
-                                           double thickness) const {
+  const int n_each_way = p_ + 1 + degree / 2 + extra_;
+  const bool is_whole = box.half.isOnes(0);
+  const Table part = is_whole ? Table{} : make_table(n_each_way, box);
+  const Table& table = is_whole ? this->table(n_each_way) : part;
   const auto n_points = table.w.size();
   const auto n = table.shape.N.rows();
   Eigen::MatrixXd Nx(n, n_points), Ny(n, n_points);  // derivatives by x and y, times the root of the weight

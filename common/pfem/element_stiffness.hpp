@@ -26,8 +26,9 @@ class ElementStiffness {
 
   /// int B^T D B t dA, equation (3a), shape (2 n_modes, 2 n_modes), force / length: first the n_modes
   /// coefficients of u_x, then those of u_y, local signs (no edge orientation).
-  /// @param D Elasticity, (3, 3), stress. @param thickness Length.
-  [[nodiscard]] Eigen::MatrixXd operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness) const;
+  /// @param D Elasticity, (3, 3), stress. @param thickness Length. @param box The part of the element that counts.
+  [[nodiscard]] Eigen::MatrixXd operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness,
+                                           const Box& box = {}) const;
 
  private:
   struct Table {
@@ -37,10 +38,6 @@ class ElementStiffness {
   [[nodiscard]] Table make_table(int n_points, const Box& box) const;
   /// That of all of [-1, 1]^2, made when first asked for, from any thread.
   [[nodiscard]] const Table& table(int n_points) const;
-  [[nodiscard]] Eigen::MatrixXd over(const ElementMap& map, const Box& box, const Eigen::Matrix3d& D,
-                                     double thickness) const;
-  [[nodiscard]] Eigen::MatrixXd integral(const ElementMap& map, const Table& table, const Eigen::Matrix3d& D,
-                                         double thickness) const;
 
   Space space_;
   int p_, extra_;

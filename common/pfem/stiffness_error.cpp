@@ -73,7 +73,8 @@ std::vector<RelativeError> relative_errors(const CondensedLevels& a, const Eigen
                                            const Eigen::MatrixXd& K_cc, double fastest) {
   std::vector<RelativeError> errors;
   if (const auto& S = a.S.back(); S.size() > 0)
-    errors.push_back({"S", stiffness_error(a.S, p, fastest).norm() / (S.isZero(0) ? K_cc : S).norm()});
+    errors.push_back(
+        {"S", stiffness_error(a.S, p, fastest).cwiseMax(a.rounding).norm() / (S.isZero(0) ? K_cc : S).norm()});
   if (const auto& R = a.R.back(); R.size() > 0 && !R.isZero(0)) {
     Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size());
     for (Eigen::Index i = 0; i < a.S.back().rows(); ++i) energy += diagonal(a.S, i);

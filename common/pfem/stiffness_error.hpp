@@ -38,6 +38,7 @@ namespace fastjoint::pfem {
 /// Matrices of a sheet at each of its degrees: condensed stiffness, reactions to friction, compliance of tractions.
 struct CondensedLevels {
   std::vector<Eigen::MatrixXd> S, R, C;
+  double rounding = 0;  ///< what it may change of S, force / length
 };
 
 /// Estimated error of a matrix by its Frobenius norm, over that of the matrix.

@@ -102,6 +102,33 @@ TEST(Checks, RandomSheetsAreAsGoodInAllUnits) {
   EXPECT_GT(without_stiffness, 40);
 }
 
+/// A strip 200 times as long as wide, nearly incompressible, clamped at one end and held by soft springs: what bending
+/// it takes is 1e-11 of its elements' stiffness. Rounding is then what S lacks most, and its estimate says so.
+TEST(Checks, RoundingIsEstimatedWhereItCounts) {
+  const auto strip = [](double length, double scale) {
+    return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane strain",
+      "materials": {{"a": {{"E": {}, "nu": 0.499}}}},
+      "geometry": {{"grid": {{"x": [0, {}], "y": [0, {}], "thickness": {}}}}},
+      "holes": [{{"id": "1", "center": [{}, {}], "radius": {}, "spring": {{"disk": {{"E": {}, "nu": 0.3}}}}}}],
+      "supports": [{{"on": "left", "fix": ["x", "y"]}}], "space": "product", "disc_directions": ["x", "y"]}})",
+                       1 / scale / scale, length * scale, 0.95 * scale, 0.1 * scale, length / 2 * scale, 0.475 * scale,
+                       0.24 * scale, 1.3e-6 / scale / scale);
+  };
+  for (const double length : {200.0, 2.0}) {
+    const auto result = test::extract(strip(length, 1));
+    const auto& S = result.matrices.S_dd.back();
+    double worst = 0;
+    for (const double scale : {1e-3, 1e3, 1 / 25.4, 0.3, 7.0}) {
+      const Eigen::MatrixXd other = test::extract(strip(length, scale)).matrices.S_dd.back() * scale;
+      worst = std::max(worst, (other - S).norm() / S.norm());
+    }
+    EXPECT_LT(worst, 10 * result.checks.rounding + 1e-12) << length;
+    EXPECT_GT(worst, 0.02 * result.checks.rounding) << length;
+    EXPECT_EQ(result.checks.rounding > 1e-6, length > 100);
+    EXPECT_GE(result.matrices.S_dd_error(1, 1), 0.5 * result.checks.rounding * S.cwiseAbs().maxCoeff());
+  }
+}
+
 /// The checks can fail: each of them on a solution that is spoilt in the digit that it looks at.
 TEST(Checks, SpoiltSolutionsAreFound) {
   const auto good = test::solve(test::make_plate(floating));
