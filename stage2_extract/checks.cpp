@@ -130,10 +130,11 @@ void require_good(const Checks& checks, const std::string& file) {
 }
 
 std::string report(const Checks& checks) {
-  return fmt::format("  energy {}, reciprocity {}, equilibrium {}, rounding {:.0e}\n",
-                     shown(checks.energy, "not applicable (no discs)"),
-                     shown(checks.reciprocity, "not applicable (no loads)"),
-                     shown(checks.equilibrium, "not applicable (supported)"), checks.rounding);
+  return fmt::format(
+      "  relative errors of the checks: S against the energy of its fields {}, R and T against reciprocity {}, "
+      "equilibrium {}; rounding may change S by {:.0e}\n",
+      shown(checks.energy, "not applicable (no discs)"), shown(checks.reciprocity, "not applicable (no loads)"),
+      shown(checks.equilibrium, "not applicable (supported)"), checks.rounding);
 }
 
 }  // namespace fastjoint::stage2
