@@ -55,20 +55,26 @@ TEST(ErrorEstimate, OfFewOrOddValues) {
   EXPECT_DOUBLE_EQ(pfem::extrapolated_error(VectorXd::Constant(8, 3.0), degrees(1, 8)), 3e-13);
 }
 
-TEST(ErrorEstimate, OfMatrices) {
-  Eigen::Matrix2d fine, coarse;
-  fine << 2, 1, 1, 2;
-  coarse << 2.04, 1.02, 1.02, 2.09;
-  const VectorXi p = degrees(1, 2);
-  const auto error = pfem::stiffness_error({coarse, fine}, p, 5);
-  const double factor = pfem::extrapolated_error(Eigen::Vector2d(2.04, 2), p) / 0.04;
-  EXPECT_NEAR(error(1, 1), factor * 0.09, 1e-15);
-  const double share = 0.02 / std::sqrt(0.04 * 0.09);  // of what Cauchy and Schwarz allow
-  EXPECT_NEAR(error(0, 1), factor * std::sqrt(0.04 * 0.09) * std::hypot(share, 0.15 * std::sqrt(1 - share * share)),
-              1e-15);
-  EXPECT_EQ(error(0, 1), error(1, 0));
-  coarse(0, 1) = coarse(1, 0) = 1;  // passes through zero
-  EXPECT_NEAR(pfem::stiffness_error({coarse, fine}, p, 5)(0, 1), factor * 0.15 * 0.06, 1e-15);
+/// Matrices S + tail(p) E with a known tail: the true error of the last is its tail times E, which the estimate has on
+/// the diagonal; off it, E is the product of two fields' errors, which may be in the same direction or across.
+TEST(ErrorEstimate, OfMatricesWithAKnownErrorIsThatError) {
+  const VectorXd tail = algebraic(3).array() - 7;
+  for (const double cosine : {1.0, 0.5, 0.0, -0.5}) {
+    const Eigen::Matrix2d E = (Eigen::Matrix2d() << 4, 6 * cosine, 6 * cosine, 9).finished();
+    std::vector<Eigen::MatrixXd> S;
+    for (Eigen::Index i = 0; i < tail.size(); ++i)
+      S.emplace_back((Eigen::Matrix2d() << 200, -50, -50, 300).finished() + tail[i] * E);
+    const Eigen::MatrixXd estimate = pfem::stiffness_error(S, degrees(1, 8), 5);
+    const Eigen::Matrix2d error = tail[7] * E;
+    EXPECT_NEAR(estimate(0, 0) / error(0, 0), 1, 0.01) << cosine;
+    EXPECT_NEAR(estimate(1, 1) / error(1, 1), 1, 0.01) << cosine;
+    EXPECT_EQ(estimate(0, 1), estimate(1, 0)) << cosine;
+    const double bound = tail[7] * 6;  // by Cauchy and Schwarz
+    EXPECT_GT(estimate(0, 1), 0.99 * std::abs(error(0, 1))) << cosine;
+    EXPECT_GT(estimate(0, 1), 0.1 * bound) << cosine << ": a difference of zero may just pass through it";
+    EXPECT_LT(estimate(0, 1), (std::abs(cosine) < 1 ? 0.6 : 1.01) * bound)
+        << cosine << ": more is known than the bound";
+  }
 }
 
 /// Each over its own norm; S that is zero over that of K_cc; what a sheet does not have is left out.
