@@ -3,12 +3,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <utility>
+#include <random>
 
 #include "common/errors.hpp"
 
@@ -20,27 +23,33 @@ namespace {
   throw FileError(fmt::format("{}: cannot be written: {}", path, std::strerror(reason)));
 }
 
-class Descriptor {
- public:
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  ~Descriptor() {
-    if (fd_ >= 0) ::close(fd_);
-  }
-  [[nodiscard]] int get() const { return fd_; }
-  [[nodiscard]] int close() { return ::close(std::exchange(fd_, -1)); }
+constexpr std::string_view ending = ".partial";
 
- private:
-  int fd_;
-};
+/// Path of the temporary file that is being written, or null.
+std::atomic<const char*> unfinished = nullptr;
 
-/// Removes the temporary file unless it was renamed.
+/// A temporary file beside a target, removed unless it was renamed. It is locked as long as its writer lives.
 struct Temporary {
   std::string path;
+  int file = -1;
   bool renamed = false;
+
+  explicit Temporary(const std::string& target) {
+    struct stat status {};
+    do {  // again if another process has taken it for one left behind before it was locked
+      if (file >= 0) ::close(file);
+      path = fmt::format("{}.{:08x}{}", target, std::random_device()(), ending);
+      file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file < 0) fail(target, errno);
+    } while (::flock(file, LOCK_EX) == 0 && ::fstat(file, &status) == 0 && status.st_nlink == 0);
+    unfinished = path.c_str();
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
   ~Temporary() {
+    unfinished = nullptr;
     if (!renamed) ::unlink(path.c_str());
+    ::close(file);
   }
 };
 
@@ -56,6 +65,22 @@ void write_all(int fd, std::string_view bytes, const std::string& path) {
 std::string folder_of(const std::string& path) {
   const auto parent = fs::path(path).parent_path();
   return parent.empty() ? "." : parent.string();
+}
+
+/// Removes what killed writers of a target have left: temporary files that no living one has locked.
+void remove_left_behind(const std::string& target) {
+  const std::string start = fs::path(target).filename().string() + ".";
+  std::error_code unreadable;  // then what is there stays
+  for (const auto& entry : fs::directory_iterator(folder_of(target), unreadable)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(start) || !name.ends_with(ending) ||
+        name.find_first_not_of("0123456789abcdef", start.size()) != name.size() - ending.size())
+      continue;
+    const int file = ::open(entry.path().c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+    ::close(file);
+  }
 }
 
 /// A symbolic link stays one: its target is what gets replaced.
@@ -86,18 +111,20 @@ bool same_file(const std::string& a, const std::string& b) {
 void write_whole_file(const std::string& path, std::string_view bytes) {
   check_can_write(path);
   const std::string target = resolved(path);
-  Temporary temporary{fmt::format("{}.{}.partial", target, ::getpid())};
-  Descriptor file(::open(temporary.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
-  if (file.get() < 0) {
-    temporary.renamed = true;  // not ours to remove
-    fail(path, errno);
-  }
-  write_all(file.get(), bytes, path);
-  if (::fsync(file.get()) != 0 || file.close() != 0) fail(path, errno);
+  remove_left_behind(target);
+  Temporary temporary(target);
+  write_all(temporary.file, bytes, path);
+  if (::fsync(temporary.file) != 0) fail(path, errno);
   if (::rename(temporary.path.c_str(), target.c_str()) != 0) fail(path, errno);
   temporary.renamed = true;
-  const Descriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() >= 0) ::fsync(folder.get());
+  const int folder = ::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder < 0) return;
+  ::fsync(folder);
+  ::close(folder);
+}
+
+void remove_unfinished() noexcept {
+  if (const char* path = unfinished) ::unlink(path);
 }
 
 }  // namespace fastjoint::h5

@@ -2,9 +2,11 @@
 #include "common/program/program.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <csignal>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -89,6 +91,27 @@ int report(const std::string& program, const char* what, Status status) {
   return status;
 }
 
+std::string farewell;  // made before it is needed: a handler of signals may hardly do more than write
+
+/// Leaves no part of a file behind, says so and ends the program as the signal does by itself.
+void stop(int signal) {
+  h5::remove_unfinished();
+  if (::write(STDERR_FILENO, farewell.data(), farewell.size()) >= 0) ::raise(signal);  // restored by SA_RESETHAND
+  constexpr int of_signals = 128;
+  ::_exit(of_signals + signal);  // of the first process of a container, which it does not end
+}
+
+void catch_signals(const std::string& program) {
+  farewell = program + ": error: stopped by a signal; files that it had not finished are as they were before\n";
+  struct sigaction action {
+  }, before{};
+  action.sa_handler = stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
+  for (const int signal : {SIGTERM, SIGINT})
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)  // as of a job in the background
+      ::sigaction(signal, &action, nullptr);
+}
+
 }  // namespace
 
 int Arguments::integer(const std::string& name, int low, int high, int otherwise) const {
@@ -136,6 +159,7 @@ std::string generator(const std::string& program) { return fmt::format("{} {}", 
 int run(const Command& command, int argc, char** argv, const Body& body) {
   Timings timings;
   keep_freed_memory();
+  catch_signals(command.name);
   h5::take_over_error_reporting();
   try {
     if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);

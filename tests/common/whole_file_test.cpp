@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/h5/whole_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/file.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -45,6 +48,40 @@ TEST(WholeFile, AFailedWriteKeepsTheOldFile) {
   std::signal(SIGXFSZ, SIG_DFL);
   EXPECT_EQ(test::read_file(folder.path("a")), "old");
   EXPECT_EQ(n_files(folder), 1);
+}
+
+/// What killed programs leave, by their number or a random one, and what only looks like it.
+TEST(WholeFile, RemovesWhatKilledWritersOfTheSameFileHaveLeft) {
+  const test::TemporaryFolder folder;
+  const std::string own = "a." + std::to_string(getpid()) + ".partial";
+  for (const std::string& stale : {own, std::string("a.7.partial"), std::string("a.0123cdef.partial")})
+    folder.write(stale, "half");
+  for (const char* other : {"b.7.partial", "a.h5.7.partial", "a.partial", "a.7.partial.h5"}) folder.write(other, "");
+  write_whole_file(folder.path("a"), "whole");
+  EXPECT_EQ(test::read_file(folder.path("a")), "whole");
+  EXPECT_EQ(n_files(folder), 5) << "the file and those of other names";
+}
+
+TEST(WholeFile, LeavesTheTemporaryFileOfALivingWriter) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.write("a.0123cdef.partial", "half");
+  const int living = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+  ASSERT_EQ(flock(living, LOCK_EX | LOCK_NB), 0);
+  write_whole_file(folder.path("a"), "whole");
+  EXPECT_EQ(n_files(folder), 2);
+  close(living);
+  write_whole_file(folder.path("a"), "whole again");
+  EXPECT_EQ(n_files(folder), 1);
+}
+
+TEST(WholeFile, KeepsTheModeThatTheUserWants) {
+  const test::TemporaryFolder folder;
+  const mode_t before = umask(0027);
+  write_whole_file(folder.path("a"), "x");
+  umask(before);
+  struct stat status {};
+  ASSERT_EQ(stat(folder.path("a").c_str(), &status), 0);
+  EXPECT_EQ(status.st_mode & 0777U, 0640U);
 }
 
 TEST(WholeFile, RefusesWhatIsNoFile) {
