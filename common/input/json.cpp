@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <utility>
 #include <vector>
 
 #include "common/errors.hpp"
@@ -51,24 +53,48 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
   return fmt::format("line {}, column {}", line, column);
 }
 
-/// The parser's own words for what it found, without its numbers.
-std::string reason(const std::string& what) {
-  const auto at = what.find("syntax error");
-  return at == std::string::npos ? what : what.substr(at);
+/// Words of the parser for common mistakes, and what to do about each.
+constexpr std::array<std::pair<const char*, const char*>, 9> advice{{
+    {"unexpected '}'; expected string literal", "there is a comma too many before '}'; remove it"},
+    {"unexpected ']'; expected '['", "a value is missing before ']', or there is a comma too many"},
+    {"unexpected '}'; expected '['", "a value is missing before '}'"},
+    {"unexpected number literal; expected string literal",
+     "a number follows a comma where a key must; write decimals with a point, 72.5"},
+    {"unexpected end of input", "the text ends too early; a closing bracket or quote is missing"},
+    {"unexpected string literal; expected '}'", "a comma is missing before this"},
+    {"literal; expected ']'", "a comma is missing before this"},
+    {"ill-formed UTF-8", "a character is not UTF-8; save the file as UTF-8"},
+    {"invalid literal",
+     "this is no value; allowed: a number, a text in double quotes, true, false, an object, an array"},
+}};
+
+/// What is wrong with the text; else the parser's own words, without its numbers.
+std::string reason(const std::string& text, const std::string& what) {
+  if (text.find_first_not_of(" \t\r\n") == std::string::npos) return "the file is empty";
+  for (const auto& [words, sentence] : advice)
+    if (what.find(words) != std::string::npos) return sentence;
+  const auto at = what.find(" - ");
+  return at == std::string::npos ? what : what.substr(at + 3);
 }
 
 }  // namespace
 
 Document parse(const std::string& file, const std::string& text) {
+  constexpr std::size_t longest_mark = 4;  // of an encoding
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
+      text.substr(0, longest_mark).find('\0') != std::string::npos)
+    throw InputError(fmt::format("{}: is encoded in UTF-16; save it as UTF-8", file));
   try {
     Watch watch(file);
     auto root = std::make_shared<json>(json::parse(text, std::ref(watch), true, true));
     return {file, text, std::move(root)};
   } catch (const json::parse_error& e) {
     throw InputError(
-        fmt::format("{}: not valid JSON at {}: {}", file, line_and_column(text, e.byte), reason(e.what())));
+        fmt::format("{}: not valid JSON at {}: {}", file, line_and_column(text, e.byte), reason(text, e.what())));
   } catch (const json::exception& e) {  // a number that no double holds
-    throw InputError(fmt::format("{}: not valid JSON: {}", file, e.what()));
+    const std::string what = e.what();
+    throw InputError(
+        fmt::format("{}: not valid JSON: {}; allowed: numbers up to 1.8e308", file, what.substr(what.find("] ") + 2)));
   }
 }
 

@@ -35,6 +35,33 @@ TEST(Json, SyntaxErrorsNameLineAndColumn) {
   EXPECT_THAT(message(std::string("{\"a\": \"\xff\"}"), nothing), StartsWith("f.json: not valid JSON"));
 }
 
+/// What to do, in words of those who write JSON by hand.
+TEST(Json, SaysWhatToDoAboutCommonMistakes) {
+  const auto says = [](const std::string& text, const std::string& sentence) {
+    EXPECT_THAT(message(text, nothing), AllOf(StartsWith("f.json: "), HasSubstr(sentence))) << text;
+    EXPECT_THAT(message(text, nothing), testing::Not(HasSubstr("literal"))) << text;
+    EXPECT_THAT(message(text, nothing), testing::Not(HasSubstr("exception"))) << text;
+  };
+  says("", "the file is empty");
+  says(" \n\t\r\n", "the file is empty");
+  says("{\"a\": 1,\n}", "line 2, column 1: there is a comma too many before '}'; remove it");
+  says("{\"a\": [1, 2,]}", "column 13: a value is missing before ']', or there is a comma too many");
+  says("{\"a\": }", "a value is missing before '}'");
+  says("{\"E\": 72,4}", "a number follows a comma where a key must; write decimals with a point, 72.5");
+  says("{\"a\": 1 \"b\": 2}", "a comma is missing before this");
+  says("{\"a\": [1 2]}", "a comma is missing before this");
+  says("{\"a\": [1, 2", "the text ends too early; a closing bracket or quote is missing");
+  says("{'a': 1}", "text in double quotes");
+  says("{\"a\": NaN}", "allowed: a number, a text in double quotes, true, false");
+  says("{\"a\": .5}", "allowed: a number");
+  says("{\"a\": \"\xe4\"}", "a character is not UTF-8; save the file as UTF-8");
+  says("{\"a\": 1e999}", "'1e999'; allowed: numbers up to 1.8e308");
+  const std::string sixteen("{\0\"\0a\0", 7);
+  says("\xff\xfe" + sixteen, "is encoded in UTF-16; save it as UTF-8");
+  says(sixteen, "is encoded in UTF-16; save it as UTF-8");
+  EXPECT_EQ(message("\xef\xbb\xbf{\"a\": 1}", nothing), "no error") << "the mark of UTF-8";
+}
+
 TEST(Json, RefusesACharacterThatEndsStringsElsewhere) {
   const char* what = "\\u0000, which would end it in other files; allowed: any other character";
   EXPECT_THAT(message(R"({"a": "x\u0000y"})", nothing),
