@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "common/pfem/condensed_stiffness.hpp"
 #include "stage1_plate/holding.hpp"
+#include "stage1_plate/memory.hpp"
 #include "stage1_plate/plate_factor.hpp"
 
 namespace fastjoint::stage1 {
@@ -20,18 +21,21 @@ bool leaves_rings(const PlateScene& scene, const Hole& hole) {
 /// Integrates once, then raises the degree until it does, or to the scene's highest.
 void raise_degree(Accuracy& model) {
   const PlateMesh plate = make_mesh(model.scene);
-  const PlateProblem problem = assemble(model.scene, plate);
+  PlateProblem problem = number_unknowns(model.scene, plate);
   check_held(model.scene, plate, problem.unknowns);
-  const auto nc = problem.K_cc.cols();
+  const Outline outline(problem);
+  const int nc = problem.unknowns.n_controlled;
   if (nc == 0)
     throw InputError(
         fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
                     "missing; allowed: a scene with a disc or a rigid external",
                     model.scene.file));
-  const Outline outline(problem);
   const int highest = model.scene.p_high;
   pfem::CondensedLevels levels;
   for (int p = model.scene.p_low; p <= highest; ++p) {
+    const auto alone = Eigen::VectorXi::Constant(1, p);
+    require_memory(model.scene.file, p, memory_need(problem, outline, alone, Wanted::loads));
+    if (p == model.scene.p_low) integrate(model.scene, plate, problem);
     const PlateFactor K(problem, outline, p);
     const Eigen::MatrixXd E = K.energy_rows();
     levels.S.push_back(pfem::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/errors.hpp"
+#include "common/program/memory.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -24,7 +24,8 @@ double shapes(const PlateProblem& problem) {
 
 }  // namespace
 
-MemoryNeed memory_need(const PlateProblem& problem, const Outline& outline, const Eigen::VectorXi& p, Wanted wanted) {
+MemoryNeed memory_need(const PlateProblem& problem, const Outline& outline, const Eigen::VectorXi& p, Wanted wanted,
+                       std::size_t n_rim) {
   const auto rows = outline.rows(p[p.size() - 1]);
   const Outline::Size size = outline.size(rows);
   const auto nc = static_cast<double>(problem.unknowns.n_controlled);
@@ -39,23 +40,23 @@ MemoryNeed memory_need(const PlateProblem& problem, const Outline& outline, cons
   const double before = p.size() > 1 && with_fields ? n_p(p.size() - 2) * (nc + h) : 0;
   // The file is built in memory, which grows there by copying, and copied once more before it is written.
   const double fields = 4 * (of_last + before) + 3 * rows_of_E;
+  const auto r = static_cast<double>(n_rim);
+  const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
+  const double contact = r > 0 ? r * n_cases + std::max(2 * n_p(p.size() - 1) * n_cases, 5 * square(r + 2 * nc)) : 0;
   constexpr double libraries = 24e6;
-  return {shapes(problem), 2 * entry * size.entries + number * (size.factor + size.largest_front), number * fields,
-          libraries};
+  return {(n_rim > 0 ? 2 : 1) * shapes(problem), 2 * entry * size.entries + number * (size.factor + size.largest_front),
+          number * fields, number * contact, libraries};
 }
 
-void require_memory(const PlateScene& scene, const MemoryNeed& need, double available) {
-  if (need.total() <= available) return;
-  throw InputError(
-      fmt::format("{}: at p = {} this takes about {} of memory (shapes {}, factor {}, fields and file {}), {} are "
-                  "available; allowed: a lower p{}, or fewer holes",
-                  scene.file, scene.p_high, bytes_text(need.total()), bytes_text(need.shapes), bytes_text(need.factor),
-                  bytes_text(need.fields), bytes_text(available),
-                  need.fields > need.factor ? ", --loads-only, which needs no fields" : ""));
-}
-
-std::string bytes_text(double bytes) {
-  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+void require_memory(const std::string& file, int p, const MemoryNeed& need) {
+  using program::bytes_text;
+  const bool of_contact = need.contact > need.fields;
+  program::require_memory(
+      fmt::format("{}: at p = {} this", file, p), need.total(),
+      fmt::format(" (shapes {}, factor {}, {} {})", bytes_text(need.shapes), bytes_text(need.factor),
+                  of_contact ? "contact" : "fields and file", bytes_text(std::max(need.fields, need.contact))),
+      fmt::format("a lower p{}, or fewer holes",
+                  need.fields > std::max(need.factor, need.contact) ? ", --loads-only, which needs no fields" : ""));
 }
 
 }  // namespace fastjoint::stage1

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+
 #include "stage1_plate/outline.hpp"
 #include "stage1_plate/solve.hpp"
 
@@ -8,21 +10,20 @@ namespace fastjoint::stage1 {
 
 /// Bytes that a run takes at its highest degree, known before anything is integrated.
 struct MemoryNeed {
-  double shapes;  ///< matrices of the different elements
-  double factor;  ///< the outline's stiffness and its factor
-  double fields;  ///< of the unit cases, and the file that they go into
+  double shapes;   ///< matrices of the different elements
+  double factor;   ///< the outline's stiffness and its factor
+  double fields;   ///< of the unit cases, and the file that they go into
+  double contact;  ///< what the search for contact takes before them, 0 without
   double program;
 
-  [[nodiscard]] double total() const { return shapes + factor + fields + program; }
+  [[nodiscard]] double total() const { return shapes + factor + std::max(fields, contact) + program; }
 };
-/// @param problem As number_unknowns has made it. @param p Degrees to be solved, ascending.
+/// @param problem As number_unknowns has made it. @param p Degrees to be solved, ascending. @param n_rim Unknowns of
+/// the rims on which contact is looked for, 0 without.
 [[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const Outline& outline, const Eigen::VectorXi& p,
-                                     Wanted wanted);
+                                     Wanted wanted, std::size_t n_rim = 0);
 
-/// Throws InputError, which says how much is needed and for what, if it is more than is available.
-void require_memory(const PlateScene& scene, const MemoryNeed& need, double available);
-
-/// "63 MB", "1.2 GB".
-[[nodiscard]] std::string bytes_text(double bytes);
+/// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
+void require_memory(const std::string& file, int p, const MemoryNeed& need);
 
 }  // namespace fastjoint::stage1

@@ -126,7 +126,7 @@ std::vector<External> read_externals(const Value& root, const std::vector<std::s
 void read_p(const Value& root, PlateScene& scene) {
   const auto p = root.find("p");
   if (!p) return;
-  const auto range = p->items(2, 2);
+  const auto range = p->is_array() ? p->items(2, 2) : std::vector{*p, *p};
   scene.p_low = range[0].integer(1, highest_p);
   scene.p_high = range[1].integer(scene.p_low, highest_p);
 }

@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "common/program/program.hpp"
 #include "common/program/memory.hpp"
+#include "common/program/program.hpp"
 #include "stage1_plate/contact_summary.hpp"
 #include "stage1_plate/degree_range.hpp"
 #include "stage1_plate/holding.hpp"
@@ -17,8 +17,9 @@ SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& gene
   PlateProblem problem = number_unknowns(scene, plate);
   check_held(scene, plate, problem.unknowns);
   const Outline outline(problem);  // of vertices and edges, whatever arcs contact finds
-  const MemoryNeed need = memory_need(problem, outline, degrees(scene), wanted);
-  require_memory(scene, need, program::available_memory());
+  const std::size_t n_rim = scene.loads ? find_rim_unknowns(scene, plate, problem).free.size() : 0;
+  const MemoryNeed need = memory_need(problem, outline, degrees(scene), wanted, n_rim);
+  require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);
   std::optional<ContactState> contact;
@@ -43,7 +44,7 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
   std::string text = fmt::format("{}: {}, {}, {}, {}, {}; the run needs about {}\n", file,
                                  counted(a.mesh.n_elements(), "element"), counted(a.mesh.n_nodes(), "node"),
                                  counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
-                                 counted(a.traction_id.size(), "traction"), bytes_text(plate.need.total()));
+                                 counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
   for (Eigen::Index i = 0; i < a.p.size(); ++i)
     text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
   return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;

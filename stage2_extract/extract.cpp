@@ -23,6 +23,7 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   formats::PlateMatrices a;
   a.header = plate.header;
   a.header.generator = generator;
+  a.plate_digest = plate.header.digest;
   a.space = plate.space;
   a.p = plate.p;
   a.ndof = plate.ndof;

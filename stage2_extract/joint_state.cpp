@@ -38,6 +38,17 @@ const PlateHistory& named_sheet(const JointResult& joint, const formats::PlateSo
                                listed(names_of(all))));
 }
 
+/// The names of the sheet's cases fit, but do its matrices come from this file? One without a digest does not tell.
+void check_digest(const PlateHistory& sheet, const formats::PlateSolution& plate, const std::string& file,
+                  const FieldRequest& request) {
+  const std::string& digest = plate.header.digest;
+  if (!sheet.plate_digest.empty() && !digest.empty() && sheet.plate_digest != digest)
+    throw InputError(
+        fmt::format("--field: sheet '{}' of {} was made of a PLATE.h5 with the digest {}, {} has {}; allowed: the file "
+                    "that it was made of, or stage2_extract and stage3_nonlinear run again for this one",
+                    sheet.name, request.spec, sheet.plate_digest, file, digest));
+}
+
 const PlateHistory& only_fitting_sheet(const JointResult& joint, const formats::PlateSolution& plate,
                                        const std::string& file, const FieldRequest& request) {
   std::vector<const PlateHistory*> fitting, all;
@@ -59,6 +70,7 @@ FieldState joint_state(const formats::PlateSolution& plate, const std::string& f
   const auto joint = formats::read_joint_result(request.spec);
   const auto& sheet = request.plate.empty() ? only_fitting_sheet(joint, plate, file, request)
                                             : named_sheet(joint, plate, file, request);
+  check_digest(sheet, plate, file, request);
   const auto steps = static_cast<int>(joint.load_factor.size());
   if (steps == 0) throw InputError(fmt::format("--field: {} holds no increment that converged", request.spec));
   if (request.increment > steps)

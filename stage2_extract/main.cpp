@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <iostream>
 
+#include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
 #include "stage2_extract/field_file.hpp"
@@ -33,7 +35,7 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
   stage2::require_good(extraction.checks, arguments.input);
   const auto& a = extraction.matrices;
   timings.phase("write");
-  formats::write(arguments.output, a);
+  const std::string digest = formats::write(arguments.output, a);
   if (arguments.quiet) return;
   using program::counted;
   std::cout << fmt::format("{}: {}, {}, {}, {}, p = {}..{}\n", arguments.output, counted(a.n_discs(), "disc"),
@@ -45,7 +47,7 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
                            std::isfinite(pfem::largest(extraction.errors))
                                ? pfem::to_text(extraction.errors)
                                : "error unknown: one degree alone does not show it");
-  std::cout << stage2::report(extraction.checks);
+  std::cout << stage2::report(extraction.checks) << fmt::format("  digest {}\n", digest);
 }
 
 /// Options are checked before a large file is read.
@@ -61,6 +63,12 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
 void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("read");
   const auto request = field_request(arguments);
+  constexpr double libraries = 24e6, of_file = 3;  // its fields, and as much again as is made of them
+  std::error_code none;
+  const auto size = std::filesystem::file_size(arguments.input, none);
+  if (!none)
+    program::require_memory(arguments.input + ": this", libraries + of_file * static_cast<double>(size), "",
+                            "a file of a lower p or fewer holes, or of stage1_plate --loads-only");
   const auto plate = formats::read_plate_solution(arguments.input);
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
   if (!arguments.flag("--field")) return write_matrices(arguments, plate, timings);

@@ -16,7 +16,7 @@ constexpr const char* description =
     "<!-- One state of a sheet by stage2_extract. Points are not shared between elements, so jumps of the stress stay\n"
     "     visible. von_mises is that of the stresses in the plane, with sigma_z = 0. principal_1 is the larger of the\n"
     "     principal stresses in the plane. thickness belongs to cells; hole_* and the labels of the units are in\n"
-    "     FieldData. -->\n";
+    "     FieldData, text as the codes of its bytes. -->\n";
 
 /// Text that grows piece by piece.
 class Text {
@@ -41,14 +41,14 @@ void add_points(Text& text, const char* name, const Eigen::MatrixXd& values) {
   text.add("</DataArray>\n");
 }
 
-/// Strings are the codes of their bytes, each string ended by 0: no character can break the XML.
+/// Strings are the codes of their bytes, each string ended by 0: no character can break the XML, and meshio, which
+/// knows no arrays of strings, reads them too.
 void add_strings(Text& text, const char* name, const std::vector<std::string>& values) {
-  text.add("<Array type=\"String\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n", name, values.size());
-  for (const auto& value : values) {
-    for (const char c : value) text.add("{} ", static_cast<int>(static_cast<unsigned char>(c)));
-    text.add("0\n");
-  }
-  text.add("</Array>\n");
+  std::string bytes;
+  for (const auto& value : values) bytes += value + '\0';
+  text.add("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n", name, bytes.size());
+  for (const char c : bytes) text.add("{} ", static_cast<int>(static_cast<unsigned char>(c)));
+  text.add("</DataArray>\n");
 }
 
 void add_integer(Text& text, const char* name, int value) {
@@ -114,7 +114,7 @@ std::string vtu(const formats::PlateSolution& plate, const FieldState& state, co
   const Index n_points = field.points.cols();
   Text text;
   text.add("<?xml version=\"1.0\"?>\n{}", description);
-  text.add("<VTKFile type=\"UnstructuredGrid\" version=\"2.2\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
+  text.add("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
   add_field_data(text, plate, state, field.p);
   text.add("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", n_points, n_cells);
   add_point_data(text, field);

@@ -19,6 +19,8 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   const auto steps = static_cast<Index>(states.size());
   formats::PlateHistory history;
   history.name = plate.name;
+  history.matrices_digest = plate.matrices_digest;
+  history.plate_digest = plate.plate_digest;
   for (Index i = 0; i < plate.n_discs(); ++i) {
     history.disc_hole.push_back(plate.hole_of(i));
     history.disc_direction.emplace_back(axis_names[static_cast<std::size_t>(plate.axis_of(i))]);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <set>
 
 #include "common/errors.hpp"
@@ -25,7 +26,19 @@ std::optional<Eigen::Index> index_of(const std::vector<std::string>& names, cons
 std::vector<PlateMatrices> read_all(const JointScene& scene) {
   std::vector<PlateMatrices> all;
   all.reserve(scene.plates.size());
-  for (const auto& plate : scene.plates) all.push_back(formats::read_plate_matrices(plate.file));
+  for (const auto& plate : scene.plates) {
+    if (!std::filesystem::exists(plate.file))
+      throw FileError(
+          fmt::format("{}: {}: cannot be opened: No such file or directory; stage2_extract PLATE.h5 -o {} "
+                      "makes it",
+                      plate.where, plate.file, plate.file));
+    all.push_back(formats::read_plate_matrices(plate.file));
+    const std::string& digest = all.back().header.digest;
+    if (!plate.digest.empty() && digest != plate.digest)
+      refuse(plate.where + "/digest",
+             fmt::format("{} has {}, not the digest {}", plate.file, digest.empty() ? "none" : digest, plate.digest),
+             "the digest that stage2_extract printed when it made the file that is meant");
+  }
   return all;
 }
 

@@ -37,10 +37,13 @@ Reference read_reference(const std::string& file, const Value& value, const char
 std::vector<PlateScene> read_plates(const std::string& file, const Value& plates) {
   const auto folder = std::filesystem::path(file).parent_path();
   std::vector<PlateScene> result;
-  for (const auto& [name, path] : plates.members()) {
+  for (const auto& [name, plate] : plates.members()) {
     if (name.find_first_of(":/") != std::string::npos || name == ".")
-      path.fail("name of a plate", "names without ':' and '/', other than \".\"");
-    result.push_back({name, (folder / path.text()).string(), where(file, path)});
+      plate.fail("name of a plate", "names without ':' and '/', other than \".\"");
+    if (plate.is_object()) plate.only({"file", "digest"});
+    const Value path = plate.is_object() ? plate.at("file") : plate;
+    const auto digest = plate.is_object() ? plate.find("digest") : std::nullopt;
+    result.push_back({name, (folder / path.text()).string(), where(file, plate), digest ? digest->text() : ""});
   }
   if (result.size() < 2) plates.fail(program::counted(result.size(), "plate"), "at least 2");
   return result;

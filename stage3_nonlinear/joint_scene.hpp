@@ -22,6 +22,7 @@ struct PlateScene {
   std::string name;
   std::string file;  ///< path of its MATRICES.h5, relative to the current folder
   std::string where;
+  std::string digest{};  ///< that the file must have; empty: any
 };
 
 struct LawScene {

@@ -152,6 +152,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   PlateModel plate;
   plate.name = name;
   plate.file = file;
+  plate.matrices_digest = a.header.digest;
+  plate.plate_digest = a.plate_digest;
   plate.axes = disc_axes(file, a);
   for (std::size_t i = 0; i < a.disc_hole.size(); i += plate.axes.size()) {
     plate.holes.push_back(a.disc_hole[i]);

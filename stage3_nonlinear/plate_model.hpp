@@ -26,6 +26,7 @@ struct PlateDegrees {
 /// Forces that must act on it from outside: S u + R Lambda + T f (theory.md sections 3 to 5).
 struct PlateModel {
   std::string name, file;
+  std::string matrices_digest, plate_digest;                 ///< of its MATRICES.h5, and of its PLATE.h5
   std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
   std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
   std::vector<bool> on_springs;                              ///< (m / a) the sheet's own bearing is in S

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -56,7 +57,27 @@ Header read_header(const h5::Reader& file) {
     return units.is_object() && units.contains(key) && units[key].is_string() ? units[key] : "";
   };
   header.units = {label("length"), label("force")};
+  header.digest = file.digest();
   return header;
+}
+
+void check_words(const h5::Reader& file, const char* dataset, const std::vector<std::string>& words,
+                 const std::vector<std::string>& allowed) {
+  for (const auto& word : words)
+    if (std::find(allowed.begin(), allowed.end(), word) == allowed.end())
+      throw FileError(
+          fmt::format("{}:{}: holds \"{}\", expected one of {}", file.path(), dataset, word, fmt::join(allowed, ", ")));
+}
+
+bool ascends(const Eigen::VectorXi& list) {
+  return std::adjacent_find(list.begin(), list.end(), std::greater_equal<>()) == list.end();
+}
+
+void check_degrees(const h5::Reader& file, const char* dataset, const Eigen::VectorXi& p, int highest) {
+  if (p.size() == 0) throw FileError(fmt::format("{}:{}: holds no degree", file.path(), dataset));
+  if (!ascends(p) || p[0] < 1 || p[p.size() - 1] > highest)
+    throw FileError(fmt::format("{}:{}: is {}, expected ascending degrees from 1 to {}", file.path(), dataset,
+                                fmt::join(p, ", "), highest));
 }
 
 void write_space(h5::Writer& file, pfem::Space space) { file.attribute("space", pfem::name_of(space)); }

@@ -6,7 +6,7 @@ namespace {
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 3;
+constexpr int minor = 4;
 
 /// (steps, n a) as (steps, n, a).
 std::vector<Eigen::MatrixXd> unfolded(const Eigen::MatrixXd& table, Eigen::Index a) {
@@ -186,10 +186,14 @@ void write(const std::string& path, const JointResult& a) {
   file.write("F_vector", unfolded(a.F_vector, n_directions), a.F.cols(), n_directions, {force, "components of F"});
   file.write("transferred", paired(a.transferred_first, a.transferred_second), a.F.cols(), 2,
              {force, "bearing and friction together, on the first and on the second plate"});
-  std::vector<std::string> names;
-  names.reserve(a.plates.size());
-  for (const auto& plate : a.plates) names.push_back(plate.name);
-  file.write("plate/name", names, {"1", "plates of the joint; group plates/<name> holds what each did"});
+  const auto write_each = [&](const char* dataset, std::string PlateHistory::*text, const char* what) {
+    std::vector<std::string> texts;
+    for (const auto& plate : a.plates) texts.push_back(plate.*text);
+    file.write(dataset, texts, {"1", what});
+  };
+  write_each("plate/name", &PlateHistory::name, "plates of the joint; group plates/<name> holds what each did");
+  write_each("plate/matrices_digest", &PlateHistory::matrices_digest, "digest of each MATRICES.h5, empty without one");
+  write_each("plate/plate_digest", &PlateHistory::plate_digest, "digest of the PLATE.h5 that each was made of");
   for (const auto& plate : a.plates) write_plate(file, plate, units);
   if (a.sensitivity) write_sensitivity(file, *a.sensitivity, units);
   file.commit();
@@ -227,6 +231,10 @@ JointResult read_joint_result(const std::string& path) {
     a.transferred_second.row(step++) = pair.col(1).transpose();
   }
   for (const auto& name : file.strings("plate/name", h5::any)) a.plates.push_back(read_plate(file, name, steps, units));
+  if (file.has("plate/plate_digest")) {
+    const auto digests = file.strings("plate/plate_digest", std::ssize(a.plates));
+    for (std::size_t i = 0; i < a.plates.size(); ++i) a.plates[i].plate_digest = digests[i];
+  }
   if (file.has("sensitivity")) a.sensitivity = read_sensitivity(file, steps, n, units);
   return a;
 }

@@ -38,6 +38,7 @@ struct PlateHistory {
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
   RimHistory rims;
+  std::string matrices_digest{}, plate_digest{};  ///< of its MATRICES.h5, and of its PLATE.h5; empty if unknown
 };
 
 /// Derivatives of the bearing forces F by what the input gives, one matrix of n rows per increment; infinite where the

@@ -24,8 +24,8 @@ Eigen::MatrixXd error_if_any(const h5::Reader& file, const char* dataset, Eigen:
   return Eigen::MatrixXd::Constant(rows, cols, std::numeric_limits<double>::infinity());
 }
 
-std::vector<std::string> strings_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n) {
-  return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>{};
+std::vector<std::string> strings_if_any(const h5::Reader& file, const char* dataset) {
+  return file.has(dataset) ? file.strings(dataset, h5::any) : std::vector<std::string>{};
 }
 
 std::vector<std::string> directions(const h5::Reader& file, const char* dataset, Eigen::Index n) {
@@ -92,7 +92,7 @@ void write_contacts(h5::Writer& file, const PlateMatrices& a) {
 
 }  // namespace
 
-void write(const std::string& path, const PlateMatrices& a) {
+std::string write(const std::string& path, const PlateMatrices& a) {
   const Units& units = a.header.units;
   const std::string area = unit(units, 2, 0);
   const auto e = a.n_externals();
@@ -102,6 +102,7 @@ void write(const std::string& path, const PlateMatrices& a) {
   h5::Writer file(path, format, major, minor);
   write_header(file, a.header);
   write_space(file, a.space);
+  file.attribute("plate_digest", a.plate_digest);
   write_names(file, a);
   file.write("friction/unit_force", a.friction_unit_force, {area, "bearing force per unit peak contact stress"});
   file.write("friction/resultant", a.friction_resultant,
@@ -115,7 +116,7 @@ void write(const std::string& path, const PlateMatrices& a) {
              {unit(units, 1, -1), "mean displacement of traction boundary i per unit total force on j, all else held"});
   write_stresses(file, a.stresses, units);
   write_contacts(file, a);
-  file.commit();
+  return file.commit();
 }
 
 PlateMatrices read_plate_matrices(const std::string& path) {
@@ -123,7 +124,9 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   PlateMatrices a;
   a.header = read_header(file);
   a.space = read_space(file);
+  a.plate_digest = file.attribute("plate_digest", "");
   a.p = file.integers("p", h5::any);
+  check_degrees(file, "p", a.p, highest_degree);
   const auto np = a.p.size();
   a.ndof = file.has("ndof") ? file.integers("ndof", np) : Eigen::VectorXi::Zero(np);
   a.disc_hole = file.strings("disc/hole", h5::any);
@@ -131,15 +134,16 @@ PlateMatrices read_plate_matrices(const std::string& path) {
   a.disc_direction = file.strings("disc/direction", m);
   a.disc_modulus = Eigen::VectorXd::Zero(m);
   if (file.has("disc/modulus")) a.disc_modulus = file.vector("disc/modulus", m, expected_unit(a.header.units, -3, 1));
-  a.external_id = strings_if_any(file, "external/id", h5::any);
-  a.traction_id = strings_if_any(file, "traction/id", h5::any);
-  a.friction_hole = strings_if_any(file, "friction/hole", h5::any);
+  a.external_id = strings_if_any(file, "external/id");
+  a.traction_id = strings_if_any(file, "traction/id");
+  a.friction_hole = strings_if_any(file, "friction/hole");
   const auto e = a.n_externals();
   const auto q = a.n_tractions();
   const auto h = a.n_friction_cases();
   a.external_direction = directions(file, "external/direction", e);
   a.traction_direction = directions(file, "traction/direction", q);
-  a.friction_bearing = strings_if_any(file, "friction/bearing", h);
+  if (h > 0) a.friction_bearing = file.strings("friction/bearing", h);
+  check_words(file, "friction/bearing", a.friction_bearing, side_names);
   const std::string area = expected_unit(a.header.units, 2, 0);
   a.friction_unit_force = h > 0 ? file.vector("friction/unit_force", h, area) : Eigen::VectorXd();
   a.friction_resultant = h > 0 ? file.vector("friction/resultant", h, area) : Eigen::VectorXd();

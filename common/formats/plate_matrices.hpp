@@ -27,6 +27,7 @@ struct HoleContact {
 ///   (P, F) = S (D_e, D) + R Lambda + T f.
 struct PlateMatrices {
   Header header;
+  std::string plate_digest{};                          ///< of the PLATE.h5 that these are of; empty if it has none
   pfem::Space space = pfem::Space::trunk;              ///< of a sheet of finite elements
   Eigen::VectorXi p, ndof;                             ///< (np)
   std::vector<std::string> disc_hole, disc_direction;  ///< (m)
@@ -59,8 +60,8 @@ struct PlateMatrices {
   [[nodiscard]] Eigen::Index n_cases() const { return n_externals() + n_discs() + n_friction_cases() + n_tractions(); }
 };
 
-/// Throws FileError; what was at `path` before survives.
-void write(const std::string& path, const PlateMatrices& matrices);
+/// Returns the digest of the file. Throws FileError; what was at `path` before survives.
+std::string write(const std::string& path, const PlateMatrices& matrices);
 
 /// Reads all of it but contacts and loads, which nothing behind stage 2 needs. `p`, `disc/hole`, `disc/direction` and
 /// `S_dd` must stand in the file; groups that a hand-made file leaves out (external, friction, traction, errors) are

@@ -54,6 +54,7 @@ PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const 
   PlateStresses a;
   if (!file.has("stress/p")) return a;
   a.p = file.integers("stress/p", h5::any);
+  if (a.p.size() > 0) check_degrees(file, "stress/p", a.p, highest_degree);
   const std::string length = expected_unit(units, 1, 0);
   const std::string area = expected_unit(units, 2, 0);
   a.rim_hole = file.strings("rim/hole", h5::any);
@@ -82,9 +83,7 @@ PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const 
   a.section_hole = file.strings("section/hole", h5::any);
   const auto s = count(a.section_hole);
   a.section_side = file.strings("section/side", s);
-  for (const auto& side : a.section_side)
-    if (side != "+x" && side != "-x" && side != "+y" && side != "-y")
-      throw FileError(fmt::format("{}:section/side: holds \"{}\", expected +x, -x, +y or -y", file.path(), side));
+  check_words(file, "section/side", a.section_side, side_names);
   a.gross_area = file.vector("section/gross_area", s, area);
   a.net_area = file.vector("section/net_area", s, area);
   a.section_force = stack("section/force", s);

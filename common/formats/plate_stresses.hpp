@@ -11,6 +11,9 @@
 
 namespace fastjoint::formats {
 
+/// Matrices may come from elsewhere than stage 2.
+inline constexpr int highest_degree = 99;
+
 /// Stresses of one sheet per unit case, at l degrees (schemas/plate-matrices.md). A sheet from elsewhere has none: l =
 /// 0.
 ///

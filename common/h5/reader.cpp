@@ -57,7 +57,7 @@ std::size_t count(const Shape& shape) {
 }  // namespace
 
 struct Reader::Impl {
-  std::string path;
+  std::string path, digest;
   File file;
 
   [[noreturn]] void fail(const std::string& dataset, const std::string& what) const {
@@ -177,7 +177,7 @@ void check_version(const Reader& reader, hid_t file, const std::string& format, 
 Reader::Reader(std::string path, const std::string& format, int major) : impl_(std::make_unique<Impl>()) {
   impl_->path = std::move(path);
   check_readable(impl_->path);
-  check_seal(impl_->path);
+  impl_->digest = checked_digest(impl_->path);
   if (H5Fis_hdf5(impl_->path.c_str()) <= 0)
     throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", impl_->path, format));
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
@@ -190,6 +190,8 @@ Reader::Reader(std::string path, const std::string& format, int major) : impl_(s
 Reader::~Reader() = default;
 
 const std::string& Reader::path() const { return impl_->path; }
+
+const std::string& Reader::digest() const { return impl_->digest; }
 
 bool Reader::has(const std::string& dataset) const {
   for (auto end = dataset.find('/');; end = dataset.find('/', end + 1)) {

@@ -27,6 +27,8 @@ class Reader {
   Reader& operator=(const Reader&) = delete;
 
   [[nodiscard]] const std::string& path() const;
+  /// Digest that the file carries; empty if it has none.
+  [[nodiscard]] const std::string& digest() const;
   [[nodiscard]] bool has(const std::string& dataset) const;
   /// Root attribute, or `otherwise` if the file has none of that name.
   [[nodiscard]] std::string attribute(const std::string& name, const std::string& otherwise) const;

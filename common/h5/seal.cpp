@@ -2,48 +2,44 @@
 #include "common/h5/seal.hpp"
 
 #include <fmt/format.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdint>
 #include <cstring>
 #include <fstream>
-#include <sstream>
 
 #include "common/errors.hpp"
 
 namespace fastjoint::h5 {
 namespace {
 
-constexpr std::string_view mark = "\nfastjoint digest ";
+constexpr std::string_view mark = "\nfastjoint xxhash ", earlier_mark = "\nfastjoint digest ";
 constexpr std::size_t seal_size = mark.size() + 16 + 1;
-
-std::uint64_t digest(std::string_view bytes) {
-  constexpr std::uint64_t offset_basis = 14695981039346656037U;
-  constexpr std::uint64_t prime = 1099511628211U;
-  std::uint64_t hash = offset_basis;
-  for (std::size_t i = 0; i < bytes.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t word = 0;
-    std::memcpy(&word, bytes.data() + i, std::min(sizeof word, bytes.size() - i));
-    hash = (hash ^ word) * prime;
-  }
-  return hash ^ bytes.size();
-}
 
 }  // namespace
 
-std::string seal(std::string_view image) { return fmt::format("{}{:016x}\n", mark, digest(image)); }
+std::string digest(std::string_view bytes) { return fmt::format("{:016x}", XXH3_64bits(bytes.data(), bytes.size())); }
 
-void check_seal(const std::string& path) {
-  std::ostringstream text;
-  const std::ifstream in(path, std::ios::binary);
+std::string seal(const std::string& digest) { return fmt::format("{}{}\n", mark, digest); }
+
+std::string checked_digest(const std::string& path) {
+  std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  text << in.rdbuf();
-  const std::string_view bytes = text.view();
-  if (bytes.size() < seal_size || bytes.substr(bytes.size() - seal_size, mark.size()) != mark) return;
-  const std::string_view image = bytes.substr(0, bytes.size() - seal_size);
-  if (bytes.substr(image.size()) != seal(image))
+  std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');
+  in.seekg(0).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  const std::string_view image = std::string_view(bytes).substr(0, bytes.size() - std::min(bytes.size(), seal_size));
+  const std::string_view end = std::string_view(bytes).substr(image.size());
+  if (end.starts_with(earlier_mark))
+    throw FileError(
+        fmt::format("{}: has the digest of an earlier version of this program, which misses some damage; "
+                    "make it again, or take it unchecked by h5repack {} NEW.h5",
+                    path, path));
+  if (!end.starts_with(mark)) return {};
+  std::string found = digest(image);
+  if (end != seal(found))
     throw FileError(fmt::format("{}: is damaged: its bytes do not match their digest; make it again", path));
+  return found;
 }
 
 }  // namespace fastjoint::h5

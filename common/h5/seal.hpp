@@ -6,13 +6,16 @@
 
 namespace fastjoint::h5 {
 
-/// Line that follows the HDF5 bytes of our files and holds their digest (64-bit FNV-1a over 8-byte words). HDF5 ignores
-/// what stands behind its end of file, and drops it when somebody edits the file.
-[[nodiscard]] std::string seal(std::string_view image);
+/// Digest of bytes, 16 hexadecimal digits: XXH3 of xxHash, 64 bits (https://xxhash.com).
+[[nodiscard]] std::string digest(std::string_view bytes);
 
-/// Throws FileError if the file at `path` has a seal that its bytes do not match. This must come before HDF5 reads it:
-/// flipped bits in its own structures make the library crash. A file without a seal (hand-made, edited) is taken as it
-/// is.
-void check_seal(const std::string& path);
+/// Line that follows the HDF5 bytes of our files and holds their digest. HDF5 ignores what stands behind its end of
+/// file, and drops it when somebody edits the file.
+[[nodiscard]] std::string seal(const std::string& digest);
+
+/// Digest in the seal of the file at `path`; empty for a file without a seal (hand-made, edited), which is taken as it
+/// is. Throws FileError if the bytes do not match the seal, or if the seal is that of an earlier version, whose digest
+/// misses damage. This must come before HDF5 reads the file: flipped bits in its own structures make the library crash.
+[[nodiscard]] std::string checked_digest(const std::string& path);
 
 }  // namespace fastjoint::h5

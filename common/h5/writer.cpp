@@ -154,7 +154,7 @@ void Writer::write(const std::string& dataset, const std::string& text, const Me
   impl_->dataset(dataset, Space(H5Screate(H5S_SCALAR)), type.get(), type.get(), &chars, meta);
 }
 
-void Writer::commit() {
+std::string Writer::commit() {
   if (H5Fflush(impl_->file.get(), H5F_SCOPE_GLOBAL) < 0) impl_->fail("file");
   const ssize_t n_bytes = H5Fget_file_image(impl_->file.get(), nullptr, 0);
   if (n_bytes <= 0) impl_->fail("file");
@@ -163,8 +163,10 @@ void Writer::commit() {
   image.reserve(static_cast<std::size_t>(n_bytes) + room_for_seal);
   image.resize(static_cast<std::size_t>(n_bytes));
   if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) impl_->fail("file");
-  image += seal(image);
+  std::string found = digest(image);
+  image += seal(found);
   write_whole_file(impl_->path, image);
+  return found;
 }
 
 }  // namespace fastjoint::h5

@@ -40,8 +40,8 @@ class Writer {
   /// A^T without copying it: Eigen's columns are the file's rows, shape (cols, rows).
   void write_transposed(const std::string& dataset, const Eigen::MatrixXd& A, const Meta& meta);
 
-  /// Flushes, and puts the file at its path.
-  void commit();
+  /// Flushes, puts the file at its path and returns its digest.
+  std::string commit();
 
  private:
   struct Impl;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/program/memory.hpp"
 
+#include <fmt/format.h>
 #include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -10,18 +11,22 @@
 #include <limits>
 #include <string>
 
+#include "common/errors.hpp"
+
 namespace fastjoint::program {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// The number of kB behind a word of a file of the system, in bytes.
-double entry(const char* path, const std::string& name) {
+constexpr double kilobyte = 1024;
+
+/// The number behind a word of a file of the system, in bytes.
+double entry(const std::string& path, const std::string& name, double unit = kilobyte) {
   std::ifstream in(path);
   std::string word;
-  double kilobytes = 0;
+  double value = 0;
   while (in >> word)
-    if (word == name && in >> kilobytes) return 1024 * kilobytes;
+    if (word == name && in >> value) return unit * value;
   return unlimited;
 }
 
@@ -32,25 +37,39 @@ double number(const std::string& path) {
   return in >> value ? value : unlimited;
 }
 
-/// Of version 2 of control groups, as a container sees its own.
-double left_in_control_group() {
-  const std::string folder = "/sys/fs/cgroup/";
-  return number(folder + "memory.max") - number(folder + "memory.current");
-}
-
 double left_in_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:");
+  constexpr double blas = 1 << 27;  // OpenBLAS reserves it for its work, and asks for ever where it cannot
+  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:") - blas;
 }
 
 }  // namespace
 
+double left_in_control_group(const std::string& folder) {
+  const auto cached = [&](const char* list) { return entry(folder + "memory.stat", list, 1); };
+  return number(folder + "memory.max") - number(folder + "memory.current") + cached("inactive_file") +
+         cached("active_file");
+}
+
 double available_memory() {
-  double least = entry("/proc/meminfo", "MemAvailable:");
-  for (const double left : {left_in_control_group(), left_in_address_space()})
-    if (left < least) least = left;  // not a number where a file is not there
-  return std::max(least, 0.0);
+  static const double found = [] {
+    double least = entry("/proc/meminfo", "MemAvailable:");
+    for (const double left : {left_in_control_group("/sys/fs/cgroup/"), left_in_address_space()})
+      if (left < least) least = left;  // not a number where a file is not there
+    return std::max(least, 0.0);
+  }();
+  return found;
+}
+
+std::string bytes_text(double bytes) {
+  return bytes < 1e9 ? fmt::format("{:.0f} MB", bytes / 1e6) : fmt::format("{:.1f} GB", bytes / 1e9);
+}
+
+void require_memory(const std::string& what, double need, const std::string& parts, const std::string& allowed) {
+  if (const double available = available_memory(); need > available)
+    throw InputError(fmt::format("{} takes about {} of memory{}, {} are available; allowed: {}", what, bytes_text(need),
+                                 parts, bytes_text(available), allowed));
 }
 
 void keep_freed_memory() {

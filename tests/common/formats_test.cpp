@@ -65,6 +65,50 @@ TEST(PlateMatrices, HandMadeFilesMayLeaveOutWhatTheyDoNotHave) {
   EXPECT_TRUE(std::isinf(a.S_dd_error(0, 0)));
 }
 
+/// What the length of one dataset says of another, and what degrees there are, hold in a hand-made file too.
+class HandMade : public testing::Test {
+ protected:
+  void write(const std::vector<int>& p, bool with_bearing = true, const std::string& side = "-x") const {
+    const auto n = static_cast<Eigen::Index>(p.size());
+    h5::Writer file(path_, "plate-matrices", 1, 0);
+    file.write("p", Eigen::VectorXi(Eigen::Map<const Eigen::VectorXi>(p.data(), n)), {"1", ""});
+    file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
+    file.write("S_dd", std::vector<Eigen::MatrixXd>(p.size(), Eigen::MatrixXd::Identity(1, 1)), 1, 1, {"1", ""});
+    file.write("disc/direction", std::vector<std::string>{"x"}, {"1", ""});
+    file.write("friction/hole", std::vector<std::string>{"a", "a"}, {"1", ""});
+    if (with_bearing) file.write("friction/bearing", std::vector<std::string>{"+x", side}, {"1", ""});
+    for (const char* each : {"friction/unit_force", "friction/resultant"})
+      file.write(each, Eigen::VectorXd(Eigen::VectorXd::Ones(2)), {"1", ""});
+    file.write("R_df", std::vector<Eigen::MatrixXd>(p.size(), Eigen::MatrixXd::Zero(1, 2)), 1, 2, {"1", ""});
+    file.commit();
+  }
+  void refused(const std::string& message) const {
+    EXPECT_THAT([&] { (void)read_plate_matrices(path_); }, ThrowsMessage<FileError>(HasSubstr(message)));
+  }
+
+ private:
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_.path("lab.h5");
+};
+
+TEST_F(HandMade, EveryFrictionCaseHasASide) {
+  write({1}, false);
+  refused("lab.h5:friction/bearing: dataset is missing");
+  write({1}, true, "x");
+  refused("lab.h5:friction/bearing: holds \"x\", expected one of +x, -x, +y, -y");
+}
+
+TEST_F(HandMade, DegreesAscend) {
+  write({2, 1});
+  refused("lab.h5:p: is 2, 1, expected ascending degrees from 1 to 99");
+  write({2, 2});
+  refused("lab.h5:p: is 2, 2, expected");
+  write({-1, 2});
+  refused("lab.h5:p: is -1, 2, expected");
+  write({});
+  refused("lab.h5:p: holds no degree");
+}
+
 TEST(PlateMatrices, UnitsAreComparedWhereTheFileHasLabels) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("lab.h5");
@@ -136,7 +180,7 @@ TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
               ThrowsMessage<FileError>(HasSubstr("m.h5:rim/bearing_area: holds 0, expected numbers > 0")));
   write_with(0.5, "");
   EXPECT_THAT([&] { (void)read_plate_matrices(path); },
-              ThrowsMessage<FileError>(HasSubstr("m.h5:section/side: holds \"\", expected +x, -x, +y or -y")));
+              ThrowsMessage<FileError>(HasSubstr("m.h5:section/side: holds \"\", expected one of +x, -x, +y, -y")));
 }
 
 TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
@@ -158,6 +202,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.delta_vector = a.F_vector = Eigen::MatrixXd::Random(steps, 6);
     PlateHistory& plate = a.plates.emplace_back();
     plate.name = "top";
+    plate.plate_digest = "0123456789abcdef";
     plate.disc_hole = {"1"};
     plate.disc_direction = {"x"};
     plate.friction_hole = {"1", "1"};
@@ -202,6 +247,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.second_hole, a.second_hole);
     EXPECT_EQ(b.transferred_second, a.transferred_second);
     EXPECT_EQ(b.plates.at(0).D, plate.D);
+    EXPECT_EQ(b.plates[0].plate_digest, plate.plate_digest);
     EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);
     EXPECT_EQ(b.plates[0].friction_bearing, plate.friction_bearing);
     EXPECT_EQ(b.plates[0].rims.sections, rims.sections);

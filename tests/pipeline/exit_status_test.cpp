@@ -60,7 +60,9 @@ TEST_F(ExitStatus, MissingFiles) {
   expect(test::stage1(*folder_, "none -o out.h5"), 3, HasSubstr(missing));
   expect(test::stage2(*folder_, "none -o out.h5"), 3, HasSubstr(missing));
   expect(test::stage3(*folder_, "none -o out.h5"), 3, HasSubstr(missing));
-  joint(bolts("doubler.m.h5", "gone.h5"), 3, HasSubstr("gone.h5: cannot be opened: No such file"));
+  joint(bolts("doubler.m.h5", "gone.h5"), 3,
+        HasSubstr("joint.json: /plates/doubler: gone.h5: cannot be opened: No such file or directory; stage2_extract "
+                  "PLATE.h5 -o gone.h5 makes it"));
 }
 
 TEST_F(ExitStatus, MalformedJson) {

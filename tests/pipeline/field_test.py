@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From a solved joint to a picture of its stresses: field_test.py BIN_FOLDER. Files are read as VTK and users would."""
+import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -10,6 +12,7 @@ from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import h5py
+import meshio
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -92,6 +95,57 @@ def check_refinement(script):
     assert (area > 0).all() and abs(area.sum() - 4) < 1e-12
 
 
+def check_provenance():
+    """Another sheet with the same names is refused, by its digest: of --field as of a joint that names the digest."""
+    scene = (EXAMPLE / "center.json").read_text()
+    Path("other.json").write_text(scene.replace("0.005", "0.006"))
+    assert Path("other.json").read_text() != scene
+    done("stage1_plate", "other.json", "-o", "other.h5", "--p", "7..8")
+    result = run("stage2_extract", "other.h5", "--field", "joint.h5", "-o", "no.vtu")
+    assert result.returncode == 2 and not Path("no.vtu").exists(), result
+    with h5py.File("joint.h5") as joint, h5py.File("out/center.matrices.h5") as matrices:
+        names = list(joint["plate/name"].asstr())
+        of_plate = joint["plate/plate_digest"].asstr()[names.index("center")]
+        of_matrices = joint["plate/matrices_digest"].asstr()[names.index("center")]
+        assert matrices.attrs["plate_digest"] == of_plate
+    for path, digest in ("center.h5", of_plate), ("out/center.matrices.h5", of_matrices):
+        assert Path(path).read_bytes()[-17:-1].decode() == digest, (path, digest)
+    other = Path("other.h5").read_bytes()[-17:-1].decode()
+    assert (f"--field: sheet 'center' of joint.h5 was made of a PLATE.h5 with the digest {of_plate}, other.h5 has {other}; "
+            "allowed: the file that it was made of, or stage2_extract and stage3_nonlinear run again") in result.stderr, result
+    summary = done("stage2_extract", "other.h5", "-o", "out/other.matrices.h5")
+    printed = re.search(r"^  digest ([0-9a-f]{16})$", summary, re.MULTILINE)[1]
+    joint = json.loads(Path("joint.json").read_text())
+    for file, digest, status in (("center", of_matrices, 0), ("other", printed, 0), ("other", of_matrices, 2)):
+        joint["plates"]["center"] = {"file": f"out/{file}.matrices.h5", "digest": digest}
+        Path("named.json").write_text(json.dumps(joint))
+        result = run("stage3_nonlinear", "named.json", "-o", "named.h5")
+        assert result.returncode == status, result
+    assert (f"named.json: /plates/center/digest: out/other.matrices.h5 has {printed}, not the digest {of_matrices}; allowed:"
+            in result.stderr), result
+    with h5py.File("out/other.matrices.h5", "r+") as edited:  # and so has no digest
+        edited["S_dd"][-1] *= 1
+    result = run("stage3_nonlinear", "named.json", "-o", "named.h5")
+    assert result.returncode == 2 and "out/other.matrices.h5 has none, not the digest" in result.stderr, result
+    del joint["plates"]["center"]["digest"]
+    Path("named.json").write_text(json.dumps(joint))
+    done("stage3_nonlinear", "named.json", "-o", "named.h5")
+    done("stage2_extract", "other.h5", "--field", "named.h5", "-o", "named.vtu")
+
+
+def check_meshio():
+    """What others read, among them text as the codes of its bytes."""
+    mesh = meshio.read("center.vtu")
+    (cells,) = mesh.cells
+    assert cells.type == "VTK_LAGRANGE_QUADRILATERAL" and cells.data.shape == (25, 81), cells
+    assert mesh.points.shape == (25 * 81, 3) and mesh.point_data["displacement"].shape == (25 * 81, 3)
+    words = bytes(mesh.field_data["stress_unit"]).decode()
+    assert words == "lbf/in^2\0", words
+    corners = mesh.points[cells.data[:, :4]]  # counter-clockwise, whatever else is in between
+    sides = np.roll(corners, -1, axis=1) - corners
+    assert (np.cross(sides[:, 0, :2], sides[:, 1, :2]) > 0).all()
+
+
 def check_pictures():
     for i in range(2):
         done(DRAW, "center.vtu", "doubler.vtu", "--joint", "joint.h5", "-o", f"{i}.png")
@@ -162,9 +216,11 @@ def main(folder):
         assert done("stage2_extract", "center.h5", "--field", "external:P", "--p", "7", "-o", "p7.vtu", "--quiet") == ""
         check_grid("p7.vtu", 7, 25)
         check_refinement(script)
+        check_meshio()
         check_pictures()
         check_arrows(script)
         check_messages()
+        check_provenance()
         os.chdir(ROOT)
 
 

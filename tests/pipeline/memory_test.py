@@ -23,15 +23,29 @@ def panel(n, words):
     return scene
 
 
-def stage1(scene, *words, megabytes=None):
+def contact_panel(n, *_):
+    """Discs that push but do not pull, each with its share of the load."""
+    scene = json.loads(panel(n, ["--p", "8..8"]).read_text())
+    for hole in scene["holes"]:
+        hole["spring"]["compression_only"] = True
+    scene["loads"] = [{"external": "P", "force": 100},
+                      *({"disc": hole["id"], "force": -100 / n**2} for hole in scene["holes"])]
+    Path("contact.json").write_text(json.dumps(scene))
+    return Path("contact.json")
+
+
+def run(*words, megabytes=None):
     limit = (lambda: resource.setrlimit(resource.RLIMIT_AS, (int(megabytes * MB),) * 2)) if megabytes else None
-    return subprocess.run(["stage1_plate", scene, "-o", "plate.h5", *words], capture_output=True, text=True,
-                          preexec_fn=limit)
+    return subprocess.run(words, capture_output=True, text=True, preexec_fn=limit)
 
 
-def check_need(n, of_panel, of_stage1):
+def stage1(scene, *words, megabytes=None):
+    return run("stage1_plate", scene, "-o", "plate.h5", *words, megabytes=megabytes)
+
+
+def check_need(n, of_panel, of_stage1, make=panel):
     """Within a third either way."""
-    result = stage1(panel(n, of_panel), *of_stage1, "--timings", "times.json")
+    result = stage1(make(n, of_panel), *of_stage1, "--timings", "times.json")
     assert result.returncode == 0, result
     number, unit = re.search(r"needs about ([\d.]+) (MB|GB)", result.stdout).groups()
     need = float(number) * {"MB": MB, "GB": 1e9}[unit]
@@ -41,6 +55,7 @@ def check_need(n, of_panel, of_stage1):
 
 
 def check_refusal():
+    """Returns the megabytes that the program takes by itself."""
     scene = panel(10, [])
     Path("plate.h5").unlink(missing_ok=True)
     result = stage1(scene, megabytes=700)
@@ -49,8 +64,42 @@ def check_refusal():
                         r"\d+ MB are available; allowed: a lower p, --loads-only, which needs no fields, or fewer "
                         r"holes\n", result.stderr), result
     assert not Path("plate.h5").exists() and not result.stdout
+    own = 700 - int(re.search(r"(\d+) MB are available", result.stderr)[1])
     result = stage1(scene, "--loads-only", megabytes=700)
     assert result.returncode == 0, result
+    return own
+
+
+def check_search(own):
+    """Each degree that --accuracy tries: with 58 MB the fourth fits, which needs 44, and the seventh does not, which needs 71."""
+    scene = panel(10, [])
+    Path("plate.h5").unlink(missing_ok=True)
+    result = stage1(scene, "--accuracy", "1e-2", "--loads-only", megabytes=own + 58)
+    assert result.returncode == 0 and "accuracy 0.01: product space, p = " in result.stdout, result
+    Path("plate.h5").unlink()
+    result = stage1(scene, "--accuracy", "1e-9", "--loads-only", megabytes=own + 58)
+    assert result.returncode == 2 and not Path("plate.h5").exists() and not result.stdout, result
+    p, need, available = re.fullmatch(r"stage1_plate: error: panel10.json: at p = ([3-7]) this takes about (\d+) MB of memory "
+                                      r"\(shapes .*\), (\d+) MB are available; allowed: a lower p.*\n", result.stderr).groups()
+    print(f"--accuracy: refused at p = {p}: {need} MB of {available} MB")
+    assert int(need) > int(available), result
+
+
+def check_stage2(own):
+    """What stage 2 takes is known from the size of its file."""
+    assert stage1(panel(8, []), "--p", "8").returncode == 0
+    matrices = "stage2_extract", "plate.h5", "-o", "matrices.h5"
+    assert run(*matrices, "--timings", "times.json").returncode == 0
+    Path("matrices.h5").unlink()
+    took = json.loads(Path("times.json").read_text())["peak_memory_bytes"]
+    for words in matrices, ("stage2_extract", "plate.h5", "--field", "external:P", "-o", "matrices.h5"):
+        result = run(*words, megabytes=own + 60)
+        assert result.returncode == 2 and not Path("matrices.h5").exists(), result
+        need, unit = re.fullmatch(r"stage2_extract: error: plate.h5: this takes about ([\d.]+) (MB|GB) of memory, \d+ MB are "
+                                  r"available; allowed: a file of a lower p or fewer holes, or of stage1_plate "
+                                  r"--loads-only\n", result.stderr).groups()
+        assert 0.7 < took / MB / float(need) < 1.5 and unit == "MB", (took, result)
+    print(f"stage 2: said {need} MB, took {took / MB:.0f} MB")
 
 
 def main():
@@ -59,7 +108,10 @@ def main():
         os.chdir(folder)
         for run in RUNS:
             check_need(*run)
-        check_refusal()
+        check_need(3, [], [], contact_panel)
+        own = check_refusal()
+        check_search(own)
+        check_stage2(own)
         os.chdir("/")
 
 

@@ -64,10 +64,15 @@ class Judge:
     def program(self, document):
         """Exit status, place that the program refuses or None, and its message."""
         scene, output = self.folder / "input.json", self.folder / "output.h5"
-        scene.write_text(json.dumps(document))
+        scene.write_text(self.with_digest(json.dumps(document)))
         result = self.programs.plate(scene, output, P) if self.kind == "plate" else self.programs.joint(scene, output)
         named = re.search(f"error: {re.escape(str(scene))}: (/.*?): ", result.stderr)
         return result.returncode, named and named[1].rstrip("/"), result.stderr
+
+    def with_digest(self, text):
+        """The digest of a file depends on the machine's rounding: what stands for it in good inputs gives way to it."""
+        matrices = self.folder / "plate_half_holes.matrices.h5"
+        return text.replace("0123456789abcdef", matrices.read_bytes()[-17:-1].decode()) if matrices.exists() else text
 
     def good(self, document):
         refused = self.schema(document)

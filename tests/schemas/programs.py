@@ -27,16 +27,15 @@ class Programs:
     def prepare_joint(self, scene, p):
         """Makes the matrices that a joint names, [FOLDER/]NAME.*.h5, from the NAME.json or else the Makefile beside it."""
         for plate in json.loads(scene.read_text())["plates"].values():
+            plate = plate["file"] if isinstance(plate, dict) else plate
             output = scene.parent / plate
             source = scene.parent / f"{output.name.split('.')[0]}.json"
             solution = output.with_suffix(".solution")
             output.parent.mkdir(exist_ok=True)
-            if output.exists():
-                continue
-            if source.exists():
+            if source.exists() and not output.exists():
                 must(self.plate(source, solution, p))
                 must(self.matrices(solution, output))
-            else:
+            elif not output.exists():
                 must(run("make", "-s", "-C", scene.parent, plate))
 
 

@@ -213,7 +213,7 @@ TEST(JointModel, RefusesMatricesThatNoPlateHas) {
 
 TEST(JointModel, RefusesFilesThatAreMissing) {
   expect_refusal<FileError>(test::two_fastener_lap(), {{"plates", R"({"a": "a.h5", "b": "nope.h5"})"}},
-                            "nope.h5: cannot be opened: No such file");
+                            "nope.h5: cannot be opened: No such file or directory; stage2_extract PLATE.h5 -o ");
 }
 
 }  // namespace

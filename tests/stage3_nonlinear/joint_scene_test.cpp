@@ -53,6 +53,13 @@ TEST(JointScene, ReadsTheContractsExample) {
   EXPECT_EQ(scene.solver.max_iterations, 50);
 }
 
+TEST(JointScene, APlateIsAPathOrAPathWithItsDigest) {
+  const JointScene scene = read({{"plates", R"({"a": {"file": "a.h5", "digest": "0123456789abcdef"}, "b": "b.h5"})"}});
+  EXPECT_EQ(scene.plates[0].file, "folder/a.h5");
+  EXPECT_EQ(scene.plates[0].digest, "0123456789abcdef");
+  EXPECT_EQ(scene.plates[1].digest, "");
+}
+
 TEST(JointScene, ReadsStacksWithOneValueOrOneForEachPlane) {
   const auto scene = read({{"plates", R"({"a": "a.h5", "b": "b.h5", "c": "c.h5"})"},
                            {"laws", R"({"p": {"type": "linear", "k": 1}, "q": {"type": "linear", "k": 2}})"},
