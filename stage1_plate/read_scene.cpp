@@ -98,7 +98,7 @@ std::vector<Support> read_supports(const Value& root, const std::vector<std::str
 std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes) {
   std::vector<std::string> names;
   for (const auto& hole : holes) names.push_back(hole.id);
-  const std::string name = value.choice(names);
+  std::string name = value.choice(names);
   const auto hole = std::find_if(holes.begin(), holes.end(), [&](const Hole& h) { return h.id == name; });
   if (hole->spring)
     value.fail(fmt::format("hole \"{}\" has springs, which transmit its load", name), "a hole without \"spring\"");

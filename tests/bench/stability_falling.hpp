@@ -16,8 +16,8 @@ struct Falling {
 };
 
 /// Joints of 1 to 3 fasteners: whatever the program returns must balance to the tolerance with no fastener spent, where
-/// a hundred random starts find a solution it must find one, and where they find two it must warn, of all such laws or at
-/// the solution it returns.
+/// a hundred random starts find a solution it must find one, and where they find two it must warn, of all such laws or
+/// at the solution it returns.
 [[nodiscard]] Falling check_falling(int n, double tolerance);
 
 }  // namespace fastjoint::bench

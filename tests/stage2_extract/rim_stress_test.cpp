@@ -164,7 +164,8 @@ TEST_P(RimStress, LoadsOnlyLeavesThemOut) {
   EXPECT_EQ(extraction.matrices.stresses.p.size(), 0);
   const auto& rims = extraction.matrices.stresses;
   EXPECT_EQ(rims.angle.size(), 0);
-  EXPECT_EQ(rims.rim_radius, Eigen::Vector3d(0.125, 0.15, 0.2)) << "a joint compares what its input says with the sheet";
+  EXPECT_EQ(rims.rim_radius, Eigen::Vector3d(0.125, 0.15, 0.2))
+      << "a joint compares what its input says with the sheet";
   EXPECT_LT((rims.rim_thickness.array() - 0.1).abs().maxCoeff(), 1e-15);
   EXPECT_LT((rims.rim_modulus.array() / 1e7 - 1).abs().maxCoeff(), 1e-14);
   ASSERT_TRUE(extraction.checks.reciprocity);
