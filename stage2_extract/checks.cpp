@@ -69,36 +69,21 @@ std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale
 }
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.
-double residual_force(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S,
-                      const std::string& direction) {
-  Eigen::VectorXd together(S.rows());
-  Eigen::Index i = 0;
-  for (const auto& d : plate.external_direction) together[i++] = d == direction ? 1 : 0;
-  for (const auto& d : plate.disc_direction) together[i++] = d == direction ? 1 : 0;
-  double worst = ratio(largest(S * together), scale_of(plate, S));
+double residual_force(const PlateMatrices& matrices, const Eigen::MatrixXd& S, double scale,
+                      const FreeTranslation& free) {
+  double worst = ratio(largest(S * free.motion), scale);
   const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
   for (Eigen::Index j = 0; j < R.cols(); ++j)
-    if (matrices.friction_bearing[static_cast<std::size_t>(j)].substr(1) == direction)
-      worst = std::max(worst, ratio(std::abs(R.col(j).dot(together) + matrices.friction_resultant[j]), largest(R)));
+    if (free.friction[j] != 0)
+      worst = std::max(worst, ratio(std::abs(R.col(j).dot(free.motion) + free.friction[j]), largest(R)));
   const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
-  for (Eigen::Index k = 0; k < T.cols(); ++k) {
-    const double applied = plate.traction_direction[static_cast<std::size_t>(k)] == direction ? 1 : 0;
-    worst = std::max(worst, std::abs(T.col(k).dot(together) + applied));
-  }
-  return worst;
+  return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 
-/// A direction is free if no support fixes it and every disc can move along it.
 std::optional<double> equilibrium(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
   std::optional<double> worst;
-  for (const std::string direction : {"x", "y"}) {
-    const bool supported =
-        std::find(plate.supported.begin(), plate.supported.end(), direction) != plate.supported.end();
-    const bool discs_follow =
-        plate.disc_direction.empty() ||
-        std::find(plate.disc_direction.begin(), plate.disc_direction.end(), direction) != plate.disc_direction.end();
-    if (!supported && discs_follow) worst = std::max(worst.value_or(0), residual_force(plate, matrices, S, direction));
-  }
+  for (const auto& free : free_translations(plate, matrices.friction_resultant))
+    worst = std::max(worst.value_or(0), residual_force(matrices, S, scale_of(plate, S), free));
   return worst;
 }
 
@@ -107,6 +92,26 @@ std::string shown(const std::optional<double>& value, const char* otherwise) {
 }
 
 }  // namespace
+
+std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const Eigen::VectorXd& resultant) {
+  std::vector<FreeTranslation> result;
+  for (const std::string along : {"x", "y"}) {
+    const auto count = [&](const std::vector<std::string>& names) {
+      return std::count(names.begin(), names.end(), along);
+    };
+    if (count(plate.supported) > 0 || (!plate.disc_direction.empty() && count(plate.disc_direction) == 0)) continue;
+    std::vector<std::string> direction = plate.external_direction;
+    direction.insert(direction.end(), plate.disc_direction.begin(), plate.disc_direction.end());
+    const auto is_along = [&](const std::vector<std::string>& names) -> Eigen::VectorXd {
+      return Eigen::VectorXd::NullaryExpr(std::ssize(names), [&](Eigen::Index i) {
+        return names[static_cast<std::size_t>(i)].ends_with(along) ? 1.0 : 0.0;
+      });
+    };
+    result.push_back({is_along(direction), is_along(plate.friction_bearing).cwiseProduct(resultant).transpose(),
+                      is_along(plate.traction_direction).transpose()});
+  }
+  return result;
+}
 
 double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "common/formats/plate_matrices.hpp"
 #include "common/formats/plate_solution.hpp"
@@ -11,6 +12,17 @@ namespace fastjoint::stage2 {
 
 /// Largest absolute entry, 0 of an empty matrix: what all checks are relative to.
 [[nodiscard]] double largest(const Eigen::MatrixXd& A);
+
+/// A direction that no support fixes and that every disc can move along, and what acts along it in unit cases.
+struct FreeTranslation {
+  Eigen::VectorXd motion;       ///< (nc) of externals and discs together
+  Eigen::RowVectorXd friction;  ///< (h) resultant of each friction case, length^2
+  Eigen::RowVectorXd traction;  ///< (q) 1 along it, else 0
+};
+
+/// @param resultant PlateMatrices::friction_resultant
+[[nodiscard]] std::vector<FreeTranslation> free_translations(const formats::PlateSolution& plate,
+                                                             const Eigen::VectorXd& resultant);
 
 /// What must hold whatever the mesh, at the highest p; each relative to the largest entry of what it compares.
 struct Checks {

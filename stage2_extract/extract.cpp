@@ -42,6 +42,42 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   return a;
 }
 
+/// All linear matrices of externals and discs at one degree.
+struct Level {
+  Eigen::MatrixXd S, R, T;  ///< (nc, nc), (nc, h), (nc, q)
+};
+
+/// Takes from forces on externals and discs, (nc, columns), what they sum to along a free translation beside `known`.
+void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eigen::MatrixXd& forces) {
+  forces -= motion * ((motion.transpose() * forces + known) / motion.squaredNorm());
+}
+
+/// Takes out the rounding by which matrices do not balance where nothing supports the sheet: a joint would bear on it.
+void balance(const FreeTranslation& free, Level& level) {
+  if (free.motion.isZero(0)) return;
+  for (int side = 0; side < 2; ++side) {
+    balance(free.motion, Eigen::RowVectorXd::Zero(level.S.cols()), level.S);
+    level.S.transposeInPlace();
+  }
+  level.S = (0.5 * (level.S + level.S.transpose())).eval();
+  balance(free.motion, free.friction, level.R);
+  balance(free.motion, free.traction, level.T);
+}
+
+void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
+  const auto e = a.n_externals(), m = a.n_discs();
+  for (auto* each : {&a.S_ee, &a.S_ed, &a.S_dd, &a.R_ef, &a.R_df, &a.T_e, &a.T_d}) each->clear();
+  for (const auto& [S, R, T] : levels) {
+    a.S_ee.push_back(S.topLeftCorner(e, e));
+    a.S_ed.push_back(S.topRightCorner(e, m));
+    a.S_dd.push_back(S.bottomRightCorner(m, m));
+    a.R_ef.push_back(R.topRows(e));
+    a.R_df.push_back(R.bottomRows(m));
+    a.T_e.push_back(T.topRows(e));
+    a.T_d.push_back(T.bottomRows(m));
+  }
+}
+
 /// What stage 1 found of the scene's own loads, for readers of MATRICES.h5.
 void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
   constexpr double degrees = 360 / pfem::full_turn;
@@ -66,20 +102,14 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   const auto m = a.n_discs();
   pfem::CondensedLevels levels;
   auto& S = levels.S;
+  std::vector<Level> solved;
   for (std::size_t level = 0; level < plate.cases.size(); ++level) {
     S.push_back(pfem::condensed_stiffness(plate.cases[level].E_c, plate.shift, plate.K_cc));
-    a.S_ee.push_back(S.back().topLeftCorner(e, e));
-    a.S_ed.push_back(S.back().topRightCorner(e, m));
-    a.S_dd.push_back(S.back().bottomRightCorner(m, m));
-    const Eigen::MatrixXd R = friction_reactions(plate, level);
-    levels.R.push_back(R);
-    a.R_ef.push_back(R.topRows(e));
-    a.R_df.push_back(R.bottomRows(m));
-    const Eigen::MatrixXd T = traction_reactions(plate, level);
-    a.T_e.push_back(T.topRows(e));
-    a.T_d.push_back(T.bottomRows(m));
+    levels.R.push_back(friction_reactions(plate, level));
+    solved.push_back({S.back(), levels.R.back(), traction_reactions(plate, level)});
     a.C_t.push_back(traction_compliance(plate, level));
   }
+  store(solved, a);
   levels.C = a.C_t;
   levels.rounding = plate.probe.rounding;
   const double fastest = pfem::fastest_rate(plate.elasticity);
@@ -90,7 +120,10 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   a.stresses = extract_stresses(plate, file);
   carry_over_loads(plate, a);
   result.errors = pfem::relative_errors(levels, plate.p, plate.K_cc, fastest);
-  result.checks = check(plate, a, S.back());
+  result.checks = check(plate, a, S.back());  // of what was solved, before it is balanced
+  for (const auto& free : free_translations(plate, a.friction_resultant))
+    for (auto& level : solved) balance(free, level);
+  store(solved, a);
   return result;
 }
 

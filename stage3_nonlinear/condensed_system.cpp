@@ -189,7 +189,10 @@ VectorXd without_rounding(const VectorXd& q, double largest_load) {
 
 CondensedSystem condense(const JointModel& joint) {
   const Rows rows = assemble(joint);
-  const Saddle saddle(rows.S(rows.free, rows.free), rows.B(rows.free, Eigen::all));
+  VectorXd own(joint.n_unknowns());
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(joint.plates[i].S.diagonal().maxCoeff());
+  const Saddle saddle(rows.S(rows.free, rows.free), own(rows.free), rows.B(rows.free, Eigen::all));
   if (!saddle.is_regular()) fail_as_mechanism(joint, rows, saddle);
   const MatrixXd rhs = right_hand_sides(rows);
   return unpack(rows, rhs, saddle.solve(rhs));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/LU>
+#include <algorithm>
 
 namespace fastjoint::stage3 {
 
@@ -9,6 +10,11 @@ namespace fastjoint::stage3 {
 /// may then drop the infinity that it meets.
 [[nodiscard]] inline double reciprocal_condition(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu) {
   return (lu.matrixLU().diagonal().array() == 0).any() ? 0 : lu.rcond();
+}
+
+/// The same of a matrix of order 1, which is singular also if all of it is small.
+[[nodiscard]] inline double least_stretch(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu, const Eigen::MatrixXd& A) {
+  return reciprocal_condition(lu) * std::min(1.0, A.cwiseAbs().colwise().sum().maxCoeff());
 }
 
 }  // namespace fastjoint::stage3

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -186,6 +187,25 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;
   if (state.sheets_out_of_balance) *state.sheets_out_of_balance /= state.largest_force;
   return state;
+}
+
+std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system, double tolerance,
+                                        LoadPath& path) {
+  const double allowed = std::max(1e-8, 10 * tolerance);
+  std::vector<JointState> states;
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    JointState state = joint_state(joint, system, path.steps[i]);
+    const double worst =
+        std::max({state.out_of_balance, state.fasteners_out_of_balance, state.sheets_out_of_balance.value_or(0)});
+    if (!(worst <= allowed)) {
+      path.failure =
+          PathFailure{i, path.steps[i].load_factor, i > 0 ? path.steps[i - 1].load_factor : 0, 0, 0, {}, {}, worst};
+      path.steps.erase(path.steps.begin() + static_cast<std::ptrdiff_t>(i), path.steps.end());
+      break;
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
 }
 
 VectorXd shares(const JointModel& joint, const VectorXd& transferred) {

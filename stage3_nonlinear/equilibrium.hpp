@@ -38,6 +38,11 @@ struct JointState {
   std::optional<double> sheets_out_of_balance;
 };
 
+/// The states of all steps. A path whose forces do not balance, to 1e-8 of the largest or to what the solver's
+/// tolerance leaves, ends there: rounding carries load.
+[[nodiscard]] std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system,
+                                                      double tolerance, LoadPath& path);
+
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 
 /// Per cent of the sum over all planes between the same two plates, whichever their fasteners name first, shape (n);

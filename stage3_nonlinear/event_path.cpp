@@ -37,11 +37,10 @@ std::vector<EventPlace> events_of(const ExactPath& path, const ContactMarks& mar
 }
 
 /// Those of the exact path if it reaches the full load, else what a search by `walk` finds.
-FoundEvents find_events(const JointEquations& equations, const PathOptions& options,
-                        const std::vector<ExactPath>& exact, double scale, Walk& walk) {
+FoundEvents find_events(const JointEquations& equations, const std::vector<ExactPath>& exact, Walk& walk) {
   const ContactMarks marks(equations.contacts);
   if (!exact.empty() && exact[0].reach() >= 1) return {events_of(exact[0], marks), std::nullopt};
-  return search_events(equations, options, marks, scale, walk);
+  return search_events(equations, marks, walk);
 }
 
 }  // namespace
@@ -53,19 +52,21 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   LoadPath path{.force_scale = force_scale(equations.system, end), .steps = {}, .failure = {}};
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
-  Walk walk(equations, options, path.force_scale, exact);
-  const auto [events, failed] = find_events(equations, options, exact, path.force_scale, walk);
+  Walk walk(equations, options, exact);
+  const auto [events, failed] = find_events(equations, exact, walk);
   if (failed) path.failure = walk.failure(events.size(), *failed);
   for (const auto& event : events) {
     walk.put(event.place, event.iterations);
     path.steps.push_back(walk.step());
     path.steps.back().events = event.events;
   }
+  path.left = walk.left();
   const bool ends_there = !failed && !events.empty() && events.back().place.load_factor >= at_end;
   path.n_increments = events.size() + (ends_there ? 0 : 1);
   if (failed || ends_there) return path;
   if (walk.reach(1)) {
     path.steps.push_back(walk.step());
+    path.left = walk.left();
   } else {
     path.failure = walk.failure(events.size(), 1);
   }

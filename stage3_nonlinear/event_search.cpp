@@ -35,13 +35,12 @@ struct Crossing {
 
 class Search {
  public:
-  Search(const JointEquations& equations, const PathOptions& options, const ContactMarks& marks, double scale,
-         Walk& walk)
-      : equations_(equations), options_(options), marks_(marks), scale_(scale), walk_(walk) {}
+  Search(const JointEquations& equations, const ContactMarks& marks, Walk& walk)
+      : equations_(equations), marks_(marks), walk_(walk) {}
 
   FoundEvents run() {
     constexpr int intervals = 8;
-    const auto first = start();
+    const auto first = solved(first_load_factor);
     if (!first) return std::move(found_);
     Sample here = *first;
     for (int i = 1; i <= intervals; ++i) {
@@ -54,16 +53,8 @@ class Search {
   }
 
  private:
-  /// The first state, its residuals relative to its own small load.
-  std::optional<Sample> start() {
-    Walk first(equations_, options_, first_load_factor * scale_);
-    const bool found = first.reach(first_load_factor);
-    if (found) walk_.put(first.here(), 0);
-    return solved(first_load_factor, found);
-  }
-
-  std::optional<Sample> solved(double load, bool there = false) {
-    if (there || walk_.reach(load)) return Sample{load, walk_.here().c, marks_.stages(walk_.here().c)};
+  std::optional<Sample> solved(double load) {
+    if (walk_.reach(load)) return Sample{load, walk_.here().c, marks_.stages(walk_.here().c)};
     found_.failed = load;
     return std::nullopt;
   }
@@ -118,37 +109,49 @@ class Search {
     const Index rows = equations_.n_unknowns();
     const auto own = Eigen::seqN(plane * n_directions, n_directions);
     const auto position = [&](const VectorXd& c) { return amounts(c(own), n_directions)[0]; };
+    double unit = 1;
     RootProblem problem;
     problem.residual = [&](const VectorXd& x) -> VectorXd {
       VectorXd r(rows + 1);
-      r << root_problem(equations_, x[rows], scale_).residual(x.head(rows)), position(x.head(rows)) - mark / scale_;
+      r << root_problem(equations_, x[rows], unit).residual(x.head(rows)), position(x.head(rows)) - mark / unit;
       return r;
     };
     problem.jacobian = [&](const VectorXd& x) -> MatrixXd {
       MatrixXd J = MatrixXd::Zero(rows + 1, rows + 1);
-      J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], scale_).jacobian(x.head(rows));
-      J.col(rows).head(rows) = -equations_.system.q / scale_;
+      J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], unit).jacobian(x.head(rows));
+      J.col(rows).head(rows) = -equations_.system.q / unit;
       const VectorXd c = x(own);
       J.row(rows)(own) = n_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
       return J;
     };
     const double from = position(a.c), to = position(b.c);
     const double share = from == to ? 0.5 : std::clamp((mark - from) / (to - from), 0.0, 1.0);
-    VectorXd start(rows + 1);
-    start << ((1 - share) * a.c + share * b.c) / scale_, (1 - share) * a.load + share * b.load;
-    if (!(start(own).norm() > 0)) return std::nullopt;
+    VectorXd c = (1 - share) * a.c + share * b.c;
+    if (!(c(own).norm() > 0)) return std::nullopt;
     constexpr double tolerance = 1e-13, enough = 1e-11;
     constexpr int most_iterations = 60;
-    const Root root = newton_root(problem, start, {tolerance, most_iterations});
-    if (!(root.residual.lpNorm<Eigen::Infinity>() <= enough)) return std::nullopt;
-    VectorXd c = scale_ * root.x.head(rows);
+    double load = (1 - share) * a.load + share * b.load;
+    int iterations = 0;
+    for (const bool again : {false, true}) {  // relative to the full load, then if need be to its own
+      unit = force_scale(equations_.system, {again ? load : 1});
+      VectorXd start(rows + 1);
+      start << c / unit, load;
+      const Root root = newton_root(problem, start, {again ? enough : tolerance, most_iterations});
+      if (!(root.residual.lpNorm<Eigen::Infinity>() <= enough)) {
+        if (again) break;
+        return std::nullopt;
+      }
+      c = unit * root.x.head(rows);
+      load = root.x[rows];
+      iterations += root.iterations;
+    }
     // Exactly on it: then nothing bears yet.
     if (n_directions == 1) {
       c[plane] = mark;
     } else {
       c(own) *= mark / position(c);
     }
-    return Crossing{root.x[rows], std::move(c), root.iterations};
+    return Crossing{load, std::move(c), iterations};
   }
 
   /// The first crossing of those that the stages tell of, if nothing else has happened before.
@@ -192,7 +195,8 @@ class Search {
 
   /// dc / d load factor.
   [[nodiscard]] VectorXd rate(const Sample& at) const {
-    const MatrixXd J = root_problem(equations_, at.load, scale_).jacobian(at.c / scale_);
+    const double unit = force_scale(equations_.system, {at.load});
+    const MatrixXd J = root_problem(equations_, at.load, unit).jacobian(at.c / unit);
     return J.partialPivLu().solve(equations_.system.q);
   }
 
@@ -220,9 +224,7 @@ class Search {
   }
 
   const JointEquations& equations_;
-  const PathOptions& options_;
   const ContactMarks& marks_;
-  double scale_;
   Walk& walk_;
   FoundEvents found_;
 };
@@ -243,9 +245,8 @@ void join_events(std::vector<EventPlace>& events) {
 
 }  // namespace
 
-FoundEvents search_events(const JointEquations& equations, const PathOptions& options, const ContactMarks& marks,
-                          double scale, Walk& walk) {
-  FoundEvents found = Search(equations, options, marks, scale, walk).run();
+FoundEvents search_events(const JointEquations& equations, const ContactMarks& marks, Walk& walk) {
+  FoundEvents found = Search(equations, marks, walk).run();
   join_events(found.events);
   return found;
 }

@@ -26,9 +26,6 @@ struct FoundEvents {
 };
 
 /// Searches the load factors between first_load_factor and 1 for events by states that `walk` solves.
-///
-/// @param scale Force that residuals are relative to.
-[[nodiscard]] FoundEvents search_events(const JointEquations& equations, const PathOptions& options,
-                                        const ContactMarks& marks, double scale, Walk& walk);
+[[nodiscard]] FoundEvents search_events(const JointEquations& equations, const ContactMarks& marks, Walk& walk);
 
 }  // namespace fastjoint::stage3

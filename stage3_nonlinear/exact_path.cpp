@@ -131,7 +131,7 @@ class Tracer {
     const auto [J, offset] = joint_.equations(cell_);
     const Eigen::PartialPivLU<MatrixXd> lu(J);
     constexpr double singular = 1e-13;
-    if (reciprocal_condition(lu) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
+    if (least_stretch(lu, J) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
     return line_without_stiffness(J);
   }
 

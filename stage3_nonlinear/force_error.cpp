@@ -64,6 +64,7 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
     const PlateModel& plate = joint.plates[i];
     result += plate_errors(plate, w.middleCols(joint.offset(i), plate.n_unknowns()), solution.plates[i]);
   }
+  if (step.check.at_limit_load()) result.setConstant(infinite);
   for (const Index row : slopes.no_row) result[row / joint.n_directions()] = infinite;
   return result;
 }

@@ -52,7 +52,7 @@ Slopes implicit_slopes(const CondensedSystem& system, const ContactState& state,
   const VectorXd scale = scale_columns(J);
   F_c *= scale.cwiseInverse().asDiagonal();
   const Eigen::PartialPivLU<MatrixXd> lu(J);
-  if (reciprocal_condition(lu) > singular_tangent) return {-F_c * lu.solve(residual), {}, {}};
+  if (least_stretch(lu, J) > singular_tangent) return {-F_c * lu.solve(residual), {}, {}};
   return solve_singular(J, F_c, -residual);
 }
 

@@ -58,7 +58,7 @@ struct InitialScene {
 
 struct SolverScene {
   std::string method{};      ///< of method_names(); empty: the exact path where it applies, else the default solver
-  double tolerance = 1e-10;  ///< largest residual, relative to the largest force
+  double tolerance = 1e-10;  ///< largest residual, relative to the largest force of the increment
   int max_iterations = 200;  ///< of one try
 };
 

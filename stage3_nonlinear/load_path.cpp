@@ -31,7 +31,8 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
     if (!forces) forces = linear_forces(equations.system, *flexibility, factor < 0 ? -1 : 1);
     const VectorXd F = std::abs(factor) * forces->F;
     const VectorXd delta = flexibility->cwiseProduct(F);
-    const double residual = equations.system.residual(F, delta, factor).lpNorm<Eigen::Infinity>() / path.force_scale;
+    const double residual =
+        equations.system.residual(F, delta, factor).lpNorm<Eigen::Infinity>() / force_scale(equations.system, {factor});
     if (!forces->consistent || !(residual <= tolerance)) return std::nullopt;
     const auto state = contact_state(equations.contacts, contact_coordinates(equations.contacts, F));
     path.steps.push_back({factor, F, delta, forces->solves, residual, check_tangent(equations, state)});
@@ -54,7 +55,7 @@ LoadPath walk_along(const JointEquations& equations, const std::vector<double>& 
                 .n_increments = load_factors.size(),
                 .steps = {},
                 .failure = {}};
-  Walk walk(equations, options, path.force_scale, std::move(exact));
+  Walk walk(equations, options, std::move(exact));
   const ContactMarks marks(equations.contacts);
   for (std::size_t i = 0; i < load_factors.size(); ++i) {
     const VectorXd before = walk.here().c;
@@ -65,6 +66,7 @@ LoadPath walk_along(const JointEquations& equations, const std::vector<double>& 
     path.steps.push_back(walk.step());
     path.steps.back().events = marks.at(before, walk.here().c);
   }
+  path.left = walk.left();
   return path;
 }
 

@@ -20,7 +20,7 @@ struct PathStep {
   double load_factor;
   Eigen::VectorXd F, delta;  ///< (n a) force, length
   int iterations;            ///< of all tries; on an exact path its pieces from no load on
-  double residual;           ///< largest, relative to the largest force
+  double residual;           ///< largest, relative to the largest |q| at this load factor
   TangentCheck check;
   bool exact = false;                     ///< on an exact path
   std::vector<ContactEvent> events = {};  ///< what happens exactly here
@@ -28,21 +28,31 @@ struct PathStep {
 
 /// Where a path ended early.
 struct PathFailure {
-  std::size_t increment;          ///< 0-based
-  double load_factor;             ///< that was asked for
-  double reached;                 ///< largest part of it that converged
-  Eigen::Index plane;             ///< with the worst residual in the best try
-  double residual;                ///< there, relative to the largest force; infinite if each try left it spent
+  std::size_t increment;  ///< 0-based
+  double load_factor;     ///< that was asked for
+  double reached;         ///< largest part of it that converged
+  Eigen::Index plane;     ///< with the worst residual in the best try
+  double residual;        ///< there, relative to the load asked for; infinite if each try left it spent
+  /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
+  std::vector<Eigen::Index> level;
   std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
+  double out_of_balance = 0;      ///< of an increment that converged, where that is why: over the largest force
+};
+
+/// Where a solution is not on the path from no load.
+struct PathLeft {
+  double load_factor;
+  bool guessed;  ///< found from a first guess; else by a jump from the state before
 };
 
 struct LoadPath {
   bool linear = false;  ///< linear solves did it
-  /// What residuals are relative to: the largest |q| at the largest load factor, force.
+  /// The largest |q| at the largest load factor, force.
   double force_scale = 1;
   std::size_t n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
+  std::optional<PathLeft> left = {};  ///< the first such place; only where the solution may be one of several
 };
 
 struct PathOptions {
@@ -52,9 +62,12 @@ struct PathOptions {
 
 /// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap, linear
 /// solves do it; if all are linear between corners, their exact path as far as it goes, unless the options are against
-/// it. Else the chosen solver in the contact coordinates; what does not converge is tried from the first guesses in
-/// turn, then by damped Newton from the same, with friction also by turns of damped Newton under the friction of the
-/// turn before, then in half steps.
+/// it. Else the chosen solver in the contact coordinates from the last state, then damped Newton, then both in half
+/// steps. Only what cannot be reached so is tried from the first guesses, by the same, with friction also by turns of
+/// damped Newton under the friction of the turn before, at last in half steps.
+///
+/// The first increment begins with the first guesses, unless the solution may be one of several: then at no load. There
+/// each step must also agree with two half steps; one that does not, however short, is a jump.
 [[nodiscard]] LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors,
                               const PathOptions& options);
 

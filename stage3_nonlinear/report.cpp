@@ -61,6 +61,20 @@ std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) 
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+void warn_of_soft_plates(const JointModel& joint, std::vector<std::string>& result) {
+  constexpr double soft = 1e-8;
+  const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
+  const auto stiffest =
+      std::max_element(joint.plates.begin(), joint.plates.end(),
+                       [&](const PlateModel& a, const PlateModel& b) { return stiffness(a) < stiffness(b); });
+  for (const auto& plate : joint.plates)
+    if (const double share = stiffness(plate) / stiffness(*stiffest); share > 0 && share < soft)
+      result.push_back(
+          fmt::format("{}: plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the "
+                      "same units, and that its moduli and thickness are meant",
+                      joint.file, plate.name, share, stiffest->name));
+}
+
 /// Once per law.
 void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& result) {
   std::set<std::string> said;
@@ -80,30 +94,47 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& re
 }
 
 void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
-  for (const auto& step : path.steps) {
-    if (!step.check.mechanism) continue;
-    const Mechanism& mechanism = *step.check.mechanism;
-    result.push_back(fmt::format(
-        "{}: at load factor {:.6g} the joint is a mechanism within the gaps of {}: the forces are right, the "
-        "displacements are one of many; in proportion, it is free to move {}",
-        joint.file, step.load_factor, names(joint, mechanism.open), motion_text(joint, mechanism.motion)));
-    return;
-  }
+  for (const bool limit : {false, true})
+    for (const auto& step : path.steps) {
+      if (!step.check.mechanism || step.check.at_limit_load() != limit) continue;
+      const Mechanism& mechanism = *step.check.mechanism;
+      const std::string free = motion_text(joint, mechanism.motion);
+      result.push_back(
+          limit ? fmt::format("{}: limit load reached at load factor {:.6g}: {} carry all that their laws allow, and "
+                              "nothing else holds the joint; it moves on without more load, in proportion {}",
+                              joint.file, step.load_factor, names(joint, mechanism.level), free)
+                : fmt::format("{}: at load factor {:.6g} the joint is a mechanism within the gaps of {}: the forces "
+                              "are right, the displacements are one of many; in proportion, it is free to move {}",
+                              joint.file, step.load_factor, names(joint, mechanism.open), free));
+      break;
+    }
 }
 
 void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                              std::vector<std::string>& result) {
-  if (const auto planes = planes_that_may_snap(equations); !planes.empty())
+  if (const auto planes = planes_that_may_snap(equations); !planes.empty()) {
+    const std::string found = !path.left ? "the one given is followed from no load"
+                              : path.left->guessed
+                                  ? fmt::format(
+                                        "at load factor {:.6g} it could not be followed from the load before, and "
+                                        "the one given was found from a first guess (\"initial\")",
+                                        path.left->load_factor)
+                                  : fmt::format(
+                                        "it is followed from no load up to load factor {:.6g}, where it jumps: the "
+                                        "one given from there on is another",
+                                        path.left->load_factor);
     result.push_back(
         fmt::format("{}: the law of {} falls more steeply than the plates hold against: the solution may be one of "
-                    "several; the one given is followed from the load before",
-                    joint.file, names(joint, planes)));
+                    "several; {}",
+                    joint.file, names(joint, planes), found));
+  }
   for (const auto& step : path.steps)
-    if (step.check.turned && !step.check.locking) {
-      result.push_back(
-          fmt::format("{}: at load factor {:.6g} the tangent of the joint has lost its sign: the solution "
-                      "balances, but is not stable; a load beyond it snaps through",
-                      joint.file, step.load_factor));
+    if (step.check.unstable > 0 && !step.check.locking) {
+      result.push_back(fmt::format(
+          "{}: at load factor {:.6g} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): "
+          "in reality it snaps through before; take a law that does not fall, or hold the joint by displacements",
+          joint.file, step.load_factor,
+          step.check.unstable == 1 ? "one way" : fmt::format("{} ways", step.check.unstable)));
       break;
     }
 }
@@ -158,6 +189,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
   std::vector<std::string> result;
+  warn_of_soft_plates(joint, result);
   warn_of_bearing_twice(joint, result);
   warn_beyond_last_point(joint, path, result);
   warn_mechanism(joint, path, result);
@@ -169,24 +201,37 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
 
 std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
                             std::size_t n_increments, const std::string& output) {
+  if (failure.out_of_balance > 0)
+    return fmt::format(
+        "{}: increment {} of {} (load factor {:.6g}) converged, but a row, a fastener or a sheet is out of balance by "
+        "{:.1e} of the largest force, allowed 1e-08 or 10 times the tolerance. {} holds the {} increments before "
+        "(complete = 0). Rounding carries load there: see that fasteners or supports hold each plate in the sense of "
+        "its load; of matrices made by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
+        scene.file, failure.increment + 1, n_increments, failure.load_factor, failure.out_of_balance, output,
+        failure.increment);
   const std::string at = std::isfinite(failure.residual)
-                             ? fmt::format("worst residual {:.2e} of the largest force, at", failure.residual)
+                             ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
   const std::string what = fmt::format(
-      "increment {} of {} (load factor {:.6g}) did not converge from the last increment, from any first "
-      "guess, or after {} halvings of the step; load factor {:.6g} was reached; {} {}",
+      "increment {} of {} (load factor {:.6g}) did not converge from the last increment, in half steps "
+      "({} times halved), or from any first guess; load factor {:.6g} was reached; {} {}",
       failure.increment + 1, n_increments, failure.load_factor, max_halvings, failure.reached, at,
       joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
-  const std::string advice = fmt::format(
-      "Check the law and the clearance of that fastener (a cubic that turns down carries no more than its "
-      "peak, a law that ends level no more than its last force), take smaller increments, allow more than {} "
-      "iterations or, if the residual is close to it, a "
-      "larger tolerance than {:.0e}; and see that each plate is held in the sense of its load: one that "
-      "only fasteners hold has no stiffness while all of them are open, and one-sided fasteners cannot "
-      "pull it",
-      scene.solver.max_iterations, scene.solver.tolerance);
+  const std::string advice =
+      failure.level.empty()
+          ? fmt::format(
+                "Check the law and the clearance of that fastener, take smaller increments, allow more than {} "
+                "iterations or, if the residual is close to it, a larger tolerance than {:.0e}; and see that each "
+                "plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of "
+                "them are open, and one-sided fasteners cannot pull it",
+                scene.solver.max_iterations, scene.solver.tolerance)
+          : fmt::format(
+                "Limit load reached: beyond load factor {:.6g} {} carry all that their laws allow (a law that ends "
+                "level no more than its last force, a cubic that turns down no more than its peak), and nothing else "
+                "holds the joint; take smaller loads, or more or stronger fasteners",
+                failure.reached, names(joint, failure.level));
   return fmt::format("{}: {}. {} holds the {} increments before (complete = 0). {}{}", scene.file, what, output,
                      failure.increment, locking, advice);
 }

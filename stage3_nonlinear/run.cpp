@@ -60,14 +60,10 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
   const PathOptions solving{scene.initial, scene.solver};
-  const LoadPath path =
-      scene.at_events ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
+  LoadPath path = scene.at_events ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
+  const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, path);
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));
-
-  std::vector<JointState> states;
-  states.reserve(path.steps.size());
-  for (const auto& step : path.steps) states.push_back(joint_state(joint, equations.system, step));
   warn(log, rim_warnings(joint, states));
   auto result = joint_result(joint, path, states);
   result.header = {options.generator, scene.name, joint.units, document.text};

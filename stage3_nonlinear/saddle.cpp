@@ -11,14 +11,14 @@ namespace fastjoint::stage3 {
 namespace {
 
 /// Stage 2's rounding leaves a floating sheet about 1e-12 of its stiffness; a long chain of fasteners needs
-/// 1e-6.
+/// 1e-6. A sheet may be as much softer than its neighbours as it likes: its rows are scaled by its own stiffness.
 constexpr double singular = 1e-10;
 
-Eigen::VectorXd scales(const Eigen::MatrixXd& S, const Eigen::MatrixXd& B) {
+Eigen::VectorXd scales(const Eigen::MatrixXd& S, const Eigen::VectorXd& own, const Eigen::MatrixXd& B) {
   const double largest = S.diagonal().maxCoeff();
   Eigen::VectorXd scale(S.rows() + B.cols());
   for (Eigen::Index i = 0; i < S.rows(); ++i)
-    scale[i] = 1 / std::sqrt(S(i, i) > singular * largest ? S(i, i) : largest > 0 ? largest : 1.0);
+    scale[i] = 1 / std::sqrt(S(i, i) > singular * own[i] ? S(i, i) : own[i] > 0 ? own[i] : largest > 0 ? largest : 1.0);
   for (Eigen::Index j = 0; j < B.cols(); ++j)
     scale[S.rows() + j] = 1 / B.col(j).cwiseAbs().cwiseProduct(scale.head(S.rows())).maxCoeff();
   return scale;
@@ -26,8 +26,8 @@ Eigen::VectorXd scales(const Eigen::MatrixXd& S, const Eigen::MatrixXd& B) {
 
 }  // namespace
 
-Saddle::Saddle(const Eigen::MatrixXd& S, const Eigen::MatrixXd& B)
-    : scale_(scales(S, B)), matrix_(S.rows() + B.cols(), S.rows() + B.cols()), n_displacements_(S.rows()) {
+Saddle::Saddle(const Eigen::MatrixXd& S, const Eigen::VectorXd& own, const Eigen::MatrixXd& B)
+    : scale_(scales(S, own, B)), matrix_(S.rows() + B.cols(), S.rows() + B.cols()), n_displacements_(S.rows()) {
   assert(S.rows() == S.cols() && S.rows() == B.rows());
   matrix_ << S, B, B.transpose(), Eigen::MatrixXd::Zero(B.cols(), B.cols());
   matrix_ = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();

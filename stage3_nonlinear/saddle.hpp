@@ -11,8 +11,9 @@ namespace fastjoint::stage3 {
 class Saddle {
  public:
   /// @param S Symmetric, positive semi-definite, shape (N, N), force / length.
+  /// @param own Stiffness of each unknown's plate, shape (N), force / length; 0 of a plate without any.
   /// @param B Shape (N, n a): of each shear plane and direction, +1 at the first disc, -1 at the second.
-  Saddle(const Eigen::MatrixXd& S, const Eigen::MatrixXd& B);
+  Saddle(const Eigen::MatrixXd& S, const Eigen::VectorXd& own, const Eigen::MatrixXd& B);
 
   /// False if some motion meets no stiffness while B^T holds.
   [[nodiscard]] bool is_regular() const;

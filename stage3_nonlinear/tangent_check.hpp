@@ -12,31 +12,38 @@ namespace fastjoint::stage3 {
 /// Reciprocal condition, with columns scaled, below which a tangent is singular.
 inline constexpr double singular_tangent = 1e-10;
 
-/// Gives A columns of largest entry 1 and returns what they were divided by.
+/// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
+/// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
 Eigen::VectorXd scale_columns(Eigen::MatrixXd& A);
 
-/// A way for the joint to move that meets no stiffness at a solution: open fasteners alone hold some plate, whose
-/// place within their gaps is not determined.
+/// A way for the joint to move that meets no stiffness at a solution.
 struct Mechanism {
-  std::vector<Eigen::Index> open;  ///< shear planes
-  Eigen::VectorXd motion;          ///< (N) displacements, largest entry 1
+  std::vector<Eigen::Index> open;   ///< shear planes that move within their gaps
+  std::vector<Eigen::Index> level;  ///< those that move under a force that does not grow: with any, a limit load
+  Eigen::VectorXd motion;           ///< (N) displacements, largest entry 1
 };
 
 /// What the tangent at a solution says of it.
 struct TangentCheck {
+  /// If no plane is level, open ones alone hold some plate, whose place within their gaps is not determined.
   std::optional<Mechanism> mechanism;
-  /// The determinant of the tangent is negative: a load a little larger would need smaller displacements. Never
-  /// without friction or a law that falls.
-  bool turned = false;
-  /// Where it is at most 1: the factor on all friction at which I + H E, theory.md's I - R M of all plates together,
-  /// becomes singular on the sides that bear (self-locking).
+  /// Number of ways in which the solution is unstable: eigenvalues of the tangent with a negative real part. Without
+  /// friction they are as many as those of S_ud + dF/d delta. None without friction or a law that falls.
+  Eigen::Index unstable = 0;
+  /// Friction reserve: the factor on all coefficients of friction at which I + H E, theory.md's I - R M of all plates
+  /// together, becomes singular on the sides that bear (self-locking), if it is at most 1; else empty.
   std::optional<double> locking;
+
+  [[nodiscard]] bool at_limit_load() const { return mechanism && !mechanism->level.empty(); }
 };
 
 [[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state);
 
 /// The same factor for the sides that bear under the forces F, (n a).
 [[nodiscard]] std::optional<double> self_locking(const CondensedSystem& system, const Eigen::VectorXd& F);
+
+/// Planes that at the contact coordinates c, (n a), carry all that their laws allow, if nothing else holds the joint.
+[[nodiscard]] std::vector<Eigen::Index> level_planes(const JointEquations& equations, const Eigen::VectorXd& c);
 
 /// Planes whose laws may fall more steeply than the plates hold against: S_ud + diag(least slopes) is not positive
 /// definite, so that the solution may be one of several. Empty if the joint has one solution only (friction aside).

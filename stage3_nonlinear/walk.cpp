@@ -21,17 +21,37 @@ double force_scale(const CondensedSystem& system, const std::vector<double>& loa
   return scale > 0 ? scale : 1;
 }
 
-Walk::Walk(const JointEquations& equations, const PathOptions& options, double scale, std::vector<ExactPath> exact)
+Walk::Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact)
     : equations_(equations),
       options_(options),
       solver_(solver_named(iterative_method(options.solver.method))),
-      scale_(scale),
+      may_snap_(!planes_that_may_snap(equations).empty()),
       exact_(std::move(exact)),
-      here_{0, VectorXd::Zero(equations.n_unknowns())} {}
+      here_{0, VectorXd::Zero(equations.n_unknowns())} {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  for (const Contact& contact : equations.contacts)
+    rounding_ = std::max(rounding_, rounding * contact.stiffness * contact.law->gap(contact.clearance));
+}
+
+bool Walk::is_small(double residual) const {
+  return residual <= std::max(options_.solver.tolerance * scale_, rounding_);
+}
 
 bool Walk::reach(double target) {
   iterations_ = 0;
-  return advance(target, max_halvings);
+  for (const auto& path : exact_)  // its end tells where to go on from
+    if (path.sign * target > path.reach() && path.reach() > path.sign * here_.load_factor)
+      solve_from_here(path.sign * path.reach());
+  const Place before = here_;
+  const bool started = may_snap_ || here_.load_factor != 0;
+  if (started && follow(target, max_halvings)) return true;
+  const Place furthest = std::exchange(here_, before);
+  if (!guess(target, max_halvings)) {
+    if (std::abs(target - furthest.load_factor) < std::abs(target - here_.load_factor)) here_ = furthest;
+    return false;
+  }
+  if (may_snap_ && !left_) left_ = {target, true};
+  return true;
 }
 
 void Walk::put(Place place, int iterations) {
@@ -42,18 +62,22 @@ void Walk::put(Place place, int iterations) {
 PathStep Walk::step() const {
   const auto state = contact_state(equations_.contacts, here_.c);
   const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor);
+  // On a corner of its law the side counts on which a fastener bears more.
+  const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
   return {.load_factor = here_.load_factor,
           .F = state.F,
           .delta = state.delta,
           .iterations = iterations_,
-          .residual = r.lpNorm<Eigen::Infinity>() / scale_,
-          .check = check_tangent(equations_, state),
+          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_.system, {here_.load_factor}),
+          .check = check_tangent(equations_, contact_state(equations_.contacts, beyond)),
           .exact = here_.exact};
 }
 
 PathFailure Walk::failure(std::size_t increment, double load_factor) const {
-  return {increment,       load_factor,         here_.load_factor, worst_row_ / equations_.n_directions(),
-          worst_residual_, locking(load_factor)};
+  return {increment,           load_factor,
+          here_.load_factor,   worst_row_ / equations_.n_directions(),
+          worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
+          locking(load_factor)};
 }
 
 std::optional<double> Walk::locking(double load_factor) const {
@@ -62,32 +86,62 @@ std::optional<double> Walk::locking(double load_factor) const {
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
 
-bool Walk::advance(double target, int halvings_left) {
-  if (solve(target)) return true;
-  if (halvings_left == 0) return false;
-  const double middle = 0.5 * (here_.load_factor + target);
-  return advance(middle, halvings_left - 1) && advance(target, halvings_left - 1);
+/// From the last state only.
+bool Walk::follow(double target, int halvings_left) {
+  const Place start = here_;
+  const bool whole = solve_from_here(target);
+  if (whole && (target == 0 || here_.exact || !may_snap_)) return true;
+  const Place there = here_;
+  const double middle = 0.5 * (start.load_factor + target);
+  if (whole) {
+    here_ = start;
+    constexpr double same = 1e-3;
+    if (solve_from_here(middle) && solve_from_here(target) &&
+        (here_.c - there.c).cwiseAbs().maxCoeff() <= same * there.c.cwiseAbs().maxCoeff())
+      return true;
+  }
+  here_ = start;
+  if (halvings_left > 0) return follow(middle, halvings_left - 1) && follow(target, halvings_left - 1);
+  if (!whole) return false;
+  here_ = there;
+  if (!left_) left_ = {target, false};
+  return true;
 }
 
-bool Walk::solve(double target) {
+bool Walk::guess(double target, int halvings_left) {
+  if (take_known(target) || solve_from_guesses(target)) return true;
+  if (halvings_left == 0) return false;
+  const double middle = 0.5 * (here_.load_factor + target);
+  return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
+}
+
+bool Walk::solve_from_here(double target) { return take_known(target) || solve_from({here_.c}, target); }
+
+bool Walk::take_known(double target) {
+  worst_residual_ = std::numeric_limits<double>::infinity();
+  scale_ = force_scale(equations_.system, {target});
   if (target == 0) {  // without load the joint as it was built is in equilibrium, exactly
     here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
     return true;
   }
-  if (take_exact(target)) return true;
-  worst_residual_ = std::numeric_limits<double>::infinity();
+  return take_exact(target);
+}
+
+bool Walk::solve_from_guesses(double target) {
+  auto starts = first_guesses(equations_, options_.initial, target);
+  starts.insert(here_.load_factor != 0 ? starts.begin() : starts.end(), here_.c);
+  if (may_snap_)  // far out, where nothing else has led to any of several solutions
+    for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
+  return solve_from(starts, target) || solve_by_turns(target);
+}
+
+bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
   const auto problem = root_problem(equations_, target, scale_);
   const auto solved_by = [&](SolveFunction solver) {
-    return
-        [this, &problem, target, solver](const VectorXd& start) { return take(run(problem, start, solver), target); };
+    return std::any_of(starts.begin(), starts.end(),
+                       [&](const VectorXd& start) { return take(run(problem, start, solver), target); });
   };
-  const bool started = here_.load_factor != 0;
-  if (started && solved_by(solver_)(here_.c)) return true;
-  auto starts = first_guesses(equations_, options_.initial, target);
-  if (std::any_of(starts.begin(), starts.end(), solved_by(solver_))) return true;
-  starts.insert(starts.begin(), here_.c);
-  if (solver_ != newton_root && std::any_of(starts.begin(), starts.end(), solved_by(newton_root))) return true;
-  return solve_by_turns(target, problem);
+  return solved_by(solver_) || (solver_ != newton_root && solved_by(newton_root));
 }
 
 bool Walk::take_exact(double target) {
@@ -96,7 +150,7 @@ bool Walk::take_exact(double target) {
     const VectorXd c = path.at(target);
     const auto state = contact_state(equations_.contacts, c);
     const VectorXd r = equations_.system.residual(state.F, state.delta, target);
-    if (!(r.lpNorm<Eigen::Infinity>() <= options_.solver.tolerance * scale_)) return false;
+    if (!is_small(r.lpNorm<Eigen::Infinity>())) return false;
     iterations_ += static_cast<int>(path.piece_of(target)) + 1;
     here_ = {target, c, true};
     return true;
@@ -106,9 +160,10 @@ bool Walk::take_exact(double target) {
 
 /// Friction of the turn before as a load: each turn then has a solution that damped Newton finds, and the turns
 /// converge where friction changes the forces by less than themselves.
-bool Walk::solve_by_turns(double target, const RootProblem& problem) {
+bool Walk::solve_by_turns(double target) {
   constexpr int most_turns = 50;
   if (!equations_.system.has_friction() || equations_.metric.size() == 0) return false;
+  const auto problem = root_problem(equations_, target, scale_);
   VectorXd c = here_.c;
   for (int turn = 0; turn < most_turns; ++turn) {
     const VectorXd F = contact_state(equations_.contacts, c).F;
@@ -127,13 +182,16 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
 }
 
 bool Walk::take(const Root& root, double target) {
-  if (!root.converged) {
-    note_failure(root.residual);
+  if (!root.converged && !is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>())) {
+    note_failure(root);
     return false;
   }
   const VectorXd c = scale_ * root.x;
   if (const auto spent = contact_state(equations_.contacts, c).spent) {
-    if (std::isinf(worst_residual_)) worst_row_ = *spent * equations_.n_directions();
+    if (std::isinf(worst_residual_)) {
+      worst_row_ = *spent * equations_.n_directions();
+      best_ = c;
+    }
     return false;
   }
   here_ = {target, c};
@@ -141,12 +199,13 @@ bool Walk::take(const Root& root, double target) {
 }
 
 /// Of all tries the one that came closest counts.
-void Walk::note_failure(const VectorXd& residual) {
+void Walk::note_failure(const Root& root) {
   Index at = 0;
-  const double worst = residual.cwiseAbs().maxCoeff(&at);
+  const double worst = root.residual.cwiseAbs().maxCoeff(&at);
   if (!(worst < worst_residual_)) return;
   worst_residual_ = worst;
   worst_row_ = at;
+  best_ = scale_ * root.x;
 }
 
 }  // namespace fastjoint::stage3

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "stage3_nonlinear/exact_path.hpp"
@@ -20,11 +21,10 @@ struct Place {
 /// One walk along the load factors: what has converged, and what it took.
 class Walk {
  public:
-  /// @param scale What residuals are relative to, force.
   /// @param exact Paths to go by as far as they reach; where one ends, the solvers go on.
-  Walk(const JointEquations& equations, const PathOptions& options, double scale, std::vector<ExactPath> exact = {});
+  Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact = {});
 
-  /// Goes to a load factor, in half steps if it must; false if that failed too.
+  /// Goes to a load factor, as load_path.hpp says; false if nothing led there.
   bool reach(double target);
   [[nodiscard]] const Place& here() const { return here_; }
   /// Goes on from a solution found elsewhere by so many iterations.
@@ -33,26 +33,40 @@ class Walk {
   [[nodiscard]] PathStep step() const;
   [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const;
 
+  /// Where the path from no load was left, if it was.
+  [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
+
  private:
   /// On the sides that bear at the last load factor, or would with rigid fasteners without friction: the lower level.
   [[nodiscard]] std::optional<double> locking(double load_factor) const;
-  bool advance(double target, int halvings_left);
-  bool solve(double target);
+  /// A residual within the tolerance, or within rounding, force.
+  [[nodiscard]] bool is_small(double residual) const;
+  bool follow(double target, int halvings_left);
+  bool guess(double target, int halvings_left);
+  bool solve_from_here(double target);
+  /// At no load, or on an exact path.
+  bool take_known(double target);
+  bool solve_from_guesses(double target);
+  bool solve_from(const std::vector<Eigen::VectorXd>& starts, double target);
   bool take_exact(double target);
-  bool solve_by_turns(double target, const RootProblem& problem);
+  bool solve_by_turns(double target);
   Root run(const RootProblem& problem, const Eigen::VectorXd& start, SolveFunction solver);
   bool take(const Root& root, double target);
-  void note_failure(const Eigen::VectorXd& residual);
+  void note_failure(const Root& root);
 
   const JointEquations& equations_;
   const PathOptions& options_;
   SolveFunction solver_;
-  double scale_;
+  double rounding_ = 0;  ///< what wide gaps leave of residuals, force
+  double scale_ = 1;     ///< of the load factor that is tried, force
+  bool may_snap_;        ///< the solution may be one of several
   std::vector<ExactPath> exact_;
   Place here_;
   int iterations_ = 0;
-  double worst_residual_ = 0;
+  std::optional<PathLeft> left_;
+  double worst_residual_ = 0;  ///< of the best try
   Eigen::Index worst_row_ = 0;
+  Eigen::VectorXd best_;  ///< contact coordinates of the best try
 };
 
 /// Largest |q| at the largest load factor; 1 if nothing reaches the fasteners.

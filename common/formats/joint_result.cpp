@@ -171,7 +171,7 @@ void write(const std::string& path, const JointResult& a) {
   file.write(
       "iterations", a.iterations,
       {"1", "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on"});
-  file.write("residual", a.residual, {"1", "largest residual, relative to the largest force"});
+  file.write("residual", a.residual, {"1", "largest residual, relative to the largest force of the increment"});
   file.write("event", a.event, {"1", "fasteners that close, open, slip or yield exactly there"});
   file.write("fastener/id", a.fastener_id, {"1", "fastener of each shear plane, in the order of the input"});
   file.write("fastener/first", a.first_hole, {"1", "plate:hole on its first side"});

@@ -73,7 +73,7 @@ Falling check_falling(int n, double tolerance) {
       result.broken.push_back(fmt::format("falling laws, seed {}: there is a solution, the program finds none", seed));
     if (n_found < 2) continue;
     ++result.several;
-    const bool turned = !path.failure && path.steps[0].check.turned;
+    const bool turned = !path.failure && path.steps[0].check.unstable > 0;
     const bool warned = !planes_that_may_snap(equations).empty() || turned;
     result.warned += warned;
     if (!warned) result.broken.push_back(fmt::format("falling laws, seed {}: several solutions, no warning", seed));

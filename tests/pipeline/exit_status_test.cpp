@@ -133,13 +133,13 @@ TEST_F(ExitStatus, Joints) {
 }  // namespace
 
 /// Not converged: exit 4 with the increments that did converge, so here the file does change. All fasteners are open at
-/// first, and one iteration is too few once they bear.
+/// first, which takes two iterations; those are too few once they bear.
 TEST(ExitStatusNotConverged, KeepsTheConvergedIncrements) {
   const test::TemporaryFolder folder;
   test::make_matrices(folder);
   std::string hard = test::three_fastener_joint(1000, 3000, "", R"(, "clearance": 0.06)");
   hard = replaced(hard, R"("type": "linear", "k": 1000)", R"("type": "power", "A": 5000, "n": 0.5)");
-  hard = replaced(hard, "\"increments\": 1", R"("increments": [0.05, 1], "solver": {"max_iterations": 1})");
+  hard = replaced(hard, "\"increments\": 1", R"("increments": [0.05, 1], "solver": {"max_iterations": 2})");
   folder.write("joint.json", hard);
   const auto run = test::stage3(folder, "joint.json -o out.h5");
   EXPECT_EQ(run.status, 4);
@@ -149,6 +149,32 @@ TEST(ExitStatusNotConverged, KeepsTheConvergedIncrements) {
   const auto result = formats::read_joint_result(folder.path("out.h5"));
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(result.load_factor, Eigen::VectorXd::Constant(1, 0.05));
+}
+
+/// A strip that floats along x, held by one fastener that yields at 3e-7 and does not harden, under 4e-3.
+TEST(BeyondCapacity, IsANumericalFailureThatNamesTheFastener) {
+  const test::TemporaryFolder folder;
+  const std::string strip = R"({"format": "plate", "version": 1, "analysis": "plane stress",
+    "materials": {"a": {"E": 1, "nu": 0}}, "geometry": {"grid": {"x": [0, 214], "y": [0, 1], "thickness": 0.1}},
+    "holes": [{"id": "1", "center": [107, 0.5], "radius": 0.15, "spring": {"modulus": 261}, "rings": 1}],
+    "disc_directions": ["x"], )";
+  folder.write("A.json", strip + R"("external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}],
+    "supports": [{"on": "bottom", "fix": ["y"]}]})");
+  folder.write("B.json", strip + R"("supports": [{"on": "left", "fix": ["x", "y"]}]})");
+  for (const std::string name : {"A", "B"}) {
+    ASSERT_EQ(test::stage1(folder, name + ".json -o " + name + ".h5").status, 0);
+    ASSERT_EQ(test::stage2(folder, name + ".h5 -o " + name + ".m.h5").status, 0);
+  }
+  folder.write("J.json", R"({"format": "joint", "version": 1, "plates": {"A": "A.m.h5", "B": "B.m.h5"},
+    "laws": {"l": {"type": "bilinear", "k": 0.0013, "F_yield": 3e-7, "k_yield": 0}},
+    "fasteners": [{"id": "1", "between": ["A:1", "B:1"], "law": "l"}],
+    "loads": [{"external": "A:P", "force": -0.0042}], "increments": [5e-5, 1]})");
+  const auto run = test::stage3(folder, "J.json -o R.h5");
+  EXPECT_EQ(run.status, 4);
+  EXPECT_THAT(run.err, testing::HasSubstr("Limit load reached: beyond load factor 7.14286e-05 fastener \"1\" carry"));
+  const auto result = formats::read_joint_result(folder.path("R.h5"));
+  EXPECT_FALSE(result.complete);
+  EXPECT_EQ(result.load_factor.size(), 1);
 }
 
 }  // namespace fastjoint

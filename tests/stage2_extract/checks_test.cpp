@@ -34,6 +34,30 @@ TEST(Checks, FloatingSheet) {
   EXPECT_NO_THROW(stage2::require_good(result.checks, "f.h5"));
 }
 
+/// Stage 1's rounding is 2e-11 of S in the strip, 200 times as long as wide; a joint would bear on it.
+TEST(Checks, MatricesOfAFloatingSheetBalanceToTheLastDigits) {
+  const std::string strip = test::grid_scene({0, 200}, {0, 1}, {{"a", 100, 0.5, 0.15, 1}}, R"(,
+    "supports": [{"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
+  for (const auto& scene : {strip, floating}) {
+    const auto a = test::extract(scene).matrices;
+    for (std::size_t level = 0; level < a.S_dd.size(); ++level) {
+      Eigen::VectorXd motion(a.n_discs());
+      for (Eigen::Index i = 0; i < motion.size(); ++i)
+        motion[i] = a.disc_direction[static_cast<std::size_t>(i)] == "x" ? 1 : 0;
+      const Eigen::VectorXd external = Eigen::VectorXd::Ones(a.n_externals());  // P, along x
+      const double largest = a.S_dd[level].cwiseAbs().maxCoeff();
+      EXPECT_LE((a.S_dd[level] * motion + a.S_ed[level].transpose() * external).cwiseAbs().maxCoeff(), 1e-14 * largest);
+      EXPECT_LE((a.S_ed[level] * motion + a.S_ee[level] * external).cwiseAbs().maxCoeff(), 1e-14 * largest);
+      for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
+        const bool along = a.friction_bearing[static_cast<std::size_t>(j)].ends_with("x");
+        const double sum = motion.dot(a.R_df[level].col(j)) + external.dot(a.R_ef[level].col(j));
+        EXPECT_NEAR(sum, along ? -a.friction_resultant[j] : 0, 1e-14 * a.R_df[level].cwiseAbs().maxCoeff());
+      }
+    }
+  }
+}
+
 TEST(Checks, RigidMotionsAreTheNullSpaceOfS) {
   const auto m = test::extract(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.4, 0.5, 0.2}, {"b", 1.5, 0.6, 0.25}},
                                                 R"(, "disc_directions": ["x", "y"])"))

@@ -8,6 +8,7 @@
 #include "common/errors.hpp"
 #include "stage3_nonlinear/equilibrium.hpp"
 #include "stage3_nonlinear/linear_joint.hpp"
+#include "stage3_nonlinear/report.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -55,6 +56,25 @@ TEST(CondensedSystem, OfTwoEqualSheetsWithOneFastenerHasAClosedForm) {
       {test::spring_plate(1, 1, {{0, ground, k}, {0, 1, 55}}), test::spring_plate(1, 0, {{0, ground, k}}), P},
       test::linear_law(K));
   EXPECT_NEAR(linear_solution(condense(joint), K)[0], P / 2 * K / (K + k / 2), 1e-14 * P);
+}
+
+/// As if one sheet were in other units: two springs in series between the discs, none free.
+TEST(CondensedSystem, SheetsMayBeMuchSofterThanTheirNeighbours) {
+  for (const double soft : {1e-6, 1e-9, 1e-12}) {
+    const double k = 300 * soft;
+    const auto joint = test::joint_of(
+        {test::spring_plate(1, 1, {{0, ground, k}, {0, 1, k}}), test::spring_plate(1, 0, {{0, ground, 300}}), 10},
+        test::linear_law(70));
+    EXPECT_NEAR(condense(joint).S_ud(0, 0) / k, 1 / (1 + soft), 1e-9) << soft;
+    const auto said = warnings(joint, make_equations(joint), {});
+    if (soft > 1e-8) {
+      EXPECT_THAT(said, testing::IsEmpty());
+    } else {
+      EXPECT_THAT(said,
+                  testing::ElementsAre(HasSubstr("times as stiff as plate \"b\": see that both have the same units")))
+          << soft;
+    }
+  }
 }
 
 TEST(CondensedSystem, OfAFloatingDoublerHasAClosedForm) {

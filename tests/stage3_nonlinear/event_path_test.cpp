@@ -152,7 +152,7 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, bo
   ASSERT_FALSE(path.failure) << "joint " << joint;
   const ContactMarks marks(equations.contacts);
   const double scale = force_scale(equations.system, {1});
-  Walk walk(equations, tight, scale);
+  Walk walk(equations, tight);
   double begin = first_load_factor;
   for (const auto& step : path.steps) {
     EXPECT_LE(step.residual, 1e-10) << "joint " << joint;
@@ -160,7 +160,9 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, bo
       const Contact& contact = equations.contacts[static_cast<std::size_t>(event.plane)];
       if (event.corner != Corner::contact || step.check.mechanism) continue;
       const double gap = contact.law->gap(contact.clearance);
-      EXPECT_NEAR(std::abs(step.delta[event.plane]), gap, 1e-9 * gap + 1e-15) << "joint " << joint;
+      // Of events that follow each other within 1e-9 of the load, the first one's place counts.
+      const double joined = step.events.size() > 1 ? 1e-9 * step.delta.cwiseAbs().maxCoeff() / step.load_factor : 0;
+      EXPECT_NEAR(std::abs(step.delta[event.plane]), gap, 1e-9 * gap + joined + 1e-15) << "joint " << joint;
       // A sheet that floats jumps to its hold, to the resolution of the search.
       const bool is_curved = !contact.law->kinks(1, 0);
       const double most = !is_curved ? step.F.cwiseAbs().maxCoeff() : floats ? 1e-9 * scale : 0;

@@ -26,7 +26,7 @@ class Locking : public testing::Test {
  protected:
   static constexpr double k = 1000;
   static test::Lap lap() {
-    constexpr double rigid = 1e12;
+    constexpr double rigid = 1e10;  // rounding of its rows stays below 1e-8 of the forces
     test::Lap lap{test::spring_plate(2, 1, {{0, 2, rigid}, {1, 2, rigid}}),
                   test::spring_plate(2, 0, {{0, test::ground, k}, {1, test::ground, k}}), 0};
     for (auto* plate : {&lap.a, &lap.b}) {
@@ -37,6 +37,7 @@ class Locking : public testing::Test {
       plate->R_df = {Eigen::MatrixXd::Zero(2, 4)};
       plate->R_ef = {Eigen::MatrixXd::Zero(plate->n_externals(), 4)};
     }
+    lap.a.R_ef = {Eigen::MatrixXd{{-0.6, 0.6, -0.6, 0.6}}};  // what moves it holds its friction
     lap.b.R_df = {Eigen::MatrixXd{{0, 0, 2, 0}, {2, 0, 0, 0}}};
     return lap;
   }
