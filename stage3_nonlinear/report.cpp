@@ -8,6 +8,7 @@
 #include <cmath>
 #include <set>
 
+#include "common/program/program.hpp"
 #include "stage3_nonlinear/implicit_slopes.hpp"
 
 namespace fastjoint::stage3 {
@@ -100,12 +101,12 @@ void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<s
       const Mechanism& mechanism = *step.check.mechanism;
       const std::string free = motion_text(joint, mechanism.motion);
       result.push_back(
-          limit ? fmt::format("{}: limit load reached at load factor {:.6g}: {} carry all that their laws allow, and "
-                              "nothing else holds the joint; it moves on without more load, in proportion {}",
-                              joint.file, step.load_factor, names(joint, mechanism.level), free)
-                : fmt::format("{}: at load factor {:.6g} the joint is a mechanism within the gaps of {}: the forces "
-                              "are right, the displacements are one of many; in proportion, it is free to move {}",
-                              joint.file, step.load_factor, names(joint, mechanism.open), free));
+          limit ? fmt::format("{}: limit load reached at {}: the laws of {} allow no more force, and nothing else "
+                              "holds the joint; it moves on without more load, in proportion {}",
+                              joint.file, increment_text(path, step), names(joint, mechanism.level), free)
+                : fmt::format("{}: at {} the joint is a mechanism within the gaps of {}: the forces are right, the "
+                              "displacements are one of many; in proportion, it is free to move {}",
+                              joint.file, increment_text(path, step), names(joint, mechanism.open), free));
       break;
     }
 }
@@ -131,9 +132,9 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
   for (const auto& step : path.steps)
     if (step.check.unstable > 0 && !step.check.locking) {
       result.push_back(fmt::format(
-          "{}: at load factor {:.6g} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): "
+          "{}: at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): "
           "in reality it snaps through before; take a law that does not fall, or hold the joint by displacements",
-          joint.file, step.load_factor,
+          joint.file, increment_text(path, step),
           step.check.unstable == 1 ? "one way" : fmt::format("{} ways", step.check.unstable)));
       break;
     }
@@ -201,14 +202,14 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
 
 std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
                             std::size_t n_increments, const std::string& output) {
+  const std::string before = program::counted(failure.increment, "increment");
   if (failure.out_of_balance > 0)
     return fmt::format(
         "{}: increment {} of {} (load factor {:.6g}) converged, but a row, a fastener or a sheet is out of balance by "
-        "{:.1e} of the largest force, allowed 1e-08 or 10 times the tolerance. {} holds the {} increments before "
+        "{:.1e} of the largest force, allowed 1e-08 or 10 times the tolerance. {} holds the {} before "
         "(complete = 0). Rounding carries load there: see that fasteners or supports hold each plate in the sense of "
         "its load; of matrices made by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
-        scene.file, failure.increment + 1, n_increments, failure.load_factor, failure.out_of_balance, output,
-        failure.increment);
+        scene.file, failure.increment + 1, n_increments, failure.load_factor, failure.out_of_balance, output, before);
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
@@ -223,17 +224,17 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.level.empty()
           ? fmt::format(
                 "Check the law and the clearance of that fastener, take smaller increments, allow more than {} "
-                "iterations or, if the residual is close to it, a larger tolerance than {:.0e}; and see that each "
+                "or, if the residual is close to it, a larger tolerance than {:.0e}; and see that each "
                 "plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of "
                 "them are open, and one-sided fasteners cannot pull it",
-                scene.solver.max_iterations, scene.solver.tolerance)
+                program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance)
           : fmt::format(
-                "Limit load reached: beyond load factor {:.6g} {} carry all that their laws allow (a law that ends "
-                "level no more than its last force, a cubic that turns down no more than its peak), and nothing else "
-                "holds the joint; take smaller loads, or more or stronger fasteners",
+                "Limit load reached: beyond load factor {:.6g} the laws of {} allow no more force (a law that ends "
+                "level its last one, a cubic that turns down its peak), and nothing else holds the joint; take smaller "
+                "loads, or more or stronger fasteners",
                 failure.reached, names(joint, failure.level));
-  return fmt::format("{}: {}. {} holds the {} increments before (complete = 0). {}{}", scene.file, what, output,
-                     failure.increment, locking, advice);
+  return fmt::format("{}: {}. {} holds the {} before (complete = 0). {}{}", scene.file, what, output, before, locking,
+                     advice);
 }
 
 }  // namespace fastjoint::stage3

@@ -104,7 +104,7 @@ def check_failures():
     joint["loads"][0]["force"], joint["increments"] = 1e5, [0.001, 1]
     Path("falls.json").write_text(json.dumps(joint))
     failed = run(STAGE3, "falls.json", "-o", "falls.h5", "--timings", "times.json", status=4)
-    assert "falls.h5 holds the 1 increments before" in failed.stderr, failed
+    assert "falls.h5 holds the 1 increment before" in failed.stderr, failed
     assert list(time_line(failed.stdout)[1]) == JOINT_PHASES, failed
     check_json(STAGE3, Path("times.json"), [], JOINT_PHASES, "")
 
