@@ -38,11 +38,15 @@ struct Temporary {
     struct stat status {};
     do {  // again if another process has taken it for one left behind before it was locked
       if (file >= 0) ::close(file);
+      unfinished = nullptr;
       path = fmt::format("{}.{:08x}{}", target, std::random_device()(), ending);
+      unfinished = path.c_str();  // before it exists: a signal may come as soon as it does
       file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file < 0) fail(target, errno);
+      if (file < 0) {
+        unfinished = nullptr;
+        fail(target, errno);
+      }
     } while (::flock(file, LOCK_EX) == 0 && ::fstat(file, &status) == 0 && status.st_nlink == 0);
-    unfinished = path.c_str();
   }
   Temporary(const Temporary&) = delete;
   Temporary& operator=(const Temporary&) = delete;
