@@ -56,7 +56,7 @@ TEST_F(Run, WritesAnEmptyHistoryIfNothingConverged) {
               ThrowsMessage<NumericalError>(AllOf(HasSubstr("increment 1 of 1"),
                                                   HasSubstr("Check the law and the clearance of that fastener, take "
                                                             "smaller increments, allow more than 1 "
-                                                            "iterations or, if the residual is close to "
+                                                            "iteration or, if the residual is close to "
                                                             "it, a larger tolerance than 1e-14; and see "
                                                             "that each plate is held in the sense of "
                                                             "its load: one that only fasteners hold has "
