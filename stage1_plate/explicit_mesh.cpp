@@ -83,9 +83,14 @@ std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& ed
   return {turned / curve.sweep(), std::abs(ray.norm() - radius) / (radius * std::abs(curve.sweep()))};
 }
 
+/// Whether an edge joins two nodes, however short it is.
+bool are_joined(const pfem::Edges& edges, int a, int b) {
+  return (edges.nodes.row(0).array() == std::min(a, b) && edges.nodes.row(1).array() == std::max(a, b)).any();
+}
+
 /// A node on the edge of an element that does not have it would make the displacements discontinuous.
 void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
-  constexpr double same = 1e-9, tolerance = 1e-6;  // of the edge's length: digits that a hand-written file has
+  constexpr double end = 1e-9, tolerance = 1e-6;  // of the edge's length: digits that a hand-written file has
   std::vector<int> border;
   for (int edge = 0; edge < edges.size(); ++edge)
     if (edges.n_elements[static_cast<std::size_t>(edge)] == 1) border.push_back(edge);
@@ -93,15 +98,15 @@ void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const 
     for (const int node : edges.nodes(Eigen::all, border).reshaped()) {
       if ((edges.nodes.col(edge).array() == node).any()) continue;
       const auto [along, off] = place_on(mesh, edges, edge, mesh.nodes.col(node));
-      if (!(off < tolerance && along > -same && along < 1 + same)) continue;
+      if (!(off < tolerance && along > -tolerance && along < 1 + tolerance)) continue;
       const std::string place = fmt::format("/geometry/mesh/nodes/{}", node);
-      const int nearest = along < 0.5 ? 0 : 1;
-      if (std::hypot(along - nearest, off) < same)
-        reject(scene, place,
-               fmt::format("it lies on node {}, but no element joins the two, so that a slit opens between them",
-                           edges.nodes(nearest, edge)),
-               "one node at each place, which the elements on both sides share");
-      if (along > same && along < 1 - same)
+      const int side = along < 0.5 ? 0 : 1, nearest = edges.nodes(side, edge);
+      if (std::hypot(along - side, off) < tolerance && !are_joined(edges, node, nearest))
+        reject(
+            scene, place,
+            fmt::format("it lies on node {}, but no element joins the two, so that a slit opens between them", nearest),
+            "one node at each place, which the elements on both sides share");
+      if (along > end && along < 1 - end)
         reject(scene, place,
                fmt::format("it hangs on the edge between nodes {} and {}", edges.nodes(0, edge), edges.nodes(1, edge)),
                "elements that share whole edges");

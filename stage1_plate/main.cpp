@@ -69,7 +69,7 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
   auto chosen = stage1::meet_accuracy(scene, accuracy);
   if (!chosen.is_reached())
     std::cerr << fmt::format(
-        "{}: warning: {}: {}; it is the best that there is: finer cells, above all at ends of clamped "
+        "{}: warning: {}: {}; that is the best with these cells: finer ones, above all at ends of clamped "
         "edges and of steps in thickness, come closer\n",
         command.name, scene.file, stage1::to_text(chosen));
   return chosen;

@@ -195,11 +195,12 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
   std::vector<JointState> states;
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
     JointState state = joint_state(joint, system, path.steps[i]);
-    const double worst =
-        std::max({state.out_of_balance, state.fasteners_out_of_balance, state.sheets_out_of_balance.value_or(0)});
+    const auto [worst, what] =
+        std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
+                  std::pair(state.sheets_out_of_balance.value_or(0), "a sheet")});
     if (!(worst <= allowed)) {
-      path.failure =
-          PathFailure{i, path.steps[i].load_factor, i > 0 ? path.steps[i - 1].load_factor : 0, 0, 0, {}, {}, worst};
+      const double reached = i > 0 ? path.steps[i - 1].load_factor : 0;
+      path.failure = PathFailure{i, path.steps[i].load_factor, reached, 0, 0, {}, {}, what, worst, allowed};
       path.steps.erase(path.steps.begin() + static_cast<std::ptrdiff_t>(i), path.steps.end());
       break;
     }

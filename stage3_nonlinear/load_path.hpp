@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "stage3_nonlinear/contact_event.hpp"
@@ -36,7 +37,9 @@ struct PathFailure {
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
   std::vector<Eigen::Index> level;
   std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
-  double out_of_balance = 0;      ///< of an increment that converged, where that is why: over the largest force
+  /// What is out of balance in an increment that converged, where that is why, and by how much of the largest force.
+  std::string unbalanced = {};
+  double out_of_balance = 0, allowed = 0;
 };
 
 /// Where a solution is not on the path from no load.

@@ -114,16 +114,17 @@ void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<s
 void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                              std::vector<std::string>& result) {
   if (const auto planes = planes_that_may_snap(equations); !planes.empty()) {
-    const std::string found = !path.left ? "the one given is followed from no load"
-                              : path.left->guessed
-                                  ? fmt::format(
-                                        "at load factor {:.6g} it could not be followed from the load before, and "
-                                        "the one given was found from a first guess (\"initial\")",
-                                        path.left->load_factor)
-                                  : fmt::format(
-                                        "it is followed from no load up to load factor {:.6g}, where it jumps: the "
-                                        "one given from there on is another",
-                                        path.left->load_factor);
+    const std::string found =
+        !path.left           ? "the one given is followed from no load"
+        : path.left->guessed ? fmt::format(
+                                   "at load factor {:.6g} it could not be followed from the load before, where the "
+                                   "joint may have reached its limit load, and the one given was found from a "
+                                   "first guess (\"initial\")",
+                                   path.left->load_factor)
+                             : fmt::format(
+                                   "it is followed from no load up to load factor {:.6g}, where it jumps: the "
+                                   "one given from there on is another",
+                                   path.left->load_factor);
     result.push_back(
         fmt::format("{}: the law of {} falls more steeply than the plates hold against: the solution may be one of "
                     "several; {}",
@@ -157,7 +158,7 @@ void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vecto
   }
 }
 
-/// Of the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
+/// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                        std::vector<std::string>& result) {
   constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
@@ -178,10 +179,11 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
       if (falls && (curved || std::any_of(marks.of(j).begin(), marks.of(j).end(), passed))) unloaded.push_back(j);
     }
     if (unloaded.empty()) continue;
-    result.push_back(fmt::format(
-        "{}: increment {} (load factor {:.6g}) unloads {} after a yield or slip: laws have no memory and go back along "
-        "their loading curve, where real fasteners keep a permanent set; forces from there on are not theirs",
-        joint.file, i + 1, step.load_factor, names(joint, unloaded)));
+    result.push_back(
+        fmt::format("{}: increment {} (load factor {:.6g}) unloads {} along its loading curve: laws have no memory, "
+                    "but real fasteners "
+                    "keep a permanent set, so that forces from this increment on differ from theirs",
+                    joint.file, i + 1, step.load_factor, names(joint, unloaded)));
     return;
   }
 }
@@ -203,38 +205,36 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
 std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
                             std::size_t n_increments, const std::string& output) {
   const std::string before = program::counted(failure.increment, "increment");
-  if (failure.out_of_balance > 0)
+  const std::string kept = fmt::format("{} holds the {} before (complete = 0).", output, before);
+  const std::string increment =
+      fmt::format("increment {} of {} (load factor {:.6g})", failure.increment + 1, n_increments, failure.load_factor);
+  if (!failure.unbalanced.empty())
     return fmt::format(
-        "{}: increment {} of {} (load factor {:.6g}) converged, but a row, a fastener or a sheet is out of balance by "
-        "{:.1e} of the largest force, allowed 1e-08 or 10 times the tolerance. {} holds the {} before "
-        "(complete = 0). Rounding carries load there: see that fasteners or supports hold each plate in the sense of "
-        "its load; of matrices made by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
-        scene.file, failure.increment + 1, n_increments, failure.load_factor, failure.out_of_balance, output, before);
+        "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
+        "carries "
+        "load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made by hand "
+        "see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
+        scene.file, increment, failure.unbalanced, failure.out_of_balance, failure.allowed, kept);
+  const std::string locking =
+      failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
+  if (!failure.level.empty())
+    return fmt::format(
+        "{}: limit load reached: beyond load factor {:.6g} the laws of {} allow no more force (a law that ends level "
+        "its last one, a cubic that turns down its peak); {} did not converge. {} "
+        "{}Take smaller loads, or more or stronger fasteners",
+        scene.file, failure.reached, names(joint, failure.level), increment, kept, locking);
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
-  const std::string what = fmt::format(
-      "increment {} of {} (load factor {:.6g}) did not converge from the last increment, in half steps "
-      "({} times halved), or from any first guess; load factor {:.6g} was reached; {} {}",
-      failure.increment + 1, n_increments, failure.load_factor, max_halvings, failure.reached, at,
-      joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]));
-  const std::string locking =
-      failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
-  const std::string advice =
-      failure.level.empty()
-          ? fmt::format(
-                "Check the law and the clearance of that fastener, take smaller increments, allow more than {} "
-                "or, if the residual is close to it, a larger tolerance than {:.0e}; and see that each "
-                "plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of "
-                "them are open, and one-sided fasteners cannot pull it",
-                program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance)
-          : fmt::format(
-                "Limit load reached: beyond load factor {:.6g} the laws of {} allow no more force (a law that ends "
-                "level its last one, a cubic that turns down its peak), and nothing else holds the joint; take smaller "
-                "loads, or more or stronger fasteners",
-                failure.reached, names(joint, failure.level));
-  return fmt::format("{}: {}. {} holds the {} before (complete = 0). {}{}", scene.file, what, output, before, locking,
-                     advice);
+  return fmt::format(
+      "{}: {} did not converge from the last increment, in half steps ({} times halved), or from any first guess; load "
+      "factor {:.6g} was reached; {} {}. {} {}Check the law and the clearance of that fastener, take smaller "
+      "increments, allow more than {} or, if the residual is close to it, a larger tolerance than {:.0e}; and see that "
+      "each plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of them "
+      "are open, and one-sided fasteners cannot pull it",
+      scene.file, increment, max_halvings, failure.reached, at,
+      joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]), kept, locking,
+      program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance);
 }
 
 }  // namespace fastjoint::stage3

@@ -62,13 +62,14 @@ constexpr std::array<Doubt, 6> doubts = {{
      "PLATE.json"},
     {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
      "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
-     "peak {peak:.4g} {unit} too low; give the hole's spring the \"arc\" that bears in PLATE.json"},
+     "peak, {peak:.4g} {unit}, too low; give the hole's spring the \"arc\" that bears in PLATE.json"},
     {[](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
      "springs pull on its rim; give the hole's spring the \"arc\" that bears in PLATE.json"},
-    {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? rim.across_share : 0; },
-     "the disc of {at} is held across its one direction by {across:.4g} {force}, {percent:.3g} % of its bearing force, "
-     "which nothing in the joint gives; let the discs move: \"disc_directions\": [\"x\", \"y\"] in all PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? std::abs(rim.across) : 0; },
+     "the disc of {at} is held across its one direction by {across:.4g} {force}, beside a bearing force of "
+     "{bearing:.4g}, and nothing in the joint gives that; let the discs move: \"disc_directions\": [\"x\", \"y\"] in "
+     "all PLATE.json"},
     {[](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
      "friction acts off the axes, by its components along x and y, at {at}: the loads hold, but peak hoop stresses "
      "there may lack what friction adds to them, most of it at 45 degrees"},
@@ -154,12 +155,12 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
     const std::size_t others = holes.size() - 1;
     at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
     using fmt::arg;
-    result.push_back(fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file),
-                                 arg("at", at), arg("pull", worst->pull), arg("stress", worst->bearing_stress),
-                                 arg("peak", worst->peak_hoop), arg("net", worst->net_concentration),
-                                 arg("across", std::abs(worst->across)), arg("percent", 100 * worst->across_share),
-                                 arg("force", formats::unit(joint.units, 0, 1)),
-                                 arg("unit", formats::unit(joint.units, -2, 1))));
+    result.push_back(
+        fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file), arg("at", at),
+                    arg("pull", worst->pull), arg("stress", worst->bearing_stress), arg("peak", worst->peak_hoop),
+                    arg("net", worst->net_concentration), arg("across", std::abs(worst->across)),
+                    arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
+                    arg("force", formats::unit(joint.units, 0, 1)), arg("unit", formats::unit(joint.units, -2, 1))));
   }
   return result;
 }
@@ -172,7 +173,7 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   if (rows.empty()) return rows;
   const std::string stress = fmt::format("[{}]", formats::unit(joint.units, -2, 1));
   const std::string force = fmt::format("[{}]", formats::unit(joint.units, 0, 1));
-  return fmt::format("  {:<24} {:>14} {:>14} {:>14} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "hole", "bearing F/(d t)",
+  return fmt::format("  {:<24} {:>14} {:>14} {:>14} {:>9} {:>9} {:>8} {:>8} {:>12}\n", "hole", "bearing stress",
                      "bypass", "peak hoop", "at [deg]", "+-", "Kt gross", "Kt net", "held across") +
          fmt::format("  {:<24} {:>14} {:>14} {:>14} {:>50}\n", "", stress, force, stress, force) + rows;
 }

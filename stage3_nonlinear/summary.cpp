@@ -124,7 +124,7 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
   text += fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force, fastener by {:.1e}",
                       state.out_of_balance, state.fasteners_out_of_balance);
   if (state.sheets_out_of_balance)
-    text += fmt::format(", sheet without supports by {:.1e}", *state.sheets_out_of_balance);
+    text += fmt::format(", sheet along axes without supports by {:.1e}", *state.sheets_out_of_balance);
   return text + "\n";
 }
 

@@ -167,6 +167,22 @@ TEST_F(WrongFile, SealedByAnEarlierVersionIsRefused) {
                                HasSubstr("a.h5 NEW.h5")));
 }
 
+TEST_F(WrongFile, WithADamagedSealIsRefused) {
+  write_sample(path_);
+  const std::string whole = test::read_file(path_), mark = "\nfastjoint xxhash ";
+  const std::size_t at = whole.rfind(mark);
+  std::vector<std::string> damaged = {whole + "x", whole + whole.substr(at)};
+  for (std::size_t cut = 1; cut <= 24; ++cut) damaged.push_back(whole.substr(0, whole.size() - cut));
+  for (std::size_t i = 0; i < mark.size(); ++i) {
+    damaged.push_back(whole);
+    damaged.back()[at + i] ^= 1;
+  }
+  for (std::size_t i = 0; i < damaged.size(); ++i) {
+    folder_.write("a.h5", damaged[i]);
+    EXPECT_THAT(message(), HasSubstr("a.h5: is damaged")) << i;
+  }
+}
+
 TEST_F(WrongFile, WithoutSealItIsTakenAsItIs) {
   write_sample(path_);
   const std::string whole = test::read_file(path_);

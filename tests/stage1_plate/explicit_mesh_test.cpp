@@ -117,6 +117,11 @@ TEST(ExplicitMesh, ASlitBetweenNodesThatLieOnOneAnotherIsFound) {
                     HasSubstr("allowed: one node at each place")));
   EXPECT_THAT(message(mesh_scene(square + ",[2,0],[2,1],[1,1]", "[0,1,2,3],[1,4,5,6]")),
               HasSubstr("/geometry/mesh/nodes/6: it lies on node 2"));
+  for (const char* at :
+       {"[1.0000001,0]", "[0.9999999,0]", "[1,1e-7]", "[1,-1e-7]"})  // digits of a file written by hand
+    EXPECT_THAT(message(mesh_scene(square + "," + at + ",[2,0],[2,1],[1,1]", "[0,1,2,3],[4,5,6,7]")),
+                HasSubstr("it lies on node"))
+        << at;
   EXPECT_EQ(message(mesh_scene(square + ",[2,0],[2,1]", "[0,1,2,3],[1,4,5,2]")), "no error");
   EXPECT_EQ(message(mesh_scene(square + ",[1.0000001,0],[1.0000001,1],[2,0],[2,1]", "[0,1,2,3],[1,4,5,2],[4,6,7,5]")),
             "no error")

@@ -93,7 +93,7 @@ TEST_F(Run, UnloadedHasNoRoundingToCompareWith) {
   EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 0, 0 iterations, residual 0.0e+00"));
   EXPECT_THAT(out_.str(),
               HasSubstr("equilibrium: worst row out of balance by 0.0e+00 of the largest force, fastener by 0.0e+00, "
-                        "sheet without supports by 0.0e+00\n"));
+                        "sheet along axes without supports by 0.0e+00\n"));
 }
 
 TEST_F(Run, EventsStandInAllThatItWrites) {

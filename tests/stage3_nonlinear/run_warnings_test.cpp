@@ -20,15 +20,12 @@ TEST_F(Run, KeepsWhatConvergedAndSaysWhatToCheck) {
   EXPECT_THAT(
       [&] { run(); },
       ThrowsMessage<NumericalError>(AllOf(
-          HasSubstr("joint.json: increment 3 of 4 (load factor 3.5) did not converge from the last increment, in half "
-                    "steps (6 times halved), or from any first guess; load factor 3."),
-          HasSubstr("was reached; worst residual "), HasSubstr("of the load, at fastener \"left bolt\"."),
-          HasSubstr(
-              "result.h5 holds the 2 increments before (complete = 0). Limit load reached: beyond load factor 3.0"),
+          HasSubstr("joint.json: limit load reached: beyond load factor 3.0"),
           HasSubstr(" the laws of fastener \"left bolt\" allow no more force (a law that ends level its last one, a "
-                    "cubic that "
-                    "turns down its peak), and nothing else holds the joint; take "
-                    "smaller loads, or more or stronger fasteners"))));
+                    "cubic that turns down its peak); increment 3 of 4 (load factor "
+                    "3.5) did not converge. "),
+          HasSubstr("result.h5 holds the 2 increments before (complete = 0). Take smaller loads, or more or stronger "
+                    "fasteners"))));
   EXPECT_FALSE(result().complete);
   EXPECT_THAT(result().load_factor, ElementsAre(1, 2));
   EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 4"));
@@ -41,9 +38,10 @@ TEST_F(Run, SaysThatAFastenerIsSpent) {
   members["increments"] = "[1, 40]";
   write(members, {test::spring_plate(1, 1, {{0, 1, 1000}, {0, test::ground, 1}}),
                   test::spring_plate(1, 0, {{0, test::ground, 1000}})});
-  EXPECT_THAT([&] { run(); },
-              ThrowsMessage<NumericalError>(HasSubstr(
-                  "was reached; every try ended past all that the law carries, at fastener \"left bolt\". ")));
+  EXPECT_THAT(
+      [&] { run(); },
+      ThrowsMessage<NumericalError>(HasSubstr(
+          "limit load reached: beyond load factor 10.75 the laws of fastener \"left bolt\" allow no more force")));
   EXPECT_THAT(result().load_factor, ElementsAre(1));
 }
 
@@ -161,8 +159,8 @@ TEST_P(UnloadingOf, IsSaidWhereTheLawHasNoMemoryOfWhatHappened) {
   run();
   const std::string warned = GetParam().warned;
   const auto said = HasSubstr(
-      "after a yield or slip: laws have no memory and go back along their loading curve, where "
-      "real fasteners keep a permanent set; forces from there on are not theirs\n");
+      "along its loading curve: laws have no memory, but real fasteners keep a permanent set, so that "
+      "forces from this increment on differ from theirs\n");
   if (warned.empty()) {
     EXPECT_THAT(log_.str(), Not(HasSubstr("no memory")));
   } else {

@@ -252,8 +252,9 @@ TEST_F(Run, ABoltOfUnlikeFrictionTransfersWhatIsApplied) {
     EXPECT_NEAR(result().transferred_second(0, 0), 1000, 1e-9);
     EXPECT_NEAR(result().F(0, 0), includes ? 1000 : 1000 / (1 + 0.2 * cosine), 1e-9);
     EXPECT_THAT(out_.str(), HasSubstr("  b                           0             1000                -1000\n"));
-    EXPECT_THAT(out_.str(), testing::ContainsRegex("of the largest force, fastener by [0-9.e+-]+, sheet without "
-                                                   "supports by [0-9.e+-]+\n"));
+    EXPECT_THAT(out_.str(),
+                testing::ContainsRegex("of the largest force, fastener by [0-9.e+-]+, sheet along axes without "
+                                       "supports by [0-9.e+-]+\n"));
   }
 }
 
