@@ -36,7 +36,7 @@ struct Parameter {
   double length, force;
 };
 
-/// Where the numbers of a law come from, if not from the input itself: a formula for these sheets and this shank.
+/// Origin of the numbers of a law that do not stand in the input: a formula for these sheets and this shank.
 struct Source {
   std::string text;       ///< for the summary: formula, who and where
   bool bearing_of_sheet;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too

@@ -42,7 +42,7 @@ struct PathFailure {
   double out_of_balance = 0, allowed = 0;
 };
 
-/// Where a solution is not on the path from no load.
+/// The first load factor whose solution is not on the path from no load.
 struct PathLeft {
   double load_factor;
   bool guessed;  ///< found from a first guess; else by a jump from the state before

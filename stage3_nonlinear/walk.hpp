@@ -33,7 +33,7 @@ class Walk {
   [[nodiscard]] PathStep step() const;
   [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const;
 
-  /// Where the path from no load was left, if it was.
+  /// The place where the path from no load was left, if it was.
   [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
 
  private:

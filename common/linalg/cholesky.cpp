@@ -64,7 +64,7 @@ cholmod_dense view(const Eigen::MatrixXd& B) {
 }
 
 /// Least share of a diagonal entry that elimination must leave: below, not even three digits of a solution are right.
-/// Of a singular matrix 1e-16 to 1e-13 is left, whatever the units and stiffnesses of its rows are.
+/// A singular matrix leaves 1e-16 to 1e-13, whatever the units and stiffnesses of its rows are.
 constexpr double least_left = 1e-12;
 
 void check_memory(int status) {

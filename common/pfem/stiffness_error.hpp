@@ -24,7 +24,7 @@ namespace fastjoint::pfem {
 /// Off the diagonal the error is an energy product of two errors, at most the root of the product of their diagonals:
 /// taken as the last difference is, and as 0.15 of that bound where the difference happens to pass through zero.
 ///
-/// With fewer than four degrees s is 3, or 2 of a laminate off its axes; with one the error is infinite.
+/// Fewer than four degrees have s = 3, or 2 of a laminate off its axes; the error of one alone is infinite.
 /// @param p Degrees, rising, shape (np). @param fastest The largest s that is believed.
 [[nodiscard]] Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p,
                                               double fastest);
