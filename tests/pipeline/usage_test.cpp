@@ -109,8 +109,9 @@ TEST(UsageOfOptions, Accuracy) {
   EXPECT_THAT(matrices.out, AllOf(HasSubstr("p = 1..5"), HasSubstr("error of S about 5.")));
   const auto missed = test::stage1(folder, "center.json -o b.h5 --accuracy 1e-9 --p 1..4 --quiet");
   EXPECT_EQ(missed.status, 0);
-  EXPECT_THAT(missed.err, AllOf(HasSubstr("warning: center.json: accuracy 1e-09: product space, p = 4"),
-                                HasSubstr(", of R about "), HasSubstr(", not reached; that is the best with these cells")));
+  EXPECT_THAT(missed.err,
+              AllOf(HasSubstr("warning: center.json: accuracy 1e-09: product space, p = 4"), HasSubstr(", of R about "),
+                    HasSubstr(", not reached; that is the best with these cells")));
   EXPECT_THAT(test::stage2(folder, "b.h5 -o b.m.h5").out, HasSubstr("p = 1..4"));
   const auto alone = test::stage1(folder, "center.json -o c.h5 --accuracy 1e-3 --p 8");
   EXPECT_EQ(alone.status, 2);
