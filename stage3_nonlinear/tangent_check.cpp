@@ -103,7 +103,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
       return check;
     }
   }
-  // Where laws rise only friction makes unstable, and only where it is large.
+  // Only large friction makes a joint of rising laws unstable.
   const bool falls = (state.dF.along.array() < 0).any();
   if (falls || (system.has_friction() && friction_norm(system.friction_matrix(state.F)) >= 1))
     check.unstable = soft_modes(system, state, -singular_tangent);

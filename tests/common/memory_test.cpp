@@ -11,7 +11,7 @@
 namespace fastjoint::program {
 namespace {
 
-/// As the kernel shows a container of 1 GB in which 950 MB are taken, 800 MB of them by copies of files.
+/// Files by which the kernel shows a container of 1 GB, 950 MB of it taken, 800 MB of these by copies of files.
 TEST(ControlGroup, CopiesOfFilesAreNotUsedMemory) {
   const test::TemporaryFolder folder;
   folder.write("memory.max", "1000000000\n");

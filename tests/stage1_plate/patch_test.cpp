@@ -135,13 +135,13 @@ TEST_P(Patch, TheProductSpaceHasPolynomialsOfItsDegreeOnAnyQuadrilaterals) {
   EXPECT_LT(error(test::make_plate(four_quads(pfem::Space::product, p, true)), wave_of(p)), 1e-11);
 }
 
-/// Of a parallelogram's coordinates it is a polynomial of degree p.
+/// The displacement is a polynomial of degree p in the coordinates of a parallelogram.
 TEST_P(Patch, TheTrunkSpaceHasPolynomialsOfItsDegreeOnParallelograms) {
   const int p = GetParam();
   EXPECT_LT(error(test::make_plate(four_quads(pfem::Space::trunk, p, false)), wave_of(p)), 1e-11);
 }
 
-/// Of another quadrilateral's it is one of degree p in each, of which the trunk space has those with p/2.
+/// In those of another quadrilateral it has degree p in each, and the trunk space holds only degree p/2 there.
 TEST_P(Patch, TheTrunkSpaceHasPolynomialsOfHalfItsDegreeOnAnyQuadrilaterals) {
   const int p = GetParam(), most = std::max(1, p / 2);
   const auto plate = test::make_plate(four_quads(pfem::Space::trunk, p, true));

@@ -58,7 +58,7 @@ TEST(CondensedSystem, OfTwoEqualSheetsWithOneFastenerHasAClosedForm) {
   EXPECT_NEAR(linear_solution(condense(joint), K)[0], P / 2 * K / (K + k / 2), 1e-14 * P);
 }
 
-/// As if one sheet were in other units: two springs in series between the discs, none free.
+/// A sheet as if in other units: two springs in series between the discs, none free.
 TEST(CondensedSystem, SheetsMayBeMuchSofterThanTheirNeighbours) {
   for (const double soft : {1e-6, 1e-9, 1e-12}) {
     const double k = 300 * soft;

@@ -160,7 +160,7 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, bo
       const Contact& contact = equations.contacts[static_cast<std::size_t>(event.plane)];
       if (event.corner != Corner::contact || step.check.mechanism) continue;
       const double gap = contact.law->gap(contact.clearance);
-      // Of events that follow each other within 1e-9 of the load, the first one's place counts.
+      // Events that follow each other within 1e-9 of the load are put where the first one is.
       const double joined = step.events.size() > 1 ? 1e-9 * step.delta.cwiseAbs().maxCoeff() / step.load_factor : 0;
       EXPECT_NEAR(std::abs(step.delta[event.plane]), gap, 1e-9 * gap + joined + 1e-15) << "joint " << joint;
       // A sheet that floats jumps to its hold, to the resolution of the search.
