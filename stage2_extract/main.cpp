@@ -38,9 +38,11 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
   const std::string digest = formats::write(arguments.output, a);
   if (arguments.quiet) return;
   using program::counted;
-  std::cout << fmt::format("{}: {}, {}, {}, {}, p = {}..{}\n", arguments.output, counted(a.n_discs(), "disc"),
+  const auto degrees =
+      a.p.size() == 1 ? fmt::format("p = {}", a.p[0]) : fmt::format("p = {}..{}", a.p[0], a.p[a.p.size() - 1]);
+  std::cout << fmt::format("{}: {}, {}, {}, {}, {}\n", arguments.output, counted(a.n_discs(), "disc"),
                            counted(a.n_externals(), "external"), counted(a.n_friction_cases(), "friction case"),
-                           counted(a.n_tractions(), "traction"), a.p[0], a.p[a.p.size() - 1]);
+                           counted(a.n_tractions(), "traction"), degrees);
   using stage2::largest;
   const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
   std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),

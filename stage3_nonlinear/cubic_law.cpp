@@ -40,6 +40,13 @@ CubicLaw::CubicLaw(const std::array<double, 3>& delta, const std::array<double, 
   assert(x_[0] > 0 && x_[1] > 0 && x_[2] > 0 && x_[0] != x_[1] && x_[1] != x_[2] && x_[0] != x_[2]);
   const bool rises_far_out = cubic_.a[2] > 0 || (cubic_.a[2] == 0 && cubic_.a[1] >= 0);
   rises_ = rises_far_out && cubic_.slope(cubic_.least(infinity)) >= 0;
+  const double valley = cubic_.second_rise();
+  end_ = !rises_ && valley > 1 ? valley : infinity;
+}
+
+double CubicLaw::Cubic::second_rise() const {
+  const double root = a[1] * a[1] - 3 * a[0] * a[2];
+  return a[2] > 0 && root > 0 ? (std::sqrt(root) - a[1]) / (3 * a[2]) : infinity;
 }
 
 double CubicLaw::stretch(double s, double k) const {
@@ -54,8 +61,9 @@ Branch CubicLaw::at(double c, double k, double clearance) const {
   if (s < 0) return Branch::open(c, k);
   if (!rises_) {
     const double x = s / (k * last_);
-    // Far beyond its points a cubic may turn round; on the other side it would then hold like a fastener.
-    if (cubic_.force(x) < 0) return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k, .spent = true};
+    if (x > end_ || cubic_.force(x) < 0)
+      return {
+          .F = std::max(cubic_.force(std::min(x, end_)), 0.0), .delta = c / k, .dF = 0, .ddelta = 1 / k, .spent = true};
     return {.F = cubic_.force(x), .delta = c / k, .dF = cubic_.slope(x) / (k * last_), .ddelta = 1 / k};
   }
   const double x = s > 0 ? stretch(s, k) : 0;
@@ -70,9 +78,8 @@ double CubicLaw::coordinate(double F, double k, double clearance) const {
 
 double CubicLaw::least_slope() const {
   if (rises_) return 0;
-  // Up to where it is spent, or for good if it never is.
-  double spent = 1;
-  while (cubic_.force(spent) > 0 && spent < 1e6) spent *= 2;
+  double spent = 1;  // from here on, about, or never
+  while (spent < end_ && cubic_.force(spent) > 0 && spent < 1e6) spent *= 2;
   return std::min(0.0, cubic_.slope(cubic_.least(spent)) / last_);
 }
 

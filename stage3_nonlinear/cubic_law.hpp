@@ -9,8 +9,8 @@ namespace fastjoint::stage3 {
 
 /// The cubic through (0, 0) and three measured points: Bortman & Szabo, equation (8).
 ///
-/// It may lose monotonicity. Where it is negative the fastener is spent: none pushes on in the direction of its
-/// stretch.
+/// It may lose monotonicity. The fastener is spent where the cubic is negative, as none pushes on in the direction of
+/// its stretch, and from where the cubic, fallen beyond its last point, rises again: no test showed the fastener do so.
 class CubicLaw final : public Law {
  public:
   /// @param delta Three different stretches > 0, length.
@@ -34,6 +34,8 @@ class CubicLaw final : public Law {
     [[nodiscard]] double slope(double x) const { return a[0] + x * (2 * a[1] + x * 3 * a[2]); }
     /// Where between 0 and `end` the slope is least.
     [[nodiscard]] double least(double end) const;
+    /// Where the force rises again after it has fallen; infinite if it never does.
+    [[nodiscard]] double second_rise() const;
   };
   static Cubic through(const std::array<double, 3>& x, const std::array<double, 3>& F);
   /// x where F + k last x is s > 0, of a cubic that rises.
@@ -43,6 +45,7 @@ class CubicLaw final : public Law {
   std::array<double, 3> x_;  ///< delta / last
   Cubic cubic_;
   bool rises_;
+  double end_;  ///< stretch / last beyond the last point from which the fastener is spent, or infinite
 };
 
 /// {"type": "cubic", "delta": [three], "F": [three]}

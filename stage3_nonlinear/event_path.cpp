@@ -49,7 +49,7 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   constexpr double at_end = 1 - 1e-10;
   const std::vector<double> end{1};
   if (linear_flexibility(equations)) return follow(equations, end, options);
-  LoadPath path{.force_scale = force_scale(equations.system, end), .steps = {}, .failure = {}};
+  LoadPath path{.steps = {}, .failure = {}};
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
   Walk walk(equations, options, exact);

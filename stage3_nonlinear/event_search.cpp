@@ -133,7 +133,7 @@ class Search {
     double load = (1 - share) * a.load + share * b.load;
     int iterations = 0;
     for (const bool again : {false, true}) {  // relative to the full load, then if need be to its own
-      unit = force_scale(equations_.system, {again ? load : 1});
+      unit = force_scale(equations_.system, again ? load : 1);
       VectorXd start(rows + 1);
       start << c / unit, load;
       const Root root = newton_root(problem, start, {again ? enough : tolerance, most_iterations});
@@ -195,7 +195,7 @@ class Search {
 
   /// dc / d load factor.
   [[nodiscard]] VectorXd rate(const Sample& at) const {
-    const double unit = force_scale(equations_.system, {at.load});
+    const double unit = force_scale(equations_.system, at.load);
     const MatrixXd J = root_problem(equations_, at.load, unit).jacobian(at.c / unit);
     return J.partialPivLu().solve(equations_.system.q);
   }

@@ -27,12 +27,13 @@ std::vector<PlateMatrices> read_all(const JointScene& scene) {
   std::vector<PlateMatrices> all;
   all.reserve(scene.plates.size());
   for (const auto& plate : scene.plates) {
-    if (!std::filesystem::exists(plate.file))
-      throw FileError(
-          fmt::format("{}: {}: cannot be opened: No such file or directory; stage2_extract PLATE.h5 -o {} "
-                      "makes it",
-                      plate.where, plate.file, plate.file));
-    all.push_back(formats::read_plate_matrices(plate.file));
+    try {
+      all.push_back(formats::read_plate_matrices(plate.file));
+    } catch (const FileError& e) {
+      const bool absent = !std::filesystem::exists(plate.file);
+      throw FileError(fmt::format("{}: {}{}", plate.where, e.what(),
+                                  absent ? fmt::format("; stage2_extract PLATE.h5 -o {} makes it", plate.file) : ""));
+    }
     const std::string& digest = all.back().header.digest;
     if (!plate.digest.empty() && digest != plate.digest)
       refuse(plate.where + "/digest",

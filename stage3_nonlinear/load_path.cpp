@@ -20,11 +20,7 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
                                       double tolerance) {
   const auto flexibility = linear_flexibility(equations);
   if (!flexibility) return std::nullopt;
-  LoadPath path{.linear = true,
-                .force_scale = force_scale(equations.system, load_factors),
-                .n_increments = load_factors.size(),
-                .steps = {},
-                .failure = {}};
+  LoadPath path{.linear = true, .n_increments = load_factors.size(), .steps = {}, .failure = {}};
   std::optional<LinearForces> unit[2];
   for (const double factor : load_factors) {
     auto& forces = unit[factor < 0 ? 1 : 0];
@@ -32,7 +28,7 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
     const VectorXd F = std::abs(factor) * forces->F;
     const VectorXd delta = flexibility->cwiseProduct(F);
     const double residual =
-        equations.system.residual(F, delta, factor).lpNorm<Eigen::Infinity>() / force_scale(equations.system, {factor});
+        equations.system.residual(F, delta, factor).lpNorm<Eigen::Infinity>() / force_scale(equations.system, factor);
     if (!forces->consistent || !(residual <= tolerance)) return std::nullopt;
     const auto state = contact_state(equations.contacts, contact_coordinates(equations.contacts, F));
     path.steps.push_back({factor, F, delta, forces->solves, residual, check_tangent(equations, state)});
@@ -51,10 +47,7 @@ std::vector<ExactPath> exact_paths(const JointEquations& equations, const std::v
 
 LoadPath walk_along(const JointEquations& equations, const std::vector<double>& load_factors,
                     const PathOptions& options, std::vector<ExactPath> exact) {
-  LoadPath path{.force_scale = force_scale(equations.system, load_factors),
-                .n_increments = load_factors.size(),
-                .steps = {},
-                .failure = {}};
+  LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
   Walk walk(equations, options, std::move(exact));
   const ContactMarks marks(equations.contacts);
   for (std::size_t i = 0; i < load_factors.size(); ++i) {

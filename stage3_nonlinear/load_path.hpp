@@ -49,9 +49,7 @@ struct PathLeft {
 };
 
 struct LoadPath {
-  bool linear = false;  ///< linear solves did it
-  /// The largest |q| at the largest load factor, force.
-  double force_scale = 1;
+  bool linear = false;           ///< linear solves did it
   std::size_t n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;

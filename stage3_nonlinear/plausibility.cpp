@@ -7,6 +7,7 @@
 #include <set>
 
 #include "stage3_nonlinear/report.hpp"
+#include "stage3_nonlinear/worst_of_kind.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -79,10 +80,11 @@ std::string unlike(const Source& formula, const KnownPlane& known, double cleara
 }  // namespace
 
 std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
-  std::vector<std::string> result;
+  WorstOfKind friction, gaps, distances, movements;
+  std::vector<std::string> formulas;
   for (const auto& fastener : scene.fasteners)
     if (const double mu = *std::max_element(fastener.friction.begin(), fastener.friction.end()); mu > 1)
-      result.push_back(fmt::format("{}/friction: {} is above 1, which dry metals hardly reach: it may be a percentage",
+      friction.add(mu, fmt::format("{}/friction: {} is above 1, which dry metals hardly reach: it may be a percentage",
                                    fastener.where, mu));
   const auto planes = known_planes(joint);
   std::map<Plates, std::vector<Vector2d>> offsets;
@@ -93,36 +95,43 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
     const std::string& where = scene.fasteners[plane.fastener].where;
     const double radius = known.d.minCoeff() / 2;
     if (const double gap = plane.law->gap(plane.clearance); gap > radius)
-      result.push_back(
-          fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
-                      "{:.6g} of the hole: one of them may be in another unit of length",
-                      where, gap, plane.law_name, radius));
+      gaps.add(gap / radius,
+               fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
+                           "{:.6g} of the hole: one of them may be in another unit of length",
+                           where, gap, plane.law_name, radius));
     if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
-      result.push_back(fmt::format(
-          "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius {:.6g}: one of "
-          "them may be another fastener's hole, or the sheets are drawn in different coordinates",
-          where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
+      distances.add(
+          apart / radius,
+          fmt::format("{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius "
+                      "{:.6g}: one of "
+                      "them may be another fastener's hole, or the sheets are drawn in different coordinates",
+                      where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
     const auto formula = plane.law->source();
     const std::string other = formula ? unlike(*formula, known, plane.clearance) : "";
     if (!other.empty() && compared.insert(plane.law_name).second)
-      result.push_back(
+      formulas.push_back(
           fmt::format("{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another "
                       "fastener, or in other units",
                       joint.file, plane.law_name, other, joint.name(plane)));
     const double crushing = (known.d * known.t * known.E).minCoeff();  // 0: not known
     for (const auto& step : path.steps) {
-      const double delta = amounts(step.delta, joint.n_directions())[known.at];
-      const double F = amounts(step.F, joint.n_directions())[known.at];
-      const bool far = std::abs(delta) > radius;
-      if (!far && !(crushing > 0 && std::abs(F) > crushing)) continue;
-      const std::string what = far ? fmt::format("delta = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
-                                   : fmt::format("F = {:.6g} is above d t E = {:.6g} of a sheet", F, crushing);
-      result.push_back(
-          fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
-                      joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
+      const double delta = std::abs(amounts(step.delta, joint.n_directions())[known.at]);
+      const double F = std::abs(amounts(step.F, joint.n_directions())[known.at]);
+      const bool far = delta > radius;
+      if (!far && !(crushing > 0 && F > crushing)) continue;
+      const std::string what =
+          far ? fmt::format("|delta| = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
+              : fmt::format("|F| = {:.6g} is above d t E = {:.6g} of a sheet", F, crushing);
+      movements.add(std::max(delta / radius, crushing > 0 ? F / crushing : 0),
+                    fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
+                                joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
       break;
     }
   }
+  std::vector<std::string> result;
+  for (const auto* kind : {&friction, &gaps, &distances}) kind->say(result);
+  result.insert(result.end(), formulas.begin(), formulas.end());
+  movements.say(result);
   return result;
 }
 

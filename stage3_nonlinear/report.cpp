@@ -10,6 +10,7 @@
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/implicit_slopes.hpp"
+#include "stage3_nonlinear/worst_of_kind.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -21,8 +22,9 @@ std::string increment_text(const LoadPath& path, const PathStep& step) {
   return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
 }
 
-/// Named with the first increment at which it happens, once per plane.
+/// Each plane with the first increment at which it happens.
 void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  WorstOfKind worst;
   for (std::size_t j = 0; j < joint.planes.size(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const double last = plane.law->last_delta(plane.clearance);
@@ -30,13 +32,14 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
       const double delta = amounts(step.delta, joint.n_directions())[static_cast<Index>(j)];
       const bool open = plane.one_sided && delta < 0;
       if (open || std::abs(delta) <= last) continue;
-      result.push_back(
-          fmt::format("{}: {}: delta = {:.6g} at {} is beyond the last point "
-                      "{:.6g} of its law (gap included), which is extrapolated there",
-                      joint.file, joint.name(plane), delta, increment_text(path, step), last));
+      worst.add(std::abs(delta) / last,
+                fmt::format("{}: {}: delta = {:.6g} at {} is beyond the last point "
+                            "{:.6g} of its law (gap included), which is extrapolated there",
+                            joint.file, joint.name(plane), delta, increment_text(path, step), last));
       break;
     }
   }
+  worst.say(result);
 }
 
 std::string names(const JointModel& joint, const std::vector<Index>& planes) {

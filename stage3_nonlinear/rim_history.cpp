@@ -85,8 +85,8 @@ std::string stress_row(const PlateModel& plate, std::size_t rim, const RimState&
   text += known && state.gross_concentration != 0
               ? fmt::format(" {:>8.3f} {:>8.3f}", state.gross_concentration, state.net_concentration)
               : fmt::format(" {:>8} {:>8}", "-", "-");
-  return text +
-         (std::isfinite(state.across) ? fmt::format(" {:>12.6g}\n", state.across) : fmt::format(" {:>12}\n", "-"));
+  return text + (std::isfinite(state.across) ? fmt::format(" {:>12.6g}\n", state.across == 0 ? 0 : state.across)
+                                             : fmt::format(" {:>12}\n", "-"));
 }
 
 }  // namespace

@@ -14,10 +14,8 @@ namespace fastjoint::stage3 {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-double force_scale(const CondensedSystem& system, const std::vector<double>& load_factors) {
-  double factor = 0;
-  for (const double each : load_factors) factor = std::max(factor, std::abs(each));
-  const double scale = factor * system.q.lpNorm<Eigen::Infinity>();
+double force_scale(const CondensedSystem& system, double load_factor) {
+  const double scale = std::abs(load_factor) * system.q.lpNorm<Eigen::Infinity>();
   return scale > 0 ? scale : 1;
 }
 
@@ -68,7 +66,7 @@ PathStep Walk::step() const {
           .F = state.F,
           .delta = state.delta,
           .iterations = iterations_,
-          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_.system, {here_.load_factor}),
+          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_.system, here_.load_factor),
           .check = check_tangent(equations_, contact_state(equations_.contacts, beyond)),
           .exact = here_.exact};
 }
@@ -119,7 +117,7 @@ bool Walk::solve_from_here(double target) { return take_known(target) || solve_f
 
 bool Walk::take_known(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
-  scale_ = force_scale(equations_.system, {target});
+  scale_ = force_scale(equations_.system, target);
   if (target == 0) {  // without load the joint as it was built is in equilibrium, exactly
     here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
     return true;

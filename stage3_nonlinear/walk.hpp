@@ -69,7 +69,7 @@ class Walk {
   Eigen::VectorXd best_;  ///< contact coordinates of the best try
 };
 
-/// Largest |q| at the largest load factor; 1 if nothing reaches the fasteners.
-[[nodiscard]] double force_scale(const CondensedSystem& system, const std::vector<double>& load_factors);
+/// Largest |q| at a load factor, force; 1 if nothing reaches the fasteners.
+[[nodiscard]] double force_scale(const CondensedSystem& system, double load_factor);
 
 }  // namespace fastjoint::stage3

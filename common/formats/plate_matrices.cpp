@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/plate_matrices.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
+
+#include "common/errors.hpp"
 
 namespace fastjoint::formats {
 namespace {
@@ -20,7 +24,12 @@ std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* da
 
 Eigen::MatrixXd error_if_any(const h5::Reader& file, const char* dataset, Eigen::Index rows, Eigen::Index cols,
                              const std::string& unit) {
-  if (file.has(dataset)) return file.matrix(dataset, rows, cols, unit, h5::Infinite::allowed);
+  if (file.has(dataset)) {
+    Eigen::MatrixXd error = file.matrix(dataset, rows, cols, unit, h5::Infinite::allowed);
+    if ((error.array() < 0).any())
+      throw FileError(fmt::format("{}:{}: holds {}; allowed: numbers >= 0", file.path(), dataset, error.minCoeff()));
+    return error;
+  }
   return Eigen::MatrixXd::Constant(rows, cols, std::numeric_limits<double>::infinity());
 }
 

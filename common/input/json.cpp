@@ -54,18 +54,23 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
 }
 
 /// Words of the parser for common mistakes, and what to do about each.
-constexpr std::array<std::pair<const char*, const char*>, 9> advice{{
-    {"unexpected '}'; expected string literal", "there is a comma too many before '}'; remove it"},
-    {"unexpected ']'; expected '['", "a value is missing before ']', or there is a comma too many"},
+constexpr std::array<std::pair<const char*, const char*>, 13> advice{{
+    {"unexpected '}'; expected string literal", "there is one comma too many before '}'; remove it"},
+    {"unexpected ']'; expected '['", "a value is missing before ']', or there is one comma too many"},
     {"unexpected '}'; expected '['", "a value is missing before '}'"},
     {"unexpected number literal; expected string literal",
      "a number follows a comma where a key must; write decimals with a point, 72.5"},
     {"unexpected end of input", "the text ends too early; a closing bracket or quote is missing"},
     {"unexpected string literal; expected '}'", "a comma is missing before this"},
     {"literal; expected ']'", "a comma is missing before this"},
+    {"expected ':'", "a colon is missing between a key and its value"},
+    {"expected end of input",
+     "something follows the last closing bracket; remove it, or see which bracket closes too early"},
+    {"must be escaped", "a text goes over the end of its line; close its double quotes"},
+    {"invalid number", "this number is incomplete; write 1 or 1.0, 0.5, 1e-3"},
     {"ill-formed UTF-8", "a character is not UTF-8; save the file as UTF-8"},
     {"invalid literal",
-     "this is no value; allowed: a number, a text in double quotes, true, false, an object, an array"},
+     "this is no value; allowed: a number, a text or key in double quotes, true, false, an object, an array"},
 }};
 
 /// What is wrong with the text; else the parser's own words, without its numbers.

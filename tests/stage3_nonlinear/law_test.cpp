@@ -223,6 +223,26 @@ TEST(CubicLaw, NeverPushesOn) {
   EXPECT_EQ(law.at(12, 1, 0).delta, 12);
 }
 
+/// Beyond its last point the cubic falls to 995 at a stretch of 0.19 and rises from there: no test showed that.
+TEST(CubicLaw, DoesNotHoldAgainBeyondItsLastPoint) {
+  const CubicLaw law({0.05, 0.1, 0.15}, {1500, 1800, 1200});
+  constexpr double k = 1e4;
+  EXPECT_FALSE(law.at(k * 0.15, k, 0).spent);
+  double before = law.at(k * 0.15, k, 0).F;
+  for (double delta = 0.151; delta < 1; delta += 0.001) {
+    const Branch on = law.at(k * delta, k, 0);
+    EXPECT_LE(on.F, before) << delta;
+    EXPECT_GE(on.F, 0) << delta;
+    if (on.spent) {
+      EXPECT_EQ(on.dF, 0) << delta;
+    }
+    before = on.F;
+  }
+  EXPECT_TRUE(law.at(k * 0.6, k, 0).spent);
+  // Where its own points show that it rises again, it does.
+  EXPECT_FALSE(CubicLaw({1, 2, 3}, {10, 2, 10}).at(k * 5, k, 0).spent);
+}
+
 TEST(CubicLaw, WarnsWhereItTurnsDown) {
   EXPECT_THAT(CubicLaw({1, 2, 3}, {1, 1.6, 2.4}).doubts(), IsEmpty());
   // F = x (6.5 - 4.75 x + x^2): slope 6.5 - 9.5 x + 3 x^2 falls below zero between 1 and 2, at x = 19/12

@@ -118,6 +118,24 @@ TEST_F(LimitLoad, OfAPeakIsNamedToo) {
   EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr("limit load reached: beyond load factor 3.0")));
 }
 
+/// A law that falls beyond its peak of 1820 rises again far beyond its last point: that carries no load either.
+TEST_F(LimitLoad, OfAFallingLawIsNotPassedOnItsSecondRise) {
+  for (const char* method : {"damped newton", "hybridsj"})
+    for (const double force : {3500.0, 3650.0, 3800.0, 5000.0, 20000.0, 1e6}) {
+      write({{"laws", R"({"lin": {"type": "cubic", "delta": [0.05, 0.1, 0.15], "F": [1500, 1800, 1200]}})"},
+             {"loads", fmt::format(R"([{{"external": "a:P", "force": {}}}])", force)},
+             {"increments", "4"},
+             {"solver", fmt::format(R"({{"method": "{}"}})", method)}});
+      if (force == 3500) {
+        run();
+        EXPECT_NEAR(result().F.row(3).sum(), force, 1e-6);
+        continue;
+      }
+      EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr("limit load reached: beyond load factor")))
+          << method << ", load " << force;
+    }
+}
+
 /// A sheet that only its level fastener holds, but for rounding of 2e-11: no load goes there.
 TEST_F(LimitLoad, RoundingCarriesNothing) {
   Members members = plastic;

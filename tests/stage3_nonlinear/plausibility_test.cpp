@@ -57,9 +57,7 @@ TEST_F(Plausibility, SwappedHolesAreNamed) {
   EXPECT_THAT(said,
               HasSubstr("joint.json: /fasteners/1/between: the centres of holes \"a:2\" and \"b:3\" are 20 apart, "
                         "more than the radius 2.5: one of them may be another fastener's hole, or the sheets are "
-                        "drawn in different coordinates\n"));
-  EXPECT_THAT(
-      said, AllOf(HasSubstr("/fasteners/2/between"), Not(HasSubstr("/fasteners/0/")), Not(HasSubstr("/fasteners/3/"))));
+                        "drawn in different coordinates (1 more likewise, this is the worst)\n"));
 }
 
 TEST_F(Plausibility, TheOnlyFastenerOfTwoSheetsIsComparedAsTheyAreDrawn) {
@@ -70,7 +68,7 @@ TEST_F(Plausibility, TheOnlyFastenerOfTwoSheetsIsComparedAsTheyAreDrawn) {
 TEST_F(Plausibility, SheetsMayHaveCoordinatesOfTheirOwn) {
   EXPECT_EQ(warnings(fasteners({1, 2, 3}), described(3, {-100, 30})), "");
   const std::string said = warnings(fasteners({1, 2, 4, 3, 5}), described(5, {-100, 30}));
-  EXPECT_THAT(said, AllOf(HasSubstr("/fasteners/2/between"), HasSubstr("/fasteners/3/between"),
+  EXPECT_THAT(said, AllOf(HasSubstr("/fasteners/2/between"), HasSubstr("(1 more likewise, this is the worst)"),
                           Not(HasSubstr("/fasteners/0/")), Not(HasSubstr("/fasteners/1/"))));
 }
 
@@ -134,9 +132,9 @@ TEST_F(Plausibility, DisplacementsAboveARadiusAreNamedOnceWithTheirIncrement) {
   members["loads"] = R"([{"external": "a:P", "force": 4000}])";
   members["increments"] = "4";
   const std::string said = warnings(members, described(1));
-  EXPECT_THAT(said, HasSubstr("joint.json: fastener \"f1\": delta = 3 is above the radius 2.5 of the hole at "
+  EXPECT_THAT(said, HasSubstr("joint.json: fastener \"f1\": |delta| = 3 is above the radius 2.5 of the hole at "
                               "increment 3: loads, laws, lengths or moduli may be in different units\n"));
-  EXPECT_EQ(said.find("delta = "), said.rfind("delta = "));
+  EXPECT_EQ(said.find("delta| = "), said.rfind("delta| = "));
 }
 
 TEST_F(Plausibility, ForcesThatWouldCrushTheSheetAreNamed) {
@@ -146,7 +144,7 @@ TEST_F(Plausibility, ForcesThatWouldCrushTheSheetAreNamed) {
   EXPECT_EQ(warnings(members, lap), "");
   lap.a.stresses.rim_modulus.setConstant(72);  // GPa beside N and mm
   EXPECT_THAT(warnings(members, lap),
-              HasSubstr("joint.json: fastener \"f1\": F = 1000 is above d t E = 720 of a sheet at "
+              HasSubstr("joint.json: fastener \"f1\": |F| = 1000 is above d t E = 720 of a sheet at "
                         "increment 1: loads, laws, lengths or moduli may be in different units\n"));
 }
 

@@ -7,6 +7,7 @@
 
 #include "stage3_nonlinear/newton_solver.hpp"
 #include "stage3_nonlinear/sensitivity.hpp"
+#include "stage3_nonlinear/walk.hpp"
 #include "tests/stage3_nonlinear/named_laws.hpp"
 
 namespace fastjoint::stage3 {
@@ -75,14 +76,14 @@ class Differences {
     if (number.only_up) return (4 * above->F - 3 * here->F - other->F) / (2 * step);
     return (above->F - other->F) / (2 * step);
   }
-  [[nodiscard]] double force_scale() const { return path_.force_scale; }
+  [[nodiscard]] double force_scale() const { return stage3::force_scale(equations_.system, joint_.load_factor); }
 
  private:
   [[nodiscard]] std::optional<Solution> solve(const Number& number, double change) const {
     NamedJoint changed = joint_;
     number.add(changed, change);
     const JointEquations equations = changed.equations();
-    const double scale = path_.force_scale;
+    const double scale = force_scale();
     const Root root = newton_root(root_problem(equations, changed.load_factor, scale), c_ / scale, {1e-14, 50});
     if (!(root.residual.cwiseAbs().maxCoeff() < 1e-12)) return std::nullopt;
     const VectorXd c = scale * root.x;
@@ -132,7 +133,7 @@ std::vector<Number> Differences::numbers() const {
   for (Index i = 0; i < by.force.cols(); ++i) {
     const std::string name = names.loads.force[static_cast<std::size_t>(i)];
     const bool traction = name.ends_with(":T");
-    all.push_back({name, small * path_.force_scale,
+    all.push_back({name, small * force_scale(),
                    [name, traction](NamedJoint& j, double h) {
                      (traction ? plate_of(j, name).traction_force : plate_of(j, name).external_force)[0] += h;
                    },
