@@ -15,11 +15,15 @@ constexpr double entry = sizeof(double) + sizeof(int);
 
 double square(double n) { return n * n; }
 
-/// Each shape's matrix, and those of the kinds, condensed.
-double shapes(const PlateProblem& problem) {
-  const auto n_modes = static_cast<double>(problem.numbering.function.rows());
-  const auto n = static_cast<double>(problem.elements.congruent.first.size() + problem.elements.kinds.size());
-  return n * square(2 * n_modes) * number;
+/// Each shape's matrix, of the highest degree that is integrated, and those of the kinds, condensed, at degree p alone.
+double shapes(const PlateProblem& problem, int p) {
+  const auto& numbering = problem.numbering;
+  const auto of_p = numbering.n_functions[static_cast<std::size_t>(p)];
+  const auto n_shapes = static_cast<double>(problem.elements.congruent.first.size());
+  double kinds = 0;
+  for (const auto& kind : problem.elements.kinds)
+    kinds += square(2 * static_cast<double>((numbering.function.col(kind.first).array() < of_p).count()));
+  return (n_shapes * square(2 * static_cast<double>(numbering.function.rows())) + kinds) * number;
 }
 
 }  // namespace
@@ -43,9 +47,10 @@ MemoryNeed memory_need(const PlateProblem& problem, const Outline& outline, cons
   const auto r = static_cast<double>(n_rim);
   const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
   const double contact = r > 0 ? r * n_cases + std::max(2 * n_p(p.size() - 1) * n_cases, 5 * square(r + 2 * nc)) : 0;
-  constexpr double libraries = 24e6;
-  return {(n_rim > 0 ? 2 : 1) * shapes(problem), 2 * entry * size.entries + number * (size.factor + size.largest_front),
-          number * fields, number * contact, libraries};
+  constexpr double libraries = 26e6;
+  return {(n_rim > 0 ? 2 : 1) * shapes(problem, p[p.size() - 1]),
+          2 * entry * size.entries + number * (size.factor + size.largest_front), number * fields, number * contact,
+          libraries};
 }
 
 void require_memory(const std::string& file, int p, const MemoryNeed& need) {

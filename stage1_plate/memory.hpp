@@ -16,7 +16,10 @@ struct MemoryNeed {
   double contact;  ///< what the search for contact takes before them, 0 without
   double program;
 
-  [[nodiscard]] double total() const { return shapes + factor + std::max(fields, contact) + program; }
+  [[nodiscard]] double total() const {
+    constexpr double gaps = 1.15;  // what the allocator cannot use between them, and what integrating takes
+    return gaps * (shapes + factor + std::max(fields, contact)) + program;
+  }
 };
 /// @param problem As number_unknowns has made it. @param p Degrees to be solved, ascending. @param n_rim Unknowns of
 /// the rims on which contact is looked for, 0 without.
