@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -47,15 +48,20 @@ double left_in_address_space() {
 }  // namespace
 
 double left_in_control_group(const std::string& folder) {
-  const auto cached = [&](const char* list) { return entry(folder + "memory.stat", list, 1); };
-  return number(folder + "memory.max") - number(folder + "memory.current") + cached("inactive_file") +
+  const bool first_version = std::filesystem::exists(folder + "memory.limit_in_bytes");
+  const auto cached = [&](const std::string& list) {
+    return entry(folder + "memory.stat", first_version ? "total_" + list : list, 1);
+  };
+  return number(folder + (first_version ? "memory.limit_in_bytes" : "memory.max")) -
+         number(folder + (first_version ? "memory.usage_in_bytes" : "memory.current")) + cached("inactive_file") +
          cached("active_file");
 }
 
 double available_memory() {
   static const double found = [] {
     double least = entry("/proc/meminfo", "MemAvailable:");
-    for (const double left : {left_in_control_group("/sys/fs/cgroup/"), left_in_address_space()})
+    for (const double left : {left_in_control_group("/sys/fs/cgroup/"), left_in_control_group("/sys/fs/cgroup/memory/"),
+                              left_in_address_space()})
       if (left < least) least = left;  // not a number where a file is not there
     return std::max(least, 0.0);
   }();

@@ -8,8 +8,8 @@ namespace fastjoint::program {
 /// Bytes that this process may still take: what the machine has free, within the limits that the user (ulimit -v) and
 /// the control group of the process set. Found once: what the process has taken since is part of what it needs.
 [[nodiscard]] double available_memory();
-/// Bytes left in a control group of version 2, as a container sees its own; not a number or infinite where there is no
-/// limit. What only caches files is left too: the system takes it back when it is needed.
+/// Bytes left in a control group of version 1 or 2, as a container sees its own; not a number or infinite where there
+/// is no limit. What only caches files is left too: the system takes it back when it is needed.
 [[nodiscard]] double left_in_control_group(const std::string& folder);
 
 /// Throws InputError "WHAT takes about NEED of memoryPARTS, ... are available; allowed: ALLOWED" if that is not

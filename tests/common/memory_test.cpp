@@ -22,6 +22,19 @@ TEST(ControlGroup, CopiesOfFilesAreNotUsedMemory) {
   EXPECT_EQ(left_in_control_group(folder.path("")), 850e6);
 }
 
+/// The same of version 1, whose first numbers of memory.stat leave out what the groups below take.
+TEST(ControlGroup, OfTheFirstVersionIsReadToo) {
+  const test::TemporaryFolder folder;
+  folder.write("memory.limit_in_bytes", "1000000000\n");
+  folder.write("memory.usage_in_bytes", "950000000\n");
+  folder.write("memory.stat",
+               "cache 5\nrss 7\ninactive_file 11\nactive_file 13\nhierarchical_memory_limit 1000000000\n"
+               "total_cache 800000000\ntotal_inactive_file 600000000\ntotal_active_file 200000000\n");
+  EXPECT_EQ(left_in_control_group(folder.path("")), 850e6);
+  folder.write("memory.limit_in_bytes", "9223372036854771712\n");  // says that there is none
+  EXPECT_GT(left_in_control_group(folder.path("")), 1e18);
+}
+
 TEST(ControlGroup, WithoutLimitNoneIsFound) {
   const test::TemporaryFolder folder;
   EXPECT_FALSE(left_in_control_group(folder.path("none/")) < 1e300);
