@@ -146,7 +146,8 @@ std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen
                      joint.name(joint.planes[static_cast<std::size_t>(plane)]), step + 1);
 }
 
-std::string stress_tables(const JointModel& joint, const std::vector<JointState>& states, bool all) {
+std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,
+                          bool all) {
   std::string text;
   for (const auto& plate : joint.plates) {
     if (plate.stress_level) continue;
@@ -157,9 +158,14 @@ std::string stress_tables(const JointModel& joint, const std::vector<JointState>
       text += fmt::format("the force that holds the discs of {} across {} is not known without stresses\n", plate.name,
                           joint.axis_name(0));
   }
+  const double last = std::abs(path.steps.back().load_factor);
+  const bool past_peak = !all && std::any_of(path.steps.begin(), path.steps.end(),
+                                             [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
   for (std::size_t i = all ? 0 : states.size() - 1; i < states.size(); ++i)
     if (const std::string table = rim_table(joint, states[i]); !table.empty())
-      text += fmt::format("stresses at {}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment", table);
+      text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
+                          past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",
+                          table);
   return text;
 }
 
@@ -178,7 +184,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }
   if (!states.empty() && F_error) text += error_bar(joint, path, *F_error);
-  if (!states.empty()) text += legend + stress_tables(joint, states, all_stresses);
+  if (!states.empty()) text += legend + stress_tables(joint, path, states, all_stresses);
   return text;
 }
 

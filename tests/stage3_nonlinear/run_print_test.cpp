@@ -37,6 +37,12 @@ TEST_F(Run, PrintsTheStressesOfEveryIncrementIfAsked) {
   EXPECT_THAT(out_.str(),
               AllOf(HasSubstr("stresses at the last increment\n"), Not(HasSubstr("stresses at increment"))));
   out_.str("");
+  write({{"increments", "[1, 0.5, 0]"}}, lap);
+  run();
+  EXPECT_THAT(out_.str(), HasSubstr("stresses at the last increment, whose load is not the largest (--all-stresses "
+                                    "prints every increment)\n"));
+  write({{"increments", "3"}}, lap);
+  out_.str("");
   options_.all_stresses = true;
   run();
   for (const char* each : {"1", "2", "3"})
