@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A disc in a sheet so large that it is infinite to 1e-6, under remote tension: Bortman & Szabo, section 5, (30), (31).
 
-At the rim, 4 sigma_rr / s = A + B cos 2 theta. theory.md's closed forms: springs with kappa = k a / E_P; the elastic disk without
-friction has the same A with kappa = beta / (1 - nu_D) and B_b's formula with kappa = 3 beta / (3 + nu_D), beta = E_D / E_P.
+At the rim, 4 sigma_rr / s = A + B cos 2 theta. Closed forms are those of docs/theory.md, section 3.3: springs with
+kappa = k a / E_P; the elastic disk without friction has the same A with kappa = beta / (1 - nu_D) and B_b's formula with
+kappa = 3 beta / (3 + nu_D), beta = E_D / E_P.
 """
 import numpy as np
 

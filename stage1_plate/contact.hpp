@@ -28,10 +28,9 @@ struct ContactState {
 
 /// Finds the arcs on which springs push but do not pull, and the state of the plate under the scene's loads.
 ///
-/// Newton's method for the traction T = k max(g, 0), section 5 of the paper: solve with the springs on the present
-/// arcs, take as the next arcs where g > 0, until no end moves by more than 1e-6 rad. Each iteration is a small dense
-/// system, condensed to rims and controlled displacements with all springs in place.
-/// The first arcs are the halves that bear under the forces on the discs when all springs are in place.
+/// Each iteration solves with springs on the present arcs and takes as next arcs where the disc presses on the rim,
+/// until no end moves by more than 1e-6 rad: Newton's method (docs/theory.md, section 6.3). The first arcs are the
+/// halves that bear under the forces on the discs when all springs act.
 /// @param problem Of the scene with the whole rims sprung.
 /// Throws NumericalError if contact is lost or the arcs do not come to rest.
 [[nodiscard]] ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,

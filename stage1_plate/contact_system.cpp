@@ -58,7 +58,8 @@ ContactSystem::State ContactSystem::solve_whole() {
   return solve(arcs);
 }
 
-/// Unknowns x = (u_r, D, P / kappa), kappa the size of K_cc; its rows: u_r, P_c and what is given.
+/// Solves the system of docs/theory.md, section 6.2, for x = (u_r, D, P / kappa), kappa the largest entry of K_cc. Its
+/// three rows of blocks are the rim's displacements, the forces and the given values.
 ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   PlateScene sprung = scene_;
   for (std::size_t i = 0; i < arcs.size(); ++i)

@@ -8,10 +8,9 @@ namespace fastjoint::stage1 {
 
 /// The plate under the scene's loads with springs on given arcs of the holes whose springs push but do not pull.
 ///
-/// With dM = what the springs on the arcs have of the stiffness over z, less what those on the whole rims have, the
-/// springs that are missing act on the rim as phi = -(dM_rr u_r + dM_rc D), and on the controlled displacements:
-/// P_c = S D + R Lambda + T f - U_r^T phi + dM_cr u_r + dM_cc D. Friction amplitudes follow the force that the springs
-/// of the disc transmit, Lambda = mu |P| / c, on the side that bears.
+/// The plate has the springs on the whole rims; those off the arcs are taken away again by the change of stiffness dM
+/// over z. What is left is a system of three blocks for the rim's displacements, the controlled displacements and the
+/// forces on these (docs/theory.md, section 6.2).
 class ContactSystem {
  public:
   ContactSystem(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem);

@@ -92,8 +92,8 @@ Eigen::SparseMatrix<double> PlateFactor::outline_stiffness(const Outline& outlin
     assembler.add(disc, disc, tie.stiffness);
     assembler.add(plate, disc, -tie.stiffness);
   }
-  // The friction cases come last: what stands on their diagonal changes nothing before them, if it is only large enough
-  // for a factor, that is above L^T K^-1 L.
+  // The friction cases come last, so that their diagonal changes nothing before them; it must be large enough for a
+  // factor, that is above L^T K^-1 L (docs/theory.md, section 4.4).
   const auto s = shift(problem_);
   const double L = largest(problem_.L_f), large = L > 0 ? 1e30 * L * L / s.maxCoeff() : 1;
   for (int i = 0; i < rows_.n_border; ++i)

@@ -19,9 +19,8 @@ class PlateFactor {
   /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
   PlateFactor(const PlateProblem& problem, const Outline& outline, int p);
 
-  /// Rows of the factor in the border, shape (nc + h, nc): coordinates of the unit fields, controlled displacements
-  /// first, in a basis that is orthonormal in energy. With E_c and E_h its rows and s = shift(problem),
-  /// S = E_c E_c^T - diag(s), R = E_c E_h^T.
+  /// Rows of the factor in the border, shape (nc + h, nc): E_c of the controlled displacements, then E_h of the
+  /// friction cases. With s = shift(problem), S = E_c E_c^T - diag(s) and R = E_c E_h^T (docs/theory.md, section 4.4).
   [[nodiscard]] Eigen::MatrixXd energy_rows() const;
   /// Plate unknowns under loads on them, controlled displacements held, shape (n_p, k).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
@@ -41,8 +40,8 @@ class PlateFactor {
   std::unique_ptr<linalg::Cholesky> factor_;
 };
 
-/// What is added to the stiffness of each controlled displacement, shape (nc), force / length, so that a sheet that
-/// nothing but its fasteners holds has a factor: as much as it has with the plate held.
+/// Artificial stiffness of each controlled displacement, shape (nc), force / length: as much as its diagonal entry of
+/// K_cc. It keeps the factor of a floating sheet regular and is subtracted from S again (docs/theory.md, section 4.5).
 [[nodiscard]] Eigen::VectorXd shift(const PlateProblem& problem);
 
 }  // namespace fastjoint::stage1

@@ -5,8 +5,8 @@
 
 namespace fastjoint::stage1 {
 
-/// The plate condensed to its rim unknowns r and its controlled displacements c. Under displacements D, tractions f,
-/// friction amplitudes Lambda and additional loads phi on r:
+/// The plate condensed to its rim unknowns r and its controlled displacements c (docs/theory.md, section 6.2). Under
+/// displacements D, tractions f, friction amplitudes Lambda and additional loads phi on r:
 /// u_r = U_r D + V_r f + W_r Lambda + C phi,  P_c = S D + R Lambda + T f - U_r^T phi.
 struct RimCondensation {
   Eigen::MatrixXd C;    ///< (n_r, n_r) length / force

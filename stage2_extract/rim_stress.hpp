@@ -11,10 +11,9 @@ namespace fastjoint::stage2 {
 /// Stress at one point of the rim of a hole in every unit case, shape (3, n_cases): sigma_rr, sigma_tt, sigma_rt, mean
 /// of the sides that meet there.
 ///
-/// The tractions on a rim are known: sigma_rr = k (u.n - D.n) by the springs, equation (6), or the pressure of a
-/// bearing load, and sigma_rt is the friction's. What is left of the strains, eps_tt, needs only derivatives along the
-/// rim; the material's law then gives sigma_tt. So no derivative across the rim comes in. tests/bench/rim_stress.cpp
-/// compares this with the plain stress, patch recovery and harmonics of the displacement; a laminate gains most by it.
+/// sigma_rr and sigma_rt are the known tractions of springs, bearing load and friction; sigma_tt follows from them and
+/// the strain along the rim by the material's law, without a derivative across the rim (docs/theory.md, section 11.1).
+/// tests/bench/rim_stress.cpp compares this with three other ways.
 [[nodiscard]] Eigen::MatrixXd rim_stress(const UnitFields& fields, std::size_t hole, const RimPoint& point);
 
 }  // namespace fastjoint::stage2

@@ -14,8 +14,8 @@ struct FrictionRow {
   Eigen::Index direction;      ///< of the joint's directions
 };
 
-/// All that is linear in a joint, condensed on its n shear planes in a directions (theory.md section 5), for any
-/// stack of plates.
+/// All that is linear in a joint, condensed on its n shear planes in a directions, for any stack of plates
+/// (docs/theory.md, section 7.1).
 ///
 /// Of the rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D remains
 ///   F + S_ud delta + H+ b+ + H- b- = lambda q,   b = E F, b+ = max(b, 0), b- = max(-b, 0),

@@ -27,13 +27,12 @@ struct ExactPath {
   [[nodiscard]] Eigen::VectorXd at(double load_factor) const;
 };
 
-/// Follows a piecewise linear joint from corner to corner (Katzenelson, Bell Syst. Tech. J. 44, 1965): a fastener makes
-/// or loses contact, yields, or a rim's friction changes its side. Each piece is two right-hand sides with one matrix,
-/// so that nothing adds up. Which way corners that are reached together are left is found by flipping the first that
-/// contradicts the direction (Murty 1974: ends if all matrices have determinants of one sign, as without friction).
+/// Follows a piecewise linear joint from corner to corner: a fastener makes or loses contact, yields, or a rim's
+/// friction changes its side (docs/theory.md, section 8.6). Each piece is solved on its own, so that errors do not add
+/// up.
 ///
-/// Where a sheet has no place of its own it moves as little as may be; a load that meets no stiffness moves it at
-/// constant load until something bears. The path ends before `target` where nothing does or, by friction, it turns
+/// A sheet that gaps leave free moves as little as the equations allow; a load that meets no stiffness moves it at
+/// constant load until a fastener bears. The path ends before `target` where none does, or where friction makes it turn
 /// back.
 ///
 /// @param equations is_piecewise_linear

@@ -57,7 +57,7 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
   ContactState state = contact_state(equations.contacts, c);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
   Slopes slopes = implicit_slopes(equations.system, state, equations.system.D_delta.transpose());
-  slopes.no_column.clear();  // forces on a plate that flies, of which errors of stiffness have none
+  slopes.no_column.clear();  // errors of S exert no net force on a floating sheet, so that these columns do not count
   const MatrixXd w = of_amounts(slopes, state, c);
   VectorXd result = VectorXd::Zero(w.rows());
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {

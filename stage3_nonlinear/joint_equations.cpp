@@ -14,8 +14,9 @@ using Eigen::VectorXd;
 
 /// K, one entry for each plane.
 ///
-/// @param contacts With the stiffnesses of the plates themselves: a sheet that one fastener holds leaves of S rounding
-///        only, with which c could not tell one displacement from another.
+/// @param contacts With the stiffnesses of the plates themselves, which replace a row of S that is nothing but
+/// rounding,
+///        as that of a sheet held by one fastener alone.
 VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& contacts) {
   constexpr double more = 1.05;
   constexpr double negligible = 1e-9, rounding = 1e-12;
@@ -48,11 +49,9 @@ MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts)
   return W.llt().solve(MatrixXd::Identity(W.rows(), W.rows()));
 }
 
-/// Gives open and yielded fasteners a trace of stiffness, in the direction of search only: a sheet that none of the
-/// others holds has no other, and the solvers divide by what is left. It goes with the residual, so that the last steps
-/// are quick also where springs as weak as the trace hold a sheet.
-///
-/// Where laws rise, dF + k ddelta = 1 stays, and with it W^-1 J = W^-1 - ddelta > 0 (newton_solver.hpp).
+/// Gives open and yielded fasteners a trace of stiffness in the Jacobian, not in the residual: without it the Jacobian
+/// is singular where such fasteners alone hold a sheet. The trace falls with the residual, so that the last steps are
+/// quick also where springs as weak as the trace hold a sheet (docs/theory.md, section 8.5).
 void add_trace(const JointEquations& equations, double residual, ContactState& state) {
   constexpr double share = 1e-7;
   constexpr double least = 1e-11;  // rounding over this is still a small step

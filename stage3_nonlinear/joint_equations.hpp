@@ -16,7 +16,7 @@ struct JointEquations {
   CondensedSystem system;
   std::vector<Contact> contacts;  ///< (n)
   /// W^-1 with W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
-  /// length / force (newton_solver.hpp).
+  /// length / force (docs/theory.md, section 8.4).
   Eigen::MatrixXd metric;
 
   [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(contacts.size()); }
@@ -27,7 +27,8 @@ struct JointEquations {
 };
 
 /// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in
-/// its row of S_ud: then K - S_ud is positive definite (Gershgorin). Where S_ud is rounding, the plate's own stiffness.
+/// its row of S_ud, so that K - S_ud is positive definite (docs/theory.md, section 8.2). Where S_ud is nothing but
+/// rounding, the plate's own stiffness takes its place.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
 /// @param contacts Their stiffness is that of the plate itself, and replaced.
 [[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);

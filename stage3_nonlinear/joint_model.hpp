@@ -48,10 +48,8 @@ struct FastenerModel {
 [[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d,
                                         Side side);
 
-/// Brings a fastener into equilibrium whose holes have unlike friction, by their bearing forces: with Q what a plane
-/// transfers, each hole bears on Q / (1 + its share of friction), in a stack with the difference of two planes' Q. Q
-/// is F of the law if that includes friction, else F (1 + mean share), so that F is the bearing force where all shares
-/// are the same.
+/// Gives each hole of a fastener the bearing force with which bearing and friction together transfer the load of the
+/// shear plane, so that a fastener with unlike friction in its holes is in equilibrium (docs/theory.md, section 7.4).
 void balance(FastenerModel& fastener);
 
 /// Between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F and

@@ -46,10 +46,9 @@ struct Source {
 
 /// What a fastener answers to the relative displacement of its discs, delta >= 0, its clearance included.
 ///
-/// The curve is given by a contact coordinate c >= 0 in force units. Of a law that never falls it is
-/// c = F + k delta (Minty's parametrisation of a monotone curve): F and delta are functions of c with slopes
-/// between 0 and 1 and between 0 and 1/k, also where the law's own slope is infinite, jumps or vanishes. Of a law that
-/// falls somewhere it is c = k delta. A new law is one new file and one line in law.cpp.
+/// The curve is given by a contact coordinate c >= 0 in force units: c = F + k delta of a law that never falls,
+/// c = k delta of one that falls somewhere (docs/theory.md, section 8.2). A new law is one new file and one line in
+/// law.cpp.
 class Law {
  public:
   Law() = default;
@@ -78,7 +77,7 @@ class Law {
   }
   /// The numbers of the law that results can be differentiated by.
   [[nodiscard]] virtual std::vector<Parameter> parameters() const { return {}; }
-  /// By the clearance, then by each of parameters().
+  /// Derivatives of F and delta at fixed c and k: first by the clearance, then by each of parameters(), in their order.
   [[nodiscard]] virtual std::vector<Slope> slopes(double c, double k, double clearance) const = 0;
   [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
   /// What the user should know of the parameters, one sentence each.

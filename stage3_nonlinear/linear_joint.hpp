@@ -16,7 +16,8 @@ struct LinearForces {
   bool consistent = false;  ///< friction acts on the sides that bear
 };
 
-/// Solves (I + S_ud diag(flexibility) + H E) F = lambda q, with the columns of H by the sides that bear.
+/// Solves (I + S_ud diag(flexibility) + H E) F = lambda q, with the columns of H by the sides that bear
+/// (docs/theory.md, section 8.8).
 ///
 /// @param flexibility Of each row, length / force, >= 0, shape (n a); zero is a rigid fastener.
 [[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const Eigen::VectorXd& flexibility,

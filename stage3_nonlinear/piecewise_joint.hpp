@@ -20,7 +20,7 @@ struct CornerCurve {
   [[nodiscard]] std::size_t piece_of(double c) const;
 };
 
-/// Where a joint is among the pieces of its equations.
+/// A cell of the piecewise linear equations: the piece of every plane's curve and the side that bears of every rim.
 struct Cell {
   std::vector<std::size_t> piece;  ///< (n) of each plane's curve
   std::vector<int> side;           ///< (f) 1 or -1: of each rim that friction acts on, the side that bears

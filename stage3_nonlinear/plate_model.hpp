@@ -23,7 +23,7 @@ struct PlateDegrees {
 
 /// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, as unknowns of one list.
 ///
-/// Forces that must act on it from outside: S u + R Lambda + T f (theory.md sections 3 to 5).
+/// Forces that must act on it from outside: S u + R Lambda + T f (docs/theory.md, section 4).
 struct PlateModel {
   std::string name, file;
   std::string matrices_digest, plate_digest;                 ///< of its MATRICES.h5, and of its PLATE.h5

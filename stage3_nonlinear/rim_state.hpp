@@ -42,13 +42,10 @@ struct PlateLoading {
 
 /// All holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
 ///
-/// Error of the peak: the largest change of the hoop stress from the degree below within 45 degrees of it. The change
-/// at the peak itself is no estimate: there the two may agree by chance (tests/pipeline/peak_error_test.cpp).
-///
-/// Bypass, along x: of the force that comes over the section beside the hole towards the loaded side of the hole, what
-/// leaves over the section on the side that bears. Where friction acts, the hoop stress is logarithmically singular at
-/// the bearing directions, where the friction jumps: points within 7.5 degrees of them are no candidates for the peak,
-/// if the jump is more than 1 % of the bearing stress.
+/// The error of the peak is the largest change of the hoop stress from the degree below within 45 degrees of it
+/// (tests/pipeline/peak_error_test.cpp). Points within 7.5 degrees of a jump of friction are no candidates for the peak
+/// if the jump is more than 1 % of the bearing stress. The bypass load is the section force along x on the side of the
+/// hole that bears (docs/theory.md, sections 11.2 to 11.4).
 [[nodiscard]] std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& loading);
 
 }  // namespace fastjoint::stage3

@@ -48,15 +48,11 @@ struct Sensitivity {
   Eigen::MatrixXd displacement;  ///< (n, v) by UnitLoads::displacement at load factor 1, force / length
 };
 
-/// By the implicit function theorem for the residual r(c, number) of the condensed system: J dc = -dr/dnumber and
-/// dF = F_c dc + dF/dnumber at fixed c, one factorisation of J for all numbers.
+/// Derivatives at one step, by the implicit function theorem with one factorisation of the tangent for all numbers
+/// (docs/theory.md, section 10). Where F has a corner they are one-sided.
 ///
-/// Where F has a kink, derivatives are one-sided: at first contact and at corners of a law of the side that the law
-/// takes from there on (larger c), without load of a load that grows from 0, and by the clearance of a plane whose
-/// discs are where they were built 0, since a gap opened there is not met. Where the gaps leave a sheet free
-/// (TangentCheck::mechanism) J is singular and the forces are differentiable by all that leaves it in balance, for them
-/// its place does not matter; infinite are those by a load that would make it fly, and those of forces at a limit
-/// point.
+/// Where gaps leave a sheet free (TangentCheck::mechanism), forces are differentiable by all numbers that leave it in
+/// balance; derivatives by a load that would set it moving, and those of forces at a limit load, are infinite.
 [[nodiscard]] Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers,
                                       const PathStep& step);
 

@@ -25,13 +25,14 @@ struct Mechanism {
 
 /// What the tangent at a solution says of it.
 struct TangentCheck {
-  /// If no plane is level, open ones alone hold some plate, whose place within their gaps is not determined.
+  /// A motion without stiffness, if there is one. If none of its planes is level, some plate is free within its gaps
+  /// and has no place of its own.
   std::optional<Mechanism> mechanism;
-  /// Number of ways in which the solution is unstable: eigenvalues of the tangent with a negative real part. Without
-  /// friction they are as many as those of S_ud + dF/d delta. None without friction or a law that falls.
+  /// Number of ways in which the solution is unstable: eigenvalues of the tangent with a negative real part
+  /// (docs/theory.md, section 9.3). There are none without friction or a law that falls.
   Eigen::Index unstable = 0;
-  /// Friction reserve: the factor on all coefficients of friction at which I + H E, theory.md's I - R M of all plates
-  /// together, becomes singular on the sides that bear (self-locking), if it is at most 1; else empty.
+  /// Friction reserve: the factor on all coefficients of friction at which the joint locks, if it is at most 1; else
+  /// empty. At this factor I + H E is singular on the sides that bear (docs/theory.md, section 9.4).
   std::optional<double> locking;
 
   [[nodiscard]] bool at_limit_load() const { return mechanism && !mechanism->level.empty(); }

@@ -17,8 +17,8 @@ struct UnitLoads {
   Eigen::MatrixXd q_displacement;         ///< (n a, v) per unit displacement, force / length
 };
 
-/// Nothing is solved: by reciprocity (Betti) what a load does to rigid fasteners is its work on the displacements
-/// D_delta of their unit relative displacements.
+/// By reciprocity q of a load is its work on the displacements D_delta, without another solve (docs/theory.md,
+/// section 7.1).
 [[nodiscard]] UnitLoads unit_loads(const JointModel& joint, const CondensedSystem& system);
 
 }  // namespace fastjoint::stage3

@@ -5,11 +5,10 @@
 
 namespace fastjoint::pfem {
 
-/// S_ij = energy product of the unit fields i and j, shape (nc, nc), force / length, by their coordinates in a basis
-/// that is orthonormal in energy: S = E_c E_c^T - diag(shift). Its error is the product of two energy-norm errors;
-/// integrating the stresses along the boundaries instead would converge at half the rate. S_ij is the force on i per
-/// displacement of j. Where rounding is all that is left of K_cc, as of a sheet that one disc alone holds, S is zero.
-/// Theory: Babuska & Miller, Int. J. Numer. Meth. Engng 20, 1085 (1984).
+/// Condensed stiffness S = E_c E_c^T - diag(shift), shape (nc, nc), force / length: S_ij is the force on i per
+/// displacement of j, and the energy product of the unit fields i and j, which makes it superconvergent
+/// (docs/theory.md, sections 4.1 and 4.4; Babuska & Miller, Int. J. Numer. Meth. Engng 20, 1085, 1984). S is zero where
+/// rounding is all that is left of K_cc, as in a sheet held by one disc alone.
 [[nodiscard]] Eigen::MatrixXd condensed_stiffness(const Eigen::MatrixXd& E_c, const Eigen::VectorXd& shift,
                                                   const Eigen::MatrixXd& K_cc);
 

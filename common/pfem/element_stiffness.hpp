@@ -45,9 +45,8 @@ class ElementStiffness {
   mutable std::map<int, Table> tables_;
 };
 
-/// Degree, in either coordinate, of the polynomials that det J J^-1 J^-T comes down to on a part of an element: all
-/// that the geometry brings into a stiffness. 0 of a parallelogram; a bilinear map makes it rational, arcs make it
-/// transcendental, and what is left out is then 1e-11 of the largest.
+/// Degree of the polynomials, in each coordinate, that represent the geometry's factor det J J^-1 J^-T of a stiffness
+/// on a part of an element to 1e-11 of its largest coefficient; 0 of a parallelogram (docs/theory.md, section 2.5).
 struct GeometricDegree {
   int degree;   ///< the highest also stands for all that are higher
   int steeper;  ///< the coordinate, 0 or 1, in which it has more of that degree

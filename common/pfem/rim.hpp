@@ -43,7 +43,7 @@ inline constexpr double full_turn = 2 * std::numbers::pi;
 /// Unit vector along "x" or "y".
 [[nodiscard]] Eigen::Vector2d axis(const std::string& direction);
 
-/// Cosine distribution on the half of a rim that bears along the unit vector d (theory of the paper, section 4.3).
+/// Cosine distribution on the half of a rim that bears along the unit vector d (docs/theory.md, section 4.2).
 struct CosineBearing {
   double contact;           ///< contact stress per peak: cos(theta) on the bearing half, else 0
   Eigen::Vector2d tangent;  ///< unit tangent along which friction drags the plate: its part along d is positive

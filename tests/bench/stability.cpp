@@ -80,7 +80,7 @@ class Promises {
  private:
   void complain(const RandomJoint& joint, const char* what) { complain(fmt::format("{}: {}", name(joint), what)); }
 
-  /// Without friction the forces are unique (theory.md section 7).
+  /// Without friction the forces are unique (docs/theory.md, section 8.3).
   void compare(const RandomJoint& joint, const std::vector<Trial>& trials) {
     Eigen::VectorXd first = joint.exact;
     for (const auto& trial : trials) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Nisida's pin-loaded sheet (section 5 of the paper; theory.md, section 9) and what must hold of any contact.
+// Nisida's pin-loaded sheet (section 5 of the paper; docs/theory.md, section 6) and what must hold of any contact.
 #include "stage1_plate/contact.hpp"
 
 #include <fmt/format.h>

@@ -139,8 +139,8 @@ Harmonics rim_harmonics(const test::Plate& plate, const Eigen::Matrix2Xd& u, dou
   return h;
 }
 
-/// theory.md, section 9: A_b = 4 kappa/(1 + kappa (1+nu)), B_b = 8 kappa/(1 + kappa (5-nu)/3), kappa = beta/(1-nu) by
-/// (29).
+/// docs/theory.md, section 3.3: A_b = 4 kappa/(1 + kappa (1+nu)), B_b = 8 kappa/(1 + kappa (5-nu)/3), kappa =
+/// beta/(1-nu) by (29).
 TEST(Inclusion, SpringsGiveTheHarmonicsOfTheClosedForm) {
   for (const double beta : {0.1, 1.0 / 3, 0.5, 1.0, 2.0, 3.0, 5.0, 10.0}) {
     const double kappa = beta / (1 - nu);
@@ -156,8 +156,8 @@ TEST(Inclusion, SpringsGiveTheHarmonicsOfTheClosedForm) {
   }
 }
 
-/// The elastic disk without friction between it and the plate, by theory.md, section 9: its own harmonics, to which
-/// each law's springs come as near as a model of one modulus can.
+/// The elastic disk without friction between it and the plate, by docs/theory.md, section 3.3: its own harmonics, to
+/// which each law's springs come as near as a model of one modulus can.
 TEST(Inclusion, EachLawHasTheHarmonicOfTheElasticDiskThatItIsMadeFor) {
   for (const double beta : {0.1, 1.0, 10.0}) {
     const auto mean = [](double kappa) { return 4 * kappa / (1 + kappa * (1 + nu)); };

@@ -27,7 +27,7 @@ TEST(SpringLaw, PlaneStrainFollowsFromPlaneStress) {
   EXPECT_NEAR(modulus("plane strain") / in_strain, 1, 1e-15);
 }
 
-/// theory.md, section 9: kappa = 3 beta / (3 + nu_D) with kappa = k a / E_P gives the elastic disk's B_a.
+/// docs/theory.md, section 3.2: kappa = 3 beta / (3 + nu_D) with kappa = k a / E_P gives the elastic disk's B_a.
 TEST(SpringLaw, TheSecondHarmonicIsThatOfTheElasticDisk) {
   EXPECT_NEAR(modulus("second harmonic") * (d / 2) / E, 3 / (3 + nu), 1e-15);
 }

@@ -142,7 +142,7 @@ TEST(CondensedSystem, TractionActsThroughItsHoldingForces) {
   EXPECT_EQ(state.plates[0].applied[0], 50);
 }
 
-/// Parallel-sum form of theory.md section 5, for fasteners whose forces have the signs of `forces`.
+/// Parallel-sum form of docs/theory.md, section 7.2, for fasteners whose forces have the signs of `forces`.
 struct Theory {
   MatrixXd S_ud;
   VectorXd q;

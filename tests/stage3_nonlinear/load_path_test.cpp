@@ -100,7 +100,7 @@ TEST(LoadPath, FirstGuessesAgree) {
   }
 }
 
-/// theory.md section 7, with friction, one-sided fasteners and floating sheets too; the tolerance is the
+/// docs/theory.md, section 8.4, with friction, one-sided fasteners and floating sheets too; the tolerance is the
 /// default.
 class RandomJoints : public testing::TestWithParam<test::RandomJoint> {};
 

@@ -10,7 +10,7 @@ namespace fastjoint::test {
 ///
 /// With rho = a/r: sigma_rr = s/2 (1 + A rho^2) + s/2 (1 + B rho^2 + C rho^4) cos 2 theta,
 /// sigma_tt = s/2 (1 - A rho^2) - s/2 (1 + C rho^4) cos 2 theta, sigma_rt = -s/2 (1 - B/2 rho^2 - C rho^4) sin 2 theta.
-/// The rim has no shear, C = 1 - B/2, and sigma_rr = k u_r there, which gives A and B (theory.md, section 9).
+/// The rim has no shear, C = 1 - B/2, and sigma_rr = k u_r there, which gives A and B (docs/theory.md, section 3.3).
 class SpringInclusion {
  public:
   SpringInclusion(double E, double nu, double radius, double kappa, double tension)
