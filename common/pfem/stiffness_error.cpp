@@ -10,24 +10,19 @@
 namespace fastjoint::pfem {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity(), slowest = 1.5;
 
 /// Sum over all degrees above p of what is 1 at p and falls as p^-s, by Euler and Maclaurin's formula.
 double tail(double p, double s) { return p / (s - 1) - 0.5 + s / (12 * p); }
 
-/// s of the differences of a sequence, from its last three.
-double rate(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest) {
-  constexpr double slowest = 1.5, unknown = 3;
+/// s that a sequence shows by its last difference and the last but two, or the first of two; infinite of one alone.
+double rate(const Eigen::VectorXd& values, const Eigen::VectorXi& p) {
   const auto n = values.size();
-  if (n < 4) return std::min(unknown, fastest - 1);
-  const double before = values[n - 4] - values[n - 3], last = values[n - 2] - values[n - 1];
+  if (n < 3) return infinite;
+  const auto first = std::max<Eigen::Index>(n - 4, 0);
+  const double before = values[first] - values[first + 1], last = values[n - 2] - values[n - 1];
   if (!(before > 0 && last > 0)) return slowest;
-  return std::clamp(std::log(before / last) / std::log(double(p[n - 1]) / p[n - 3]), slowest, fastest);
-}
-
-double last_difference(const Eigen::VectorXd& values) {
-  const auto n = values.size();
-  return std::abs(values[n - 2] - values[n - 1]);
+  return std::log(before / last) / std::log(double(p[n - 1]) / p[first + 1]);
 }
 
 /// Diagonal entry i of each matrix.
@@ -46,10 +41,17 @@ double fastest_rate(const std::vector<Eigen::Matrix3d>& elasticity) {
 }
 
 double extrapolated_error(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest) {
+  constexpr double unknown = 3, fastest_seen = 8, least_p = 6;  // from which on `fastest` is believed
   const auto n = values.size();
   if (n < 2) return infinite;
-  const double rounding = 1e-13 * std::abs(values[n - 1]);
-  return std::max(tail(p[n - 1], rate(values, p, fastest)) * last_difference(values), rounding);
+  const double shown = rate(values, p), rounding = 1e-13 * std::abs(values[n - 1]);
+  double most = fastest * std::min(1.0, (p[n - 1] - 1) / (least_p - 1));
+  if (n < 4) most = std::min({most, unknown, fastest - 1});
+  double last = std::abs(values[n - 2] - values[n - 1]);
+  if (n > 2)
+    last = std::max(last, std::abs(values[n - 3] - values[n - 2]) *
+                              std::pow(double(p[n - 2]) / p[n - 1], std::clamp(shown, slowest, fastest_seen)));
+  return std::max(tail(p[n - 1], std::clamp(shown, slowest, std::max(slowest, most))) * last, rounding);
 }
 
 Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p, double fastest) {
@@ -76,10 +78,12 @@ std::vector<RelativeError> relative_errors(const CondensedLevels& a, const Eigen
     errors.push_back(
         {"S", stiffness_error(a.S, p, fastest).cwiseMax(a.rounding).norm() / (S.isZero(0) ? K_cc : S).norm()});
   if (const auto& R = a.R.back(); R.size() > 0 && !R.isZero(0)) {
-    Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size());
+    // `path` falls by the norms of R's differences
+    Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size()), path = energy;
     for (Eigen::Index i = 0; i < a.S.back().rows(); ++i) energy += diagonal(a.S, i);
-    const double more = tail(p[p.size() - 1], rate(energy, p, fastest));
-    errors.push_back({"R", a.R.size() < 2 ? infinite : more * (a.R[a.R.size() - 2] - R).norm() / R.norm()});
+    for (std::size_t i = a.R.size() - 1; i > 0; --i)
+      path[static_cast<Eigen::Index>(i) - 1] = path[static_cast<Eigen::Index>(i)] + (a.R[i] - a.R[i - 1]).norm();
+    errors.push_back({"R", extrapolated_error(path, p, std::min(fastest, rate(energy, p))) / R.norm()});
   }
   if (const auto& C = a.C.back(); C.size() > 0) {
     std::vector<Eigen::MatrixXd> falling;

@@ -49,7 +49,7 @@ void expect_effectivity(const std::string& name, const std::string& json, const 
   }
 }
 
-constexpr double least = 0.1, most = 1.5;
+constexpr double least = 0.05, most = 1.5;
 
 TEST(Effectivity, OfPanels) {
   for (const auto& [nx, ny] : {std::pair{1, 1}, {3, 1}, {3, 3}, {10, 10}})
@@ -89,21 +89,20 @@ test::GridSheet square(const std::string& extra, const std::vector<std::vector<d
   return {{0, 1, 2}, {0, 1, 2}, thickness, {{"1", 0.5, 0.5, 0.15}}, extra};
 }
 
-constexpr double least_of_singular = 0.05;
-
 /// A square with a hole whose rate singular points rule sooner or later: never underestimated, and less than 20 times
 /// overestimated.
 TEST(Effectivity, OfSingularSheets) {
   const std::vector<std::vector<double>> even = {{0.1, 0.1}, {0.1, 0.1}};
-  for (const auto& [name, sheet] : {std::pair{"clamped edge", square(clamped + pulled, even)},
-                                    {"rigid edge with free neighbours", square(clamped + glued, even)},
-                                    {"step in thickness", square(symmetric + pulled, {{0.1, 0.5}, {0.1, 0.5}})},
-                                    {"re-entrant corner: what is left out is 1e-6 as thick",
-                                     square(symmetric + pulled, {{0.1, 0.1}, {0.1, 1e-7}})}})
-    expect_effectivity(name, sheet.json(0, ""), finest(test::graded(sheet, 4).json(3, "")), least_of_singular, most);
+  for (const auto& [name, sheet] :
+       {std::pair{"clamped edge", square(clamped + pulled, even)},
+        {"rigid edge with free neighbours", square(clamped + glued, even)},
+        {"step in thickness", square(symmetric + pulled, {{0.1, 0.5}, {0.1, 0.5}})},
+        {"re-entrant corner: what is left out is 1e-6 as thick", square(symmetric + pulled, {{0.1, 0.1}, {0.1, 1e-7}})},
+        {"chess board of thicknesses: a singularity of about r^0.4", square(symmetric + pulled, {{0.1, 1}, {1, 0.1}})}})
+    expect_effectivity(name, sheet.json(0, ""), finest(test::graded(sheet, 4).json(3, "")), least, most);
 }
 
-/// Ends of the springs at a rim, between nodes, where the rate is 2 lambda + 1: up to 2.3 times underestimated. The
+/// Ends of the springs at a rim, between nodes, where the rate is 2 lambda + 1: up to twice underestimated. The
 /// exact S is from cells whose corners lie on the rays through the ends.
 TEST(Effectivity, OfASpringThatEndsBetweenNodes) {
   const auto with_arc = [](std::string json) {
@@ -115,21 +114,11 @@ TEST(Effectivity, OfASpringThatEndsBetweenNodes) {
   const double half_width = 0.5 / std::sqrt(3.0);  // tan 60 degrees = sqrt 3
   aligned.x = {0, 0.5 - half_width, 0.5 + half_width, 1};
   aligned.thickness = {{0.1, 0.1, 0.1}};
-  expect_effectivity("arc", with_arc(sheet.json(0, "")), finest(with_arc(aligned.json(3, ""))), least_of_singular, 2.3);
-}
-
-/// Where the estimate fails: thicknesses of 1 to 10 like the squares of a chess board make a singularity so strong
-/// (about r^0.4) that three degrees, whose rate is taken for granted, do not show it; four do.
-TEST(Effectivity, OfThreeDegreesAtAVeryStrongSingularity) {
-  const auto sheet = square(symmetric + pulled, {{0.1, 1}, {1, 0.1}});
-  const auto exact = finest(test::graded(sheet, 4).json(3, ""));
-  const auto S = stiffnesses(with(sheet.json(0, ""), pfem::Space::trunk));
-  EXPECT_GT(effectivity(S, 3, exact), 2);
-  for (int p = 4; p <= 8; ++p) EXPECT_LT(effectivity(S, p, exact), most) << p;
+  expect_effectivity("arc", with_arc(sheet.json(0, "")), finest(with_arc(aligned.json(3, ""))), least, 2);
 }
 
 /// A laminate off its axes is singular in the corners of its sheet on rollers, like r^(1/2): its sequence may look
-/// smooth for long. From four degrees on its error is not underestimated; three do not show it.
+/// smooth for long. Its error is not underestimated all the same.
 TEST(Effectivity, OfLaminatesOffTheirAxes) {
   const std::string aluminium = R"("al": {"E": 1e7, "nu": 0.3})";
   for (unsigned seed = 0; seed < 8; ++seed) {
@@ -144,7 +133,7 @@ TEST(Effectivity, OfLaminatesOffTheirAxes) {
     for (const auto space : spaces)
       for (const int rings : {0, 1}) {
         const auto S = stiffnesses(with(laminate(sheet.json(rings, "")), space));
-        for (int p = 4; p <= 8; ++p) {
+        for (int p = 3; p <= 8; ++p) {
           const double ratio = effectivity(S, p, exact, fastest);
           EXPECT_GT(ratio, 0.02) << seed << ", " << pfem::name_of(space) << ", rings " << rings << ", p = " << p;
           EXPECT_LT(ratio, most) << seed << ", " << pfem::name_of(space) << ", rings " << rings << ", p = " << p;
@@ -152,34 +141,6 @@ TEST(Effectivity, OfLaminatesOffTheirAxes) {
       }
   }
   EXPECT_EQ(pfem::fastest_rate(test::make_plate(test::panel(1, 1)).scene.elasticity), 5);
-}
-
-/// R and C_t of random sheets as --accuracy models them, from four degrees on.
-TEST(Effectivity, OfFrictionAndCompliance) {
-  const std::string product = test::in_space(pfem::Space::product);
-  const auto reactions = [](const formats::PlateMatrices& a) {
-    Eigen::MatrixXd R(a.n_externals() + a.n_discs(), a.n_friction_cases());
-    R << a.R_ef.back(), a.R_df.back();
-    return R;
-  };
-  for (unsigned seed = 0; seed < 12; ++seed) {
-    const auto sheet = test::random_sheet(seed);
-    const auto exact = test::extract(test::graded(sheet, 2).json(3, product + R"(, "p": [8, 8])")).matrices;
-    for (int p = 4; p <= 8; ++p) {
-      const auto coarse = test::extract(sheet.json(1, product + R"(, "p": [1, )" + std::to_string(p) + "]"));
-      const auto check = [&](const std::string& of, const Eigen::MatrixXd& A, const Eigen::MatrixXd& limit,
-                             double high) {
-        for (const auto& estimate : coarse.errors) {
-          if (estimate.of != of) continue;
-          const double error = (A - limit).norm() / limit.norm();
-          EXPECT_LT(error, high * estimate.value) << of << " of sheet " << seed << ", p = " << p;
-          EXPECT_GT(error, 0.005 * estimate.value) << of << " of sheet " << seed << ", p = " << p;
-        }
-      };
-      check("R", reactions(coarse.matrices), reactions(exact), 2.8);
-      check("C_t", coarse.matrices.C_t.back(), exact.C_t.back(), most);
-    }
-  }
 }
 
 }  // namespace
