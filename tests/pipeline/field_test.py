@@ -16,6 +16,9 @@ import meshio
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "scripts"))
+sys.dont_write_bytecode = True
+import stress_field  # noqa: E402
 DRAW = str(ROOT / "scripts/draw_stress")
 EXAMPLE = ROOT / "examples/three_fasteners"
 
@@ -31,7 +34,6 @@ def done(*words):
 
 
 def load_script():
-    sys.dont_write_bytecode = True
     loader = SourceFileLoader("draw_stress", DRAW)
     module = module_from_spec(spec_from_loader("draw_stress", loader))
     loader.exec_module(module)
@@ -82,13 +84,13 @@ def check_against_rims(field, plate, joint):
         assert abs(hoop.max() / peak - 1) < 0.01, (hole, hoop.max(), peak)
 
 
-def check_refinement(script):
+def check_refinement():
     """The fine patch reproduces a polynomial of the cell's degree."""
     p = 5
-    refine, triangles = script.fine_patch((p + 1) ** 2)
+    refine, triangles = stress_field.fine_patch((p + 1) ** 2)
     n = int(np.sqrt(len(refine)))
     eta, xi = (a.ravel() for a in np.meshgrid(*2 * [np.linspace(-1, 1, n)], indexing="ij"))
-    u, v = script.lagrange_nodes(p).T
+    u, v = stress_field.lagrange_nodes(p).T
     assert np.abs(refine @ (u**5 * v**4 - v**5) - (xi**5 * eta**4 - eta**5)).max() < 1e-12
     a, b, c = (np.column_stack([xi, eta])[triangles[:, i]] for i in range(3))
     area = np.cross(b - a, c - a) / 2
@@ -158,22 +160,46 @@ def check_pictures():
 
 
 def check_arrows(script):
-    """Loads of a file that holds nothing else, by the increment of the field unless another is asked for."""
+    """Forces of a file that holds nothing else, by the increment of the field unless another is asked for: friction included,
+    those of two shear planes added up."""
     field = script.Field("center.vtu")
     with h5py.File("hand_made.h5", "w") as f:
+        f["direction"] = ["x", "y"]
+        f["fastener/first"] = ["center:1", "other:3", "center:3"]
+        f["fastener/second"] = ["other:1", "center:3", "other:3"]
+        f["F"] = [[1.0, 2, 0], [5, 2, 0], [5, 0, 1]]
+        f["F"].attrs["unit"] = "lbf"
+        f["F_vector"] = [[[1.0, 0], [2, 0], [0, 0]], [[3, 4], [0, -2], [0, 0]], [[5, 0], [0, 0], [1, 0]]]
+        f["transferred"] = 1.1 * np.repeat(f["F"][:][:, :, None], 2, axis=2)
         f["plates/center/rim/hole"] = ["1", "3"]
-        f["plates/center/rim/bearing_load"] = [[1.0, 2], [3, 4], [5, 0]]
-        f["plates/center/rim/bearing_load"].attrs["unit"] = "lbf"
-        f["plates/center/rim/bearing_load_y"] = [[0.0, 0], [0, -7], [0, 0]]
+        f["plates/center/rim/bearing_load"] = np.zeros((3, 2))
+        f["plates/center/rim/peak_hoop"] = [[2.0, 1], [3, 4], [6, 5]]
+        f["plates/center/rim/peak_angle"] = [[90.0, 0], [0, 180], [90, 0]]
 
         def drawn(increment):
-            loads, unit = script.bearing_loads(field, f, increment)
-            return {hole: tuple(load) for hole, load in loads.items()}, unit
+            forces, unit = script.fastener_forces(field, f, increment)
+            return {hole: tuple(np.round(force, 12)) for hole, force in forces.items()}, unit
 
-        assert drawn(None) == ({"1": (5, 0), "3": (0, 0)}, "lbf")
-        assert drawn(2) == ({"1": (3, 0), "3": (4, -7)}, "lbf")
+        assert drawn(None) == ({"1": (-5.5, 0), "3": (-1.1, 0)}, "lbf"), drawn(None)
+        assert drawn(2) == ({"1": (-3.3, -4.4), "3": (0, -2.2)}, "lbf"), drawn(2)
+        assert script.highest_peak(field, f, 2) == (4, "3", np.pi) and script.highest_peak(field, f, None)[:2] == (6, "1")
     assert {hole: tuple(c) for hole, c in field.holes().items()} == {"1": (2.3, 0), "2": (1.3, 0), "3": (0.3, 0)}
     done(DRAW, "center.vtu", "--joint", "hand_made.h5", "--increment", "2", "-o", "hand_made.png")
+
+
+def check_edges(script):
+    """The load and what holds the sheet are found at their edges, symmetry's force across them; corners do not rule colours."""
+    fine = script.FineField(script.Field("center.vtu"), "von_mises")
+    forces = {tuple(normal): force for _, normal, force in fine.edge_forces()}
+    with h5py.File("joint.h5") as joint:
+        P, transferred = joint["plates/center/Pe"][-1, 0], joint["transferred"][-1, :, 0].sum()
+    assert np.isclose(forces[1, 0][0], P, rtol=2e-3) and np.isclose(forces[-1, 0][0], transferred - P, rtol=2e-3), forces
+    assert abs(forces[0, -1][1]) > 0.1 * P and abs(forces[0, 1][1]) < 1e-3 * P, forces
+    field = script.Field("center.vtu")
+    far = np.hypot(*(fine.mesh.x - 2.3, fine.mesh.y)) > 0.5
+    fine.values[np.flatnonzero(far & (fine.mesh.x > 2.9))[0]] = 1e9
+    scale, extend = script.color_scale([field], [fine], "von_mises")
+    assert scale["vmax"] < 1e8 and extend == "max", (scale, extend)
 
 
 def check_messages():
@@ -215,10 +241,11 @@ def main(folder):
             check_against_rims(script.Field(f"{plate}.vtu"), plate, "joint.h5")
         assert done("stage2_extract", "center.h5", "--field", "external:P", "--p", "7", "-o", "p7.vtu", "--quiet") == ""
         check_grid("p7.vtu", 7, 25)
-        check_refinement(script)
+        check_refinement()
         check_meshio()
         check_pictures()
         check_arrows(script)
+        check_edges(script)
         check_messages()
         check_provenance()
         os.chdir(ROOT)
