@@ -144,7 +144,7 @@ class Tracer {
     shortest.compute(J);
     const VectorXd rate = shortest.solve(q_);
     if ((J * rate - q_).norm() <= balanced * q_.norm()) return Line{c_ - load_ * rate, rate};
-    // With stiffness K along the motions c of no stiffness, K delta = c there: least |c| to balance what is left.
+    // The rest of the load, projected on the motions without stiffness, drives them (docs/theory.md, section 8.6).
     const VectorXd left = q_ - J * rate;
     const VectorXd motion = left - shortest.solve(J * left);
     if (!(motion.norm() > balanced * left.norm())) return std::nullopt;

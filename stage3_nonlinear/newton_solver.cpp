@@ -90,7 +90,8 @@ class Bracket {
 
 /// Moves to where the convex function surely is lower, and either its slope along the step has risen from `before` < 0
 /// to little, or as near as rounding lets it, or the residual is well below what it was; a whole step that brings it
-/// well below all before is taken as it is (newton_solver.hpp says why these may mix). False if there is no such place.
+/// well below all before is taken as it is (docs/theory.md, section 8.4, shows that they may mix). False if there is no
+/// such place.
 bool move_downhill(const RootProblem& problem, const VectorXd& step, double before, double least_norm, Root& root) {
   constexpr int most_tries = 100;
   constexpr double little = 0.03;

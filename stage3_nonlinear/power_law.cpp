@@ -54,7 +54,7 @@ std::vector<Parameter> PowerLaw::parameters() const { return {{"A", -n_, 1}, {"n
 std::vector<Slope> PowerLaw::slopes(double c, double k, double clearance) const {
   const Branch on = at(c, k, clearance);
   if (c < k * gap(clearance)) return std::vector<Slope>(4, {0, 0});
-  // The curve as delta(F): F + k delta stays c while delta(F) moves.
+  // delta(F) moves while c = F + k delta stays (docs/theory.md, section 10).
   const auto slope = [&](double moves) { return Slope{-k * moves * on.dF, moves * on.dF}; };
   const double x = stretch(on.F);
   const double x_log = on.F > 0 ? x * std::log(on.F / A_) : 0;  // its limit at first contact

@@ -55,7 +55,7 @@ VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side sid
   return change;
 }
 
-/// H does with G what D_delta does with a load on the plates' unknowns, by reciprocity.
+/// Derivatives of H by the friction of a hole, by reciprocity: dH = D_delta^T dG (docs/theory.md, section 7.1).
 FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, std::size_t fastener,
                            std::size_t hole) {
   FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}};

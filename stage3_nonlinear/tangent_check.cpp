@@ -53,7 +53,7 @@ Index soft_modes(const CondensedSystem& system, const ContactState& state, doubl
     const Eigen::EigenSolver<MatrixXd> eigen(tangent(system, state), false);
     return (eigen.eigenvalues().real().array() < least).count();
   }
-  // Similar to the tangent and symmetric: P S P + dF/dc with P^2 = d delta/dc.
+  // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
   const Blocks root{state.ddelta.along.cwiseSqrt(), state.ddelta.across.cwiseSqrt()};
   const MatrixXd PS = state.times(system.S_ud, root).transpose();
   const MatrixXd A = state.times(PS, root) + state.times(MatrixXd::Identity(PS.rows(), PS.rows()), state.dF);

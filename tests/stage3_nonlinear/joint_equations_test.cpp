@@ -59,8 +59,8 @@ TEST(JointEquations, MetricIsPositiveDefinite) {
   }
 }
 
-/// W^-1 J, the Hessian behind damped Newton (newton_solver.hpp), also where all fasteners of a sheet that nothing else
-/// holds are open: the trace of stiffness in the Jacobian sees to that.
+/// W^-1 J, the Hessian behind damped Newton (docs/theory.md, section 8.4), also where all fasteners of a sheet that
+/// nothing else holds are open: the trace of stiffness in the Jacobian sees to that.
 TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
   std::mt19937 random(13);
   std::uniform_real_distribution<double> coordinate(-1, 1);
