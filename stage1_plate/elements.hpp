@@ -11,8 +11,8 @@
 
 namespace fastjoint::stage1 {
 
-/// What elements have in common that are condensed alike: their shape, what of them is condensed, and the springs on
-/// their rims.
+/// A congruence class: elements of equal shape, material and springs on their rims, which share one condensed stiffness
+/// up to the factor of thickness (docs/theory.md, section 2.6).
 struct ElementKind {
   struct RimSide {
     int hole;  ///< index into PlateElements::holes of the element

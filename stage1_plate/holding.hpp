@@ -7,8 +7,7 @@
 namespace fastjoint::stage1 {
 
 /// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are
-/// held; the message says how. A direct solver does not see this: rounding makes its last pivot a small number of
-/// either sign.
+/// held; the message says how (docs/theory.md, section 4.6). The factor alone would not show it.
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 /// Whether nothing can move as a rigid body while the scene's loads act: externals and discs of given force follow.

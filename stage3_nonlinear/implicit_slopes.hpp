@@ -8,10 +8,10 @@
 
 namespace fastjoint::stage3 {
 
-/// Derivatives of the bearing forces as vectors, one column each, and what of them does not exist.
+/// Derivatives of the bearing forces as vectors, one column for each number (docs/theory.md, section 10).
 struct Slopes {
   Eigen::MatrixXd F;                            ///< (n a, columns)
-  std::vector<Eigen::Index> no_column, no_row;  ///< not determined
+  std::vector<Eigen::Index> no_column, no_row;  ///< columns and rows of F that have no derivative
 };
 
 /// Contact coordinates of a solution, (n a), exact whatever the law.

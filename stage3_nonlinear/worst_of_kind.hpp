@@ -9,7 +9,7 @@
 
 namespace fastjoint::stage3 {
 
-/// Warnings of one kind about several fasteners or holes: the worst is said, with the number of the others.
+/// Collects warnings of one kind about several fasteners or holes and gives the worst, with the number of the others.
 class WorstOfKind {
  public:
   /// @param amount How bad it is, > 0. @param text The warning, without a full stop.

@@ -19,8 +19,8 @@ namespace fastjoint::pfem {
 /// So what is smooth is overestimated, 3.6 times by the median, 50 times at most without rings around the holes, up to
 /// 80 times with some, and what is singular (ends of clamped edges, of steps in thickness) is not underestimated by
 /// more than 1.5 times, nor are slender cells, in 20967 cases. Exception: springs that end inside a side of an element
-/// (2 lambda + 1), up to twice. Theory: Szabo & Babuska, Finite Element Analysis (1991), section 4.4; what it is
-/// worth: tests/stage2_extract/effectivity_test.cpp and error_sweep_test.cpp.
+/// (2 lambda + 1), up to twice. Theory: docs/theory.md, section 5.1; what it is worth:
+/// tests/stage2_extract/effectivity_test.cpp and error_sweep_test.cpp.
 ///
 /// Off the diagonal the error is an energy product of two errors, at most the root of the product of their diagonals:
 /// taken as the last difference is, and as 0.15 of that bound where the difference happens to pass through zero.
