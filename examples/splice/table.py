@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Prints the splice's loads and peak hoop stresses at the last increment in Markdown: table.py RESULT.h5 [OTHER.h5].
 
-With another result of the same joint it prints by how much the peaks differ instead.
+With another result of the same joint it prints what changes from that to this instead.
 """
 import sys
 
@@ -45,13 +45,14 @@ def show(result):
 
 
 def compare(result, other):
-    """The largest change of a peak from the other result to this one."""
-    changes = {f"{plate}:{hole}": result.peak[plate][hole] / other.peak[plate][hole] - 1
-               for plate in ("upper", "lower") for hole in result.peak[plate]}
-    worst = max(changes, key=lambda at: abs(changes[at]))
-    plate, hole = result.highest()
-    print(f"Friction changes no peak by more than {abs(100 * changes[worst]):.1f} % ({worst}), and the highest, "
-          f"{plate}:{hole}, by {100 * changes[f'{plate}:{hole}']:.1f} %.")
+    """The largest changes from the other result to this one, in per cent."""
+    peaks = {f"{plate}:{hole}": 100 * (result.peak[plate][hole] / other.peak[plate][hole] - 1)
+             for plate in ("upper", "lower") for hole in result.peak[plate]}
+    loads = {rivet: 100 * (load / other.load[rivet] - 1) for rivet, load in result.load.items()}
+    peak, load = (max(changes, key=lambda at: abs(changes[at])) for changes in (peaks, loads))
+    highest = ":".join(result.highest())
+    print(f"Peaks change by up to {peaks[peak]:+.1f} % ({peak}), the highest ({highest}) by {peaks[highest]:+.1f} %, "
+          f"loads by up to {loads[load]:+.1f} % ({load}).")
 
 
 if __name__ == "__main__":

@@ -54,9 +54,9 @@ def check_errors(rows):
 
 
 def check_summary(printed):
-    """The cheapest of the summary are at most as dear as any other, and the README has the same columns."""
+    """The cheapest of the summary are at most as dear as any other, and docs/performance.md has the same columns."""
     header, rows = table(printed)
-    assert table(block((ROOT / "README.md").read_text()))[0] == header, header
+    assert table(block((ROOT / "docs/performance.md").read_text()))[0] == header, header
     assert [row[:2] for row in rows] == [["panel(1,1)", f"1e-0{digits}"] for digits in range(2, 7)], rows
     ours = [float(row[3]) for row in rows]
     assert ours == sorted(ours), rows

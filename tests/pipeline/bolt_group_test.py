@@ -70,7 +70,7 @@ def check_balance():
         left.append(abs(BOLTS[:, 0] @ F[:, 1] - BOLTS[:, 1] @ F[:, 0] + LOAD * AT) / (LOAD * AT))
     print("moment out of balance at p = 1, 2, 3, 4, 6:", left)
     assert all(b < 0.2 * a for a, b in zip(left, left[1:4])), "turning is no polynomial on arcs: exponentially small"
-    assert 0.05 < left[0] < 0.06 and left[2] < 3e-6 and left[-1] < 1e-11, "what the README says"
+    assert 0.05 < left[0] < 0.06 and left[2] < 3e-6 and left[-1] < 1e-11, "what docs/limits.md says"
 
 
 def check_handbook(page):

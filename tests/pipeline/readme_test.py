@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The README says what the programs do: readme_test.py BIN_FOLDER. Options against --help, tables against their script."""
+"""README.md and docs/ say what the programs do: readme_test.py BIN_FOLDER. Options against --help, tables against their script."""
+import csv
 import json
 import os
 import re
@@ -18,90 +19,168 @@ def output(*words):
     return subprocess.run(words, check=True, capture_output=True, text=True).stdout
 
 
-def options_in_readme(readme, program):
-    rows = re.findall(rf"^\| {program} \| (.*?) \|", readme, re.M)
+def page(name):
+    return (ROOT / name).read_text()
+
+
+def options_of(programs, program):
+    rows = re.findall(rf"^\| {program} \| (.*?) \|", programs, re.M)
     return {option for row in rows for option in re.findall(r"`(-+[a-z-]+)`", row)}
 
 
-def check_options(readme):
+def check_options(programs):
     for program in PROGRAMS:
         helped = set(re.findall(r"(?<!\w)-{1,2}[a-z][a-z-]*", output(program, "--help").split("Options:")[1])) - COMMON
-        assert options_in_readme(readme, program) == helped, (program, helped)
-    assert options_in_readme(readme, "all") == COMMON - {"-h"}
+        assert options_of(programs, program) == helped, (program, helped)
+    assert options_of(programs, "all") == COMMON - {"-h"}
 
 
-def check_names(readme):
+def check_names(laws_page, solvers_page):
     """Laws, formulas and solvers of the schema, with which the programs agree, all have their place."""
-    schema = json.loads((ROOT / "schemas/joint.schema.json").read_text())
+    schema = json.loads(page("schemas/joint.schema.json"))
     laws = {each["properties"]["type"]["const"] for each in schema["definitions"].values()
             if "type" in each.get("properties", {})}
-    assert set(re.findall(r"^\| `([a-z ]+)` \|", readme.split("| law | ")[1].split("\n\n")[0], re.M)) == laws, laws
-    for row, names in (("formula", schema["definitions"]["formula"]["properties"]["formula"]["enum"]),
-                       ("solver", schema["properties"]["solver"]["properties"]["method"]["enum"])):
-        shown = re.findall(r"`([^`]+)`", re.search(rf"^\| `{row}` \| (.*) \|$", readme, re.M)[1])
-        assert set(names) <= set(shown), (row, names)
+
+    def first_column(table):
+        rows = laws_page.split(table)[1].split("\n\n")[0].splitlines()[1:]
+        return [name for row in rows for name in re.findall(r"`([^`]+)`", row.split("|")[1])]
+
+    assert set(first_column("| law |")) == laws, laws
+    formulas = schema["definitions"]["formula"]["properties"]["formula"]["enum"]
+    assert sorted(first_column("| `formula` | C |")) == sorted(formulas), formulas
+    shown = re.findall(r"`([^`]+)`", re.search(r"^\| `solver` \| (.*) \|$", solvers_page, re.M)[1])
+    assert set(schema["properties"]["solver"]["properties"]["method"]["enum"]) <= set(shown), shown
 
 
-def check_joint(readme):
-    """The sheet and joint that the README shows are those of the example; its commands run on them."""
-    example = ROOT / "examples/lap_joint"
-    shown = re.findall(r"```json\n(.*?)```", readme, re.S)
-    assert shown == [(example / name).read_text() for name in ("upper.json", "joint.json")]
-    commands = re.search(r"```\n(stage1_plate.*?)```", readme, re.S)[1].splitlines()
+def commands_of(text):
+    return re.search(r"```\n(stage1_plate.*?)```", text, re.S)[1].splitlines()
+
+
+def run_example(example, text, then):
+    """The commands of a page, in a copy of an example, and what then is to be looked at there."""
     with tempfile.TemporaryDirectory() as folder:
-        for path in example.glob("*.json"):
+        for path in [*example.glob("*.json"), *example.glob("*.py")]:
             shutil.copy(path, folder)
-        for command in commands:
+        for command in commands_of(text):
             subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
-        check_what_if(readme, folder)
+        then(folder)
 
 
-def check_what_if(readme, folder):
+def check_splice(readme):
+    """What the README shows of the splice stands in its files, and its commands give its table."""
+    example = ROOT / "examples/splice"
+    shown = re.findall(r"```json\n(.*?)```", readme, re.S)
+    assert len(shown) == 2
+    for text, name in zip(shown, ("upper.json", "joint.json")):
+        lines = (example / name).read_text().splitlines()
+        missing = [line for line in text.splitlines() if line not in lines]
+        assert not missing, f"README.md shows of {name} what is not there: {missing}"
+
+    def look(folder):
+        table = subprocess.run([sys.executable, "table.py", "joint.h5"], check=True, cwd=folder, capture_output=True, text=True).stdout
+        assert table in readme, f"README.md has another table than:\n{table}"
+        check_columns(Path(folder, "joint.csv"), two_directions=True)
+
+    run_example(example, readme, look)
+
+
+def check_columns(path, two_directions):
+    """The table of columns has those of the CSV in their order; those of components where discs move along x and y."""
+    rows = page("docs/results.md").split("| column | what |\n|---|---|\n")[1].split("\n\n")[0].splitlines()
+    told = [name for row in rows for name in re.findall(r"`(\w+)`", row.split("|")[1])]
+    components = {"delta_x", "delta_y", "F_x", "F_y"}
+    with path.open() as file:
+        heads = [head.split(" [")[0] for head in next(csv.reader(file))]
+    assert heads == [name for name in told if two_directions or name not in components], (heads, told)
+
+
+def check_lap_joint(programs, results):
+    def look(folder):
+        check_columns(Path(folder, "joint.csv"), two_directions=False)
+        check_what_if(results, folder)
+
+    run_example(ROOT / "examples/lap_joint", programs, look)
+
+
+def check_what_if(results, folder):
     """Its command, its script and what that prints."""
-    command = re.search(r"`(stage3_nonlinear [^`]*--sensitivities)`", readme)[1]
-    script, printed = re.search(r"```python\n(.*?)```\n\n```\n(.*?)```", readme, re.S).groups()
+    command = re.search(r"`(stage3_nonlinear [^`]*--sensitivities)`", results)[1]
+    script, printed = re.search(r"```python\n(.*?)```\n\n```\n(.*?)```", results, re.S).groups()
     subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
     result = subprocess.run([sys.executable, "-c", script], check=True, cwd=folder, capture_output=True, text=True)
     assert result.stdout == printed, result.stdout
 
 
-def check_fit(readme):
-    """The fit that the README shows is what its command prints, and it draws."""
-    command, printed = re.search(r"```\n(scripts/fit_law [^\n]*)\n```\n```\n(.*?)```", readme, re.S).groups()
+def rows_below(text, head):
+    return [[cell.strip() for cell in row.strip("|").split("|")] for row in text.split(head)[1].split("\n\n")[0].splitlines()[2:]]
+
+
+def check_numbers(readme, verification, performance):
+    """Numbers that the README has of other pages stand there."""
+    elsewhere = verification + page("examples/ladder/README.md")
+    numbers = [number for row in rows_below(readme, "\n## Five numbers\n\n") for cell in row[1:3]
+               for number in re.findall(r"^[\d.]+(?:e-\d+)?", cell)]
+    assert len(numbers) == 7, numbers
+    for number in numbers:
+        assert re.search(rf"[| ]{re.escape(number)} ", elsewhere), f"README.md has {number}, which is nowhere else"
+    timed = rows_below(readme, "may have had other work:\n\n")
+    measured = {row.split(" | ")[0].strip("| "): row.split(" | ")[1:3] for row in performance.splitlines() if row.startswith("| ")}
+    assert len(timed) == 4
+    for name, seconds, memory in timed:
+        run = name.split(": ")[-1]
+        assert [seconds, memory] == [cell.strip() for cell in measured[run]], (name, measured[run])
+
+
+def check_fit(laws):
+    """The fit that the page shows is what its command prints, and it draws."""
+    command, printed = re.search(r"```\n(scripts/fit_law [^\n]*)\n```\n```\n(.*?)```", laws, re.S).groups()
     script, *words = command.split()
     with tempfile.TemporaryDirectory() as folder:
         shutil.copytree(ROOT / "examples/fit", Path(folder) / "examples/fit")
         run = subprocess.run([ROOT / script, *words], check=True, cwd=folder, capture_output=True, text=True)
-        assert run.stdout == printed, f"README.md shows another fit than:\n{run.stdout}"
+        assert run.stdout == printed, f"docs/laws.md shows another fit than:\n{run.stdout}"
         assert (Path(folder) / words[-1]).stat().st_size > 0
 
 
-def check_table(readme, name, timed=None):
-    """A block of the README is what its script prints, but for a column of times."""
-    shown = readme.split(f"<!-- {name} -->\n")[1].split(f"<!-- /{name} -->")[0]
+def check_table(text, name, timed=None):
+    """A block of a page is what its script prints, but for a column of times."""
+    shown = text.split(f"<!-- {name} -->\n")[1].split(f"<!-- /{name} -->")[0]
     printed = output(str(ROOT / f"scripts/{name}_table"))
 
-    def rows(text):
-        return [[cell for i, cell in enumerate(line.split("|")) if i != timed] for line in text.splitlines()]
+    def rows(lines):
+        return [[cell for i, cell in enumerate(line.split("|")) if i != timed] for line in lines.splitlines()]
 
-    assert rows(shown) == rows(printed), f"README.md is not what scripts/{name}_table prints:\n{printed}"
+    assert rows(shown) == rows(printed), f"docs/verification.md is not what scripts/{name}_table prints:\n{printed}"
 
 
-def check_links(readme):
-    for target in re.findall(r"\]\((?!http)([^)]+)\)", readme):
-        assert (ROOT / target.split("#")[0]).exists(), f"README.md links to {target}"
+def anchors(path):
+    headings = re.findall(r"^#+ (.*)$", path.read_text(), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def check_links(path):
+    for target in re.findall(r"\]\((?!http)([^)]+)\)", path.read_text()):
+        name, _, anchor = target.partition("#")
+        found = path.parent / name if name else path
+        assert found.exists(), f"{path} links to {target}"
+        assert not anchor or anchor in anchors(found), f"{path} links to {target}, which has no such heading"
 
 
 def main(folder):
     os.environ["PATH"] = folder + os.pathsep + os.environ["PATH"]
-    readme = (ROOT / "README.md").read_text()
-    check_links(readme)
-    check_options(readme)
-    check_names(readme)
-    check_joint(readme)
-    check_fit(readme)
-    check_table(readme, "accuracy")
-    check_table(readme, "verification", timed=5)
+    readme = page("README.md")
+    assert readme.count("\n") <= 150, "README.md is a front door"
+    for path in [ROOT / "README.md", *(ROOT / "docs").glob("*.md"), *(ROOT / "examples").glob("*/README.md")]:
+        check_links(path)
+    programs, verification = page("docs/programs.md"), page("docs/verification.md")
+    check_options(programs)
+    check_names(page("docs/laws.md"), page("docs/solvers.md"))
+    check_numbers(readme, verification, page("docs/performance.md"))
+    check_splice(readme)
+    check_lap_joint(programs, page("docs/results.md"))
+    check_fit(page("docs/laws.md"))
+    check_table(verification, "accuracy")
+    check_table(verification, "verification", timed=5)
 
 
 if __name__ == "__main__":

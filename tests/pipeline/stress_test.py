@@ -83,7 +83,7 @@ def across(folder, plate, i):
 
 
 def check_default(folder):
-    """Default settings of the README's own joint: each doubt is told once, with its worst hole, increment and numbers."""
+    """Default settings of the lap joint: each doubt is told once, with its worst hole, increment and numbers."""
     run = subprocess.run(["stage3_nonlinear", folder / "joint.json", "-o", folder / "joint.h5"], check=True,
                          capture_output=True, text=True)
     said = [line for line in run.stderr.splitlines() if line]
@@ -103,12 +103,12 @@ def check_default(folder):
 
 
 def check_arc(folder):
-    """The highest peaks that the README tells of, by the command that it names."""
+    """The highest peaks that the limits tell of, by the command that they name."""
     def peak():
         run = subprocess.run(["make", "-s", "-B", *words], cwd=folder, check=True, capture_output=True, text=True)
         return max(float(row[2]) for row in re.findall(r"^  (?:upper|lower):\w( +[\d.-]+)( +[\d.-]+) +([\d.-]+)", run.stdout, re.M))
     told = re.search(r"its highest peak is (\d+) N/mm² \(`make -C examples/lap_joint`\), and (\d+) with springs on the `arc`",
-                     (ROOT / "README.md").read_text())
+                     (ROOT / "docs/limits.md").read_text())
     for words, value in (([], told[1]), (["arc"], told[2])):
         assert round(peak()) == int(value), (words, peak(), value)
 

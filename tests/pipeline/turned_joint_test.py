@@ -2,7 +2,7 @@
 """A joint whose discs move along x and y does not know how it lies: turned_joint_test.py BIN_FOLDER.
 
 Two sheets with three fasteners off the line of the load, as explicit meshes, turned by several angles. Without friction
-forces turn along; with friction, which acts by its components along x and y, they differ by what the README's limits say."""
+forces turn along; with friction, which acts by its components along x and y, they differ by what docs/limits.md says."""
 import json
 import os
 import re
@@ -88,7 +88,7 @@ def solve(load, friction):
 
 
 def check_turned(angle, then, now, friction):
-    """Of a joint at rest and turned; what the README says of friction off the axes."""
+    """Of a joint at rest and turned; what docs/limits.md says of friction off the axes."""
     largest = then["amount"].max()
     difference = np.abs(now["F"] @ turn(angle) - then["F"]).max() / largest
     if friction == 0 or angle == 90:
@@ -115,7 +115,7 @@ def main(bin_folder):
             lost = (at_rest[FRICTION]["peak"] - now[FRICTION]["peak"]) / added
             print(f"turned by {angle} deg: F differs by {off[0]:.1e}, with friction by {off[FRICTION]:.1e} of the largest; "
                   f"of what friction adds to the peaks {', '.join(f'{100 * part:.0f} %' for part in lost)} is lost")
-            assert off[FRICTION] < 2e-4 and lost.max() < 0.825, "what the README says"
+            assert off[FRICTION] < 2e-4 and lost.max() < 0.825, "what docs/limits.md says"
             assert angle != 45 or lost.min() > 0.4, "the warning is worth its words"
         effect = np.abs(at_rest[FRICTION]["F"] - at_rest[0]["F"]).max() / at_rest[0]["amount"].max()
         print(f"friction itself changes F by {effect:.1e}")
