@@ -270,13 +270,13 @@ std::string JointModel::short_name(const ShearPlane& plane) const {
 }
 
 JointModel load_joint(const JointScene& scene, int p) {
-  const auto all = read_all(scene);
+  auto all = read_all(scene);
   JointModel model;
   model.file = scene.file;
   model.units = common_units(scene, all);
   model.p = chosen_degree(scene, all, p);
   for (std::size_t i = 0; i < all.size(); ++i)
-    model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, all[i], model.p));
+    model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, std::move(all[i]), model.p));
   model.axes = common_axes(scene, model.plates);
   if (scene.solver.method == exact_path_name && model.n_directions() > 1)
     refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",

@@ -143,7 +143,7 @@ MatrixXd stiffness(const std::string& file, const formats::PlateMatrices& a, std
 
 }  // namespace
 
-PlateModel make_plate(const std::string& name, const std::string& file, const formats::PlateMatrices& a, int p) {
+PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices a, int p) {
   if (a.disc_hole.empty()) throw FileError(fmt::format("{}:disc/hole: is empty, expected at least one disc", file));
   std::vector<std::string> boundaries = a.external_id;
   boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
@@ -174,8 +174,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, const fo
   plate.degrees = degrees_up_to(a, p);
   plate.S_error = error_of(a, p);
   plate.relative_error = relative_error(plate.S_error, plate.S);
-  plate.stresses = a.stresses;
-  const auto& levels = a.stresses.p;
+  plate.stresses = std::move(a.stresses);
+  const auto& levels = plate.stresses.p;
   if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())
     plate.stress_level = static_cast<std::size_t>(at - levels.begin());
   plate.external_force = Eigen::VectorXd::Zero(a.n_externals());

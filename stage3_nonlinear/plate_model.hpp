@@ -60,7 +60,7 @@ struct PlateModel {
 
 /// The matrices at degree p, checked: the same directions of all discs, names that stand once, S symmetric and positive
 /// semi-definite. Throws FileError or InputError with the file and the dataset.
-[[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file,
-                                    const formats::PlateMatrices& matrices, int p);
+[[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices matrices,
+                                    int p);
 
 }  // namespace fastjoint::stage3

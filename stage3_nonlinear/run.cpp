@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <ostream>
 #include <utility>
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
+#include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage3_nonlinear/event_path.hpp"
@@ -15,6 +17,7 @@
 #include "stage3_nonlinear/joint_history.hpp"
 #include "stage3_nonlinear/report.hpp"
 #include "stage3_nonlinear/rim_history.hpp"
+#include "stage3_nonlinear/sensitivity.hpp"
 #include "stage3_nonlinear/sensitivity_history.hpp"
 #include "stage3_nonlinear/summary.hpp"
 
@@ -47,6 +50,45 @@ void warn(std::ostream& log, const std::vector<std::string>& sentences) {
   for (const auto& sentence : sentences) log << "stage3_nonlinear: warning: " << program::one_line(sentence) << "\n";
 }
 
+/// Bytes of the program and of the plates' matrices.
+double matrices_need(const JointScene& scene) {
+  double bytes = 26e6;  // of the program
+  for (const auto& plate : scene.plates) {
+    std::error_code none;
+    if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 1.25 * double(size);
+  }
+  return bytes;
+}
+
+/// Throws InputError if there is too little memory for the matrices, for solving and for the results of n_steps
+/// increments.
+void require_memory(const JointScene& scene, const JointModel& joint, const JointEquations& equations,
+                    const RunOptions& options, std::size_t n_steps) {
+  using program::bytes_text;
+  const JointNumbers numbers = joint_numbers(joint, equations.system);
+  const auto n = static_cast<double>(joint.n_planes());
+  double of_plane = options.csv.empty() ? 12 : 37;
+  if (options.sensitivities)
+    of_plane += n + double(numbers.friction.size() + numbers.law.size() + numbers.loads.force.size() +
+                           numbers.loads.displacement.size());
+  constexpr double number = sizeof(double), of_rim = 17, of_stiffness = 24;
+  double solving = 0, of_step = of_plane * n;
+  for (const auto& plate : joint.plates) {
+    const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
+    solving += of_stiffness * number * unknowns * (unknowns + (numbers.friction.empty() ? 0 : cases / 2));
+    of_step += unknowns + cases + of_rim * (plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0);
+  }
+  const double read = matrices_need(scene);
+  constexpr double copies = 4.5;  // in the states, in the tables, in the file and in its image
+  const double results = copies * number * of_step * double(n_steps);
+  program::require_memory(
+      scene.file + ": this", read + solving + results,
+      fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),
+                  program::counted(n_steps, "increment"), bytes_text(results)),
+      fmt::format("fewer increments, or {}",
+                  options.sensitivities ? "no --sensitivities" : "matrices of stage1_plate --loads-only"));
+}
+
 }  // namespace
 
 void run(const RunOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings) {
@@ -56,9 +98,12 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   const JointScene scene = read_joint_scene(document);
   check_results_spare(options, scene);
   warn(log, scene.warnings);
+  program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
+                          "matrices of fewer holes, or of stage1_plate --loads-only");
   const JointModel joint = load_joint(scene, options.p);
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
+  require_memory(scene, joint, equations, options, scene.load_factors.size());
   const PathOptions solving{scene.initial, scene.solver};
   LoadPath path = scene.at_events ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
   const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, path);

@@ -82,27 +82,31 @@ def check_refusal():
     return own
 
 
-def check_search(scene, accuracy, own):
-    """The limit follows what each refusal of --accuracy asks for until the search fits: the last is its largest model.
+def check_refusals(words, output, told, own):
+    """The limit follows what each refusal asks for until the run fits. The last must be no less than what it takes, and
+    no more than 1.5 times that.
 
-    That must not be less than what the run takes, nor above 1.5 times it; a model of one degree holds the matrices of
-    no other.
+    @param told What a refusal says, with groups for the first number and the one available.
     """
-    Path("plate.h5").unlink(missing_ok=True)
-    words = scene, "--accuracy", accuracy, "--loads-only"
-    need, refused = 0, 0
-    while (result := stage1(*words, megabytes=own + 1.01 * need + 1)).returncode == 2:
-        assert not Path("plate.h5").exists() and not result.stdout, result
-        p, more, available = re.fullmatch(
-            rf"stage1_plate: error: {scene}: at p = (\d) this takes about (\d+) MB of memory \(shapes .*\), (\d+) MB are "
-            r"available; allowed: a lower p, or fewer holes\n", result.stderr).groups()
-        assert int(more) > max(need, int(available) - 1), (need, result)
-        need, refused = int(more), refused + 1
-    assert result.returncode == 0 and refused > 1, result
-    assert stage1(*words, "--timings", "times.json").returncode == 0
+    Path(output).unlink(missing_ok=True)
+    need, refused, limit = 0, 0, own
+    while (result := run(*words, "-o", output, megabytes=limit)).returncode == 2:
+        assert not Path(output).exists() and not result.stdout, result
+        more, available = map(int, re.search(told, result.stderr).groups())
+        assert more >= need and more >= available, (need, result)
+        need, refused, limit = more, refused + 1, limit + 1.01 * more - available + 1
+    assert result.returncode == 0 and refused > 0, result
+    assert run(*words, "-o", output, "--timings", "times.json").returncode == 0
     took = json.loads(Path("times.json").read_text())["peak_memory_bytes"]
-    print(f"{scene} --accuracy {accuracy}: refused {refused} times, at last p = {p}; said {need} MB, took {took / MB:.0f} MB")
-    assert took <= (need + 0.5) * MB and need * MB <= 1.5 * took, (scene, need, took)
+    print(*words, f": refused {refused} times, at last {need} MB of {available} MB; took {took / MB:.0f} MB")
+    assert took <= (need + 0.5) * MB and need * MB <= 1.5 * took, (words, need, took)
+
+
+def check_search(scene, accuracy, own):
+    """The last refusal of --accuracy is of its largest model: one of one degree holds the matrices of no other."""
+    check_refusals(("stage1_plate", scene, "--accuracy", accuracy, "--loads-only"), "plate.h5",
+                   rf"^stage1_plate: error: {scene}: at p = \d this takes about (\d+) MB of memory \(shapes .*\), (\d+) MB are "
+                   r"available; allowed: a lower p, or fewer holes\n$", own)
 
 
 def check_stage2(own):
@@ -122,6 +126,25 @@ def check_stage2(own):
     print(f"stage 2: said {need} MB, took {took / MB:.0f} MB")
 
 
+def check_stage3(n, of_stage1, friction, increments, words, own):
+    """A joint of two sheets: the matrices are known by the size of their files, all else before the path is walked."""
+    assert stage1(panel(n, []), *of_stage1).returncode == 0
+    for sheet in "ab":
+        assert run("stage2_extract", "plate.h5", "-o", f"{sheet}.h5").returncode == 0
+    holes = [f"{i},{j}" for i in range(n) for j in range(n)]
+    Path("joint.json").write_text(json.dumps({
+        "format": "joint", "version": 1, "plates": {"a": "a.h5", "b": "b.h5"},
+        "laws": {"bolt": {"type": "linear", "k": 1e6}}, "loads": [{"external": "a:P", "force": 1000}],
+        "fasteners": [{"id": hole, "between": [f"a:{hole}", f"b:{hole}"], "law": "bolt", "friction": friction}
+                      for hole in holes], "increments": increments}))
+    parts = rf" \(matrices \d+ MB, solving \d+ MB, results of {increments} increments \d+ MB\)"
+    other = "no --sensitivities" if "--sensitivities" in words else "matrices of stage1_plate --loads-only"
+    told = (rf"^stage3_nonlinear: error: joint.json: (?:reading its plates' matrices|this) takes about (\d+) MB of memory"
+            rf"(?:{parts})?, (\d+) MB are available; allowed: (?:matrices of fewer holes, or of stage1_plate --loads-only|"
+            rf"fewer increments, or {other})\n$")
+    check_refusals(("stage3_nonlinear", "joint.json", *words), "result.h5", told, own)
+
+
 def main():
     os.environ["OPENBLAS_NUM_THREADS"] = "1"  # its threads reserve 128 MB each, some time after the program has begun
     os.environ["PATH"] = f"{Path(sys.argv[1]).resolve()}:{os.environ['PATH']}"
@@ -136,6 +159,9 @@ def main():
         check_search(panel(3, []), "1e-9", own)
         check_search(irregular_panel(5), "1e-2", own)
         check_stage2(own)
+        check_stage3(7, ["--p", "7..8"], 0, 2, [], own)
+        check_stage3(5, ["--p", "2..3"], 0.2, 1000, ["--csv", "result.csv"], own)
+        check_stage3(7, ["--p", "2..3", "--loads-only"], 0.2, 300, ["--sensitivities"], own)
         os.chdir("/")
 
 
