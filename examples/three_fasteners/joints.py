@@ -22,7 +22,7 @@ def joint(k, load, increments=1, clearance=0, friction=0):
 
 STUDIES = {
     "stiffness": [joint(k, 1000) for k in STIFFNESSES],
-    "clearance": [joint(1000, 3000, 3, clearance=c) for c in CLEARANCES],
+    "clearance": [joint(1000, 3000, "events", clearance=c) for c in CLEARANCES],  # the paper has three equal steps
     "friction": [joint(1000, 1000, friction=mu) for mu in FRICTIONS],
 }
 
