@@ -7,10 +7,12 @@ import sys
 import tempfile
 from pathlib import Path
 
+import numpy as np
+
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "tests/support"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
-from pictures import check_curves  # noqa: E402
+from pictures import check_curves, run_and_look  # noqa: E402
 
 NAME = "scripts/chart_speed_accuracy"
 
@@ -63,10 +65,24 @@ def check_summary(printed):
     assert rows[-1][4].startswith("not reached: ") and rows[-1][6] == "", rows
 
 
+def check_drawn(rows, drawn):
+    """Each point of the table stands in the picture, over its seconds and over its unknowns."""
+    series = {}
+    for space, rings, cut, p, unknowns, seconds, error, _ in rows:
+        name = space if space == "by stresses" else f"h, p = {p}" if int(cut) > 1 else f"{space}, {rings} rings"
+        series.setdefault(name, []).append((float(seconds), float(unknowns), float(error)))
+    left, right = drawn
+    assert left.keys() == series.keys() and len(right) == len(left) == 7, drawn
+    for (name, (seconds, error)), (unknowns, same) in zip(left.items(), right.values()):
+        assert np.array_equal(error, same), name
+        for found, told, digits in zip((seconds, unknowns, error), zip(*series[name]), (3, 9, 2)):
+            assert np.allclose(found, told, rtol=0.6 * 10**(1 - digits)), (name, found, told)
+
+
 def check_chart(folder):
     readme = folder / "README.md"
     readme.write_text(f"before\n<!-- {NAME} -->\nold\n<!-- /{NAME} -->\nafter\n")
-    printed = run(ROOT / NAME, "--quick", "-o", folder / "chart", "--readme", readme).stdout
+    printed, drawn = run_and_look(ROOT / NAME, "--quick", "-o", folder / "chart", "--readme", readme)
     assert readme.read_text() == f"before\n<!-- {NAME} -->\n{printed}<!-- /{NAME} -->\nafter\n"
     picture = folder / "chart/pictures/panel_1_1.png"
     check_curves(picture, ["C0", "C1"], least_width=0.1)  # trunk and product space
@@ -79,6 +95,7 @@ def check_chart(folder):
     assert header == ["space", "rings", "cut", "p", "unknowns", "seconds", "error of S", "error of the largest load"]
     assert len(rows) == 2 * 2 * 3 + 3 + 2 * 2, rows
     check_errors(rows)
+    check_drawn(rows, drawn)
     check_summary(printed)
     check_report((ROOT / "examples/speed_accuracy/README.md").read_text(), header)
 

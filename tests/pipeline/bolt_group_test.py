@@ -104,11 +104,39 @@ def check_csv():
         assert np.array_equal([float(row["F [N]"]) for row in rows], f["F"][:].ravel())
 
 
+def check_picture(script, fields):
+    """Bearing loads are arrows from the middle of their holes, as long as they are large; colours are stresses of von Mises."""
+    with h5py.File("joint.h5") as f:
+        loads = [script.bearing_loads(field, f, None) for field in fields]
+    figure = script.draw(fields, [script.fine_field(field, "von_mises") for field in fields], "von_mises", loads)
+    largest, scale = 0, []
+    for axis, field, (of_sheet, unit) in zip(figure.axes, fields, loads):
+        x, y, xy = (field.points[f"stress_{c}"] for c in ("xx", "yy", "xy"))
+        colours = axis.collections[0].get_array()
+        most = np.sqrt(x**2 - x * y + y**2 + 3 * xy**2).max()
+        assert 1 - 1e-9 < colours.max() / most < 1.02 and (colours >= 0).all(), (field.path, colours.max(), most)
+        largest = max(largest, colours.max())
+        arrows = [text for text in axis.texts if not text.get_text()]
+        numbers = [text for text in axis.texts if text.get_text()]
+        loaded = {hole: load for hole, load in of_sheet.items() if np.hypot(*load) > 0}
+        assert len(arrows) == len(numbers) == len(loaded) >= 5, (field.path, loaded)
+        for arrow, number, (hole, load) in zip(arrows, numbers, loaded.items()):
+            assert np.array_equal([arrow.xyann, number.xy], 2 * [field.holes()[hole]]), hole
+            assert number.get_text() in (f"{np.hypot(*load):.0f} {unit}", f"{np.hypot(*load):.4g} {unit}"), number
+            shown = np.subtract(arrow.xy, arrow.xyann)
+            scale.append(np.hypot(*shown) / np.hypot(*load))
+            assert np.allclose(shown, scale[0] * load, atol=1e-9 * np.hypot(*shown)), (hole, shown, load)
+    assert all(np.allclose(axis.collections[0].get_clim(), (0, largest)) for axis in figure.axes[:-1])
+    figure.savefig("again.png", dpi=120)
+    assert pictures.same_pixels("again.png", "pictures/stress.png"), "the picture that make draws"
+
+
 def check_field():
     """The field of a sheet of the stack: its hoop stress at rims is near that which stage 3 superposes."""
     loader = SourceFileLoader("draw_stress", str(ROOT / "scripts/draw_stress"))
     script = module_from_spec(spec_from_loader("draw_stress", loader))
     loader.exec_module(script)
+    check_picture(script, [script.Field(f"{plate}.vtu") for plate in ("front", "web")])
     for plate in ("front", "web"):
         field = script.Field(f"{plate}.vtu")
         with h5py.File("joint.h5") as f:

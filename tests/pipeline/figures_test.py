@@ -14,7 +14,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import inclusion  # noqa: E402
-from pictures import check_curves, run_and_look  # noqa: E402
+from pictures import check_curves, run_and_look, same_pixels  # noqa: E402
 
 
 def rows(script, folder):
@@ -72,6 +72,15 @@ def check_inclusion(folder):
         assert np.allclose(drawn[label], [inclusion.BETAS, [float(row[column]) for row in table]], atol=1e-5), label
 
 
+def check_contact(row, radial, hoop):
+    """The curves of a sheet of Figure 18 have its numbers: pressure within the contact and none beyond, the largest hoop stress."""
+    (away, pressure), end = radial, float(row["contact half-angle"])
+    assert np.array_equal(away, hoop[0]) and away.min() < 4 and away.max() > 176, away
+    assert np.isclose(-np.nanmin(pressure), float(row["peak pressure"]), rtol=0.01), (row, pressure)
+    assert (pressure[away < end - 4] < -0.05).sum() > 15 and np.abs(pressure[away > end + 4]).max() < 0.02, (row, radial)
+    assert np.isclose(np.nanmax(hoop[1]), float(row["largest hoop stress"]), atol=1e-4), (row, hoop)
+
+
 def check_nisida(folder):
     shutil.copytree(ROOT / "scripts", folder / "scripts")
     shutil.copytree(ROOT / "examples/nisida", folder / "examples/nisida", ignore=shutil.ignore_patterns("out"))
@@ -79,6 +88,11 @@ def check_nisida(folder):
     subprocess.run(["make", "-s"], cwd=example, check=True, capture_output=True)
     smooth, rough = csv.DictReader((example / "out/figure_18.csv").open())
     check_curves(example / "out/figure_18.png", ["C0", "C1"])
+    matrices = [example / f"out/{name}.matrices.h5" for name in ("frictionless", "friction")]
+    _, (radial, hoop) = run_and_look(ROOT / "scripts/figure_18", *matrices, "-o", folder / "again.png")
+    assert same_pixels(folder / "again.png", example / "out/figure_18.png")
+    for row in smooth, rough:
+        check_contact(row, radial[row["sheet"]], hoop[row["sheet"]])
     assert abs(float(smooth["contact half-angle"]) / 87.20 - 1) < 1e-3, smooth
     assert abs(float(smooth["peak pressure"]) / 1.2045 - 1) < 1e-3, smooth
     assert 3 <= int(smooth["iterations"]) <= 4 and 3 <= int(rough["iterations"]) <= 4

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Joints in files whose discs move along x and y, or along y alone.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
@@ -129,6 +130,60 @@ TEST_F(PlaneRun, RefusesOneSidedLawsInThePlane) {
       "bear all around, or plates whose discs have one direction");
   write({"y"}, {"y"}, one_sided);
   EXPECT_NEAR(run().F(0, 0), 50, 1e-9);
+}
+
+/// A sheet that only its fasteners at (0, 0) and (1, 0) hold, under a couple of two forces along y, at x = 2 and at -1:
+/// stiff in every motion but those of a rigid body. The fasteners bear with +-couple, and no further than they yield.
+class Couple : public PlaneRun {
+ protected:
+  static constexpr double yield = 30;
+  void write_couple(double couple, const std::string& method) {
+    auto sheet = test::spring_plate(4, 2, {{0, 2, 1000}});
+    const Eigen::VectorXd bends = Eigen::VectorXd{{0, 1, 0, -2, 1, 0}}, other = Eigen::VectorXd{{0, -2, 0, 1, 0, 1}};
+    const Eigen::MatrixXd S = 1000 * (bends * bends.transpose() + other * other.transpose());
+    sheet.S_dd[0] += S.topLeftCorner(4, 4);
+    sheet.S_ed[0] += S.bottomLeftCorner(2, 4);
+    sheet.S_ee[0] += S.bottomRightCorner(2, 2);
+    auto base = test::spring_plate(
+        4, 0, {{0, test::ground, 1000}, {1, test::ground, 1000}, {2, test::ground, 1000}, {3, test::ground, 1000}});
+    for (auto* plate : {&sheet, &base}) {
+      plate->disc_hole = {"1", "1", "2", "2"};
+      plate->disc_direction = {"x", "y", "x", "y"};
+    }
+    sheet.external_id = {"P", "Q"};
+    sheet.external_direction = {"y", "y"};
+    options_ = {
+        .input = test::write_joint(
+            folder_, {sheet, base},
+            {{"laws",
+              fmt::format(R"({{"lin": {{"type": "bilinear", "k": 1000, "F_yield": {}, "k_yield": 0}}}})", yield)},
+             {"loads", fmt::format(R"([{{"external": "a:P", "force": {0}}},
+                                               {{"external": "a:Q", "force": -{0}}}])",
+                                   couple / 3)},
+             {"solver", fmt::format(R"({{"method": "{}"}})", method)},
+             {"increments", "[0.5, 1]"}}),
+        .output = folder_.path("result.h5"),
+        .csv = {},
+        .generator = "test 1"};
+  }
+};
+
+TEST_F(Couple, BeyondWhatTwoPlasticFastenersHoldTurnsTheSheet) {
+  for (const char* method : {"hybridsj", "damped newton"}) {
+    write_couple(0.99 * yield, method);
+    const auto held = run();
+    EXPECT_NEAR(held.F_vector(1, 1), -0.99 * yield, 1e-8) << method;
+    EXPECT_NEAR(held.F_vector(1, 3), 0.99 * yield, 1e-8) << method;
+    write_couple(yield / 0.75, method);
+    const auto beyond =
+        test::run(folder_, std::string(STAGE3_PROGRAM) + " " + options_.input + " -o " + options_.output);
+    EXPECT_EQ(beyond.status, 4) << method;
+    EXPECT_THAT(beyond.err, HasSubstr("joint.json: limit load reached: beyond load factor 0.7")) << method;
+    EXPECT_THAT(beyond.err, HasSubstr("the laws of fastener \"f1\", fastener \"f2\" allow no more force")) << method;
+    const auto kept = formats::read_joint_result(options_.output);
+    EXPECT_FALSE(kept.complete);
+    EXPECT_EQ(kept.load_factor, Eigen::VectorXd::Constant(1, 0.5)) << method;
+  }
 }
 
 }  // namespace

@@ -10,18 +10,30 @@ import matplotlib
 import matplotlib.image
 import numpy as np
 from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 
 def run_and_look(script, *words):
-    """Runs a Python script that draws; what it prints, and of each of its axes the curves by label, x and y."""
+    """Runs a Python script that draws; what it prints, and of each of the axes that it saves last the curves by label, x and y."""
     plt.close("all")
-    printed = io.StringIO()
-    with mock.patch.object(sys, "argv", [str(script), *map(str, words)]), contextlib.redirect_stdout(printed):
+    printed, curves = io.StringIO(), []
+    savefig = Figure.savefig
+
+    def look_and_save(figure, *args, **options):
+        curves[:] = [{line.get_label(): line.get_xydata().T for line in axis.lines} for axis in figure.axes]
+        savefig(figure, *args, **options)
+
+    with (mock.patch.object(sys, "argv", [str(script), *map(str, words)]), contextlib.redirect_stdout(printed),
+          mock.patch.object(Figure, "savefig", look_and_save)):
         runpy.run_path(str(script), run_name="__main__")
-    return printed.getvalue(), [{line.get_label(): line.get_xydata().T for line in axis.lines} for axis in plt.gcf().axes]
+    return printed.getvalue(), curves
+
+
+def same_pixels(one, other):
+    return np.array_equal(matplotlib.image.imread(one), matplotlib.image.imread(other))
 
 
 def extent(path, colour):
