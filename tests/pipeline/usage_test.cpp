@@ -103,10 +103,10 @@ TEST(UsageOfOptions, Accuracy) {
   const auto reached = test::stage1(folder, "center.json -o a.h5 --accuracy 1e-4");
   EXPECT_EQ(reached.status, 0);
   EXPECT_EQ(reached.err, "");
-  const std::string said = "accuracy 0.0001: product space, p = 5: error of S about 5.";
-  EXPECT_THAT(reached.out, AllOf(HasSubstr("p = 5: "), Not(HasSubstr("p = 6: ")), HasSubstr(said)));
+  const std::string said = "accuracy 0.0001: product space, p = 6: error of S about 1.5";
+  EXPECT_THAT(reached.out, AllOf(HasSubstr("p = 6: "), Not(HasSubstr("p = 7: ")), HasSubstr(said)));
   const auto matrices = test::stage2(folder, "a.h5 -o a.m.h5");
-  EXPECT_THAT(matrices.out, AllOf(HasSubstr("p = 1..5"), HasSubstr("error of S about 5.")));
+  EXPECT_THAT(matrices.out, AllOf(HasSubstr("p = 1..6"), HasSubstr("error of S about 1.5")));
   const auto missed = test::stage1(folder, "center.json -o b.h5 --accuracy 1e-9 --p 1..4 --quiet");
   EXPECT_EQ(missed.status, 0);
   EXPECT_THAT(missed.err,
