@@ -105,29 +105,42 @@ def check_csv():
 
 
 def check_picture(script, fields):
-    """Bearing loads are arrows from the middle of their holes, as long as they are large; colours are stresses of von Mises."""
+    """Forces are arrows from the middle of their holes, as long as they are large; load and support are arrows at their edges, the
+    highest peak is a ring at its place on the rim; colours are stresses of von Mises, up to the highest near a hole."""
     with h5py.File("joint.h5") as f:
-        loads = [script.bearing_loads(field, f, None) for field in fields]
-    figure = script.draw(fields, [script.fine_field(field, "von_mises") for field in fields], "von_mises", loads)
-    largest, scale = 0, []
-    for axis, field, (of_sheet, unit) in zip(figure.axes, fields, loads):
+        forces = [script.fastener_forces(field, f, None) for field in fields]
+        peaks = [script.highest_peak(field, f, None) for field in fields]
+    picture = script.Picture(fields, "von_mises", forces, peaks)
+    scale, near = [], []
+    for axis, field, (of_sheet, _), peak, held in zip(picture.axes, fields, forces, peaks, (("15000", -1), ("30000", 1))):
         x, y, xy = (field.points[f"stress_{c}"] for c in ("xx", "yy", "xy"))
         colours = axis.collections[0].get_array()
         most = np.sqrt(x**2 - x * y + y**2 + 3 * xy**2).max()
         assert 1 - 1e-9 < colours.max() / most < 1.02 and (colours >= 0).all(), (field.path, colours.max(), most)
-        largest = max(largest, colours.max())
+        corners = axis.collections[0]._triangulation
+        near += [colours[np.hypot(corners.x - center[0], corners.y - center[1]) < 16].max() for center in field.holes().values()]
         arrows = [text for text in axis.texts if not text.get_text()]
-        numbers = [text for text in axis.texts if text.get_text()]
+        black = {tuple(arrow.xyann): np.subtract(arrow.xy, arrow.xyann) for arrow in arrows
+                 if arrow.arrow_patch.get_edgecolor()[:3] == (0, 0, 0)}
+        (red,) = [np.subtract(arrow.xy, arrow.xyann) for arrow in arrows if tuple(arrow.xyann) not in black]
+        words = {text.get_text(): text.xy for text in axis.texts if text.get_text()}
+        assert held[0] in words and abs(red[0]) < 1e-9 and red[1] * held[1] > 0, (field.path, words, red)
         loaded = {hole: load for hole, load in of_sheet.items() if np.hypot(*load) > 0}
-        assert len(arrows) == len(numbers) == len(loaded) >= 5, (field.path, loaded)
-        for arrow, number, (hole, load) in zip(arrows, numbers, loaded.items()):
-            assert np.array_equal([arrow.xyann, number.xy], 2 * [field.holes()[hole]]), hole
-            assert number.get_text() in (f"{np.hypot(*load):.0f} {unit}", f"{np.hypot(*load):.4g} {unit}"), number
-            shown = np.subtract(arrow.xy, arrow.xyann)
-            scale.append(np.hypot(*shown) / np.hypot(*load))
-            assert np.allclose(shown, scale[0] * load, atol=1e-9 * np.hypot(*shown)), (hole, shown, load)
-    assert all(np.allclose(axis.collections[0].get_clim(), (0, largest)) for axis in figure.axes[:-1])
-    figure.savefig("again.png", dpi=120)
+        assert len(black) == len(loaded) >= 5, (field.path, loaded)
+        for hole, center in field.holes().items():
+            assert np.array_equal(words[hole], center + [0, 8]), hole
+            if hole in loaded:
+                load, shown = loaded[hole], black[tuple(center)]
+                assert any(text.get_text() == f"{np.hypot(*load):.0f}" and np.array_equal(text.xy, center - [0, 8])
+                           for text in axis.texts), hole
+                scale.append(np.hypot(*shown) / np.hypot(*load))
+                assert np.allclose(shown, scale[0] * load, atol=1e-9 * np.hypot(*shown)), (hole, shown, load)
+        value, hole, angle = peak
+        assert f"highest hoop stress {value:.4g} N/mm², at hole {hole}" in axis.get_title(), axis.get_title()
+        (ring,) = axis.lines
+        assert np.allclose(ring.get_xydata()[0], field.holes()[hole] + 8 * np.array([np.cos(angle), np.sin(angle)]))
+    assert all(np.allclose(axis.collections[0].get_clim(), (0, max(near))) for axis in picture.axes)
+    picture.figure.savefig("again.png", dpi=120)
     assert pictures.same_pixels("again.png", "pictures/stress.png"), "the picture that make draws"
 
 
