@@ -6,7 +6,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 CODE = [path for folder in ("common", "scripts", "stage1_plate", "stage2_extract", "stage3_nonlinear", "tests")
         for path in (ROOT / folder).rglob("*")
-        if path.suffix in (".cpp", ".hpp", ".py") or (folder == "scripts" and path.is_file())]
+        if path.suffix in (".cpp", ".hpp", ".py")
+        or (folder == "scripts" and path.is_file() and path.parent.name != "__pycache__")]
 
 
 def cited_sections(text):
