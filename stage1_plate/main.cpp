@@ -8,9 +8,9 @@
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
-#include "stage1_plate/accuracy.hpp"
-#include "stage1_plate/degree_range.hpp"
-#include "stage1_plate/solved_plate.hpp"
+#include "stage1_plate/run/accuracy.hpp"
+#include "stage1_plate/run/solved_plate.hpp"
+#include "stage1_plate/scene/degree_range.hpp"
 
 namespace {
 

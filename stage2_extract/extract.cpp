@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/extract.hpp"
 
-#include "common/pfem/condensed_stiffness.hpp"
-#include "stage2_extract/friction_constants.hpp"
-#include "stage2_extract/load_reactions.hpp"
-#include "stage2_extract/stresses.hpp"
+#include "common/linalg/condensed_stiffness.hpp"
+#include "stage2_extract/matrices/friction_constants.hpp"
+#include "stage2_extract/matrices/load_reactions.hpp"
+#include "stage2_extract/stresses/stresses.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -80,13 +80,12 @@ void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
 
 /// What stage 1 found of the scene's own loads, for readers of MATRICES.h5.
 void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
-  constexpr double degrees = 360 / pfem::full_turn;
   for (const auto& contact : plate.contacts) {
     const auto hole = static_cast<std::size_t>(contact.hole);
     a.contacts.push_back(
-        {plate.hole_id[hole], {}, contact.iterations, contact.peak_pressure, degrees * contact.peak_angle});
+        {plate.hole_id[hole], {}, contact.iterations, contact.peak_pressure, contact.peak_angle / rim::degree});
     for (const auto& range : plate.hole_spring[hole].acts)
-      a.contacts.back().arcs.push_back({degrees * range.from, degrees * range.to});
+      a.contacts.back().arcs.push_back({range.from / rim::degree, range.to / rim::degree});
   }
   a.load_displacement = plate.load_displacement;
   a.load_friction = plate.load_friction;
@@ -100,11 +99,11 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   auto& a = result.matrices;
   const auto e = a.n_externals();
   const auto m = a.n_discs();
-  pfem::CondensedLevels levels;
+  matrices::CondensedLevels levels;
   auto& S = levels.S;
   std::vector<Level> solved;
   for (std::size_t level = 0; level < plate.cases.size(); ++level) {
-    S.push_back(pfem::condensed_stiffness(plate.cases[level].E_c, plate.shift, plate.K_cc));
+    S.push_back(linalg::condensed_stiffness(plate.cases[level].E_c, plate.shift, plate.K_cc));
     levels.R.push_back(friction_reactions(plate, level));
     solved.push_back({S.back(), levels.R.back(), traction_reactions(plate, level)});
     a.C_t.push_back(traction_compliance(plate, level));
@@ -112,14 +111,14 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   store(solved, a);
   levels.C = a.C_t;
   levels.rounding = plate.probe.rounding;
-  const double fastest = pfem::fastest_rate(plate.elasticity);
-  const Eigen::MatrixXd error = pfem::stiffness_error(S, plate.p, fastest).cwiseMax(levels.rounding);
+  const double fastest = matrices::fastest_rate(plate.elasticity);
+  const Eigen::MatrixXd error = matrices::stiffness_error(S, plate.p, fastest).cwiseMax(levels.rounding);
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, file);
   carry_over_loads(plate, a);
-  result.errors = pfem::relative_errors(levels, plate.p, plate.K_cc, fastest);
+  result.errors = matrices::relative_errors(levels, plate.p, plate.K_cc, fastest);
   result.checks = check(plate, a, S.back());  // of what was solved, before it is balanced
   for (const auto& free : free_translations(plate, a.friction_resultant))
     for (auto& level : solved) balance(free, level);

@@ -3,15 +3,15 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "common/formats/plate_solution.hpp"
-#include "common/pfem/stiffness_error.hpp"
-#include "stage2_extract/checks.hpp"
+#include "common/matrices/stiffness_error.hpp"
+#include "stage2_extract/matrices/checks.hpp"
 
 namespace fastjoint::stage2 {
 
 /// Everything linear about the plate, for every p, and how well it satisfies what must hold.
 struct Extraction {
   formats::PlateMatrices matrices;
-  std::vector<pfem::RelativeError> errors;  ///< estimated, at the highest p; infinite with one degree
+  std::vector<matrices::RelativeError> errors;  ///< estimated, at the highest p; infinite with one degree
   Checks checks;
 };
 

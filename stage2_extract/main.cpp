@@ -9,7 +9,7 @@
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
-#include "stage2_extract/field_file.hpp"
+#include "stage2_extract/field/field_file.hpp"
 
 namespace {
 
@@ -45,9 +45,9 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
                            counted(a.n_tractions(), "traction"), degrees);
   using stage2::largest;
   const double S = std::max(largest(a.S_ee.back()), largest(a.S_dd.back()));
-  std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, formats::unit(a.header.units, -1, 1),
-                           std::isfinite(pfem::largest(extraction.errors))
-                               ? pfem::to_text(extraction.errors)
+  std::cout << fmt::format("  largest stiffness {:.6g} {}, {}\n", S, unit(a.header.units, -1, 1),
+                           std::isfinite(matrices::largest(extraction.errors))
+                               ? matrices::to_text(extraction.errors)
                                : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks) << fmt::format("  digest {}\n", digest);
 }

@@ -2,8 +2,8 @@
 #include <iostream>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/gsl_solver.hpp"
 #include "stage3_nonlinear/run.hpp"
+#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
 
 namespace {
 

@@ -12,14 +12,14 @@
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
-#include "stage3_nonlinear/event_path.hpp"
-#include "stage3_nonlinear/force_error.hpp"
-#include "stage3_nonlinear/joint_history.hpp"
-#include "stage3_nonlinear/report.hpp"
-#include "stage3_nonlinear/rim_history.hpp"
-#include "stage3_nonlinear/sensitivity.hpp"
-#include "stage3_nonlinear/sensitivity_history.hpp"
-#include "stage3_nonlinear/summary.hpp"
+#include "stage3_nonlinear/output/joint_history.hpp"
+#include "stage3_nonlinear/output/sensitivity_history.hpp"
+#include "stage3_nonlinear/output/summary.hpp"
+#include "stage3_nonlinear/output/warnings.hpp"
+#include "stage3_nonlinear/path/event_path.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/force_error.hpp"
+#include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -101,6 +101,9 @@ void run(const RunOptions& options, std::ostream& out, std::ostream& log, progra
   program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
                           "matrices of fewer holes, or of stage1_plate --loads-only");
   const JointModel joint = load_joint(scene, options.p);
+  if (scene.solver.method == Method::exact_path && joint.n_directions() > 1)
+    refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",
+           "another method, or plates whose discs have one direction");
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
   require_memory(scene, joint, equations, options, scene.load_factors.size());

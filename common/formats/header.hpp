@@ -8,18 +8,9 @@
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
 #include "common/pfem/space.hpp"
+#include "common/units.hpp"
 
 namespace fastjoint::formats {
-
-/// Labels of the user's consistent set of units; empty where the file has none.
-struct Units {
-  std::string length;
-  std::string force;
-  friend bool operator==(const Units&, const Units&) = default;
-};
-
-/// length^l force^f as a label: "in^2", "lbf/in^0.7", "1" if dimensionless. Every unit attribute comes from here.
-[[nodiscard]] std::string unit(const Units& units, double length_power, double force_power);
 
 /// The unit that a dataset must have in a file with these labels; "", any unit, in a file without labels.
 [[nodiscard]] std::string expected_unit(const Units& units, int length_power, int force_power);

@@ -8,7 +8,7 @@
 
 #include "common/formats/header.hpp"
 #include "common/pfem/mesh.hpp"
-#include "common/pfem/rim.hpp"
+#include "common/rim/rim.hpp"
 
 namespace fastjoint::formats {
 
@@ -28,19 +28,6 @@ struct Probe {
   Eigen::VectorXd friction;      ///< (h) amount of each friction case in the second, stress
   Eigen::VectorXd u, w;          ///< (n_f) plate unknowns in the first and the second
   double rounding = 0;           ///< what rounding may change of S, estimated by the first, force / length
-};
-
-/// Distributed normal springs of a hole.
-struct HoleSpring {
-  double modulus = 0;                  ///< force / length^3; 0 where the rim between links, or all of it, is free
-  std::vector<pfem::AngleRange> acts;  ///< the sprung parts of the rim
-};
-
-/// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.
-struct Section {
-  int hole;                       ///< index into hole_id
-  std::string side;               ///< on which side of the hole, "+x", "-x", "+y" or "-y"
-  std::vector<pfem::Side> sides;  ///< elements on the hole's side of the cut
 };
 
 /// A hole whose springs push but do not pull, under the scene's loads.
@@ -63,9 +50,9 @@ struct PlateSolution {
   /// >= 0 a plate unknown, -1 zero, -2 - i the controlled displacement i.
   Eigen::Matrix2Xi unknown;
   std::vector<std::string> hole_id;
-  std::vector<pfem::Rim> hole_rim;
-  std::vector<HoleSpring> hole_spring;
-  std::vector<Section> sections;
+  std::vector<rim::Rim> hole_rim;
+  std::vector<rim::HoleSpring> hole_spring;
+  std::vector<rim::Section> sections;
   std::vector<std::string> supported;  ///< directions that a support fixes somewhere
   pfem::Space space = pfem::Space::trunk;
   Eigen::VectorXi p, ndof;

@@ -7,10 +7,9 @@
 #include <functional>
 #include <random>
 
-#include "stage3_nonlinear/exact_path.hpp"
-#include "stage3_nonlinear/gsl_solver.hpp"
-#include "stage3_nonlinear/load_path.hpp"
-#include "stage3_nonlinear/solver.hpp"
+#include "stage3_nonlinear/path/exact_path.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace {
@@ -60,12 +59,12 @@ int main() {
       for (const int increments : {1, 10, 100}) {
         std::vector<double> factors;
         for (int i = 1; i <= increments; ++i) factors.push_back(static_cast<double>(i) / increments);
-        const auto follow_by = [&](const char* method) {
+        const auto follow_by = [&](stage3::Method method) {
           return milliseconds([&] { (void)follow(equations, factors, {{}, {.method = method}}); });
         };
         fmt::print("{:>4} {:>8} {:>8} {:>10} {:>12.2f} {:>12.2f}\n", n, friction,
-                   exact_path(equations, 1).pieces.size() - 1, increments, follow_by(exact_path_name),
-                   follow_by(default_solver));
+                   exact_path(equations, 1).pieces.size() - 1, increments, follow_by(stage3::Method::exact_path),
+                   follow_by(stage3::Method::hybridsj));
       }
     }
 }

@@ -9,9 +9,9 @@
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
-#include "stage1_plate/degree_range.hpp"
-#include "stage1_plate/holding.hpp"
-#include "stage1_plate/plate_factor.hpp"
+#include "stage1_plate/factor/plate_factor.hpp"
+#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/scene/degree_range.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"
 
@@ -38,7 +38,7 @@ const stage1::External& first_external(const stage1::PlateScene& scene) {
 
 /// Plate unknowns under a unit displacement of the first external, all else held.
 Eigen::VectorXd first_field(const stage1::PlateProblem& problem, int p) {
-  const stage1::PlateFactor K(problem, stage1::Outline(problem), p);
+  const stage1::PlateFactor K(problem, stage1::Skeleton(problem), p);
   return K.solve(-Eigen::MatrixXd(problem.K_fc.col(0)));
 }
 

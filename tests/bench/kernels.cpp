@@ -6,9 +6,9 @@
 #include "common/pfem/element_stiffness.hpp"
 #include "common/pfem/gauss.hpp"
 #include "common/pfem/material.hpp"
-#include "common/pfem/rim.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "stage1_plate/plate_factor.hpp"
+#include "common/rim/rim.hpp"
+#include "stage1_plate/factor/plate_factor.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plates.hpp"
@@ -47,9 +47,9 @@ void rim_rule(State& state) {
   const auto& edges = plate.mesh.edges;
   const int p = static_cast<int>(state.range(0));
   const auto& hole = plate.scene.holes.front();
-  const auto rim = pfem::find_rim(mesh, edges, hole.center, hole.radius);
+  const auto rim = rim::find_rim(mesh, edges, hole.center, hole.radius);
   for (auto _ : state)
-    for (const auto& side : rim.sides) DoNotOptimize(pfem::rim_rule(mesh, edges, side, p));
+    for (const auto& side : rim.sides) DoNotOptimize(rim::rim_rule(mesh, edges, side, p));
 }
 BENCHMARK(rim_rule)->Arg(2)->Arg(4)->Arg(8);
 
@@ -69,15 +69,15 @@ BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 void factorise(State& state) {
   const int n = static_cast<int>(state.range(0));
   const auto plate = test::make_plate(test::panel(n, n));
-  const stage1::Outline outline(plate.problem);
-  for (auto _ : state) DoNotOptimize(stage1::PlateFactor(plate.problem, outline, 8).energy_rows());
+  const stage1::Skeleton skeleton(plate.problem);
+  for (auto _ : state) DoNotOptimize(stage1::PlateFactor(plate.problem, skeleton, 8).energy_rows());
 }
 BENCHMARK(factorise)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
 
 /// The fields of all unit displacements of panel(3, 3) at p = 8.
 void solve(State& state) {
   const auto plate = test::make_plate(test::panel(3, 3));
-  const stage1::PlateFactor K(plate.problem, stage1::Outline(plate.problem), 8);
+  const stage1::PlateFactor K(plate.problem, stage1::Skeleton(plate.problem), 8);
   const Eigen::MatrixXd B = -Eigen::MatrixXd(plate.problem.K_fc);
   for (auto _ : state) DoNotOptimize(K.solve(B));
 }

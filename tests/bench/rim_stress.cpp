@@ -7,7 +7,7 @@
 #include <iostream>
 
 #include "common/pfem/strain.hpp"
-#include "stage2_extract/rim_stress.hpp"
+#include "stage2_extract/stresses/rim_stress.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/rim_methods.hpp"
 

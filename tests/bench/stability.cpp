@@ -12,8 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "stage3_nonlinear/gsl_solver.hpp"
-#include "stage3_nonlinear/newton_solver.hpp"
+#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
+#include "stage3_nonlinear/solvers/newton_solver.hpp"
+#include "tests/bench/gsl_methods.hpp"
 #include "tests/bench/stability_falling.hpp"
 #include "tests/bench/stability_trial.hpp"
 
@@ -126,7 +127,7 @@ void chart(int n, const RootOptions& options) {
   for (const auto seed : seeds(n)) {
     const RandomJoint joint = random_joint(seed);
     for (const auto coordinate : {Coordinate::contact, Coordinate::displacement})
-      for (const auto& solver : stage3::solvers())
+      for (const auto& solver : solvers())
         print(joint, solver.name, coordinate_names[static_cast<std::size_t>(coordinate)],
               try_guesses(joint, solver.solve, coordinate, options));
     print(joint, "as shipped", coordinate_names[0], {try_as_shipped(joint, options)});

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <random>
 
-#include "stage3_nonlinear/load_path.hpp"
-#include "stage3_nonlinear/solver.hpp"
-#include "stage3_nonlinear/tangent_check.hpp"
+#include "stage3_nonlinear/equations/tangent_check.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
+#include "stage3_nonlinear/solvers/newton_solver.hpp"
 #include "tests/bench/stability_curves.hpp"
 
 namespace fastjoint::bench {
@@ -33,7 +34,7 @@ std::vector<VectorXd> solutions(const JointEquations& equations, std::mt19937& r
   for (int i = 0; i < starts; ++i) {
     const VectorXd start = VectorXd::NullaryExpr(
         equations.n_unknowns(), [&] { return (chance(random, 0.5) ? 1 : -1) * decades(random, 1e-2, 1e2); });
-    const auto root = stage3::solver_named(i % 2 == 0 ? "hybridsj" : "damped newton")(problem, start, {tolerance, 200});
+    const auto root = (i % 2 == 0 ? stage3::hybridsj_root : stage3::newton_root)(problem, start, {tolerance, 200});
     if (!root.converged) continue;
     const auto state = contact_state(equations.contacts, scale * root.x);
     const auto equal = [&](const VectorXd& F) { return (F - state.F).cwiseAbs().maxCoeff() < same * scale; };

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "stage3_nonlinear/cubic_law.hpp"
+#include "stage3_nonlinear/laws/cubic_law.hpp"
 #include "tests/bench/stability_curves.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 

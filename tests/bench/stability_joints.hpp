@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "stage3_nonlinear/joint_equations.hpp"
+#include "stage3_nonlinear/equations/joint_equations.hpp"
 
 namespace fastjoint::bench {
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/stability_trial.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 
 #include <algorithm>
 #include <chrono>
 
-#include "stage3_nonlinear/first_guess.hpp"
+#include "stage3_nonlinear/equations/first_guess.hpp"
 
 namespace fastjoint::bench {
 namespace {

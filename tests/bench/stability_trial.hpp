@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "stage3_nonlinear/load_path.hpp"
-#include "stage3_nonlinear/solver.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/bench/stability_joints.hpp"
 
 namespace fastjoint::bench {

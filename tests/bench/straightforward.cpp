@@ -10,8 +10,8 @@
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
-#include "stage1_plate/degree_range.hpp"
-#include "stage1_plate/holding.hpp"
+#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/scene/degree_range.hpp"
 #include "tests/support/straightforward.hpp"
 
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "stage3_nonlinear/rim_state.hpp"
+#include "stage3_nonlinear/results/rim_state.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {

@@ -16,7 +16,7 @@ PLATE_PHASES, EXTRACT_PHASES, JOINT_PHASES = (["read", "mesh", "integrate", "fac
 # program, input, output, more words, phases, degrees with a number of unknowns
 RUNS = [
     (STAGE1, "upper.json", "upper.h5", ["--p", "3..8"], PLATE_PHASES, "345678"),
-    (STAGE1, "upper.json", "chosen.h5", ["--accuracy", "1e-3"], ["read", "search", *PLATE_PHASES[1:]], "1234"),
+    (STAGE1, "upper.json", "chosen.h5", ["--accuracy", "1e-3"], ["read", "search", *PLATE_PHASES[1:]], "12345"),
     (STAGE1, "lower.json", "lower.h5", ["--p", "8", "--threads", "2"], PLATE_PHASES, "8"),
     (STAGE1, "friction.json", "contact.h5", ["--p", "2..3"], PLATE_PHASES, "23"),  # finds arcs of contact first
     (STAGE2, "upper.h5", "upper.matrices.h5", [], EXTRACT_PHASES, "345678"),

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "stage3_nonlinear/cubic_law.hpp"
-#include "stage3_nonlinear/piecewise_linear_law.hpp"
-#include "stage3_nonlinear/power_law.hpp"
+#include "stage3_nonlinear/laws/cubic_law.hpp"
+#include "stage3_nonlinear/laws/piecewise_linear_law.hpp"
+#include "stage3_nonlinear/laws/power_law.hpp"
 
 namespace fastjoint::test {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
-#include "stage3_nonlinear/joint_equations.hpp"
+#include "stage3_nonlinear/equations/joint_equations.hpp"
 #include "tests/support/files.hpp"
 
 namespace fastjoint::test {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/report.hpp"
+#include "stage3_nonlinear/output/warnings.hpp"
 #include "tests/stage3_nonlinear/run_fixture.hpp"
 
 namespace fastjoint::stage3 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/stage3_nonlinear/stacks.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "stage3_nonlinear/equilibrium.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::test {

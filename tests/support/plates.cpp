@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/pfem/condensed_stiffness.hpp"
+#include "common/linalg/condensed_stiffness.hpp"
 
 namespace fastjoint::test {
 
@@ -19,7 +19,7 @@ namespace {
 
 void solve_cases(const Plate& plate, formats::PlateSolution& solution) {
   program::Timings timings;
-  stage1::solve_cases(plate.problem, stage1::Outline(plate.problem), solution, timings);
+  stage1::solve_cases(plate.problem, stage1::Skeleton(plate.problem), solution, timings);
 }
 
 }  // namespace
@@ -39,7 +39,7 @@ formats::PlateSolution solve_all_fields(const Plate& plate) {
 }
 
 Eigen::MatrixXd stiffness(const formats::PlateSolution& a, std::size_t level) {
-  return pfem::condensed_stiffness(a.cases[level].E_c, a.shift, a.K_cc);
+  return linalg::condensed_stiffness(a.cases[level].E_c, a.shift, a.K_cc);
 }
 
 stage2::Extraction extract(const std::string& json) {

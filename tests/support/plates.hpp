@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/formats/plate_solution.hpp"
-#include "stage1_plate/solve.hpp"
+#include "stage1_plate/run/solve.hpp"
 #include "stage2_extract/extract.hpp"
 
 namespace fastjoint::test {

@@ -31,7 +31,7 @@ Eigen::MatrixXd harmonic_hoop_strain(const stage2::UnitFields& fields, const std
   const Eigen::Index n = highest / 2 + 1;
   Eigen::MatrixXd radial = Eigen::MatrixXd::Zero(n, fields.n_cases()), hoop = radial;  // of cos m theta, sin m theta
   for (const auto& side : rim.sides) {
-    const auto rule = pfem::rim_rule(plate.mesh, fields.edges(), side, fields.p());
+    const auto rule = rim::rim_rule(plate.mesh, fields.edges(), side, fields.p());
     const Eigen::MatrixXd C = fields.coefficients(side.element, rule.modes);
     const auto n_modes = rule.N.rows();
     for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
@@ -40,7 +40,7 @@ Eigen::MatrixXd harmonic_hoop_strain(const stage2::UnitFields& fields, const std
       const Eigen::RowVectorXd ux = rule.N.col(q).transpose() * C.topRows(n_modes);
       const Eigen::RowVectorXd uy = rule.N.col(q).transpose() * C.bottomRows(n_modes);
       for (Eigen::Index i = 0; i < n; ++i) {
-        const double weight = (i == 0 ? 4 : 8) / pfem::full_turn * rule.ds[q] / rim.radius;
+        const double weight = (i == 0 ? 4 : 8) / rim::full_turn * rule.ds[q] / rim.radius;
         const double m = 2 * static_cast<double>(i);
         radial.row(i) += weight * std::cos(m * theta) * (r.x() * ux + r.y() * uy);
         hoop.row(i) += weight * std::sin(m * theta) * (r.x() * uy - r.y() * ux);
@@ -83,7 +83,7 @@ GaussStrains gauss_strains(const stage2::UnitFields& fields, const pfem::Side& s
 
 /// Powers 0..degree of an angle of the quarter, by its distance from 45 degrees, shape (n, degree + 1).
 Eigen::MatrixXd powers(const Eigen::VectorXd& theta, int degree) {
-  const Eigen::ArrayXd x = (theta.array() - pfem::full_turn / 8) / (pfem::full_turn / 8);
+  const Eigen::ArrayXd x = (theta.array() - rim::full_turn / 8) / (rim::full_turn / 8);
   Eigen::MatrixXd P(theta.size(), degree + 1);
   for (int k = 0; k <= degree; ++k) P.col(k) = x.pow(k);
   return P;

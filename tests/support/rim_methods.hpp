@@ -4,12 +4,13 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "stage2_extract/rim_points.hpp"
-#include "stage2_extract/unit_fields.hpp"
+#include "stage2_extract/stresses/rim_points.hpp"
+#include "stage2_extract/stresses/unit_fields.hpp"
 
 namespace fastjoint::test {
 
-/// Other ways to the hoop stress at a rim, kept to measure the program's against (stage2_extract/rim_stress.hpp).
+/// Other ways to the hoop stress at a rim, kept to measure the program's against
+/// (stage2_extract/stresses/rim_stress.hpp).
 
 /// The finite element stress as it comes: (sigma_rr, sigma_tt, sigma_rt), mean of the sides, shape (3, n_cases).
 [[nodiscard]] Eigen::MatrixXd plain_rim_stress(const stage2::UnitFields& fields, const stage2::RimPoint& point);

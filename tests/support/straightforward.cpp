@@ -4,7 +4,7 @@
 #include <Eigen/CholmodSupport>
 
 #include "common/pfem/element_stiffness.hpp"
-#include "stage1_plate/rim_terms.hpp"
+#include "stage1_plate/problem/rim_terms.hpp"
 
 namespace fastjoint::test {
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "stage1_plate/plate_problem.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::test {
 

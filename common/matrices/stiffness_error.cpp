@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/matrices/stiffness_error.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fastjoint::matrices {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity(), slowest = 1.5;
+
+/// Sum over all degrees above p of what is 1 at p and falls as p^-s, by Euler and Maclaurin's formula.
+double tail(double p, double s) { return p / (s - 1) - 0.5 + s / (12 * p); }
+
+/// s that a sequence shows by its last difference and the last but two, or the first of two; infinite of one alone.
+double rate(const Eigen::VectorXd& values, const Eigen::VectorXi& p) {
+  const auto n = values.size();
+  if (n < 3) return infinite;
+  const auto first = std::max<Eigen::Index>(n - 4, 0);
+  const double before = values[first] - values[first + 1], last = values[n - 2] - values[n - 1];
+  if (!(before > 0 && last > 0)) return slowest;
+  return std::log(before / last) / std::log(double(p[n - 1]) / p[first + 1]);
+}
+
+/// Diagonal entry i of each matrix.
+Eigen::VectorXd diagonal(const std::vector<Eigen::MatrixXd>& S, Eigen::Index i) {
+  Eigen::VectorXd values(std::ssize(S));
+  for (std::size_t level = 0; level < S.size(); ++level) values[static_cast<Eigen::Index>(level)] = S[level](i, i);
+  return values;
+}
+
+}  // namespace
+
+double fastest_rate(const std::vector<Eigen::Matrix3d>& elasticity) {
+  constexpr double smooth = 5, at_rollers = 3, nothing = 1e-9;
+  const auto couples = [](const Eigen::Matrix3d& D) { return D.col(2).head<2>().norm() > nothing * D.norm(); };
+  return std::any_of(elasticity.begin(), elasticity.end(), couples) ? at_rollers : smooth;
+}
+
+double extrapolated_error(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest) {
+  constexpr double unknown = 3, fastest_seen = 8, least_p = 6;  // from which on `fastest` is believed
+  const auto n = values.size();
+  if (n < 2) return infinite;
+  const double shown = rate(values, p), rounding = 1e-13 * std::abs(values[n - 1]);
+  double most = fastest * std::min(1.0, (p[n - 1] - 1) / (least_p - 1));
+  if (n < 4) most = std::min({most, unknown, fastest - 1});
+  double last = std::abs(values[n - 2] - values[n - 1]);
+  if (n > 2)
+    last = std::max(last, std::abs(values[n - 3] - values[n - 2]) *
+                              std::pow(double(p[n - 2]) / p[n - 1], std::clamp(shown, slowest, fastest_seen)));
+  return std::max(tail(p[n - 1], std::clamp(shown, slowest, std::max(slowest, most))) * last, rounding);
+}
+
+Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p, double fastest) {
+  const auto n = S.back().rows();
+  if (S.size() < 2) return Eigen::MatrixXd::Constant(n, n, infinite);
+  const Eigen::MatrixXd last = S[S.size() - 2] - S.back();
+  Eigen::VectorXd error(n);
+  for (Eigen::Index i = 0; i < n; ++i) error[i] = extrapolated_error(diagonal(S, i), p, fastest);
+  constexpr double least = 0.15;  // of the bound
+  Eigen::MatrixXd result(n, n);
+  for (Eigen::Index j = 0; j < n; ++j)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const double bound = std::sqrt(error[i] * error[j]), bound_of_last = std::sqrt(last(i, i) * last(j, j));
+      const double share = bound_of_last > 0 ? std::min(std::abs(last(i, j)) / bound_of_last, 1.0) : 1;
+      result(i, j) = bound * std::hypot(share, least * std::sqrt(1 - share * share));
+    }
+  return result;
+}
+
+std::vector<RelativeError> relative_errors(const CondensedLevels& a, const Eigen::VectorXi& p,
+                                           const Eigen::MatrixXd& K_cc, double fastest) {
+  std::vector<RelativeError> errors;
+  if (const auto& S = a.S.back(); S.size() > 0)
+    errors.push_back(
+        {"S", stiffness_error(a.S, p, fastest).cwiseMax(a.rounding).norm() / (S.isZero(0) ? K_cc : S).norm()});
+  if (const auto& R = a.R.back(); R.size() > 0 && !R.isZero(0)) {
+    // `path` falls by the norms of R's differences
+    Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size()), path = energy;
+    for (Eigen::Index i = 0; i < a.S.back().rows(); ++i) energy += diagonal(a.S, i);
+    for (std::size_t i = a.R.size() - 1; i > 0; --i)
+      path[static_cast<Eigen::Index>(i) - 1] = path[static_cast<Eigen::Index>(i)] + (a.R[i] - a.R[i - 1]).norm();
+    errors.push_back({"R", extrapolated_error(path, p, std::min(fastest, rate(energy, p))) / R.norm()});
+  }
+  if (const auto& C = a.C.back(); C.size() > 0) {
+    std::vector<Eigen::MatrixXd> falling;
+    for (const auto& each : a.C) falling.push_back(-each);
+    errors.push_back({"C_t", stiffness_error(falling, p, fastest).norm() / C.norm()});
+  }
+  return errors;
+}
+
+double largest(const std::vector<RelativeError>& errors) {
+  double worst = 0;
+  for (const auto& error : errors) worst = std::max(worst, error.value);
+  return worst;
+}
+
+std::string to_text(const std::vector<RelativeError>& errors) {
+  constexpr double rounding = 1e-10;
+  std::string text;
+  for (const auto& [of, value] : errors)
+    text += fmt::format("{} {} {}", text.empty() ? "error of" : ", of", of,
+                        value < rounding ? "below 1e-10" : fmt::format("about {:.2e}", value));
+  return text;
+}
+
+}  // namespace fastjoint::matrices

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace fastjoint::rim {
+
+inline constexpr double full_turn = 2 * std::numbers::pi;
+inline constexpr double degree = full_turn / 360;  ///< radians
+
+/// The same direction from `low` to a full turn above it, radians.
+[[nodiscard]] inline double wrapped(double angle, double low) {
+  return angle - full_turn * std::floor((angle - low) / full_turn);
+}
+
+/// Part of a rim, radians counter-clockwise from x: from < to <= from + 2 pi.
+struct AngleRange {
+  double from, to;
+  friend bool operator==(const AngleRange&, const AngleRange&) = default;
+};
+
+/// Whether one of the ranges covers the angle, any multiple of a full turn away.
+[[nodiscard]] inline bool covers(const std::vector<AngleRange>& ranges, double angle) {
+  return std::any_of(ranges.begin(), ranges.end(),
+                     [&](const AngleRange& range) { return wrapped(angle, range.from) <= range.to; });
+}
+
+}  // namespace fastjoint::rim

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/rim/rim.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/pfem/shape_functions.hpp"
+
+namespace fastjoint::rim {
+namespace {
+
+// Two points are the same, and a radius is the radius, to this share of the radius.
+constexpr double tolerance = 1e-6;
+
+bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector2d& center, double radius) {
+  return (arc.center - center).norm() < tolerance * radius &&
+         std::abs((mesh.nodes.col(arc.a) - arc.center).norm() - radius) < tolerance * radius;
+}
+
+}  // namespace
+
+Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center, double radius) {
+  Rim rim{center, radius, {}};
+  for (int element = 0; element < mesh.n_elements(); ++element)
+    for (int edge = 0; edge < pfem::n_local_edges; ++edge) {
+      const auto global = static_cast<std::size_t>(edges.of_element(edge, element));
+      const int arc = edges.arc[global];
+      if (arc >= 0 && edges.n_elements[global] == 1 &&
+          on_circle(mesh, mesh.arcs[static_cast<std::size_t>(arc)], center, radius))
+        rim.sides.push_back({element, edge});
+    }
+  return rim;
+}
+
+double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim) {
+  double sum = 0;
+  for (const auto& side : rim.sides)
+    sum += std::abs(pfem::edge_curve(mesh, edges, side.element, side.local_edge).sweep());
+  return sum;
+}
+
+pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,
+                        const std::vector<AngleRange>& ranges) {
+  constexpr double at_end = 1e-9;  // a break this close to an end, or to another, is that one
+  const pfem::Curve curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
+  const double low = std::min(curve.start_angle(), curve.start_angle() + curve.sweep());
+  std::vector<double> angles = {0, full_turn / 4, full_turn / 2, -full_turn / 4};
+  for (const auto& range : ranges) angles.insert(angles.end(), {range.from, range.to});
+  std::vector<double> breaks;
+  for (const double angle : angles) {
+    const double inside = wrapped(angle, low);
+    const double s = -1 + 2 * (inside - curve.start_angle()) / curve.sweep();
+    if (std::abs(s) < 1 - at_end) breaks.push_back(s);
+  }
+  std::sort(breaks.begin(), breaks.end());
+  const auto close = [](double a, double b) { return b - a < at_end; };
+  breaks.erase(std::unique(breaks.begin(), breaks.end(), close), breaks.end());
+  return pfem::side_rule(mesh, edges, side, p, breaks);
+}
+
+}  // namespace fastjoint::rim

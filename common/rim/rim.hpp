@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/pfem/boundary.hpp"
+#include "common/pfem/mesh.hpp"
+#include "common/rim/angles.hpp"
+
+namespace fastjoint::rim {
+
+/// The part of a hole's circle that the model has: all of it, or half or a quarter on lines of symmetry.
+struct Rim {
+  Eigen::Vector2d center;
+  double radius;
+  std::vector<pfem::Side> sides;
+};
+
+/// Sides of elements that lie on a circle, in the order of the elements.
+[[nodiscard]] Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center,
+                           double radius);
+
+/// Angle that the rim covers, radians.
+[[nodiscard]] double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
+
+/// Quadrature on one side of a rim. Pieces end where a rim is cut by a line through its centre along x or y: there the
+/// tractions of bearing along +-x and +-y jump, kink or end; and where `ranges` end.
+[[nodiscard]] pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,
+                                      const std::vector<AngleRange>& ranges = {});
+
+/// Distributed normal springs of a hole.
+struct HoleSpring {
+  double modulus = 0;            ///< force / length^3; 0 where the rim between links, or all of it, is free
+  std::vector<AngleRange> acts;  ///< the sprung parts of the rim
+};
+
+/// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.
+struct Section {
+  int hole;                       ///< index of the hole
+  std::string side;               ///< on which side of the hole, "+x", "-x", "+y" or "-y"
+  std::vector<pfem::Side> sides;  ///< elements on the hole's side of the cut
+};
+
+}  // namespace fastjoint::rim

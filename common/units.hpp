@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+namespace fastjoint {
+
+/// Labels of the user's consistent set of units; empty where the file has none.
+struct Units {
+  std::string length;
+  std::string force;
+  friend bool operator==(const Units&, const Units&) = default;
+};
+
+/// length^l force^f as a label: "in^2", "lbf/in^0.7", "1" if dimensionless. Every unit attribute comes from here.
+[[nodiscard]] std::string unit(const Units& units, double length_power, double force_power);
+
+}  // namespace fastjoint

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/contact/rim_gap.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
+#include "common/rim/bearing.hpp"
+#include "stage1_plate/problem/springs.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+int target(const PlateProblem& problem, const pfem::Side& side, int mode, int component) {
+  const int function = problem.numbering.function(mode, side.element);
+  return problem.unknowns.target[static_cast<std::size_t>(2 * function + component)];
+}
+
+/// Global shape function per local one.
+double sign(const PlateProblem& problem, const pfem::Side& side, int mode) {
+  return problem.numbering.sign(mode, side.element);
+}
+
+/// The zero of f between low and high, where its signs differ, to rounding.
+template <class Function>
+double bisect(const Function& f, double low, double high) {
+  constexpr double exact = 1e-13;
+  const bool positive_at_low = f(low) > 0;
+  while (high - low > exact) {
+    const double middle = (low + high) / 2;
+    ((f(middle) > 0) == positive_at_low ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
+
+/// The largest value of f between low and high, where it has one hump: golden section.
+template <class Function>
+double highest(const Function& f, double low, double high) {
+  const double golden = (std::sqrt(5.0) - 1) / 2;
+  constexpr double fine = 1e-9;  // near its top f changes by the square of this
+  while (high - low > fine) {
+    const double a = high - golden * (high - low);
+    const double b = low + golden * (high - low);
+    f(a) > f(b) ? high = b : low = a;
+  }
+  return (low + high) / 2;
+}
+
+}  // namespace
+
+int RimUnknowns::place(int target) const {
+  if (target == Unknowns::fixed) return -1;
+  if (Unknowns::is_free(target)) return position[static_cast<std::size_t>(target)];
+  return static_cast<int>(free.size()) + Unknowns::controlled_index(target);
+}
+
+RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
+  RimUnknowns unknowns{{}, {}, problem.unknowns.n_controlled};
+  unknowns.position.assign(static_cast<std::size_t>(problem.unknowns.n_free.back()), -1);
+  constexpr int on_rim = 0;
+  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+    if (!scene.holes[hole].spring || !scene.holes[hole].spring->compression_only) continue;
+    for (const auto& side : plate.rims[hole].sides)
+      for (const int mode : pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p).modes)
+        for (const int component : {0, 1})
+          if (const int to = target(problem, side, mode, component); Unknowns::is_free(to))
+            unknowns.position[static_cast<std::size_t>(to)] = on_rim;
+  }
+  for (std::size_t i = 0; i < unknowns.position.size(); ++i)
+    if (unknowns.position[i] == on_rim) {
+      unknowns.position[i] = static_cast<int>(unknowns.free.size());
+      unknowns.free.push_back(static_cast<int>(i));
+    }
+  return unknowns;
+}
+
+/// u is a polynomial of the side's coordinate s in either component, D constant, n known: g at any s.
+class RimGap::Trace {
+ public:
+  Trace(const RimGap& rim, const pfem::Side& side, const Eigen::VectorXd& z)
+      : curve_(pfem::edge_curve(rim.plate_.mesh, rim.plate_.edges, side.element, side.local_edge)),
+        p_(rim.problem_.numbering.p),
+        u_(Eigen::Matrix2Xd::Zero(2, p_ + 1)),
+        disc_(Eigen::Vector2d::Zero()) {
+    const auto [first, second] = pfem::natural_ends(side.local_edge);
+    for (int k = 0; k <= p_; ++k) {
+      const int mode = k == 0 ? first : k == 1 ? second : pfem::edge_mode(p_, side.local_edge, k);
+      for (const int component : {0, 1})
+        if (const int place = rim.unknowns_.place(target(rim.problem_, side, mode, component)); place >= 0)
+          u_(component, k) = sign(rim.problem_, side, mode) * z[place];
+    }
+    const Unknowns& unknowns = rim.problem_.unknowns;
+    const int first_disc = unknowns.disc_of_hole[static_cast<std::size_t>(rim.hole_)];
+    for (std::size_t a = 0; a < rim.scene_.disc_directions.size(); ++a) {
+      const int controlled = unknowns.controlled_of_disc(first_disc + static_cast<int>(a));
+      disc_ += z[rim.unknowns_.place(Unknowns::controlled(controlled))] * rim::axis(rim.scene_.disc_directions[a]);
+    }
+  }
+
+  [[nodiscard]] double angle(double s) const { return curve_.start_angle() + (1 + s) / 2 * curve_.sweep(); }
+  /// The coordinate of an angle, outside [-1, 1] if the side does not have it.
+  [[nodiscard]] double coordinate(double angle) const {
+    const double middle = curve_.start_angle() + curve_.sweep() / 2;
+    return 2 * wrapped(angle - middle) / curve_.sweep();
+  }
+  double operator()(double s) const {
+    const Eigen::Vector2d u = u_ * pfem::integrated_legendre(p_, Eigen::VectorXd::Constant(1, s)).N;
+    return (disc_ - u).dot(Eigen::Vector2d(std::cos(angle(s)), std::sin(angle(s))));
+  }
+  [[nodiscard]] rim::AngleRange range(double s_from, double s_to) const {
+    const double a = angle(s_from);
+    const double b = angle(s_to);
+    return {std::min(a, b), std::max(a, b)};
+  }
+  /// Places on [-1, 1] so close that a polynomial of degree p times a sine hardly changes its sign twice in between.
+  [[nodiscard]] Eigen::VectorXd samples() const { return Eigen::VectorXd::LinSpaced(8 * (p_ + 1) + 1, -1, 1); }
+
+ private:
+  pfem::Curve curve_;
+  int p_;
+  Eigen::Matrix2Xd u_;
+  Eigen::Vector2d disc_;
+};
+
+RimGap::RimGap(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
+               const RimUnknowns& unknowns, int hole)
+    : scene_(scene), plate_(plate), problem_(problem), unknowns_(unknowns), hole_(hole) {}
+
+RimGap::SideGap RimGap::side_gap(const pfem::Side& side, const pfem::SideRule& rule) const {
+  const auto n_points = rule.ds.size();
+  std::vector<Eigen::RowVectorXd> rows;
+  SideGap gap;
+  for (std::size_t i = 0; i < rule.modes.size(); ++i)
+    for (const int component : {0, 1}) {
+      const int place = unknowns_.place(target(problem_, side, rule.modes[i], component));
+      if (place < 0) continue;
+      const double s = sign(problem_, side, rule.modes[i]);
+      gap.place.push_back(place);
+      rows.emplace_back(s * rule.N.row(static_cast<Eigen::Index>(i)).cwiseProduct(rule.normal.row(component)));
+    }
+  const int first_disc = problem_.unknowns.disc_of_hole[static_cast<std::size_t>(hole_)];
+  for (std::size_t a = 0; a < scene_.disc_directions.size(); ++a) {
+    const int controlled = problem_.unknowns.controlled_of_disc(first_disc + static_cast<int>(a));
+    gap.place.push_back(unknowns_.place(Unknowns::controlled(controlled)));
+    rows.emplace_back(-rim::axis(scene_.disc_directions[a]).transpose() * rule.normal);
+  }
+  gap.a.resize(static_cast<Eigen::Index>(rows.size()), n_points);
+  for (std::size_t i = 0; i < rows.size(); ++i) gap.a.row(static_cast<Eigen::Index>(i)) = rows[i];
+  return gap;
+}
+
+Eigen::MatrixXd RimGap::stiffness(const Arcs& arcs) const {
+  Eigen::MatrixXd M = Eigen::MatrixXd::Zero(unknowns_.size(), unknowns_.size());
+  Spring spring = scene_.holes[static_cast<std::size_t>(hole_)].sprung();
+  spring.acts = arcs;
+  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+    const SideSprings springs = side_springs(spring, plate_, side, problem_.numbering.p);
+    const SideGap gap = side_gap(side, springs.rule);
+    const Eigen::MatrixXd K = gap.a * springs.weight.asDiagonal() * gap.a.transpose();
+    for (std::size_t i = 0; i < gap.place.size(); ++i)
+      for (std::size_t j = 0; j < gap.place.size(); ++j)
+        M(gap.place[i], gap.place[j]) += K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+  }
+  return M;
+}
+
+Arcs RimGap::pressed(const Eigen::VectorXd& z) const {
+  std::vector<rim::AngleRange> pieces;
+  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+    const Trace g(*this, side, z);
+    const Eigen::VectorXd s = g.samples();
+    double from = -1;
+    bool positive = g(from) > 0;
+    for (Eigen::Index i = 0; i + 1 < s.size(); ++i) {
+      if ((g(s[i + 1]) > 0) == positive) continue;
+      const double zero = bisect(g, s[i], s[i + 1]);
+      if (positive) pieces.push_back(g.range(from, zero));
+      positive = !positive;
+      from = zero;
+    }
+    if (positive) pieces.push_back(g.range(from, 1));
+  }
+  Arcs arcs = joined(std::move(pieces));
+  constexpr double point = 1e-9;  // radians: what rounding can lift above zero
+  std::erase_if(arcs, [](const rim::AngleRange& arc) { return arc.to - arc.from < point; });
+  return arcs;
+}
+
+Arcs RimGap::bearing_half(const Eigen::Vector2d& d) const {
+  const double middle = std::atan2(d.y(), d.x());
+  const double quarter = rim::full_turn / 4;
+  std::vector<rim::AngleRange> pieces;
+  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+    const auto curve = pfem::edge_curve(plate_.mesh, plate_.edges, side.element, side.local_edge);
+    const double a = wrapped(std::min(curve.start_angle(), curve.start_angle() + curve.sweep()) - middle);
+    const double b = a + std::abs(curve.sweep());
+    for (const double turn : {0.0, rim::full_turn}) {  // the side may run over the direction opposite to d
+      const double from = std::max(a - turn, -quarter);
+      const double to = std::min(b - turn, quarter);
+      if (to > from) pieces.push_back({from + middle, to + middle});
+    }
+  }
+  return joined(std::move(pieces));
+}
+
+double RimGap::at(const Eigen::VectorXd& z, double angle) const {
+  const auto& sides = plate_.rims[static_cast<std::size_t>(hole_)].sides;
+  const auto off = [&](const pfem::Side& side) { return std::abs(Trace(*this, side, z).coordinate(angle)); };
+  const auto nearest =
+      *std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
+  const Trace g(*this, nearest, z);
+  return g(std::clamp(g.coordinate(angle), -1.0, 1.0));
+}
+
+std::vector<double> RimGap::ends() const {
+  std::vector<rim::AngleRange> pieces;
+  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides)
+    pieces.push_back(Trace(*this, side, Eigen::VectorXd::Zero(unknowns_.size())).range(-1, 1));
+  const Arcs rim = joined(std::move(pieces));
+  std::vector<double> ends;
+  for (const auto& arc : rim)
+    if (arc.to - arc.from < rim::full_turn) ends.insert(ends.end(), {arc.from, arc.to});
+  return ends;
+}
+
+RimGap::Peak RimGap::peak(const Eigen::VectorXd& z) const {
+  Peak best{-std::numeric_limits<double>::infinity(), 0};
+  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+    const Trace g(*this, side, z);
+    const Eigen::VectorXd s = g.samples();
+    Eigen::Index top = 0;
+    for (Eigen::Index i = 1; i < s.size(); ++i)
+      if (g(s[i]) > g(s[top])) top = i;
+    const double inside = highest(g, s[std::max<Eigen::Index>(top - 1, 0)], s[std::min(top + 1, s.size() - 1)]);
+    for (const double at : {s[top], inside})  // the top may be an end, which golden section only approaches
+      if (g(at) > best.gap) best = {g(at), wrapped(g.angle(at))};
+  }
+  return best;
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "stage1_plate/contact/sprung_arcs.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
+
+namespace fastjoint::stage1 {
+
+/// What the gap functions of contact depend on: the n_r free coefficients on the rims of the holes whose springs push
+/// but do not pull, then the nc controlled displacements. z denotes their values, shape (n_r + nc).
+struct RimUnknowns {
+  std::vector<int> free;      ///< (n_r) free plate unknowns, ascending
+  std::vector<int> position;  ///< (n_f) place of a free unknown in `free`, or -1
+  int n_controlled;
+
+  [[nodiscard]] int size() const { return static_cast<int>(free.size()) + n_controlled; }
+  /// Place of a coefficient's target in z, or -1 of a fixed one.
+  [[nodiscard]] int place(int target) const;
+};
+[[nodiscard]] RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate,
+                                            const PlateProblem& problem);
+
+/// How deep the disc presses into the rim of one hole, g = D.n - u.n, as a linear function of z at every point: the
+/// springs transmit the pressure k g where it is positive.
+class RimGap {
+ public:
+  RimGap(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem, const RimUnknowns& unknowns,
+         int hole);
+
+  /// int k t a a^T ds over the arcs, where g = a.z: the springs' stiffness over z, shape (n_r + nc, n_r + nc).
+  [[nodiscard]] Eigen::MatrixXd stiffness(const Arcs& arcs) const;
+  /// Where g > 0; the ends to 1e-12 of a side.
+  [[nodiscard]] Arcs pressed(const Eigen::VectorXd& z) const;
+  /// The part of the rim that the model has and that bears along the unit vector d.
+  [[nodiscard]] Arcs bearing_half(const Eigen::Vector2d& d) const;
+  /// g at an angle that the rim has, length.
+  [[nodiscard]] double at(const Eigen::VectorXd& z, double angle) const;
+  /// Angles where the rim ends, on lines of symmetry; none of a whole rim.
+  [[nodiscard]] std::vector<double> ends() const;
+  /// The largest g, and where.
+  struct Peak {
+    double gap, angle;
+  };
+  [[nodiscard]] Peak peak(const Eigen::VectorXd& z) const;
+
+ private:
+  /// Coefficients of g on one side, over places in z.
+  struct SideGap {
+    std::vector<int> place;  ///< (n)
+    Eigen::MatrixXd a;       ///< (n, n_points)
+  };
+  [[nodiscard]] SideGap side_gap(const pfem::Side& side, const pfem::SideRule& rule) const;
+  /// g of a side as a function of its coordinate in [-1, 1].
+  class Trace;
+
+  const PlateScene& scene_;
+  const PlateMesh& plate_;
+  const PlateProblem& problem_;
+  const RimUnknowns& unknowns_;
+  int hole_;
+};
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "stage1_plate/problem/plate_problem.hpp"
+
+namespace fastjoint::stage1 {
+
+/// Columns of the border that act on an element, in the order in which it has them (CondensedElement): of each of its
+/// holes the discs, then the friction cases. Controlled displacements count from 0, friction cases behind them.
+[[nodiscard]] std::vector<int> border_of(const PlateProblem& problem, int element);
+
+/// The vertices and edges on the skeletons of the elements as blocks of unknowns, in the order in which they are
+/// eliminated, and behind them the border: the controlled displacements, then the friction cases, each a block. Ordered
+/// once for all degrees.
+class Skeleton {
+ public:
+  explicit Skeleton(const PlateProblem& problem);
+
+  /// Rows of the bordered skeleton stiffness at one degree.
+  struct Rows {
+    std::vector<int> of_unknown;  ///< (n_f) row of a free unknown, or -1 of one inside an element or of a higher degree
+    std::vector<int> first;       ///< (blocks + 1) of each block
+    int n_skeleton, n_border;
+
+    /// Of a target (Unknowns), or -1 of a fixed one.
+    [[nodiscard]] int of_target(int target) const;
+  };
+  /// @param problem That of the constructor, or one with the same unknowns.
+  [[nodiscard]] Rows rows(const PlateProblem& problem, int p) const;
+  /// Entries of the bordered skeleton stiffness, of its factor and of the factor's largest front.
+  struct Size {
+    double entries, factor, largest_front;
+  };
+  [[nodiscard]] Size size(const Rows& rows) const;
+  /// Pattern of the bordered skeleton stiffness, its lower triangle, all values zero.
+  [[nodiscard]] Eigen::SparseMatrix<double> pattern(const Rows& rows) const;
+
+ private:
+  using Blocks = std::vector<int>;
+  void order(const std::vector<Blocks>& on_skeleton);
+  void join(const Blocks& clique);
+
+  std::vector<int> position_;   ///< (vertices, edges) block, or -1
+  std::vector<int> function_;   ///< (blocks before the border) its first function: vertex, or edge mode 2
+  std::vector<Blocks> higher_;  ///< (blocks) later blocks that share an element with it, ascending
+};
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "stage1_plate/mesh/hole_cells.hpp"
+
+namespace fastjoint::stage1 {
+
+/// Nodes between the ends of every cell side, such that both neighbours agree on them.
+///
+/// The cell of a hole wants a node where the hole's centre line meets each of its sides, so that its fan has two
+/// sectors in every quarter. Any other node on its outline it takes as one more ray. A cell without a hole is cut by
+/// straight lines: it passes a node on to its opposite side, and so on up to the next hole or the border.
+class CellLines {
+ public:
+  CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes);
+
+  /// Coordinates strictly between the ends of a side of cell (column, row), ascending: x on bottom and top, else y.
+  [[nodiscard]] const std::vector<double>& nodes(int column, int row, CellSide side) const;
+
+ private:
+  using Nodes = std::vector<double>;
+  std::vector<std::vector<Nodes>> horizontal_;  ///< [column][line], line = 0 .. number of rows
+  std::vector<std::vector<Nodes>> vertical_;    ///< [row][line]
+};
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/mesh/grid_mesher.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+
+#include "stage1_plate/mesh/cell_lines.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+/// Collects nodes and elements. Points on cell lines are given with equal digits by both neighbours.
+class Builder {
+ public:
+  int shared_node(const Point& at) {
+    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, static_cast<int>(nodes_.size()));
+    if (is_new) nodes_.push_back(at);
+    return found->second;
+  }
+  int own_node(const Point& at) {
+    nodes_.push_back(at);
+    return static_cast<int>(nodes_.size()) - 1;
+  }
+  void quad(const Eigen::Vector4i& nodes, double thickness, int material) {
+    quads_.push_back(nodes);
+    thickness_.push_back(thickness);
+    material_.push_back(material);
+  }
+  int n_elements() const { return static_cast<int>(quads_.size()); }
+  void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
+
+  pfem::Mesh mesh() const {
+    pfem::Mesh mesh;
+    const auto n = static_cast<Eigen::Index>(quads_.size());
+    mesh.nodes.resize(2, static_cast<Eigen::Index>(nodes_.size()));
+    for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = nodes_[static_cast<std::size_t>(i)];
+    mesh.quads.resize(4, n);
+    for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = quads_[static_cast<std::size_t>(i)];
+    mesh.arcs = arcs_;
+    mesh.thickness = Eigen::Map<const Eigen::VectorXd>(thickness_.data(), n);
+    mesh.material = Eigen::Map<const Eigen::VectorXi>(material_.data(), n);
+    return mesh;
+  }
+
+ private:
+  std::map<std::pair<double, double>, int> index_;
+  std::vector<Point> nodes_;
+  std::vector<Eigen::Vector4i> quads_;
+  std::vector<double> thickness_;
+  std::vector<int> material_;
+  std::vector<pfem::Arc> arcs_;
+};
+
+/// A cell of the grid with the nodes that its sides have.
+struct Cell {
+  int column, row;
+  double x_low, x_high, y_low, y_high, thickness;
+  int material;
+};
+
+Cell cell_at(const GridGeometry& grid, int column, int row) {
+  const auto c = static_cast<std::size_t>(column);
+  const auto r = static_cast<std::size_t>(row);
+  return {column,
+          row,
+          grid.x[c],
+          grid.x[c + 1],
+          grid.y[r],
+          grid.y[r + 1],
+          grid.thickness(row, column),
+          grid.material(row, column)};
+}
+
+std::vector<double> with_ends(double low, const std::vector<double>& inner, double high) {
+  std::vector<double> all = {low};
+  all.insert(all.end(), inner.begin(), inner.end());
+  all.push_back(high);
+  return all;
+}
+
+void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell) {
+  const auto x = with_ends(cell.x_low, lines.nodes(cell.column, cell.row, bottom), cell.x_high);
+  const auto y = with_ends(cell.y_low, lines.nodes(cell.column, cell.row, left), cell.y_high);
+  for (std::size_t j = 0; j + 1 < y.size(); ++j)
+    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+      builder.quad({builder.shared_node({x[i], y[j]}), builder.shared_node({x[i + 1], y[j]}),
+                    builder.shared_node({x[i + 1], y[j + 1]}), builder.shared_node({x[i], y[j + 1]})},
+                   cell.thickness, cell.material);
+}
+
+/// Points of one side in counter-clockwise order, without its last.
+std::vector<Point> side_points(const CellLines& lines, const Cell& cell, CellSide side) {
+  auto inner = lines.nodes(cell.column, cell.row, side);
+  if (side == top || side == left) std::reverse(inner.begin(), inner.end());
+  std::vector<Point> points;
+  switch (side) {
+    case bottom:
+      points = {{cell.x_low, cell.y_low}};
+      break;
+    case right:
+      points = {{cell.x_high, cell.y_low}};
+      break;
+    case top:
+      points = {{cell.x_high, cell.y_high}};
+      break;
+    case left:
+      points = {{cell.x_low, cell.y_high}};
+      break;
+  }
+  for (const double at : inner) switch (side) {
+      case bottom:
+        points.emplace_back(at, cell.y_low);
+        break;
+      case right:
+        points.emplace_back(cell.x_high, at);
+        break;
+      case top:
+        points.emplace_back(at, cell.y_high);
+        break;
+      case left:
+        points.emplace_back(cell.x_low, at);
+        break;
+    }
+  return points;
+}
+
+/// The cell's outline as seen from the hole, counter-clockwise: closed (first point repeated) for a whole hole, else
+/// from the border to the border.
+std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleCell& hole) {
+  int first = 0;  // the side after a cut that is not cut itself
+  for (int side = 0; side < n_cell_sides; ++side)
+    if (hole.cuts[static_cast<std::size_t>(side)] && !hole.cuts[static_cast<std::size_t>((side + 1) % n_cell_sides)])
+      first = (side + 1) % n_cell_sides;
+  std::vector<Point> points;
+  int last = first;
+  for (int i = 0; i < n_cell_sides; ++i) {
+    const int side = (first + i) % n_cell_sides;
+    if (hole.cuts[static_cast<std::size_t>(side)]) continue;
+    const auto next = side_points(lines, cell, static_cast<CellSide>(side));
+    points.insert(points.end(), next.begin(), next.end());
+    last = side;
+  }
+  points.push_back(side_points(lines, cell, static_cast<CellSide>((last + 1) % n_cell_sides)).front());
+  return points;
+}
+
+/// Radii of the hole and of the extra rings, in geometric progression up to the nearest side of the cell.
+std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double radius, int n_rings) {
+  const std::array<double, n_cell_sides> distance = {hole.center.y() - cell.y_low, cell.x_high - hole.center.x(),
+                                                     cell.y_high - hole.center.y(), hole.center.x() - cell.x_low};
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t side = 0; side < distance.size(); ++side)
+    if (!hole.cuts[side]) nearest = std::min(nearest, distance[side]);
+  std::vector<double> radii;
+  for (int k = 0; k <= n_rings; ++k) radii.push_back(radius * std::pow(nearest / radius, double(k) / (n_rings + 1)));
+  return radii;
+}
+
+/// Nodes of one ring, one on the ray to each point of the outline; a closed outline ends with its first node.
+std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center, double radius) {
+  const bool closed = points.front() == points.back();
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    nodes.push_back(closed && i + 1 == points.size()
+                        ? nodes.front()
+                        : builder.own_node(center + radius * (points[i] - center).normalized()));
+  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) builder.arc(nodes[i], nodes[i + 1], center);
+  return nodes;
+}
+
+void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, const HoleCell& hole_cell,
+                    const Hole& hole) {
+  const auto points = outline(lines, cell, hole_cell);
+  std::vector<std::vector<int>> layers;
+  for (const double radius : ring_radii(cell, hole_cell, hole.radius, hole.rings))
+    layers.push_back(ring_nodes(builder, points, hole_cell.center, radius));
+  layers.emplace_back();
+  for (const auto& point : points) layers.back().push_back(builder.shared_node(point));
+  for (std::size_t k = 0; k + 1 < layers.size(); ++k)
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+      builder.quad({layers[k][i], layers[k + 1][i], layers[k + 1][i + 1], layers[k][i + 1]}, cell.thickness,
+                   cell.material);
+}
+
+/// Elements of a cell with a hole: [first, last).
+struct CellElements {
+  const HoleCell* hole;
+  Cell cell;
+  int first, last;
+};
+
+/// Sides of elements [first, last) on the line where coordinate `axis` has the value `line`.
+std::vector<pfem::Side> sides_on(const PlateMesh& plate, int first, int last, int axis, double line) {
+  std::vector<pfem::Side> sides;
+  for (int element = first; element < last; ++element)
+    for (int edge = 0; edge < n_cell_sides; ++edge) {
+      const auto nodes = plate.edges.nodes.col(plate.edges.of_element(edge, element));
+      if (plate.mesh.nodes(axis, nodes[0]) == line && plate.mesh.nodes(axis, nodes[1]) == line)
+        sides.push_back({element, edge});
+    }
+  return sides;
+}
+
+void name_border(const GridGeometry& grid, PlateMesh& plate) {
+  const auto border = [&](int axis, double line) { return sides_on(plate, 0, plate.mesh.n_elements(), axis, line); };
+  plate.sets = {{"left", border(0, grid.x.front())},
+                {"right", border(0, grid.x.back())},
+                {"bottom", border(1, grid.y.front())},
+                {"top", border(1, grid.y.back())}};
+}
+
+/// The sides of a hole's cell across each direction of the discs, unless they run through the hole.
+void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& plate) {
+  struct Cut {
+    CellSide side;
+    const char* name;
+    double line;
+  };
+  for (const auto& direction : scene.disc_directions) {
+    const bool is_x = direction == "x";
+    const std::array<Cut, 2> cuts =
+        is_x ? std::array<Cut, 2>{{{right, "+x", at.cell.x_high}, {left, "-x", at.cell.x_low}}}
+             : std::array<Cut, 2>{{{top, "+y", at.cell.y_high}, {bottom, "-y", at.cell.y_low}}};
+    for (const auto& cut : cuts)
+      if (!at.hole->cuts[cut.side])
+        plate.sections.push_back({at.hole->hole, cut.name, sides_on(plate, at.first, at.last, is_x ? 0 : 1, cut.line)});
+  }
+}
+
+}  // namespace
+
+PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
+  const auto holes = find_hole_cells(scene, grid);
+  const CellLines lines(scene, grid, holes);
+  Builder builder;
+  std::vector<CellElements> with_hole;
+  for (int row = 0; row < grid.thickness.rows(); ++row)
+    for (int column = 0; column < grid.thickness.cols(); ++column) {
+      const Cell cell = cell_at(grid, column, row);
+      const auto hole = std::find_if(holes.begin(), holes.end(),
+                                     [&](const HoleCell& h) { return h.column == column && h.row == row; });
+      if (hole == holes.end()) {
+        mesh_plain_cell(builder, lines, cell);
+      } else {
+        const int first = builder.n_elements();
+        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[static_cast<std::size_t>(hole->hole)]);
+        with_hole.push_back({&*hole, cell, first, builder.n_elements()});
+      }
+    }
+  PlateMesh plate;
+  plate.mesh = builder.mesh();
+  plate.edges = pfem::find_edges(plate.mesh);
+  name_border(grid, plate);
+  for (const auto& at : with_hole) add_sections(scene, at, plate);
+  return plate;
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/mesh/plate_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/pfem/element_map.hpp"
+#include "common/pfem/element_stiffness.hpp"
+#include "stage1_plate/mesh/explicit_mesh.hpp"
+#include "stage1_plate/mesh/grid_mesher.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+/// A map that is nearly folded costs accuracy long before it costs uniqueness.
+constexpr double least_jacobian_ratio = 1e-3;
+
+void check_elements(const PlateScene& scene, const PlateMesh& plate) {
+  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
+    const double ratio = pfem::jacobian_ratio(pfem::ElementMap(plate.mesh, plate.edges, element));
+    if (ratio > least_jacobian_ratio) continue;
+    const Eigen::Vector2d center = plate.mesh.nodes(Eigen::all, plate.mesh.quads.col(element)).rowwise().mean();
+    reject(
+        scene, "/geometry",
+        fmt::format("element {} near ({:g}, {:g}) is folded, clockwise or nearly so (least Jacobian / mean = {:.2g})",
+                    element, center.x(), center.y(), ratio),
+        fmt::format(
+            "convex quadrilaterals, counter-clockwise, ratio > {:g}; leave more room between holes and cell lines",
+            least_jacobian_ratio));
+  }
+}
+
+void find_rims(const PlateScene& scene, PlateMesh& plate) {
+  for (std::size_t i = 0; i < scene.holes.size(); ++i) {
+    const Hole& hole = scene.holes[i];
+    plate.rims.push_back(rim::find_rim(plate.mesh, plate.edges, hole.center, hole.radius));
+    const double covered = rim::covered_angle(plate.mesh, plate.edges, plate.rims.back()) / rim::degree;
+    bool known = false;
+    for (const double whole : {90.0, 180.0, 360.0}) known = known || std::abs(covered - whole) < 1e-4;
+    if (!known)
+      reject(scene, fmt::format("/holes/{}", i),
+             fmt::format("the mesh has {:.6g} degrees of boundary arcs of radius {:g} about ({:g}, {:g})", covered,
+                         hole.radius, hole.center.x(), hole.center.y()),
+             "360 degrees, or 180 or 90 for a hole cut by lines of symmetry");
+  }
+}
+
+/// Vertex of every point spring, shape (points). Throws InputError, which names the nearest vertex, if none is there.
+std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
+  constexpr double same = 1e-9;  // of the plate's size
+  const double size = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).norm();
+  std::vector<int> nodes;
+  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+    const Eigen::Vector2d& at = scene.points[i].at;
+    Eigen::Index nearest = 0;
+    const double distance = (mesh.nodes.colwise() - at).colwise().norm().minCoeff(&nearest);
+    if (distance > same * size)
+      reject(scene, fmt::format("/points/{}/at", i),
+             fmt::format("({:.9g}, {:.9g}) is not a vertex of the mesh", at.x(), at.y()),
+             fmt::format("vertices of the mesh; the nearest is ({:.17g}, {:.17g})", mesh.nodes(0, nearest),
+                         mesh.nodes(1, nearest)));
+    nodes.push_back(static_cast<int>(nearest));
+  }
+  return nodes;
+}
+
+}  // namespace
+
+PlateMesh make_mesh(const PlateScene& scene) {
+  PlateMesh plate = std::holds_alternative<GridGeometry>(scene.geometry)
+                        ? mesh_grid(scene, std::get<GridGeometry>(scene.geometry))
+                        : mesh_explicit(scene, std::get<MeshGeometry>(scene.geometry));
+  std::stable_sort(plate.sections.begin(), plate.sections.end(),
+                   [](const auto& a, const auto& b) { return a.hole < b.hole; });
+  check_elements(scene, plate);
+  find_rims(scene, plate);
+  plate.point_nodes = find_point_nodes(scene, plate.mesh);
+  return plate;
+}
+
+}  // namespace fastjoint::stage1

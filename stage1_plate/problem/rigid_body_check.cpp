@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/problem/rigid_body_check.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/errors.hpp"
+#include "common/rim/bearing.hpp"
+#include "stage1_plate/problem/springs.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+/// Rigid motions of one connected part: along x, along y, turning about its middle (scaled to displacements of order
+/// 1).
+struct Part {
+  Eigen::Vector2d middle;
+  double size;
+
+  [[nodiscard]] Eigen::Matrix<double, 2, 3> motion(const Eigen::Vector2d& at) const {
+    const Eigen::Vector2d arm = (at - middle) / size;
+    Eigen::Matrix<double, 2, 3> u;
+    u << 1, 0, -arm.y(),  //
+        0, 1, arm.x();
+    return u;
+  }
+};
+
+/// Part of every node, numbered from 0.
+std::vector<int> connected_parts(const pfem::Mesh& mesh) {
+  std::vector<int> root(static_cast<std::size_t>(mesh.n_nodes()));
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](int node) {
+    while (root[static_cast<std::size_t>(node)] != node) {
+      auto& up = root[static_cast<std::size_t>(node)];
+      up = root[static_cast<std::size_t>(up)];
+      node = up;
+    }
+    return node;
+  };
+  for (int element = 0; element < mesh.n_elements(); ++element)
+    for (int v = 1; v < 4; ++v)
+      root[static_cast<std::size_t>(find(mesh.quads(v, element)))] = find(mesh.quads(0, element));
+  std::vector<int> part(root.size(), -1);
+  int n_parts = 0;
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    if (find(node) == node) part[static_cast<std::size_t>(node)] = n_parts++;
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    part[static_cast<std::size_t>(node)] = part[static_cast<std::size_t>(find(node))];
+  return part;
+}
+
+std::vector<Part> make_parts(const pfem::Mesh& mesh, const std::vector<int>& part_of_node) {
+  const auto n_parts = static_cast<std::size_t>(*std::max_element(part_of_node.begin(), part_of_node.end())) + 1;
+  std::vector<Eigen::AlignedBox2d> box(n_parts);
+  for (int node = 0; node < mesh.n_nodes(); ++node)
+    box[static_cast<std::size_t>(part_of_node[static_cast<std::size_t>(node)])].extend(mesh.nodes.col(node));
+  std::vector<Part> parts;
+  for (const auto& b : box) parts.push_back({b.center(), b.diagonal().norm() / 2});
+  return parts;
+}
+
+/// Something that resists (a . amplitudes of a part - b . controlled displacements)^2.
+struct Tie {
+  std::size_t part;
+  Eigen::RowVector3d a;
+  std::vector<std::pair<int, double>> b;  ///< index of a controlled displacement, coefficient
+};
+
+class Ties {
+ public:
+  Ties(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns)
+      : part_of_node_(connected_parts(plate.mesh)), parts_(make_parts(plate.mesh, part_of_node_)) {
+    add_supports(plate, unknowns);
+    add_springs(scene, plate, unknowns);
+    add_line_springs(scene, plate, unknowns);
+  }
+  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
+  [[nodiscard]] const std::vector<Tie>& all() const { return ties_; }
+
+ private:
+  [[nodiscard]] std::size_t part_of(int node) const {
+    return static_cast<std::size_t>(part_of_node_[static_cast<std::size_t>(node)]);
+  }
+
+  void add_supports(const PlateMesh& plate, const Unknowns& unknowns) {
+    for (int node = 0; node < plate.mesh.n_nodes(); ++node) {
+      const std::size_t part = part_of(node);
+      const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
+      for (int component = 0; component < 2; ++component) {
+        const int target = unknowns.target[static_cast<std::size_t>(2 * node + component)];
+        if (Unknowns::is_free(target)) continue;
+        ties_.push_back({part, u.row(component), {}});
+        if (target != Unknowns::fixed) ties_.back().b = {{Unknowns::controlled_index(target), 1}};
+      }
+    }
+  }
+
+  void add_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+    for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+      if (!scene.holes[hole].spring) continue;
+      for (const auto& side : plate.rims[hole].sides) {
+        const std::size_t part = part_of(plate.mesh.quads(0, side.element));
+        const auto [rule, weight] = side_springs(*scene.holes[hole].spring, plate, side, 1);
+        for (Eigen::Index q = 0; q < weight.size(); ++q) {
+          if (weight[q] == 0) continue;
+          const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();
+          ties_.push_back({part, along * parts_[part].motion(rule.x.col(q)), {}});
+          for (std::size_t a = 0; a < scene.disc_directions.size(); ++a)
+            ties_.back().b.emplace_back(unknowns.controlled_of_disc(unknowns.disc_of_hole[hole] + static_cast<int>(a)),
+                                        along * rim::axis(scene.disc_directions[a]));
+        }
+      }
+    }
+  }
+
+  void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+    for (std::size_t i = 0; i < plate.point_nodes.size(); ++i) {
+      const int node = plate.point_nodes[i];
+      const std::size_t part = part_of(node);
+      const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
+      for (std::size_t a = 0; a < scene.disc_directions.size(); ++a)
+        ties_.push_back({part,
+                         rim::axis(scene.disc_directions[a]).transpose() * u,
+                         {{unknowns.controlled_of_disc(unknowns.disc_of_point[i] + static_cast<int>(a)), 1}}});
+    }
+  }
+
+  std::vector<int> part_of_node_;
+  std::vector<Part> parts_;
+  std::vector<Tie> ties_;
+};
+
+constexpr double free_to_move = 1e-10;  // share of the best held motion; rounding leaves about 1e-16
+
+std::string words(const Part& part, const Eigen::Vector3d& a) {
+  constexpr double pure = 1e-6;
+  if (std::abs(a[2]) < pure) {
+    if (std::abs(a[1]) < pure) return "along x";
+    if (std::abs(a[0]) < pure) return "along y";
+    return fmt::format("along ({:.3g}, {:.3g})", a[0], a[1]);
+  }
+  const Eigen::Vector2d pole = part.middle + part.size * Eigen::Vector2d(-a[1], a[0]) / a[2];
+  return fmt::format("by turning about ({:.4g}, {:.4g})", pole.x(), pole.y());
+}
+
+}  // namespace
+
+void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  const Ties ties(scene, plate, unknowns);
+  const auto& parts = ties.parts();
+  std::vector<Eigen::Matrix3d> held(parts.size(), Eigen::Matrix3d::Zero());
+  for (const auto& tie : ties.all()) held[tie.part] += tie.a.transpose() * tie.a;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Part& part = parts[i];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held[i]);
+    if (eigen.eigenvalues()[0] > free_to_move * std::max(1.0, eigen.eigenvalues()[2])) continue;
+    throw NumericalError(fmt::format(
+        "{}: /supports: nothing keeps the {} from moving {} while all externals and discs are held; allowed: a plate "
+        "that supports, externals, sprung holes and points hold against every rigid motion",
+        scene.file,
+        parts.size() == 1 ? std::string("plate")
+                          : fmt::format("part of the plate around ({:g}, {:g})", part.middle.x(), part.middle.y()),
+        words(part, eigen.eigenvectors().col(0))));
+  }
+}
+
+bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  const Ties ties(scene, plate, unknowns);
+  const auto first = 3 * static_cast<Eigen::Index>(ties.parts().size());
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(first + unknowns.n_controlled, first + unknowns.n_controlled);
+  for (const auto& tie : ties.all()) {
+    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(held.cols());
+    row.segment<3>(3 * static_cast<Eigen::Index>(tie.part)) = tie.a;
+    for (const auto& [controlled, share] : tie.b) row[first + controlled] = -share;
+    held += row.transpose() * row;
+  }
+  const auto hold = [&](int controlled, const Load& load) {
+    if (!load.is_force) held(first + controlled, first + controlled) += 1;
+  };
+  for (int i = 0; i < unknowns.n_externals(); ++i)
+    hold(i, scene.loads->external[static_cast<std::size_t>(unknowns.rigid[static_cast<std::size_t>(i)])]);
+  for (int i = 0; i < unknowns.n_discs(); ++i)
+    hold(unknowns.controlled_of_disc(i), scene.loads->disc[static_cast<std::size_t>(i)]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held, Eigen::EigenvaluesOnly);
+  return eigen.eigenvalues()[0] > free_to_move * eigen.eigenvalues()[held.rows() - 1];
+}
+
+}  // namespace fastjoint::stage1

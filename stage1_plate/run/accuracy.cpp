@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/run/accuracy.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "common/errors.hpp"
+#include "common/linalg/condensed_stiffness.hpp"
+#include "stage1_plate/factor/plate_factor.hpp"
+#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/run/memory.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+bool leaves_rings(const PlateScene& scene, const Hole& hole) {
+  return std::holds_alternative<GridGeometry>(scene.geometry) && !hole.has_rings;
+}
+
+/// Integrates once, then raises the degree until it does, or to the scene's highest.
+void raise_degree(Accuracy& model) {
+  const PlateMesh plate = make_mesh(model.scene);
+  PlateProblem problem = number_unknowns(model.scene, plate);
+  check_held(model.scene, plate, problem.unknowns);
+  const Skeleton skeleton(problem);
+  const int nc = problem.unknowns.n_controlled;
+  if (nc == 0)
+    throw InputError(
+        fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
+                    "missing; allowed: a scene with a disc or a rigid external",
+                    model.scene.file));
+  const int highest = model.scene.p_high;
+  matrices::CondensedLevels levels;
+  for (int p = model.scene.p_low; p <= highest; ++p) {
+    const auto alone = Eigen::VectorXi::Constant(1, p);
+    require_memory(model.scene.file, p, memory_need(problem, skeleton, alone, Wanted::loads));
+    if (p == model.scene.p_low) integrate(model.scene, plate, problem);
+    const PlateFactor K(problem, skeleton, p);
+    const Eigen::MatrixXd E = K.energy_rows();
+    levels.S.push_back(linalg::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
+    levels.R.push_back(E.topRows(nc) * E.bottomRows(E.rows() - nc).transpose());
+    const Eigen::MatrixXd T = problem.T_f.topRows(problem.unknowns.n_free[static_cast<std::size_t>(p)]);
+    levels.C.push_back(T.transpose() * K.solve(T));
+    const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
+    model.errors =
+        matrices::relative_errors(levels, degrees, problem.K_cc, matrices::fastest_rate(model.scene.elasticity));
+    model.scene.p_high = p;
+    if (model.is_reached()) return;
+  }
+}
+
+void check(const PlateScene& scene) {
+  if (scene.loads)
+    throw InputError(
+        fmt::format("{}: /loads: springs that push but do not pull have arcs that depend on the degree; "
+                    "allowed with --accuracy: a scene without them; choose the degree by --p",
+                    scene.file));
+  if (scene.p_low == scene.p_high)
+    throw InputError(
+        fmt::format("--accuracy: degree {} alone does not show its error; allowed: a range of degrees", scene.p_low));
+}
+
+}  // namespace
+
+Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
+  check(scene);
+  constexpr int most_rings = 4;
+  constexpr double worth = 0.5;  // of the error before, that another ring must come below
+  Accuracy start{scene, accuracy, {}, false};
+  if (!scene.has_space) start.scene.space = pfem::Space::product;
+  Accuracy best = start;
+  for (int rings = 1; rings <= most_rings; ++rings) {
+    Accuracy model = start;
+    for (auto& hole : model.scene.holes)
+      if (leaves_rings(scene, hole)) {
+        hole.rings = rings;
+        model.free_rings = true;
+      }
+    raise_degree(model);
+    const bool helps = rings == 1 || model.is_reached() || model.error() < worth * best.error();
+    if (helps) best = model;
+    if (!helps || best.is_reached() || !best.free_rings) break;
+  }
+  return best;
+}
+
+std::string to_text(const Accuracy& chosen) {
+  int rings = 0;
+  for (const auto& hole : chosen.scene.holes)
+    if (leaves_rings(chosen.scene, hole)) rings = hole.rings;
+  return fmt::format("accuracy {:g}: {} space, p = {}{}: {}{}", chosen.asked, pfem::name_of(chosen.scene.space),
+                     chosen.scene.p_high, chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(),
+                     matrices::to_text(chosen.errors), chosen.is_reached() ? "" : ", not reached");
+}
+
+}  // namespace fastjoint::stage1

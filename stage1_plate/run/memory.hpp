@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+
+#include "stage1_plate/factor/skeleton.hpp"
+#include "stage1_plate/run/solve.hpp"
+
+namespace fastjoint::stage1 {
+
+/// Bytes that a run takes at its highest degree, known before anything is integrated.
+struct MemoryNeed {
+  double shapes;   ///< matrices of the different elements
+  double factor;   ///< the skeleton's stiffness and its factor
+  double fields;   ///< of the unit cases, and the file that they go into
+  double contact;  ///< what the search for contact takes before them, 0 without
+  double program;
+
+  [[nodiscard]] double total() const {
+    constexpr double gaps = 1.15;  // what the allocator cannot use between them, and what integrating takes
+    return gaps * (shapes + factor + std::max(fields, contact)) + program;
+  }
+};
+/// @param problem As number_unknowns has made it. @param p Degrees to be solved, ascending. @param n_rim Unknowns of
+/// the rims on which contact is looked for, 0 without.
+[[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const Skeleton& skeleton, const Eigen::VectorXi& p,
+                                     Wanted wanted, std::size_t n_rim = 0);
+
+/// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
+void require_memory(const std::string& file, int p, const MemoryNeed& need);
+
+}  // namespace fastjoint::stage1

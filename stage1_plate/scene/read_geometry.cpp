@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/scene/read_geometry.hpp"
+
+#include <algorithm>
+#include <optional>
+
+namespace fastjoint::stage1 {
+namespace {
+
+using input::Value;
+
+/// Reads the name of a material as its index.
+auto index_among(const Materials& materials) {
+  return [&names = materials.name](const Value& value) {
+    return static_cast<int>(std::find(names.begin(), names.end(), value.choice(names)) - names.begin());
+  };
+}
+
+/// The only material there is may go unnamed.
+std::optional<Value> find_material(const Value& geometry, const Materials& materials) {
+  auto value = geometry.find("material");
+  if (!value && materials.name.size() > 1) return geometry.at("material");
+  return value;
+}
+
+std::vector<double> read_lines(const Value& value) {
+  const auto items = value.items(2);
+  std::vector<double> lines;
+  for (const auto& item : items) {
+    const double line = item.number();
+    if (!lines.empty() && !(line > lines.back())) item.not_allowed("cell lines in ascending order");
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+template <class T, class Read>
+std::vector<T> read_list(const Value& value, std::size_t n, const Read& read) {
+  std::vector<T> list;
+  for (const auto& item : value.items(n, n)) list.push_back(read(item));
+  return list;
+}
+
+/// One value for all cells, or a table with one row per y-interval, bottom to top.
+template <class Table, class Read>
+void read_cells(const Value& value, Table& table, const Read& read) {
+  if (!value.is_array()) {
+    table.setConstant(read(value));
+    return;
+  }
+  using Scalar = typename Table::Scalar;
+  const auto rows = static_cast<std::size_t>(table.rows());
+  Eigen::Index row = 0;
+  for (const auto& line : value.items(rows, rows)) {
+    const auto cells = read_list<Scalar>(line, static_cast<std::size_t>(table.cols()), read);
+    table.row(row++) = Eigen::Map<const Eigen::RowVectorX<Scalar>>(cells.data(), table.cols());
+  }
+}
+
+double read_thickness(const Value& value) { return value.number(input::positive); }
+
+GridGeometry read_grid(const Value& value, const Materials& materials) {
+  value.only({"x", "y", "thickness", "material"});
+  GridGeometry grid{read_lines(value.at("x")), read_lines(value.at("y")), {}, {}};
+  const auto rows = static_cast<Eigen::Index>(grid.y.size()) - 1;
+  const auto cols = static_cast<Eigen::Index>(grid.x.size()) - 1;
+  grid.thickness.resize(rows, cols);
+  read_cells(value.at("thickness"), grid.thickness, read_thickness);
+  grid.material = Eigen::MatrixXi::Zero(rows, cols);
+  if (const auto material = find_material(value, materials))
+    read_cells(*material, grid.material, index_among(materials));
+  return grid;
+}
+
+/// One value for all elements, or a list.
+template <class T, class Read>
+std::vector<T> read_elements(const Value& value, std::size_t n, const Read& read) {
+  return value.is_array() ? read_list<T>(value, n, read) : std::vector<T>(n, read(value));
+}
+
+std::pair<int, int> read_edge(const Value& value, int n_nodes) {
+  const auto ends = value.items(2, 2);
+  const int a = ends[0].integer(0, n_nodes - 1);
+  const int b = ends[1].integer(0, n_nodes - 1);
+  if (a == b) value.not_allowed("two different nodes");
+  return {a, b};
+}
+
+Eigen::Vector4i read_quad(const Value& value, int n_nodes) {
+  Eigen::Vector4i quad;
+  int i = 0;
+  for (const auto& item : value.items(4, 4)) {
+    quad[i] = item.integer(0, n_nodes - 1);
+    if ((quad.head(i).array() == quad[i]).any()) value.not_allowed("four different nodes");
+    ++i;
+  }
+  return quad;
+}
+
+MeshGeometry read_mesh(const Value& value, const Materials& materials) {
+  value.only({"nodes", "quads", "arcs", "thickness", "material", "edges", "sections"});
+  MeshGeometry mesh;
+  for (const auto& node : value.at("nodes").items(4)) mesh.nodes.push_back(read_point(node));
+  const int n_nodes = static_cast<int>(mesh.nodes.size());
+  for (const auto& quad : value.at("quads").items(1)) mesh.quads.push_back(read_quad(quad, n_nodes));
+  if (const auto arcs = value.find("arcs"))
+    for (const auto& arc : arcs->items()) {
+      arc.only({"edge", "center"});
+      const auto [a, b] = read_edge(arc.at("edge"), n_nodes);
+      mesh.arcs.push_back({a, b, read_point(arc.at("center"))});
+    }
+  const std::size_t n = mesh.quads.size();
+  mesh.thickness = read_elements<double>(value.at("thickness"), n, read_thickness);
+  mesh.material.assign(n, 0);
+  if (const auto material = find_material(value, materials))
+    mesh.material = read_elements<int>(*material, n, index_among(materials));
+  if (const auto edges = value.find("edges"))
+    for (const auto& [name, list] : edges->members()) mesh.edges.push_back({name, read_edges(list, n_nodes)});
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<std::pair<int, int>> read_edges(const Value& value, int n_nodes) {
+  std::vector<std::pair<int, int>> edges;
+  for (const auto& edge : value.items(1)) edges.push_back(read_edge(edge, n_nodes));
+  return edges;
+}
+
+std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const Materials& materials) {
+  value.only({"grid", "mesh"});
+  const auto grid = value.find("grid");
+  const auto mesh = value.find("mesh");
+  if (grid.has_value() == mesh.has_value()) value.not_allowed("either \"grid\" or \"mesh\"");
+  if (grid) return read_grid(*grid, materials);
+  return read_mesh(*mesh, materials);
+}
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/scene/read_loads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace fastjoint::stage1 {
+namespace {
+
+using input::Value;
+
+bool has_contact(const PlateScene& scene) {
+  return std::any_of(scene.holes.begin(), scene.holes.end(),
+                     [](const Hole& hole) { return hole.spring && hole.spring->compression_only; });
+}
+
+Load read_amount(const Value& item) {
+  const auto force = item.find("force");
+  const auto displacement = item.find("displacement");
+  if (force.has_value() == displacement.has_value()) item.not_allowed("either \"force\" or \"displacement\"");
+  return {force.has_value(), (force ? *force : *displacement).number()};
+}
+
+class LoadReader {
+ public:
+  explicit LoadReader(const PlateScene& scene) : scene_(scene), discs_(list_discs(scene)) {
+    loads_.external.assign(scene.externals.size(), {true, 0});
+    loads_.disc.assign(discs_.size(), {false, 0});
+    external_given_.assign(scene.externals.size(), false);
+    disc_given_.assign(discs_.size(), false);
+  }
+
+  SceneLoads read(const Value& list) {
+    for (const auto& item : list.items(1)) {
+      item.only({"external", "disc", "direction", "force", "displacement", "friction"});
+      if (item.find("external").has_value() == item.find("disc").has_value())
+        item.not_allowed("either \"external\" or \"disc\"");
+      item.find("external") ? read_external(item) : read_disc(item);
+    }
+    const auto nothing = [](const Load& load) { return load.value == 0; };
+    if (std::all_of(loads_.external.begin(), loads_.external.end(), nothing) &&
+        std::all_of(loads_.disc.begin(), loads_.disc.end(), nothing))
+      list.fail("every force and displacement is 0", "at least one that is not");
+    return std::move(loads_);
+  }
+
+ private:
+  void read_external(const Value& item) {
+    item.only({"external", "force", "displacement"});
+    const Value id = item.at("external");
+    std::vector<std::string> ids;
+    ids.reserve(scene_.externals.size());
+    for (const auto& external : scene_.externals) ids.push_back(external.id);
+    const auto i = index(ids, id.choice(ids));
+    const Load load = read_amount(item);
+    if (!load.is_force && scene_.externals[i].kind != ExternalKind::rigid)
+      item.at("displacement")
+          .fail(fmt::format("external \"{}\" does not move as one", ids[i]), "\"displacement\" of kind \"rigid\" only");
+    take_once(external_given_, i, id);
+    loads_.external[i] = load;
+  }
+
+  void read_disc(const Value& item) {
+    const Value id = item.at("disc");
+    std::vector<std::string> ids;
+    for (const auto& disc : discs_)
+      if (ids.empty() || ids.back() != disc.id) ids.push_back(disc.id);
+    const auto first = index(ids, id.choice(ids)) * scene_.disc_directions.size();
+    const auto direction = item.find("direction");
+    if (!direction && scene_.disc_directions.size() > 1)
+      item.fail("key \"direction\" is missing", "one of \"disc_directions\", of which there are two");
+    const auto i = first + (direction ? index(scene_.disc_directions, direction->choice(scene_.disc_directions)) : 0);
+    Load load = read_amount(item);
+    if (const auto friction = item.find("friction")) {
+      load.friction = friction->number(input::not_negative);
+      const auto is_hole = [&](const Hole& hole) { return hole.id == discs_[i].id; };
+      if (std::none_of(scene_.holes.begin(), scene_.holes.end(), is_hole))
+        friction->fail(fmt::format("\"{}\" is a point, which has no rim", discs_[i].id), "friction at discs of holes");
+    }
+    take_once(disc_given_, i, id);
+    loads_.disc[i] = load;
+  }
+
+  static std::size_t index(const std::vector<std::string>& names, const std::string& name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  }
+
+  static void take_once(std::vector<bool>& given, std::size_t i, const Value& id) {
+    if (given[i]) id.fail("loaded twice", "one load for each external, and for each disc and direction");
+    given[i] = true;
+  }
+
+  const PlateScene& scene_;
+  std::vector<Disc> discs_;
+  std::vector<bool> external_given_, disc_given_;
+  SceneLoads loads_;
+};
+
+}  // namespace
+
+std::optional<SceneLoads> read_loads(const Value& root, const PlateScene& scene) {
+  const auto list = root.find("loads");
+  if (!has_contact(scene)) {
+    if (list) list->fail("given, but no hole has springs with \"compression_only\"", "loads with such a hole only");
+    return std::nullopt;
+  }
+  return LoadReader(scene).read(list ? *list : root.at("loads"));
+}
+
+}  // namespace fastjoint::stage1

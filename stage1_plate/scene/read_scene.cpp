@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "common/errors.hpp"
+#include "common/input/value.hpp"
+#include "stage1_plate/scene/read_geometry.hpp"
+#include "stage1_plate/scene/read_loads.hpp"
+#include "stage1_plate/scene/read_material.hpp"
+#include "stage1_plate/scene/read_sections.hpp"
+#include "stage1_plate/scene/read_spring.hpp"
+#include "stage1_plate/scene/scene.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using input::Value;
+
+const std::vector<std::string> directions = {"x", "y"};
+
+/// Names that must differ, since other files refer to them.
+class UniqueNames {
+ public:
+  std::string add(const Value& value) {
+    std::string name = value.text();
+    if (!seen_.insert(name).second) value.fail(fmt::format("\"{}\" stands twice", name), "each name once");
+    return name;
+  }
+
+ private:
+  std::set<std::string> seen_;
+};
+
+std::vector<std::string> read_directions(const Value& value) {
+  std::vector<std::string> result;
+  for (const auto& item : value.items(1, 2)) {
+    result.push_back(item.choice(directions));
+    if (result.size() == 2 && result[0] == result[1])
+      item.fail("\"" + result[1] + "\" stands twice", "each direction once");
+  }
+  return result;
+}
+
+Units read_units(const Value& root) {
+  const auto units = root.find("units");
+  if (!units) return {};
+  units->only({"length", "force"});
+  return {units->at("length").text(), units->at("force").text()};
+}
+
+std::vector<Hole> read_holes(const Value& root, bool is_grid, UniqueNames& ids) {
+  std::vector<Hole> holes;
+  const auto list = root.find("holes");
+  if (!list) return holes;
+  for (const auto& item : list->items()) {
+    item.only({"id", "center", "radius", "spring", "rings"});
+    Hole hole;
+    hole.id = ids.add(item.at("id"));
+    hole.center = read_point(item.at("center"));
+    hole.radius = item.at("radius").number(input::positive);
+    if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius);
+    constexpr int most_rings = 20;
+    const auto rings = item.find("rings");
+    if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
+    hole.has_rings = rings.has_value();
+    hole.rings = rings ? rings->integer(0, most_rings) : 0;
+    holes.push_back(std::move(hole));
+  }
+  return holes;
+}
+
+std::vector<PointSpring> read_points(const Value& root, UniqueNames& ids) {
+  std::vector<PointSpring> points;
+  if (const auto list = root.find("points"))
+    for (const auto& item : list->items()) {
+      item.only({"id", "at", "stiffness"});
+      points.push_back(
+          {ids.add(item.at("id")), read_point(item.at("at")), item.at("stiffness").number(input::positive)});
+    }
+  return points;
+}
+
+std::vector<Support> read_supports(const Value& root, const std::vector<std::string>& edge_names) {
+  std::vector<Support> supports;
+  if (const auto list = root.find("supports"))
+    for (const auto& item : list->items()) {
+      item.only({"on", "fix"});
+      supports.push_back({item.at("on").choice(edge_names), read_directions(item.at("fix"))});
+    }
+  return supports;
+}
+
+/// The id of an open hole.
+std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes) {
+  std::vector<std::string> names;
+  for (const auto& hole : holes) names.push_back(hole.id);
+  std::string name = value.choice(names);
+  const auto hole = std::find_if(holes.begin(), holes.end(), [&](const Hole& h) { return h.id == name; });
+  if (hole->spring)
+    value.fail(fmt::format("hole \"{}\" has springs, which transmit its load", name), "a hole without \"spring\"");
+  return name;
+}
+
+std::vector<External> read_externals(const Value& root, const std::vector<std::string>& edge_names,
+                                     const std::vector<Hole>& holes) {
+  const std::map<std::string, ExternalKind> kinds = {
+      {"rigid", ExternalKind::rigid}, {"traction", ExternalKind::traction}, {"bearing", ExternalKind::bearing}};
+  std::vector<External> externals;
+  UniqueNames ids;
+  if (const auto list = root.find("external"))
+    for (const auto& item : list->items()) {
+      item.only({"id", "on", "direction", "kind"});
+      const ExternalKind kind = kinds.at(item.at("kind").choice({"rigid", "traction", "bearing"}));
+      const Value on = item.at("on");
+      externals.push_back({ids.add(item.at("id")),
+                           kind == ExternalKind::bearing ? read_bearing_hole(on, holes) : on.choice(edge_names),
+                           item.at("direction").choice(directions), kind});
+    }
+  return externals;
+}
+
+void read_p(const Value& root, PlateScene& scene) {
+  const auto p = root.find("p");
+  if (!p) return;
+  const auto range = p->is_array() ? p->items(2, 2) : std::vector{*p, *p};
+  scene.p_low = range[0].integer(1, highest_p);
+  scene.p_high = range[1].integer(scene.p_low, highest_p);
+}
+
+std::vector<std::string> edge_names(const PlateScene& scene) {
+  if (std::holds_alternative<GridGeometry>(scene.geometry)) return {"left", "right", "bottom", "top"};
+  std::vector<std::string> names;
+  for (const auto& set : std::get<MeshGeometry>(scene.geometry).edges) names.push_back(set.name);
+  return names;
+}
+
+}  // namespace
+
+Eigen::Vector2d read_point(const Value& value) {
+  const auto xy = value.numbers(2, 2, input::any_number);
+  return {xy[0], xy[1]};
+}
+
+PlateScene read_scene(const input::Document& document) {
+  const Value root(document);
+  root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes", "points",
+             "disc_directions", "supports", "external", "loads", "space", "p"});
+  input::check_format(root, "plate");
+  PlateScene scene;
+  scene.file = document.file;
+  scene.text = document.text;
+  if (const auto name = root.find("name")) scene.name = name->text();
+  scene.units = read_units(root);
+  const Materials materials = read_materials(root);
+  scene.elasticity = materials.elasticity;
+  scene.geometry = read_geometry(root.at("geometry"), materials);
+  UniqueNames disc_ids;
+  scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
+  scene.points = read_points(root, disc_ids);
+  const auto discs = root.find("disc_directions");
+  scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x"};
+  read_sections(root, scene);
+  scene.supports = read_supports(root, edge_names(scene));
+  scene.externals = read_externals(root, edge_names(scene), scene.holes);
+  scene.loads = read_loads(root, scene);
+  const auto space = root.find("space");
+  scene.has_space = space.has_value();
+  if (space) scene.space = pfem::space_named(space->choice(pfem::space_names));
+  read_p(root, scene);
+  return scene;
+}
+
+std::vector<Disc> list_discs(const PlateScene& scene) {
+  std::vector<Disc> discs;
+  const auto add = [&](const std::string& id) {
+    for (const auto& direction : scene.disc_directions) discs.push_back({id, direction});
+  };
+  for (const auto& hole : scene.holes)
+    if (hole.spring) add(hole.id);
+  for (const auto& point : scene.points) add(point.id);
+  return discs;
+}
+
+void reject(const PlateScene& scene, const std::string& pointer, const std::string& found, const std::string& allowed) {
+  throw InputError(fmt::format("{}: {}: {}; allowed: {}", scene.file, pointer, found, allowed));
+}
+
+}  // namespace fastjoint::stage1

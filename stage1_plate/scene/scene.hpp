@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "common/input/json.hpp"
+#include "common/pfem/space.hpp"
+#include "common/rim/rim.hpp"
+#include "common/units.hpp"
+
+namespace fastjoint::stage1 {
+
+/// A rectangle cut into cells by lines; each cell holds at most one hole.
+struct GridGeometry {
+  std::vector<double> x, y;   ///< cell lines, ascending, length
+  Eigen::MatrixXd thickness;  ///< (y cells, x cells), bottom row first, length
+  Eigen::MatrixXi material;   ///< (y cells, x cells) index into PlateScene::elasticity
+};
+
+/// A named set of edges, each by its two nodes.
+struct EdgeSet {
+  std::string name;
+  std::vector<std::pair<int, int>> edges;
+};
+
+/// A cut across the sheet beside a hole, along edges of the mesh.
+struct MeshSection {
+  int hole;          ///< index into PlateScene::holes
+  std::string side;  ///< on which side of the hole, "+x", "-x", "+y" or "-y"
+  std::vector<std::pair<int, int>> edges;
+};
+
+/// A mesh that the user made.
+struct MeshGeometry {
+  struct Arc {
+    int a, b;
+    Eigen::Vector2d center;
+  };
+  std::vector<Eigen::Vector2d> nodes;  ///< length
+  std::vector<Eigen::Vector4i> quads;  ///< nodes, counter-clockwise
+  std::vector<Arc> arcs;
+  std::vector<double> thickness;  ///< (quads), length
+  std::vector<int> material;      ///< (quads)
+  std::vector<EdgeSet> edges;
+  std::vector<MeshSection> sections;
+};
+
+/// Springs between the rim of a hole and a rigid disc in it: distributed, or links at the nodes of the rim.
+struct Spring {
+  double modulus = 0;  ///< force / length^3; 0 with links
+  double disk_E = 0;   ///< Young's modulus of the disk that the modulus is of, stress; 0 without one
+  double link = 0;     ///< force / length at each node, half of it for either side that ends there; 0 without links
+  std::vector<rim::AngleRange> acts = {{-rim::full_turn / 2, rim::full_turn / 2}};  ///< the sprung part of the rim
+  bool has_arc = false;           ///< whether the scene says which part
+  bool compression_only = false;  ///< under the scene's loads it pushes but does not pull
+};
+
+struct Hole {
+  std::string id;
+  Eigen::Vector2d center;
+  double radius;
+  std::optional<Spring> spring;  ///< none in an open hole, which has no disc
+  int rings;                     ///< extra rings of elements around it (grid only)
+  bool has_rings = false;        ///< whether the scene says how many
+
+  /// The spring of a hole that has one.
+  [[nodiscard]] const Spring& sprung() const {
+    if (!spring) throw std::logic_error("the hole is open");
+    return *spring;
+  }
+};
+
+/// A spring between a vertex of the mesh and a disc of its own: what results depend on the mesh with.
+struct PointSpring {
+  std::string id;
+  Eigen::Vector2d at;
+  double stiffness;  ///< force / length, along each direction of the discs
+};
+
+struct Support {
+  std::string on;
+  std::vector<std::string> fix;  ///< directions
+};
+
+/// An edge that moves as one, an edge under uniform traction, an open hole under cosine pressure.
+enum class ExternalKind { rigid, traction, bearing };
+
+struct External {
+  std::string id, on, direction;
+  ExternalKind kind;
+};
+
+/// A disc unknown: a direction of the disc of a sprung hole or of a point spring.
+struct Disc {
+  std::string id, direction;
+};
+
+/// What acts on an external or a disc: its force, or its displacement, is given.
+struct Load {
+  bool is_force;
+  double value;         ///< force or length; of a disc, the force that its springs transmit
+  double friction = 0;  ///< coefficient of friction at a disc of a hole
+};
+
+/// The loads under which springs push but do not pull.
+struct SceneLoads {
+  std::vector<Load> external;  ///< of each of PlateScene::externals
+  std::vector<Load> disc;      ///< of each of list_discs
+};
+
+/// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
+struct PlateScene {
+  std::string file, text;  ///< where it came from
+  std::string name;
+  Units units;
+  std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
+  std::variant<GridGeometry, MeshGeometry> geometry;
+  std::vector<Hole> holes;
+  std::vector<PointSpring> points;
+  std::vector<std::string> disc_directions;
+  std::vector<Support> supports;
+  std::vector<External> externals;
+  std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
+  pfem::Space space = pfem::Space::trunk;
+  bool has_space = false;  ///< whether the scene says which
+  int p_low = 1, p_high = 8;
+
+  /// The loads of a scene that has them.
+  [[nodiscard]] const SceneLoads& given_loads() const {
+    if (!loads) throw std::logic_error("the scene has no loads");
+    return *loads;
+  }
+};
+
+inline constexpr int highest_p = 8;
+
+/// Reads PLATE.json strictly. Throws InputError with the file, the JSON pointer, what was found and what is allowed.
+[[nodiscard]] PlateScene read_scene(const input::Document& document);
+
+/// The discs of sprung holes, then those of point springs, each in the scene's order, directions inner.
+[[nodiscard]] std::vector<Disc> list_discs(const PlateScene& scene);
+
+/// Throws the InputError that read_scene would throw at this place of the file.
+[[noreturn]] void reject(const PlateScene& scene, const std::string& pointer, const std::string& found,
+                         const std::string& allowed);
+
+}  // namespace fastjoint::stage1

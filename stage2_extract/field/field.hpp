@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+
+#include "stage2_extract/stresses/unit_fields.hpp"
+
+namespace fastjoint::stage2 {
+
+/// One state of a sheet at points of every element: (p + 1)^2 points each, in the order of lagrange_nodes, element
+/// after element, none shared, so that what jumps between elements is seen.
+struct Field {
+  int p;                          ///< degree of the nodes
+  Eigen::Matrix2Xd points;        ///< (2, n_points) length
+  Eigen::Matrix2Xd displacement;  ///< (2, n_points) length
+  Eigen::Matrix3Xd stress;        ///< (3, n_points) sigma_x, sigma_y, tau_xy as the elements have it
+};
+
+/// Coordinates (xi, eta) of the nodes of VTK's Lagrange quadrilateral of degree p, shape (2, (p + 1)^2): corners, edges
+/// bottom, right, top, left each along growing xi or eta, then the inside with xi running fastest.
+/// VTK, vtkHigherOrderQuadrilateral::PointIndexFromIJK.
+[[nodiscard]] Eigen::Matrix2Xd lagrange_nodes(int p);
+
+/// The unit fields superposed.
+/// @param p Degree of the level that the fields are at.
+/// @param amounts Of every case, shape (nc + h + q); those of friction must be 0 where its fields are not solved.
+[[nodiscard]] Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts);
+
+/// Von Mises stress at points, taken as if sigma_z = 0, shape (n_points). In plane strain the elasticity alone does not
+/// tell sigma_z.
+/// @param stress sigma_x, sigma_y, tau_xy, shape (3, n_points).
+[[nodiscard]] Eigen::VectorXd von_mises(const Eigen::Matrix3Xd& stress);
+
+/// Principal stresses in the plane at points, shape (2, n_points), the larger one first.
+[[nodiscard]] Eigen::Matrix2Xd principal(const Eigen::Matrix3Xd& stress);
+
+}  // namespace fastjoint::stage2

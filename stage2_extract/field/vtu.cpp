@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/field/vtu.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace fastjoint::stage2 {
+namespace {
+
+using Eigen::Index;
+
+constexpr int lagrange_quadrilateral = 70;  // VTK_LAGRANGE_QUADRILATERAL
+
+constexpr const char* description =
+    "<!-- One state of a sheet by stage2_extract. Points are not shared between elements, so jumps of the stress stay\n"
+    "     visible. von_mises is that of the stresses in the plane, with sigma_z = 0. principal_1 is the larger of the\n"
+    "     principal stresses in the plane. thickness belongs to cells; hole_* and the labels of the units are in\n"
+    "     FieldData, text as the codes of its bytes. -->\n";
+
+/// Text that grows piece by piece.
+class Text {
+ public:
+  template <class... Values>
+  void add(fmt::format_string<Values...> pattern, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), pattern, std::forward<Values>(values)...);
+  }
+  [[nodiscard]] std::string str() const { return fmt::to_string(text_); }
+
+ private:
+  fmt::memory_buffer text_;
+};
+
+/// Numbers of a point array; a vector of the plane gets its third component, which VTK wants.
+void add_points(Text& text, const char* name, const Eigen::MatrixXd& values) {
+  const bool is_vector = values.rows() == 2;
+  text.add("<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", name,
+           is_vector ? 3 : 1);
+  for (Index i = 0; i < values.cols(); ++i)
+    is_vector ? text.add("{:.9g} {:.9g} 0\n", values(0, i), values(1, i)) : text.add("{:.9g}\n", values(0, i));
+  text.add("</DataArray>\n");
+}
+
+/// Strings are the codes of their bytes, each string ended by 0: no character can break the XML, and meshio, which
+/// knows no arrays of strings, reads them too.
+void add_strings(Text& text, const char* name, const std::vector<std::string>& values) {
+  std::string bytes;
+  for (const auto& value : values) bytes += value + '\0';
+  text.add("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n", name, bytes.size());
+  for (const char c : bytes) text.add("{} ", static_cast<int>(static_cast<unsigned char>(c)));
+  text.add("</DataArray>\n");
+}
+
+void add_integer(Text& text, const char* name, int value) {
+  text.add("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, value);
+}
+
+void add_holes(Text& text, const formats::PlateSolution& plate) {
+  add_strings(text, "hole_id", plate.hole_id);
+  text.add(
+      "<DataArray type=\"Float64\" Name=\"hole_center\" NumberOfComponents=\"3\" NumberOfTuples=\"{}\" "
+      "format=\"ascii\">\n",
+      plate.hole_id.size());
+  for (const auto& rim : plate.hole_rim) text.add("{:.9g} {:.9g} 0\n", rim.center.x(), rim.center.y());
+  text.add("</DataArray>\n<DataArray type=\"Float64\" Name=\"hole_radius\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
+           plate.hole_id.size());
+  for (const auto& rim : plate.hole_rim) text.add("{:.9g}\n", rim.radius);
+  text.add("</DataArray>\n");
+}
+
+void add_field_data(Text& text, const formats::PlateSolution& plate, const FieldState& state, int p) {
+  const auto& units = plate.header.units;
+  text.add("<FieldData>\n");
+  add_strings(text, "plate", {plate.header.name});
+  add_strings(text, "state", {state.words});
+  add_strings(text, "length_unit", {unit(units, 1, 0)});
+  add_strings(text, "stress_unit", {unit(units, -2, 1)});
+  add_integer(text, "degree", p);
+  if (state.increment != 0) {
+    add_strings(text, "joint_plate", {state.joint_plate});
+    add_integer(text, "increment", state.increment);
+  }
+  if (!plate.hole_id.empty()) add_holes(text, plate);
+  text.add("</FieldData>\n");
+}
+
+void add_cells(Text& text, Index n_cells, Index n_nodes) {
+  text.add("<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n");
+  for (Index i = 0; i < n_cells * n_nodes; ++i) text.add("{}{}", i, (i + 1) % n_nodes == 0 ? '\n' : ' ');
+  text.add("</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n");
+  for (Index i = 1; i <= n_cells; ++i) text.add("{}\n", i * n_nodes);
+  text.add("</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
+  for (Index i = 0; i < n_cells; ++i) text.add("{}\n", lagrange_quadrilateral);
+  text.add("</DataArray>\n</Cells>\n");
+}
+
+void add_point_data(Text& text, const Field& field) {
+  text.add("<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n");
+  add_points(text, "displacement", field.displacement);
+  add_points(text, "stress_xx", field.stress.row(0));
+  add_points(text, "stress_yy", field.stress.row(1));
+  add_points(text, "stress_xy", field.stress.row(2));
+  add_points(text, "von_mises", von_mises(field.stress).transpose());
+  const Eigen::Matrix2Xd main = principal(field.stress);
+  add_points(text, "principal_1", main.row(0));
+  add_points(text, "principal_2", main.row(1));
+  text.add("</PointData>\n");
+}
+
+}  // namespace
+
+std::string vtu(const formats::PlateSolution& plate, const FieldState& state, const Field& field) {
+  const Index n_cells = plate.mesh.n_elements();
+  const Index n_points = field.points.cols();
+  Text text;
+  text.add("<?xml version=\"1.0\"?>\n{}", description);
+  text.add("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
+  add_field_data(text, plate, state, field.p);
+  text.add("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", n_points, n_cells);
+  add_point_data(text, field);
+  text.add("<CellData Scalars=\"thickness\">\n");
+  add_points(text, "thickness", plate.mesh.thickness.transpose());
+  text.add("</CellData>\n<Points>\n");
+  add_points(text, "points", field.points);
+  text.add("</Points>\n");
+  add_cells(text, n_cells, n_points / n_cells);
+  text.add("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
+  return text.str();
+}
+
+}  // namespace fastjoint::stage2

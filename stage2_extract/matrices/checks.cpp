@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/matrices/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
+#include "common/errors.hpp"
+
+namespace fastjoint::stage2 {
+namespace {
+
+using formats::PlateMatrices;
+using formats::PlateSolution;
+
+/// Far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any modelling error.
+constexpr double worst_allowed = 1e-7;
+
+double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
+
+/// The largest stiffness, or, of a sheet that offers next to none, such that what rounding leaves of K_cc is allowed.
+double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
+  constexpr double least = 1e-5;
+  return std::max(largest(S), least * largest(plate.K_cc));
+}
+
+Eigen::MatrixXd stacked(const Eigen::MatrixXd& above, const Eigen::MatrixXd& below) {
+  Eigen::MatrixXd A(above.rows() + below.rows(), above.cols());
+  A << above, below;
+  return A;
+}
+
+/// Forces that the probe's displacements need, by its field, against those by S.
+std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& S) {
+  if (S.size() == 0) return std::nullopt;
+  const auto& probe = plate.probe;
+  const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.u + plate.K_cc * probe.displacement;
+  return ratio(largest(solved - S * probe.displacement), scale_of(plate, S));
+}
+
+/// What friction and tractions do to externals and discs, by the probe's fields, against R and T.
+std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrices& matrices) {
+  const auto& probe = plate.probe;
+  if (plate.K_cc.size() == 0 || plate.L_c.cols() + plate.T_c.cols() == 0) return std::nullopt;
+  double worst = 0;
+  if (plate.L_c.cols() > 0) {
+    const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
+    const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.w - plate.L_c * probe.friction;
+    worst = ratio(largest(solved - R * probe.friction), largest(R));
+  }
+  if (plate.T_c.cols() > 0) {
+    const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
+    const Eigen::VectorXd solved = -(plate.T_f.transpose() * probe.u + plate.T_c.transpose() * probe.displacement);
+    worst = std::max(worst, ratio(largest(solved - T.transpose() * probe.displacement), std::max(largest(T), 1e-3)));
+  }
+  return worst;
+}
+
+/// The smallest eigenvalue if it is too far below zero. A factor of S, raised by what is allowed, costs a tenth of the
+/// eigenvalues.
+std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale) {
+  if (S.size() == 0) return std::nullopt;
+  const Eigen::MatrixXd raised = S + worst_allowed * scale * Eigen::MatrixXd::Identity(S.rows(), S.rows());
+  if (Eigen::LLT<Eigen::MatrixXd>(raised).info() == Eigen::Success) return std::nullopt;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S, Eigen::EigenvaluesOnly);
+  return ratio(eigen.eigenvalues()[0], scale);
+}
+
+/// Force left along one direction that nothing supports, over all unit cases and loads.
+double residual_force(const PlateMatrices& matrices, const Eigen::MatrixXd& S, double scale,
+                      const FreeTranslation& free) {
+  double worst = ratio(largest(S * free.motion), scale);
+  const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
+  for (Eigen::Index j = 0; j < R.cols(); ++j)
+    if (free.friction[j] != 0)
+      worst = std::max(worst, ratio(std::abs(R.col(j).dot(free.motion) + free.friction[j]), largest(R)));
+  const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
+  return std::max(worst, largest(free.motion.transpose() * T + free.traction));
+}
+
+std::optional<double> equilibrium(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
+  std::optional<double> worst;
+  for (const auto& free : free_translations(plate, matrices.friction_resultant))
+    worst = std::max(worst.value_or(0), residual_force(matrices, S, scale_of(plate, S), free));
+  return worst;
+}
+
+std::string shown(const std::optional<double>& value, const char* otherwise) {
+  return value ? fmt::format("{:.1e}", *value) : otherwise;
+}
+
+}  // namespace
+
+std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const Eigen::VectorXd& resultant) {
+  std::vector<FreeTranslation> result;
+  for (const std::string along : {"x", "y"}) {
+    const auto count = [&](const std::vector<std::string>& names) {
+      return std::count(names.begin(), names.end(), along);
+    };
+    if (count(plate.supported) > 0 || (!plate.disc_direction.empty() && count(plate.disc_direction) == 0)) continue;
+    std::vector<std::string> direction = plate.external_direction;
+    direction.insert(direction.end(), plate.disc_direction.begin(), plate.disc_direction.end());
+    const auto is_along = [&](const std::vector<std::string>& names) -> Eigen::VectorXd {
+      return Eigen::VectorXd::NullaryExpr(std::ssize(names), [&](Eigen::Index i) {
+        return names[static_cast<std::size_t>(i)].ends_with(along) ? 1.0 : 0.0;
+      });
+    };
+    result.push_back({is_along(direction), is_along(plate.friction_bearing).cwiseProduct(resultant).transpose(),
+                      is_along(plate.traction_direction).transpose()});
+  }
+  return result;
+}
+
+double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
+
+Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
+  return {energy(plate, S), reciprocity(plate, matrices), negative_eigenvalue(S, scale_of(plate, S)),
+          equilibrium(plate, matrices, S), ratio(plate.probe.rounding, scale_of(plate, S))};
+}
+
+void require_good(const Checks& checks, const std::string& file) {
+  const auto fail = [&](const char* what, double value) {
+    throw NumericalError(
+        fmt::format("{}: {} is {:.1e} of the largest entry, allowed {:.0e}; the plate's stiffness is too "
+                    "badly conditioned (check moduli, thicknesses and element shapes)",
+                    file, what, value, worst_allowed));
+  };
+  if (checks.negative_eigenvalue) fail("smallest eigenvalue of S", *checks.negative_eigenvalue);
+  if (!(checks.energy.value_or(0) < worst_allowed)) fail("error of S", checks.energy.value_or(0));
+  if (!(checks.reciprocity.value_or(0) < worst_allowed)) fail("error of reciprocity", checks.reciprocity.value_or(0));
+  if (!(checks.equilibrium.value_or(0) < worst_allowed))
+    fail("error of global equilibrium", checks.equilibrium.value_or(0));
+}
+
+std::string report(const Checks& checks) {
+  return fmt::format(
+      "  relative errors of the checks: S against the energy of its fields {}, R and T against reciprocity {}, "
+      "equilibrium {}; rounding may change S by {:.0e}\n",
+      shown(checks.energy, "not applicable (no discs)"), shown(checks.reciprocity, "not applicable (no loads)"),
+      shown(checks.equilibrium, "not applicable (supported)"), checks.rounding);
+}
+
+}  // namespace fastjoint::stage2

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/contact.hpp"
+
+#include <cassert>
+#include <cmath>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+Index directions(const std::vector<Contact>& contacts, const VectorXd& vectors) {
+  const auto n = static_cast<Index>(contacts.size());
+  assert(n > 0 && vectors.size() % n == 0);
+  return vectors.size() / n;
+}
+
+/// Unit vector along v; any where v = 0, the same each time.
+VectorXd along(const VectorXd& v) {
+  const double length = v.norm();
+  return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));
+}
+
+}  // namespace
+
+VectorXd amounts(const VectorXd& vectors, Index n_directions) {
+  if (n_directions == 1) return vectors;
+  return vectors.reshaped(n_directions, vectors.size() / n_directions).colwise().norm().transpose();
+}
+
+Eigen::MatrixXd ContactState::times(const Eigen::MatrixXd& A, const Blocks& blocks) const {
+  const Index a = direction.rows();
+  if (a == 1) return A * blocks.along.asDiagonal();
+  Eigen::MatrixXd result(A.rows(), A.cols());
+  for (Index j = 0; j < direction.cols(); ++j) {
+    const VectorXd e = direction.col(j);
+    const auto columns = A.middleCols(j * a, a);
+    result.middleCols(j * a, a) =
+        blocks.across[j] * columns + (blocks.along[j] - blocks.across[j]) * (columns * e) * e.transpose();
+  }
+  return result;
+}
+
+ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c) {
+  const auto n = static_cast<Index>(contacts.size());
+  const Index a = directions(contacts, c);
+  ContactState state{VectorXd(n * a),
+                     VectorXd(n * a),
+                     Eigen::MatrixXd(a, n),
+                     {VectorXd(n), VectorXd(n)},
+                     {VectorXd(n), VectorXd(n)},
+                     {}};
+  for (Index j = 0; j < n; ++j) {
+    const Contact& contact = contacts[static_cast<std::size_t>(j)];
+    const VectorXd here = c.segment(j * a, a);
+    const VectorXd e = along(here);
+    const double k = contact.stiffness;
+    const double length = here.norm();
+    const Branch on =
+        contact.is_pulled_open(here) ? Branch::open(length, k) : contact.law->at(length, k, contact.clearance);
+    if (on.spent) state.spent = j;
+    state.direction.col(j) = e;
+    state.F.segment(j * a, a) = on.F * e;
+    state.delta.segment(j * a, a) = on.delta * e;
+    state.dF.along[j] = on.dF;
+    state.ddelta.along[j] = on.ddelta;
+    // At c = 0 the limits of F / |c| and delta / |c|.
+    state.dF.across[j] = length > 0 ? on.F / length : on.dF;
+    state.ddelta.across[j] = length > 0 ? on.delta / length : on.ddelta;
+  }
+  return state;
+}
+
+VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F) {
+  const Index a = directions(contacts, F);
+  VectorXd c(F.size());
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    const Contact& contact = contacts[j];
+    const auto at = static_cast<Index>(j) * a;
+    const VectorXd here = F.segment(at, a);
+    const double force = here.norm();
+    const bool carries = force > 0 && !contact.is_pulled_open(here);
+    c.segment(at, a) =
+        carries ? VectorXd(along(here) * contact.law->coordinate(force, contact.stiffness, contact.clearance)) : here;
+  }
+  return c;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "stage3_nonlinear/laws/law.hpp"
+
+namespace fastjoint::stage3 {
+
+/// The law of a shear plane as a map from its contact coordinate c, a vector in force units with one entry for each
+/// direction of the joint's discs: F and delta are along c, and their amounts those of the law at |c|. With one
+/// direction the law is odd; with two the clearance is a circle.
+struct Contact {
+  std::shared_ptr<const Law> law;
+  double clearance = 0;    ///< length
+  double stiffness = 1;    ///< k, force / length: of the plates at this plane, so that F and k delta balance
+  bool one_sided = false;  ///< open for every c < 0; one direction only
+
+  /// Whether it is one-sided and c, shape (a), is on its other side.
+  [[nodiscard]] bool is_pulled_open(const Eigen::VectorXd& c) const { return one_sided && c[0] < 0; }
+};
+
+/// Derivative of a vector by c for each plane: `along` c and `across` it (of one direction only `along` counts).
+struct Blocks {
+  Eigen::VectorXd along, across;  ///< (n)
+};
+
+/// Forces and displacements of n shear planes in a directions, row plane * a + direction, and their derivatives by c.
+struct ContactState {
+  Eigen::VectorXd F;                  ///< (n a) bearing forces, force
+  Eigen::VectorXd delta;              ///< (n a) relative displacements of the discs, length
+  Eigen::MatrixXd direction;          ///< (a, n) unit vectors along c
+  Blocks dF;                          ///< dF / dc, dimensionless; 0 where open
+  Blocks ddelta;                      ///< d delta / dc, length / force
+  std::optional<Eigen::Index> spent;  ///< a plane past all that it can carry
+
+  /// A times the block diagonal matrix, shape as A, (rows, n a).
+  [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& A, const Blocks& blocks) const;
+};
+
+/// Of vectors in a directions, row plane * a + direction: their lengths, or with one direction the entries with their
+/// signs, (n).
+[[nodiscard]] Eigen::VectorXd amounts(const Eigen::VectorXd& vectors, Eigen::Index n_directions);
+
+/// @param c Contact coordinates, shape (n a), force.
+[[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const Eigen::VectorXd& c);
+
+/// Coordinates at which the bearing forces are F, or about that; where a fastener cannot carry F it is left open.
+///
+/// @param F Shape (n a), force.
+[[nodiscard]] Eigen::VectorXd contact_coordinates(const std::vector<Contact>& contacts, const Eigen::VectorXd& F);
+
+}  // namespace fastjoint::stage3

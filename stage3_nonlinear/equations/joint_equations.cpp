@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/joint_equations.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <utility>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// K, one entry for each plane.
+///
+/// @param contacts With the stiffnesses of the plates themselves, which replace a row of S that is nothing but
+/// rounding,
+///        as that of a sheet held by one fastener alone.
+VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& contacts) {
+  constexpr double more = 1.05;
+  constexpr double negligible = 1e-9, rounding = 1e-12;
+  const auto n = static_cast<Index>(contacts.size());
+  const Index a = S.rows() / n;
+  const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
+  const double largest = rows.maxCoeff();
+  VectorXd k(n);
+  for (Index j = 0; j < n; ++j) {
+    const double row = rows.segment(j * a, a).maxCoeff();
+    const double own = contacts[static_cast<std::size_t>(j)].stiffness;
+    k[j] = largest <= rounding * own ? own : row > negligible * largest ? row : largest;
+  }
+  return k;
+}
+
+/// Of the softer of the two plates at its discs.
+double plate_stiffness(const JointModel& joint, const ShearPlane& plane) {
+  const auto at = [&](const HoleModel& hole) {
+    return joint.plates[hole.plate].S.diagonal().segment(hole.disc, joint.n_directions()).maxCoeff();
+  };
+  const auto [softer, stiffer] = std::minmax({at(joint.first_hole(plane)), at(joint.second_hole(plane))});
+  return softer > 0 ? softer : stiffer > 0 ? stiffer : 1.0;
+}
+
+MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts) {
+  const Index a = S.rows() / static_cast<Index>(contacts.size());
+  MatrixXd W = -0.5 * (S + S.transpose());
+  for (Index i = 0; i < W.rows(); ++i) W(i, i) += contacts[static_cast<std::size_t>(i / a)].stiffness;
+  return W.llt().solve(MatrixXd::Identity(W.rows(), W.rows()));
+}
+
+/// Gives open and yielded fasteners a trace of stiffness in the Jacobian, not in the residual: without it the Jacobian
+/// is singular where such fasteners alone hold a sheet. The trace falls with the residual, so that the last steps are
+/// quick also where springs as weak as the trace hold a sheet (docs/theory.md, section 8.5).
+void add_trace(const JointEquations& equations, double residual, ContactState& state) {
+  constexpr double share = 1e-7;
+  constexpr double least = 1e-11;  // rounding over this is still a small step
+  const double trace = std::clamp(share * residual, least, share);
+  for (Index j = 0; j < state.dF.along.size(); ++j) {
+    const double k = equations.contacts[static_cast<std::size_t>(j)].stiffness;
+    const auto add = [&](double& dF, double& ddelta) {
+      if (std::abs(dF) >= trace) return;
+      dF = trace;
+      if (equations.metric.size() > 0) ddelta = (1 - trace) / k;
+    };
+    add(state.dF.along[j], state.ddelta.along[j]);
+    add(state.dF.across[j], state.ddelta.across[j]);
+  }
+}
+
+}  // namespace
+
+JointEquations make_equations(const JointModel& joint) {
+  std::vector<Contact> contacts;
+  contacts.reserve(joint.planes.size());
+  for (const auto& plane : joint.planes)
+    contacts.push_back({plane.law, plane.clearance, plate_stiffness(joint, plane), plane.one_sided});
+  return make_equations(condense(joint), std::move(contacts));
+}
+
+JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts) {
+  constexpr double rounding = 1e-13;  // of what a sheet that one fastener alone holds resists: nothing
+  const VectorXd rows = system.S_ud.cwiseAbs().rowwise().sum();
+  for (Index i = 0; i < rows.size(); ++i) {
+    const Index plane = i * std::ssize(contacts) / rows.size();
+    if (rows[i] > rounding * contacts[static_cast<std::size_t>(plane)].stiffness) continue;
+    system.S_ud.row(i).setZero();
+    system.S_ud.col(i).setZero();
+  }
+  const VectorXd k = reference_stiffnesses(system.S_ud, contacts);
+  for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j].stiffness = k[static_cast<Index>(j)];
+  const bool rise = std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.law->rises(); });
+  MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();
+  return {std::move(system), std::move(contacts), std::move(metric)};
+}
+
+MatrixXd tangent(const CondensedSystem& system, const ContactState& state) {
+  MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
+  if (system.has_friction()) F += system.friction_matrix(state.F);
+  return state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
+}
+
+RootProblem root_problem(const JointEquations& equations, double load_factor, double scale, const VectorXd* frozen) {
+  const CondensedSystem& system = equations.system;
+  const VectorXd load =
+      frozen ? VectorXd(load_factor * system.q - system.friction_forces(*frozen)) : VectorXd(load_factor * system.q);
+  const bool friction = system.has_friction() && !frozen;
+  RootProblem problem;
+  problem.residual = [&equations, load, scale, friction](const VectorXd& x) -> VectorXd {
+    const auto state = contact_state(equations.contacts, scale * x);
+    VectorXd r = state.F + equations.system.S_ud * state.delta - load;
+    if (friction) r += equations.system.friction_forces(state.F);
+    return r / scale;
+  };
+  problem.jacobian = [&equations, residual = problem.residual, scale, friction](const VectorXd& x) -> MatrixXd {
+    auto state = contact_state(equations.contacts, scale * x);
+    add_trace(equations, residual(x).cwiseAbs().maxCoeff(), state);
+    if (friction) return tangent(equations.system, state);
+    return state.times(equations.system.S_ud, state.ddelta) +
+           state.times(MatrixXd::Identity(x.size(), x.size()), state.dF);
+  };
+  if (equations.metric.size() > 0 && !friction)
+    problem.descent = [&metric = equations.metric](const VectorXd& r) -> VectorXd { return metric * r; };
+  return problem;
+}
+
+}  // namespace fastjoint::stage3

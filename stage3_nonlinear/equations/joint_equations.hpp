@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "stage3_nonlinear/equations/condensed_system.hpp"
+#include "stage3_nonlinear/equations/contact.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
+
+namespace fastjoint::stage3 {
+
+/// The nonlinear equations of a joint: the condensed system with the fasteners' laws put in, for the contact
+/// coordinates c.
+struct JointEquations {
+  CondensedSystem system;
+  std::vector<Contact> contacts;  ///< (n)
+  /// W^-1 with W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
+  /// length / force (docs/theory.md, section 8.4).
+  Eigen::MatrixXd metric;
+
+  [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(contacts.size()); }
+  /// a
+  [[nodiscard]] Eigen::Index n_directions() const { return n_unknowns() / n_planes(); }
+  /// n a
+  [[nodiscard]] Eigen::Index n_unknowns() const { return system.q.size(); }
+};
+
+/// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in
+/// its row of S_ud, so that K - S_ud is positive definite (docs/theory.md, section 8.2). Where S_ud is nothing but
+/// rounding, the plate's own stiffness takes its place.
+[[nodiscard]] JointEquations make_equations(const JointModel& joint);
+/// @param contacts Their stiffness is that of the plate itself, and replaced.
+[[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
+
+/// d residual / d c, shape (n a, n a), at the state of the contact coordinates c.
+[[nodiscard]] Eigen::MatrixXd tangent(const CondensedSystem& system, const ContactState& state);
+
+/// The equations at a load factor, unknowns and residuals over `scale` (force).
+///
+/// @param frozen If not null, friction acts as under these bearing forces instead of its own, (n a).
+[[nodiscard]] RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
+                                       const Eigen::VectorXd* frozen = nullptr);
+
+}  // namespace fastjoint::stage3

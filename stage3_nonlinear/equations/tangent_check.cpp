@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/tangent_check.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <algorithm>
+#include <cmath>
+
+#include "stage3_nonlinear/equations/condition.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Lu = Eigen::PartialPivLU<MatrixXd>;
+
+/// Planes take part that move by more than a share of the largest motion; a law that rises again behind a level piece,
+/// as after a slip, is no limit.
+Mechanism mechanism(const JointEquations& equations, const ContactState& state, const MatrixXd& J,
+                    const VectorXd& scale) {
+  constexpr double moves = 1e-6, level = 1e-12, far = 1e6;
+  const Eigen::BDCSVD<MatrixXd> svd(J, Eigen::ComputeFullV);
+  const Index free = std::max<Index>(1, (svd.singularValues().array() <= singular_tangent).count());
+  const MatrixXd identity = MatrixXd::Identity(J.rows(), J.rows());
+  const MatrixXd delta =
+      state.times(identity, state.ddelta) * scale.cwiseInverse().asDiagonal() * svd.matrixV().rightCols(free);
+  Mechanism result{{}, {}, equations.system.D_delta * delta.rightCols(1)};
+  const Index a = state.direction.rows();
+  for (Index j = 0; j < state.dF.along.size(); ++j) {
+    if (!(delta.middleRows(j * a, a).norm() > moves * delta.norm())) continue;
+    if (state.F.segment(j * a, a).isZero(0)) {
+      result.open.push_back(j);
+    } else if (const Contact& at = equations.contacts[static_cast<std::size_t>(j)];
+               state.dF.along[j] <= level &&
+               at.law->at(far * (state.F + at.stiffness * state.delta).norm(), at.stiffness, at.clearance).F <=
+                   (1 + far * level) * state.F.segment(j * a, a).norm()) {
+      result.level.push_back(j);
+    }
+  }
+  Index at = 0;
+  result.motion.cwiseAbs().maxCoeff(&at);
+  if (result.motion[at] != 0) result.motion /= result.motion[at];
+  return result;
+}
+
+/// Eigenvalues of the tangent whose real part is less than `least`.
+Index soft_modes(const CondensedSystem& system, const ContactState& state, double least) {
+  if (system.has_friction()) {
+    const Eigen::EigenSolver<MatrixXd> eigen(tangent(system, state), false);
+    return (eigen.eigenvalues().real().array() < least).count();
+  }
+  // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
+  const Blocks root{state.ddelta.along.cwiseSqrt(), state.ddelta.across.cwiseSqrt()};
+  const MatrixXd PS = state.times(system.S_ud, root).transpose();
+  const MatrixXd A = state.times(PS, root) + state.times(MatrixXd::Identity(PS.rows(), PS.rows()), state.dF);
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A, Eigen::EigenvaluesOnly);
+  return (eigen.eigenvalues().array() < least).count();
+}
+
+/// A norm of the friction matrix H E, which none of its eigenvalues exceeds.
+double friction_norm(const MatrixXd& H) {
+  return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
+}
+
+}  // namespace
+
+VectorXd scale_columns(MatrixXd& A) {
+  VectorXd scale(A.cols());
+  for (Index j = 0; j < A.cols(); ++j) {
+    scale[j] = std::max(A.col(j).cwiseAbs().maxCoeff(), 1.0);
+    A.col(j) /= scale[j];
+  }
+  return scale;
+}
+
+std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F) {
+  if (!system.has_friction()) return std::nullopt;
+  const MatrixXd H = system.friction_matrix(F);
+  if (friction_norm(H) < 1) return std::nullopt;
+  constexpr double real = 1e-9;  // imaginary part of a real eigenvalue, by rounding
+  double largest = 0;
+  const Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(-H, false).eigenvalues();
+  for (const auto& value : values)
+    if (std::abs(value.imag()) <= real * std::abs(value)) largest = std::max(largest, value.real());
+  if (!(largest >= 1)) return std::nullopt;
+  return 1 / largest;
+}
+
+TangentCheck check_tangent(const JointEquations& equations, const ContactState& state) {
+  const CondensedSystem& system = equations.system;
+  TangentCheck check;
+  MatrixXd J = tangent(system, state);
+  const VectorXd scale = scale_columns(J);
+  const Lu lu(J);
+  if (!(least_stretch(lu, J) > singular_tangent)) {
+    Mechanism found = mechanism(equations, state, J, scale);
+    if (!found.open.empty() || !found.level.empty()) {
+      check.mechanism = std::move(found);
+      return check;
+    }
+  }
+  // Only large friction makes a joint of rising laws unstable.
+  const bool falls = (state.dF.along.array() < 0).any();
+  if (falls || (system.has_friction() && friction_norm(system.friction_matrix(state.F)) >= 1))
+    check.unstable = soft_modes(system, state, -singular_tangent);
+  check.locking = self_locking(system, state.F);
+  return check;
+}
+
+std::vector<Index> level_planes(const JointEquations& equations, const VectorXd& c) {
+  constexpr double nearly_level = 1e-3, nearly_singular = 1e-4;  // where a try that failed ended
+  ContactState state = contact_state(equations.contacts, c);
+  std::vector<Index> level;
+  for (Index j = 0; j < equations.n_planes(); ++j) {
+    const bool open = state.F.segment(j * equations.n_directions(), equations.n_directions()).isZero(0);
+    if (state.spent != j && (open || state.dF.along[j] > nearly_level)) continue;
+    level.push_back(j);
+    state.dF.along[j] = std::min(state.dF.along[j], 0.0);
+  }
+  if (state.spent || soft_modes(equations.system, state, nearly_singular) > 0) return level;
+  return {};
+}
+
+std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
+  std::vector<Index> falling;
+  MatrixXd S = equations.system.S_ud;
+  const Index n = equations.n_planes(), a = equations.n_directions();
+  for (Index j = 0; j < n; ++j) {
+    const Law& law = *equations.contacts[static_cast<std::size_t>(j)].law;
+    if (law.rises()) continue;
+    falling.push_back(j);
+    for (Index d = 0; d < a; ++d) S(j * a + d, j * a + d) += law.least_slope();
+  }
+  if (falling.empty() || Eigen::LLT<MatrixXd>(S).info() == Eigen::Success) return {};
+  return falling;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "stage3_nonlinear/equations/joint_equations.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Reciprocal condition, with columns scaled, below which a tangent is singular.
+inline constexpr double singular_tangent = 1e-10;
+
+/// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
+/// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
+Eigen::VectorXd scale_columns(Eigen::MatrixXd& A);
+
+/// A way for the joint to move that meets no stiffness at a solution.
+struct Mechanism {
+  std::vector<Eigen::Index> open;   ///< shear planes that move within their gaps
+  std::vector<Eigen::Index> level;  ///< those that move under a force that does not grow: with any, a limit load
+  Eigen::VectorXd motion;           ///< (N) displacements, largest entry 1
+};
+
+/// What the tangent at a solution says of it.
+struct TangentCheck {
+  /// A motion without stiffness, if there is one. If none of its planes is level, some plate is free within its gaps
+  /// and has no place of its own.
+  std::optional<Mechanism> mechanism;
+  /// Number of ways in which the solution is unstable: eigenvalues of the tangent with a negative real part
+  /// (docs/theory.md, section 9.3). There are none without friction or a law that falls.
+  Eigen::Index unstable = 0;
+  /// Friction reserve: the factor on all coefficients of friction at which the joint locks, if it is at most 1; else
+  /// empty. At this factor I + H E is singular on the sides that bear (docs/theory.md, section 9.4).
+  std::optional<double> locking;
+
+  [[nodiscard]] bool at_limit_load() const { return mechanism && !mechanism->level.empty(); }
+};
+
+[[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state);
+
+/// The same factor for the sides that bear under the forces F, (n a).
+[[nodiscard]] std::optional<double> self_locking(const CondensedSystem& system, const Eigen::VectorXd& F);
+
+/// Planes that at the contact coordinates c, (n a), carry all that their laws allow, if nothing else holds the joint.
+[[nodiscard]] std::vector<Eigen::Index> level_planes(const JointEquations& equations, const Eigen::VectorXd& c);
+
+/// Planes whose laws may fall more steeply than the plates hold against: S_ud + diag(least slopes) is not positive
+/// definite, so that the solution may be one of several. Empty if the joint has one solution only (friction aside).
+[[nodiscard]] std::vector<Eigen::Index> planes_that_may_snap(const JointEquations& equations);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/model/joint_model.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "common/errors.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using formats::PlateMatrices;
+
+std::optional<Eigen::Index> index_of(const std::vector<std::string>& names, const std::string& name) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) return std::nullopt;
+  return found - names.begin();
+}
+
+std::vector<PlateMatrices> read_all(const JointScene& scene) {
+  std::vector<PlateMatrices> all;
+  all.reserve(scene.plates.size());
+  for (const auto& plate : scene.plates) {
+    try {
+      all.push_back(formats::read_plate_matrices(plate.file));
+    } catch (const FileError& e) {
+      const bool absent = !std::filesystem::exists(plate.file);
+      throw FileError(fmt::format("{}: {}{}", plate.where, e.what(),
+                                  absent ? fmt::format("; stage2_extract PLATE.h5 -o {} makes it", plate.file) : ""));
+    }
+    const std::string& digest = all.back().header.digest;
+    if (!plate.digest.empty() && digest != plate.digest)
+      refuse(plate.where + "/digest",
+             fmt::format("{} has {}, not the digest {}", plate.file, digest.empty() ? "none" : digest, plate.digest),
+             "the digest that stage2_extract printed when it made the file that is meant");
+  }
+  return all;
+}
+
+std::string quoted(const Units& units) { return fmt::format("length \"{}\", force \"{}\"", units.length, units.force); }
+
+Units common_units(const JointScene& scene, const std::vector<PlateMatrices>& all) {
+  const Units& units = all[0].header.units;
+  for (std::size_t i = 1; i < all.size(); ++i)
+    if (!(all[i].header.units == units))
+      throw InputError(fmt::format("{}: units are {}; allowed: {}, as in {}", scene.plates[i].file,
+                                   quoted(all[i].header.units), quoted(units), scene.plates[0].file));
+  if (scene.units && !(*scene.units == units))
+    refuse(scene.file + ": /units", quoted(*scene.units), quoted(units) + ", as in " + scene.plates[0].file);
+  return units;
+}
+
+/// Degrees that every plate has, ascending.
+std::set<int> common_degrees(const JointScene& scene, const std::vector<PlateMatrices>& all) {
+  std::set<int> common(all[0].p.begin(), all[0].p.end());
+  std::string each;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const std::set<int> own(all[i].p.begin(), all[i].p.end());
+    std::erase_if(common, [&](int degree) { return !own.contains(degree); });
+    each += fmt::format("{}{} has p = {}", i == 0 ? "" : ", ", scene.plates[i].file, fmt::join(own, ", "));
+  }
+  if (common.empty())
+    throw InputError(fmt::format("{}: the plates have no polynomial degree in common: {}", scene.file, each));
+  return common;
+}
+
+int chosen_degree(const JointScene& scene, const std::vector<PlateMatrices>& all, int p) {
+  const auto degrees = common_degrees(scene, all);
+  if (p == 0) return *degrees.rbegin();
+  if (!degrees.contains(p))
+    throw InputError(fmt::format("--p: {} is not in the matrices of every plate of {}; allowed: {}", p, scene.file,
+                                 fmt::join(degrees, ", ")));
+  return p;
+}
+
+/// The plates' directions, which must be the same.
+std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateModel>& plates) {
+  const auto names = [](const PlateModel& plate) {
+    std::vector<std::string> result;
+    result.reserve(plate.axes.size());
+    for (const int axis : plate.axes)
+      result.push_back(fmt::format("\"{}\"", axis_names[static_cast<std::size_t>(axis)]));
+    return fmt::format("[{}]", fmt::join(result, ", "));
+  };
+  for (std::size_t i = 1; i < plates.size(); ++i)
+    if (plates[i].axes != plates[0].axes)
+      refuse(
+          scene.plates[i].where,
+          fmt::format("the discs of {} have the directions {}", plates[i].file, names(plates[i])),
+          fmt::format("{}, as those of {}: give both plates the same \"disc_directions\" and run stages 1 and 2 again",
+                      names(plates[0]), plates[0].file));
+  return plates[0].axes;
+}
+
+/// The friction case of a hole for the side that bears along an axis.
+FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
+  const std::string bearing =
+      fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[static_cast<std::size_t>(axis)]);
+  for (Eigen::Index i = 0; i < plate.friction_unit_force.size(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    if (plate.friction_hole[at] != hole || plate.friction_bearing[at] != bearing) continue;
+    const double c = plate.friction_unit_force[i];
+    if (!(c > 0))
+      throw InputError(
+          fmt::format("{}:friction/unit_force: hole \"{}\" has {} on its side {}: no rim there can bear, so friction "
+                      "{} has no meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or "
+                      "friction 0",
+                      plate.file, hole, c, bearing, mu));
+    return {plate.R.col(i) * (mu / c), std::abs(plate.friction_resultant[i]) * mu / c, i, mu / c};
+  }
+  throw InputError(
+      fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has "
+                  "friction {}; run stage 2 again, or set the friction to 0",
+                  plate.file, hole, bearing, mu));
+}
+
+/// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
+std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, std::size_t hole) {
+  std::array<bool, 2> sides{};
+  for (std::size_t plane = 0; plane < fastener.law.size(); ++plane) {
+    if (plane != hole && plane + 1 != hole) continue;
+    const bool both = !scene.laws.at(fastener.law[plane]).one_sided;
+    const Side positive = plane == hole ? minus_side : plus_side;
+    sides[positive] = true;
+    if (both) sides[1 - positive] = true;
+  }
+  return sides;
+}
+
+/// A half hole stands for a whole one on a line of symmetry, which its disc must not leave; but half a rim pushes it
+/// off.
+void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
+  for (std::size_t i = 0; i < plate.friction_hole.size(); ++i)
+    if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[static_cast<Eigen::Index>(i)] > 0))
+      throw InputError(fmt::format(
+          "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, "
+          "off its line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
+          plate.file, hole, plate.friction_bearing[i]));
+}
+
+HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, std::size_t at) {
+  const Reference& hole = fastener.between[at];
+  const auto is_named = [&](const PlateModel& plate) { return plate.name == hole.plate; };
+  const auto plate = std::find_if(model.plates.begin(), model.plates.end(), is_named);
+  const auto index = index_of(plate->holes, hole.name);
+  if (!index)
+    refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate->file),
+           fmt::format("{}", fmt::join(plate->holes, ", ")));
+  if (model.n_directions() > 1) check_rim_all_around(*plate, hole.name);
+  const double mu = fastener.friction[at];
+  HoleModel result{static_cast<std::size_t>(plate - model.plates.begin()), *index * model.n_directions(), mu, {}};
+  if (mu == 0) return result;
+  const auto sides = bearing_sides(scene, fastener, at);
+  for (const int axis : model.axes) {
+    auto& friction = result.friction.emplace_back();
+    for (const Side side : {plus_side, minus_side})
+      if (sides[side]) friction[side] = friction_load(*plate, hole.name, mu, axis, side);
+  }
+  return result;
+}
+
+void add_fastener(JointModel& model, const JointScene& scene, const FastenerScene& fastener) {
+  for (std::size_t plane = 0; plane < fastener.law.size(); ++plane) {
+    const LawScene& law = scene.laws.at(fastener.law[plane]);
+    if (law.one_sided && model.n_directions() > 1)
+      refuse(fastener.where + "/law",
+             fmt::format("law \"{}\" is one_sided, but the discs move along x and y", fastener.law[plane]),
+             "laws that bear all around, or plates whose discs have one direction");
+    model.planes.push_back(
+        {model.fasteners.size(), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
+  }
+  FastenerModel result{fastener.id, {}, fastener.law_includes_friction};
+  for (std::size_t i = 0; i < fastener.between.size(); ++i)
+    result.holes.push_back(make_hole(model, scene, fastener, i));
+  balance(result);
+  model.fasteners.push_back(std::move(result));
+}
+
+void apply_load(JointModel& model, const LoadScene& load) {
+  const Reference& name = load.external;
+  const auto is_named = [&](const PlateModel& candidate) { return candidate.name == name.plate; };
+  PlateModel& plate = *std::find_if(model.plates.begin(), model.plates.end(), is_named);
+  if (const auto rigid = index_of(plate.externals, name.name)) {
+    if (load.is_displacement) {
+      plate.external_displacement[static_cast<std::size_t>(*rigid)] = load.value;
+    } else {
+      plate.external_force[*rigid] = load.value;
+    }
+  } else if (const auto traction = index_of(plate.tractions, name.name)) {
+    if (load.is_displacement)
+      refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
+             "\"force\", or an external of kind \"rigid\"");
+    plate.traction_force[*traction] = load.value;
+  } else {
+    auto known = plate.externals;
+    known.insert(known.end(), plate.tractions.begin(), plate.tractions.end());
+    refuse(name.where, fmt::format("external \"{}\" does not exist in {}", name.name, plate.file),
+           known.empty() ? "none: this plate has no external boundary" : fmt::format("{}", fmt::join(known, ", ")));
+  }
+}
+
+}  // namespace
+
+double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d, Side side) {
+  const auto& friction = fastener.holes[of].friction;
+  if (friction.empty()) return 0;
+  const auto& sides = friction[static_cast<std::size_t>(d)];
+  const auto n = static_cast<double>(fastener.holes.size());
+  if (fastener.holes.size() == 2) return sides[of == hole ? side : 1 - side].share() / n;
+  const auto bears = std::count_if(sides.begin(), sides.end(), [](const auto& each) { return each.load.size() > 0; });
+  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / static_cast<double>(bears) / n;
+}
+
+void balance(FastenerModel& fastener) {
+  std::size_t directions = 0;
+  for (const auto& hole : fastener.holes) directions = std::max(directions, hole.friction.size());
+  for (auto& hole : fastener.holes) hole.friction.resize(directions);
+  for (std::size_t at = 0; at < fastener.holes.size(); ++at)
+    for (std::size_t d = 0; d < directions; ++d)
+      for (const Side side : {plus_side, minus_side}) {
+        double transferred = 1;
+        for (std::size_t of = 0; of < fastener.holes.size() && !fastener.law_includes_friction; ++of)
+          transferred += part_of_mean_share(fastener, of, at, static_cast<Eigen::Index>(d), side);
+        FrictionLoad& friction = fastener.holes[at].friction[d][side];
+        const double change = transferred / (1 + friction.share()) / friction.bearing;
+        friction.load *= change;
+        for (double* each : {&friction.resultant, &friction.peak, &friction.bearing}) *each *= change;
+      }
+}
+
+Eigen::Index JointModel::offset(std::size_t plate) const {
+  Eigen::Index offset = 0;
+  for (std::size_t i = 0; i < plate; ++i) offset += plates[i].n_unknowns();
+  return offset;
+}
+
+const HoleModel& JointModel::first_hole(const ShearPlane& plane) const {
+  return fasteners[plane.fastener].holes[plane.first];
+}
+
+const HoleModel& JointModel::second_hole(const ShearPlane& plane) const {
+  return fasteners[plane.fastener].holes[plane.first + 1];
+}
+
+std::string JointModel::name(const HoleModel& hole) const {
+  return plates[hole.plate].name + ":" + plates[hole.plate].hole_of(hole.disc);
+}
+
+std::string JointModel::name(const ShearPlane& plane) const {
+  const FastenerModel& fastener = fasteners[plane.fastener];
+  std::string id = fmt::format("fastener \"{}\"", fastener.id);
+  if (fastener.holes.size() == 2) return id;
+  return fmt::format("{} between \"{}\" and \"{}\"", id, plates[first_hole(plane).plate].name,
+                     plates[second_hole(plane).plate].name);
+}
+
+std::string JointModel::short_name(const ShearPlane& plane) const {
+  const FastenerModel& fastener = fasteners[plane.fastener];
+  if (fastener.holes.size() == 2) return fastener.id;
+  return fmt::format("{} ({}-{})", fastener.id, plates[first_hole(plane).plate].name,
+                     plates[second_hole(plane).plate].name);
+}
+
+JointModel load_joint(const JointScene& scene, int p) {
+  auto all = read_all(scene);
+  JointModel model;
+  model.file = scene.file;
+  model.units = common_units(scene, all);
+  model.p = chosen_degree(scene, all, p);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, std::move(all[i]), model.p));
+  model.axes = common_axes(scene, model.plates);
+  for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
+  for (const auto& load : scene.loads) apply_load(model, load);
+  return model;
+}
+
+}  // namespace fastjoint::stage3

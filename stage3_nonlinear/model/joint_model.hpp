@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "stage3_nonlinear/model/plate_model.hpp"
+#include "stage3_nonlinear/scene/joint_scene.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Friction in a hole for one side that bears, per unit of the law's force there; `load` is empty without friction.
+struct FrictionLoad {
+  Eigen::VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
+  double resultant = 0;         ///< |resultant| mu / c: force of friction on the rim
+  Eigen::Index case_index = 0;  ///< among the plate's friction cases
+  double peak = 0;              ///< mu / c: peak stress Lambda of the case, 1 / length^2
+  double bearing = 1;           ///< force of bearing on the rim; other than 1 it has been put into the three above
+
+  /// Force of friction over that of bearing.
+  [[nodiscard]] double share() const { return resultant / bearing; }
+};
+
+/// Side of a rim that bears: of a bearing force on the plate along + or - the axis.
+enum Side : std::size_t { plus_side, minus_side };
+
+/// Where a fastener holds a plate.
+struct HoleModel {
+  std::size_t plate = 0;
+  Eigen::Index disc = 0;  ///< first unknown of its disc among the plate's
+  double mu = 0;          ///< coefficient of friction
+  /// By direction of the joint, then by Side: each component of the bearing force has its own friction case.
+  std::vector<std::array<FrictionLoad, 2>> friction;
+};
+
+/// A fastener through its holes in their order.
+struct FastenerModel {
+  std::string id;
+  std::vector<HoleModel> holes;
+  bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
+};
+
+/// What friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears on
+/// `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
+[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d,
+                                        Side side);
+
+/// Gives each hole of a fastener the bearing force with which bearing and friction together transfer the load of the
+/// shear plane, so that a fastener with unlike friction in its holes is in equilibrium (docs/theory.md, section 7.4).
+void balance(FastenerModel& fastener);
+
+/// Between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F and
+/// the first with -F.
+struct ShearPlane {
+  std::size_t fastener = 0;
+  std::size_t first = 0;  ///< hole of the fastener; the second is the next
+  std::shared_ptr<const Law> law;
+  std::string law_name;
+  double clearance = 0;  ///< length
+  bool one_sided = false;
+};
+
+/// Plates with their loads and fasteners; indices instead of names.
+///
+/// Vectors of the shear planes have one entry for each plane and direction, directions inner.
+struct JointModel {
+  std::string file;  ///< of the joint, for messages
+  Units units;
+  int p = 0;
+  std::vector<int> axes{0};  ///< (a) directions of all discs: 0 x, 1 y
+  std::vector<PlateModel> plates;
+  std::vector<FastenerModel> fasteners;
+  std::vector<ShearPlane> planes;
+
+  [[nodiscard]] Eigen::Index n_directions() const { return static_cast<Eigen::Index>(axes.size()); }
+  [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(planes.size()); }
+  /// "x" or "y": direction d of the discs.
+  [[nodiscard]] const char* axis_name(std::size_t d) const { return axis_names[static_cast<std::size_t>(axes[d])]; }
+  /// First unknown of a plate in the joint's list, plate after plate.
+  [[nodiscard]] Eigen::Index offset(std::size_t plate) const;
+  [[nodiscard]] Eigen::Index n_unknowns() const { return offset(plates.size()); }
+  [[nodiscard]] const HoleModel& first_hole(const ShearPlane& plane) const;
+  [[nodiscard]] const HoleModel& second_hole(const ShearPlane& plane) const;
+  /// "plate:hole"
+  [[nodiscard]] std::string name(const HoleModel& hole) const;
+  /// For messages: fastener "1", and of one with several planes also the plates: fastener "1" between "a" and "b".
+  [[nodiscard]] std::string name(const ShearPlane& plane) const;
+  /// For tables: 1, and of one with several planes 1 (a-b).
+  [[nodiscard]] std::string short_name(const ShearPlane& plane) const;
+};
+
+/// Reads the matrices of all plates and resolves every name.
+///
+/// @param p Degree, or 0 for the highest that all plates have.
+/// Throws FileError, or InputError with the place in the joint's file or the dataset of a plate's.
+[[nodiscard]] JointModel load_joint(const JointScene& scene, int p);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/output/joint_history.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stage3_nonlinear/output/rim_history.hpp"
+#include "stage3_nonlinear/path/contact_event.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+
+formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
+  const auto steps = static_cast<Index>(states.size());
+  formats::PlateHistory history;
+  history.name = plate.name;
+  history.matrices_digest = plate.matrices_digest;
+  history.plate_digest = plate.plate_digest;
+  for (Index i = 0; i < plate.n_discs(); ++i) {
+    history.disc_hole.push_back(plate.hole_of(i));
+    history.disc_direction.emplace_back(axis_names[static_cast<std::size_t>(plate.axis_of(i))]);
+  }
+  history.external_id = plate.externals;
+  history.traction_id = plate.tractions;
+  history.friction_hole = plate.friction_hole;
+  history.friction_bearing = plate.friction_bearing;
+  history.D.resize(steps, plate.n_discs());
+  history.De.resize(steps, plate.n_externals());
+  history.Pe.resize(steps, plate.n_externals());
+  history.Lambda.resize(steps, plate.friction_unit_force.size());
+  history.traction.resize(steps, plate.traction_force.size());
+  for (Index step = 0; step < steps; ++step) {
+    const PlateState& state = states[static_cast<std::size_t>(step)].plates[at];
+    history.D.row(step) = state.D.transpose();
+    history.De.row(step) = state.De.transpose();
+    history.Pe.row(step) = state.Pe.transpose();
+    history.Lambda.row(step) = state.Lambda.transpose();
+    history.traction.row(step) = state.traction.transpose();
+  }
+  history.rims = rim_history(plate, states, at);
+  return history;
+}
+
+/// A field with a comma, a quote or a line break stands in quotes.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + "\"";
+}
+
+/// Heads of the columns with their units; the components of delta and F where there are two directions.
+std::string csv_heads(const JointModel& joint) {
+  const std::string length = unit(joint.units, 1, 0), force = unit(joint.units, 0, 1);
+  const auto with_unit = [](const std::string& name, const std::string& unit) { return name + " [" + unit + "]"; };
+  std::vector<std::string> heads{"increment", "load_factor", "fastener", with_unit("delta", length)};
+  for (const char* name : {"F", "transferred_first", "transferred_second"}) heads.push_back(with_unit(name, force));
+  heads.insert(heads.end(), {"share [%]", "iterations", "residual", "first", "second"});
+  for (const auto& [vector, unit] : {std::pair("delta_", length), std::pair("F_", force)})
+    for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
+      heads.push_back(with_unit(std::string(vector) + joint.axis_name(d), unit));
+  for (const char* end : {"first", "second"}) add_rim_csv_heads(end, joint.units, heads);
+  heads.insert(heads.end(), {with_unit("F_error", force), "event"});
+  std::transform(heads.begin(), heads.end(), heads.begin(), field);
+  return fmt::format("{}\n", fmt::join(heads, ","));
+}
+
+std::string component_fields(const JointModel& joint, const formats::JointResult& result, Index step, Index plane) {
+  std::string text;
+  const Index a = joint.n_directions();
+  for (const auto* vectors : {&result.delta_vector, &result.F_vector})
+    for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(",{}", (*vectors)(step, plane * a + d));
+  return text;
+}
+
+}  // namespace
+
+formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
+                                  const std::vector<JointState>& states) {
+  const auto steps = static_cast<Index>(path.steps.size());
+  const Index n = joint.n_planes();
+  const Index a = joint.n_directions();
+  formats::JointResult result;
+  result.p = joint.p;
+  result.complete = !path.failure;
+  result.load_factor.resize(steps);
+  result.converged = Eigen::VectorXi::Ones(steps);
+  result.iterations.resize(steps);
+  result.residual.resize(steps);
+  for (auto* table : {&result.delta, &result.F, &result.transferred_first, &result.transferred_second})
+    table->resize(steps, n);
+  for (auto* table : {&result.delta_vector, &result.F_vector}) table->resize(steps, n * a);
+  for (Index i = 0; i < steps; ++i) {
+    const PathStep& step = path.steps[static_cast<std::size_t>(i)];
+    const JointState& state = states[static_cast<std::size_t>(i)];
+    result.load_factor[i] = step.load_factor;
+    result.iterations[i] = step.iterations;
+    result.residual[i] = step.residual;
+    result.event.push_back(event_text(joint, step.events));
+    result.delta_vector.row(i) = step.delta.transpose();
+    result.F_vector.row(i) = step.F.transpose();
+    result.delta.row(i) = amounts(step.delta, a).transpose();
+    result.F.row(i) = amounts(step.F, a).transpose();
+    result.transferred_first.row(i) = state.transferred_first.transpose();
+    result.transferred_second.row(i) = state.transferred_second.transpose();
+  }
+  for (const auto& plane : joint.planes) {
+    result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
+    result.first_hole.push_back(joint.name(joint.first_hole(plane)));
+    result.second_hole.push_back(joint.name(joint.second_hole(plane)));
+  }
+  for (std::size_t d = 0; d < joint.axes.size(); ++d) result.direction.emplace_back(joint.axis_name(d));
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    result.plates.push_back(plate_history(joint.plates[i], states, i));
+  return result;
+}
+
+std::string csv(const JointModel& joint, const formats::JointResult& a) {
+  std::string text = csv_heads(joint);
+  for (Index i = 0; i < a.F.rows(); ++i) {
+    const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
+    for (Index j = 0; j < a.F.cols(); ++j) {
+      const auto at = static_cast<std::size_t>(j);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[at]),
+                          a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j),
+                          std::isfinite(share[j]) ? fmt::to_string(share[j]) : "", a.iterations[i], a.residual[i],
+                          field(a.first_hole[at]), field(a.second_hole[at]));
+      text += component_fields(joint, a, i, j);
+      for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
+        text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
+      text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "",
+                          field(a.event[static_cast<std::size_t>(i)]));
+    }
+  }
+  return text;
+}
+
+}  // namespace fastjoint::stage3

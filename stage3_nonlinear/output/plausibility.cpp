@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "stage3_nonlinear/output/warnings.hpp"
+#include "stage3_nonlinear/output/worst_of_kind.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Array2d;
+using Eigen::Index;
+using Eigen::Vector2d;
+using Plates = std::pair<std::size_t, std::size_t>;
+
+/// A shear plane whose holes MATRICES.h5 describes; t and E are 0 where it does not tell them.
+struct KnownPlane {
+  Index at;
+  Plates plates;    ///< ascending
+  Vector2d offset;  ///< between the centres, from the higher plate to the lower
+  Array2d t, d, E;  ///< of the first and the second hole; E along the joint's direction
+};
+
+std::vector<KnownPlane> known_planes(const JointModel& joint) {
+  std::vector<KnownPlane> result;
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    const HoleModel &first = joint.first_hole(plane), &second = joint.second_hole(plane);
+    KnownPlane known{j, std::minmax(first.plate, second.plate), Vector2d::Zero(), {0, 0}, {0, 0}, {0, 0}};
+    for (const HoleModel* hole : {&first, &second}) {
+      const auto& a = joint.plates[hole->plate].stresses;
+      const auto& name = joint.plates[hole->plate].hole_of(hole->disc);
+      const auto at = std::find(a.rim_hole.begin(), a.rim_hole.end(), name) - a.rim_hole.begin();
+      if (at == std::ssize(a.rim_hole)) continue;
+      const Index side = hole == &first ? 0 : 1;
+      known.offset += (hole->plate == known.plates.first ? 1 : -1) * a.rim_center.row(at).transpose();
+      known.t[side] = a.rim_thickness[at];
+      known.d[side] = 2 * a.rim_radius[at];
+      const bool one_E = joint.n_directions() == 1 ||
+                         std::abs(a.rim_modulus(at, 0) - a.rim_modulus(at, 1)) <= 1e-9 * a.rim_modulus(at, 0);
+      known.E[side] = one_E ? a.rim_modulus(at, joint.axes[0]) : 0;
+    }
+    if (known.d.minCoeff() > 0) result.push_back(known);
+  }
+  return result;
+}
+
+/// What most fasteners between two sheets have in common; zero of fewer than three.
+Vector2d common_offset(std::vector<Vector2d> offsets) {
+  Vector2d median = Vector2d::Zero();
+  const auto middle = offsets.begin() + std::ssize(offsets) / 2;
+  for (Index i = 0; i < 2 && offsets.size() > 2; ++i) {
+    std::nth_element(offsets.begin(), middle, offsets.end(), [&](const auto& a, const auto& b) { return a[i] < b[i]; });
+    median[i] = (*middle)[i];
+  }
+  return median;
+}
+
+/// What a formula has other than the sheets, "t = 3, 3 instead of 1.6, 2"; empty if nothing.
+std::string unlike(const Source& formula, const KnownPlane& known, double clearance) {
+  constexpr double same_t = 0.01, same_E = 0.2, same_d = 0.05;  // a hole is a little wider than its shank
+  std::vector<std::string> parts;
+  const auto compare = [&](const char* key, Array2d said, Array2d here, double tolerance, double slack) {
+    std::sort(said.begin(), said.end());  // either order of sheets
+    std::sort(here.begin(), here.end());
+    if (here[0] > 0 && ((said - here).abs() > tolerance * here + slack).any())
+      parts.push_back(
+          fmt::format("{} = {:.6g}, {:.6g} instead of {:.6g}, {:.6g}", key, said[0], said[1], here[0], here[1]));
+  };
+  compare("t", {formula.t[0], formula.t[1]}, known.t, same_t, 0);
+  compare("E", {formula.E[0], formula.E[1]}, known.E, same_E, 0);
+  compare("d", {formula.d, formula.d}, known.d, same_d, 2 * clearance);
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+}  // namespace
+
+std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
+  WorstOfKind friction, gaps, distances, movements;
+  std::vector<std::string> formulas;
+  for (const auto& fastener : scene.fasteners)
+    if (const double mu = *std::max_element(fastener.friction.begin(), fastener.friction.end()); mu > 1)
+      friction.add(mu, fmt::format("{}/friction: {} is above 1, which dry metals hardly reach: it may be a percentage",
+                                   fastener.where, mu));
+  const auto planes = known_planes(joint);
+  std::map<Plates, std::vector<Vector2d>> offsets;
+  for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
+  std::set<std::string> compared;
+  for (const auto& known : planes) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(known.at)];
+    const std::string& where = scene.fasteners[plane.fastener].where;
+    const double radius = known.d.minCoeff() / 2;
+    if (const double gap = plane.law->gap(plane.clearance); gap > radius)
+      gaps.add(gap / radius,
+               fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
+                           "{:.6g} of the hole: one of them may be in another unit of length",
+                           where, gap, plane.law_name, radius));
+    if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
+      distances.add(
+          apart / radius,
+          fmt::format("{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius "
+                      "{:.6g}: one of "
+                      "them may be another fastener's hole, or the sheets are drawn in different coordinates",
+                      where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
+    const auto formula = plane.law->source();
+    const std::string other = formula ? unlike(*formula, known, plane.clearance) : "";
+    if (!other.empty() && compared.insert(plane.law_name).second)
+      formulas.push_back(
+          fmt::format("{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another "
+                      "fastener, or in other units",
+                      joint.file, plane.law_name, other, joint.name(plane)));
+    const double crushing = (known.d * known.t * known.E).minCoeff();  // 0: not known
+    for (const auto& step : path.steps) {
+      const double delta = std::abs(amounts(step.delta, joint.n_directions())[known.at]);
+      const double F = std::abs(amounts(step.F, joint.n_directions())[known.at]);
+      const bool far = delta > radius;
+      if (!far && !(crushing > 0 && F > crushing)) continue;
+      const std::string what =
+          far ? fmt::format("|delta| = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
+              : fmt::format("|F| = {:.6g} is above d t E = {:.6g} of a sheet", F, crushing);
+      movements.add(std::max(delta / radius, crushing > 0 ? F / crushing : 0),
+                    fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
+                                joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
+      break;
+    }
+  }
+  std::vector<std::string> result;
+  for (const auto* kind : {&friction, &gaps, &distances}) kind->say(result);
+  result.insert(result.end(), formulas.begin(), formulas.end());
+  movements.say(result);
+  return result;
+}
+
+}  // namespace fastjoint::stage3

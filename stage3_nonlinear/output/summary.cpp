@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/output/summary.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/output/rim_table.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+
+constexpr std::size_t least_name = 12;
+constexpr const char* legend =
+    "  forces on a plate are positive along +x, +y; delta = D(first plate) - D(second plate), and F > 0 (F_x, F_y > 0 "
+    "where "
+    "there are two) pushes the second along +\n  share: of what all fasteners transfer between the same two plates, "
+    "friction included\n";
+
+/// Width of the column of names: fasteners and plates share it.
+std::size_t name_width(const JointModel& joint) {
+  std::size_t width = least_name;
+  for (const auto& plane : joint.planes) width = std::max(width, joint.short_name(plane).size());
+  for (const auto& plate : joint.plates) width = std::max(width, plate.name.size());
+  return width;
+}
+
+/// A column head with its unit, "delta [in]".
+std::string head(const std::string& name, const std::string& unit) { return fmt::format("{} [{}]", name, unit); }
+
+/// Zero instead of rounding.
+double rounded(double force, double largest) {
+  constexpr double rounding = 1e-10;
+  return std::abs(force) <= rounding * largest ? 0 : force;
+}
+
+/// What solved the increments.
+std::string method(const JointScene& scene, const LoadPath& path) {
+  if (path.linear) return "linear";
+  const auto is_exact = [](const PathStep& step) { return step.exact; };
+  const auto exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
+  const bool newton = scene.solver.method == Method::damped_newton;
+  const std::string iterative = newton ? "damped newton" : "hybridsj";
+  if (exact == 0) return iterative;
+  return exact == static_cast<Index>(path.n_increments) ? "exact path" : "exact path, " + iterative;
+}
+
+std::string effort(const LoadPath& path, const PathStep& step) {
+  using program::counted;
+  if (path.linear) return counted(step.iterations, "linear solve");
+  return step.exact ? counted(step.iterations, "piece") + " without iterations" : counted(step.iterations, "iteration");
+}
+
+std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
+  std::string text =
+      fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
+                  program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
+                  joint.p, method(scene, path));
+  for (const auto& [name, law] : scene.laws)
+    if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
+  for (const auto& plate : joint.plates)
+    if (plate.relative_error)
+      text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name,
+                          *plate.relative_error);
+    else if (plate.S.isZero(0))
+      text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
+  return text;
+}
+
+/// Heads of the columns for the components of F, where there are two.
+std::string component_heads(const JointModel& joint, const std::string& force) {
+  std::string text;
+  for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
+    text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
+  return text;
+}
+
+std::string components(const JointModel& joint, const Eigen::VectorXd& F, Index plane, double largest) {
+  std::string text;
+  const Index a = joint.n_directions();
+  for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(" {:>14.6g}", rounded(F[plane * a + d], largest));
+  return text;
+}
+
+std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
+  const std::string length = unit(joint.units, 1, 0);
+  const std::string force = unit(joint.units, 0, 1);
+  std::string text = fmt::format("  {:<{}} {:>16} {:>16}{} {:>20}", "fastener", width, head("delta", length),
+                                 head("F", force), component_heads(joint, force), head("transferred", force));
+  text += fmt::format(" {:>9}\n", "share [%]");
+  const Eigen::VectorXd share = shares(joint, state.transferred_first);
+  const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
+  const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
+  for (Index j = 0; j < F.size(); ++j) {
+    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}",
+                        joint.short_name(joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
+                        components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
+    text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
+  }
+  return text;
+}
+
+std::string plate_table(const JointModel& joint, const JointState& state, std::size_t width) {
+  const std::string force = unit(joint.units, 0, 1);
+  std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}\n", "on plate", width, head("applied", force),
+                                 head("fasteners", force), head("supports", force));
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (const int axis : joint.axes) {
+      const PlateState& plate = state.plates[i];
+      const std::string& name = joint.plates[i].name;
+      const char* along = axis_names[static_cast<std::size_t>(axis)];
+      text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n",
+                          joint.n_directions() == 1 ? name : fmt::format("{} {}", name, along), width,
+                          rounded(plate.applied[axis], state.largest_force),
+                          rounded(plate.by_fasteners[axis], state.largest_force),
+                          rounded(plate.by_supports[axis], state.largest_force));
+    }
+  text += fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force, fastener by {:.1e}",
+                      state.out_of_balance, state.fasteners_out_of_balance);
+  if (state.sheets_out_of_balance)
+    text += fmt::format(", sheet along axes without supports by {:.1e}", *state.sheets_out_of_balance);
+  return text + "\n";
+}
+
+/// The largest force of all increments with its error bar.
+std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen::MatrixXd& F_error) {
+  Index step = 0, plane = 0;
+  double largest = 0;
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const Eigen::VectorXd F = amounts(path.steps[i].F, joint.n_directions());
+    Index at = 0;
+    if (const double here = F.cwiseAbs().maxCoeff(&at); here > std::abs(largest)) {
+      largest = F[at];
+      step = static_cast<Index>(i);
+      plane = at;
+    }
+  }
+  return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
+                     largest, F_error(step, plane), unit(joint.units, 0, 1),
+                     joint.name(joint.planes[static_cast<std::size_t>(plane)]), step + 1);
+}
+
+std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,
+                          bool all) {
+  std::string text;
+  for (const auto& plate : joint.plates) {
+    if (plate.stress_level) continue;
+    if (plate.stresses.p.size() > 0)
+      text += fmt::format("there are no stresses of {}: {} holds them at p = {} only\n", plate.name, plate.file,
+                          fmt::join(plate.stresses.p, ", "));
+    if (joint.n_directions() == 1)
+      text += fmt::format("the force that holds the discs of {} across {} is not known without stresses\n", plate.name,
+                          joint.axis_name(0));
+  }
+  const double last = std::abs(path.steps.back().load_factor);
+  const bool past_peak = !all && std::any_of(path.steps.begin(), path.steps.end(),
+                                             [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
+  for (std::size_t i = all ? 0 : states.size() - 1; i < states.size(); ++i)
+    if (const std::string table = rim_table(joint, states[i]); !table.empty())
+      text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
+                          past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",
+                          table);
+  return text;
+}
+
+}  // namespace
+
+std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
+                    const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error,
+                    bool all_stresses) {
+  const std::size_t width = name_width(joint);
+  std::string text = title(scene, joint, path);
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    const PathStep& step = path.steps[i];
+    text += fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
+                        path.n_increments, step.load_factor, effort(path, step), step.residual);
+    if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
+    text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
+  }
+  if (!states.empty() && F_error) text += error_bar(joint, path, *F_error);
+  if (!states.empty()) text += legend + stress_tables(joint, path, states, all_stresses);
+  return text;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/output/warnings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/equations/implicit_slopes.hpp"
+#include "stage3_nonlinear/output/worst_of_kind.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+
+/// "increment 2 (load factor 0.5)"
+std::string increment_text(const LoadPath& path, const PathStep& step) {
+  return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
+}
+
+/// Each plane with the first increment at which it happens.
+void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  WorstOfKind worst;
+  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+    const ShearPlane& plane = joint.planes[j];
+    const double last = plane.law->last_delta(plane.clearance);
+    for (const auto& step : path.steps) {
+      const double delta = amounts(step.delta, joint.n_directions())[static_cast<Index>(j)];
+      const bool open = plane.one_sided && delta < 0;
+      if (open || std::abs(delta) <= last) continue;
+      worst.add(std::abs(delta) / last,
+                fmt::format("{}: {}: delta = {:.6g} at {} is beyond the last point "
+                            "{:.6g} of its law (gap included), which is extrapolated there",
+                            joint.file, joint.name(plane), delta, increment_text(path, step), last));
+      break;
+    }
+  }
+  worst.say(result);
+}
+
+std::string names(const JointModel& joint, const std::vector<Index>& planes) {
+  std::vector<std::string> result;
+  result.reserve(planes.size());
+  for (const Index j : planes) result.push_back(joint.name(joint.planes[static_cast<std::size_t>(j)]));
+  return fmt::format("{}", fmt::join(result, ", "));
+}
+
+/// How each plate moves, by its discs: "plate \"b\" by up to 1 along x".
+std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) {
+  constexpr double moves = 1e-3;  // of the largest displacement of the motion
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (Index d = 0; d < joint.n_directions(); ++d) {
+      double largest = 0;
+      for (Index disc = d; disc < joint.plates[i].n_discs(); disc += joint.n_directions())
+        if (const double u = motion[joint.offset(i) + disc]; std::abs(u) > std::abs(largest)) largest = u;
+      if (std::abs(largest) > moves)
+        parts.push_back(fmt::format("plate \"{}\" by {:.3g} along {}", joint.plates[i].name, largest,
+                                    joint.axis_name(static_cast<std::size_t>(d))));
+    }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+void warn_of_soft_plates(const JointModel& joint, std::vector<std::string>& result) {
+  constexpr double soft = 1e-8;
+  const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
+  const auto stiffest =
+      std::max_element(joint.plates.begin(), joint.plates.end(),
+                       [&](const PlateModel& a, const PlateModel& b) { return stiffness(a) < stiffness(b); });
+  for (const auto& plate : joint.plates)
+    if (const double share = stiffness(plate) / stiffness(*stiffest); share > 0 && share < soft)
+      result.push_back(
+          fmt::format("{}: plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the "
+                      "same units, and that its moduli and thickness are meant",
+                      joint.file, plate.name, share, stiffest->name));
+}
+
+/// Once per law.
+void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& result) {
+  std::set<std::string> said;
+  for (const auto& plane : joint.planes) {
+    const auto source = plane.law->source();
+    if (!source || !source->bearing_of_sheet) continue;
+    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)}) {
+      const PlateModel& plate = joint.plates[hole->plate];
+      const bool twice = plate.on_springs[static_cast<std::size_t>(hole->disc / joint.n_directions())];
+      if (!twice || !said.insert(plane.law_name).second) continue;
+      result.push_back(fmt::format(
+          "{}: /laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole \"{}\" have "
+          "already: the joint comes out too soft; take \"fastener only\"",
+          joint.file, plane.law_name, joint.name(*hole)));
+    }
+  }
+}
+
+void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  for (const bool limit : {false, true})
+    for (const auto& step : path.steps) {
+      if (!step.check.mechanism || step.check.at_limit_load() != limit) continue;
+      const Mechanism& mechanism = *step.check.mechanism;
+      const std::string free = motion_text(joint, mechanism.motion);
+      result.push_back(
+          limit ? fmt::format("{}: limit load reached at {}: the laws of {} allow no more force, and nothing else "
+                              "holds the joint; it moves on without more load, in proportion {}",
+                              joint.file, increment_text(path, step), names(joint, mechanism.level), free)
+                : fmt::format("{}: at {} the joint is a mechanism within the gaps of {}: the forces are right, the "
+                              "displacements are one of many; in proportion, it is free to move {}",
+                              joint.file, increment_text(path, step), names(joint, mechanism.open), free));
+      break;
+    }
+}
+
+void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                             std::vector<std::string>& result) {
+  if (const auto planes = planes_that_may_snap(equations); !planes.empty()) {
+    const std::string found =
+        !path.left           ? "the one given is followed from no load"
+        : path.left->guessed ? fmt::format(
+                                   "at load factor {:.6g} it could not be followed from the load before, where the "
+                                   "joint may have reached its limit load, and the one given was found from a "
+                                   "first guess (\"initial\")",
+                                   path.left->load_factor)
+                             : fmt::format(
+                                   "it is followed from no load up to load factor {:.6g}, where it jumps: the "
+                                   "one given from there on is another",
+                                   path.left->load_factor);
+    result.push_back(
+        fmt::format("{}: the law of {} falls more steeply than the plates hold against: the solution may be one of "
+                    "several; {}",
+                    joint.file, names(joint, planes), found));
+  }
+  for (const auto& step : path.steps)
+    if (step.check.unstable > 0 && !step.check.locking) {
+      result.push_back(fmt::format(
+          "{}: at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): "
+          "in reality it snaps through before; take a law that does not fall, or hold the joint by displacements",
+          joint.file, increment_text(path, step),
+          step.check.unstable == 1 ? "one way" : fmt::format("{} ways", step.check.unstable)));
+      break;
+    }
+}
+
+/// @param factor At most 1.
+std::string locking_text(double factor) {
+  return fmt::format(
+      "with friction {:.4g} times as large the joint locks itself: friction alone carries "
+      "the load there, and beyond it a solution need neither exist nor be the only one",
+      factor);
+}
+
+void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  for (const auto& step : path.steps) {
+    if (!step.check.locking) continue;
+    result.push_back(
+        fmt::format("{}: at {}, {}", joint.file, increment_text(path, step), locking_text(*step.check.locking)));
+    return;
+  }
+}
+
+/// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
+void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                       std::vector<std::string>& result) {
+  constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
+  const ContactMarks marks(equations.contacts);
+  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(equations.n_directions(), equations.n_planes());
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    const PathStep& step = path.steps[i];
+    const Eigen::VectorXd all = coordinates(equations.contacts, step.F, step.delta);
+    std::vector<Index> unloaded;
+    for (Index j = 0; j < most.cols(); ++j) {
+      const Eigen::VectorXd c = all.segment(j * most.rows(), most.rows());
+      const double before = most.col(j).norm();
+      const bool falls = c.norm() < less * before || most.col(j).dot(c) < turned * c.norm() * before;
+      if (c.norm() > before) most.col(j) = c;
+      const auto passed = [&](const Mark& mark) { return mark.corner != Corner::contact && mark.at < before; };
+      const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+      const bool curved = !contact.law->kinks(contact.stiffness, contact.clearance);
+      if (falls && (curved || std::any_of(marks.of(j).begin(), marks.of(j).end(), passed))) unloaded.push_back(j);
+    }
+    if (unloaded.empty()) continue;
+    result.push_back(
+        fmt::format("{}: increment {} (load factor {:.6g}) unloads {} along its loading curve: laws have no memory, "
+                    "but real fasteners "
+                    "keep a permanent set, so that forces from this increment on differ from theirs",
+                    joint.file, i + 1, step.load_factor, names(joint, unloaded)));
+    return;
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
+  std::vector<std::string> result;
+  warn_of_soft_plates(joint, result);
+  warn_of_bearing_twice(joint, result);
+  warn_beyond_last_point(joint, path, result);
+  warn_mechanism(joint, path, result);
+  warn_of_other_solutions(joint, equations, path, result);
+  warn_self_locking(joint, path, result);
+  warn_of_unloading(joint, equations, path, result);
+  return result;
+}
+
+std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
+                            std::size_t n_increments, const std::string& output) {
+  const std::string before = program::counted(failure.increment, "increment");
+  const std::string kept = fmt::format("{} holds the {} before (complete = 0).", output, before);
+  const std::string increment =
+      fmt::format("increment {} of {} (load factor {:.6g})", failure.increment + 1, n_increments, failure.load_factor);
+  if (!failure.unbalanced.empty())
+    return fmt::format(
+        "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
+        "carries "
+        "load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made by hand "
+        "see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
+        scene.file, increment, failure.unbalanced, failure.out_of_balance, failure.allowed, kept);
+  const std::string locking =
+      failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
+  if (!failure.level.empty())
+    return fmt::format(
+        "{}: limit load reached: beyond load factor {:.6g} the laws of {} allow no more force (a law that ends level "
+        "its last one, a cubic that turns down its peak); {} did not converge. {} "
+        "{}Take smaller loads, or more or stronger fasteners",
+        scene.file, failure.reached, names(joint, failure.level), increment, kept, locking);
+  const std::string at = std::isfinite(failure.residual)
+                             ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
+                             : std::string("every try ended past all that the law carries, at");
+  return fmt::format(
+      "{}: {} did not converge from the last increment, in half steps ({} times halved), or from any first guess; load "
+      "factor {:.6g} was reached; {} {}. {} {}Check the law and the clearance of that fastener, take smaller "
+      "increments, allow more than {} or, if the residual is close to it, a larger tolerance than {:.0e}; and see that "
+      "each plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of them "
+      "are open, and one-sided fasteners cannot pull it",
+      scene.file, increment, max_halvings, failure.reached, at,
+      joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]), kept, locking,
+      program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance);
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/path/exact_path.hpp"
+
+#include <Eigen/LU>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "stage3_nonlinear/equations/condition.hpp"
+#include "stage3_nonlinear/equations/piecewise_joint.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double rounding = 1e-12;  // relative, of solved rates and places
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A straight line of solutions in a cell: c = offset + t rate, where t is |lambda|, or at constant load a length.
+struct Line {
+  VectorXd offset, rate;
+  bool loads = true;  ///< t is |lambda|
+};
+
+/// A place where cells meet: a corner of a plane's curve, or b = 0 at a shared rim. Planes come first.
+struct Switch {
+  std::size_t at;      ///< plane, or number of planes + number among the shared rims
+  std::size_t corner;  ///< of the plane's curve
+
+  bool operator==(const Switch&) const = default;
+  bool operator<(const Switch& other) const { return at != other.at ? at < other.at : corner < other.corner; }
+};
+
+class Tracer {
+ public:
+  Tracer(const JointEquations& equations, double target)
+      : joint_(equations), cell_(joint_.start()), target_(std::abs(target)), path_{target < 0 ? -1.0 : 1.0, {}} {
+    c_ = VectorXd::Zero(equations.n_unknowns());
+    q_ = path_.sign * equations.system.q;
+  }
+
+  ExactPath trace() {
+    std::vector<Switch> tied = switches_near(c_, rounding);
+    auto line = leave(tied, {});
+    for (std::size_t steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
+      const auto [end, reached] = next(*line);
+      const double stop = line->loads ? std::min(end, target_) : end;
+      if (!std::isfinite(stop)) break;  // at constant load nothing bears
+      const bool moved = advance(*line, stop);
+      if (line->loads && stop >= target_) break;
+      // Corners that follow each other within rounding are left together.
+      auto here = switches_near(c_, rounding);
+      if (!moved) here.insert(here.end(), tied.begin(), tied.end());
+      here.insert(here.end(), reached.begin(), reached.end());
+      std::sort(here.begin(), here.end());
+      here.erase(std::unique(here.begin(), here.end()), here.end());
+      tied = std::move(here);
+      line = leave(tied, reached);
+    }
+    return std::move(path_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t most_steps() const {
+    std::size_t n = 10 + joint_.shared_rims().size();
+    for (std::size_t j = 0; j < joint_.n_planes(); ++j) n += joint_.curve(j).corners.size();
+    return 20 * n;
+  }
+
+  [[nodiscard]] bool is_plane(const Switch& s) const { return s.at < joint_.n_planes(); }
+  [[nodiscard]] Index rim(const Switch& s) const { return joint_.shared_rims()[s.at - joint_.n_planes()]; }
+
+  /// Corners at which c is, to a share of its largest entry.
+  [[nodiscard]] std::vector<Switch> switches_near(const VectorXd& c, double share) const {
+    std::vector<Switch> result;
+    const double near = share * c.cwiseAbs().maxCoeff();
+    for (std::size_t j = 0; j < joint_.n_planes(); ++j)
+      for (std::size_t i = 0; i < joint_.curve(j).corners.size(); ++i) {
+        const bool borders = i == cell_.piece[j] || i + 1 == cell_.piece[j];
+        if (borders && std::abs(c[static_cast<Index>(j)] - joint_.curve(j).corners[i]) <= near)
+          result.push_back({j, i});
+      }
+    for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i)
+      if (std::abs(joint_.rim_force(cell_, joint_.shared_rims()[i], c)) <= near)
+        result.push_back({joint_.n_planes() + i, 0});
+    return result;
+  }
+
+  void flip(const Switch& s) {
+    if (is_plane(s)) {
+      auto& piece = cell_.piece[s.at];
+      piece = piece == s.corner ? s.corner + 1 : s.corner;
+      joint_.follow_signs(cell_);
+    } else {
+      auto& side = cell_.side[static_cast<std::size_t>(rim(s))];
+      side = -side;
+    }
+  }
+
+  /// Whether the line leaves the cell at a switch where it begins.
+  [[nodiscard]] bool contradicts(const Switch& s, const Line& line, double least_rate) const {
+    const double rate = is_plane(s) ? line.rate[static_cast<Index>(s.at)] : joint_.rim_rate(cell_, rim(s), line.rate);
+    const bool above = is_plane(s) ? cell_.piece[s.at] > s.corner : cell_.side[static_cast<std::size_t>(rim(s))] > 0;
+    return (above ? -rate : rate) > least_rate;
+  }
+
+  /// The line on from here, and its cell, by least index from the cell beyond the switches reached; none if there is
+  /// none, or two that both come here: the path turns.
+  std::optional<Line> leave(const std::vector<Switch>& tied, const std::vector<Switch>& reached) {
+    for (const auto& s : reached) flip(s);
+    const std::size_t most_flips = 2 + 20 * tied.size();
+    for (std::size_t flips = 0; flips < most_flips; ++flips) {
+      auto line = line_in_cell();
+      if (!line) return std::nullopt;
+      const double least_rate = rounding * line->rate.cwiseAbs().maxCoeff();
+      const auto wrong =
+          std::find_if(tied.begin(), tied.end(), [&](const Switch& s) { return contradicts(s, *line, least_rate); });
+      if (wrong == tied.end()) return line;
+      flip(*wrong);
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] std::optional<Line> line_in_cell() const {
+    const auto [J, offset] = joint_.equations(cell_);
+    const Eigen::PartialPivLU<MatrixXd> lu(J);
+    constexpr double singular = 1e-13;
+    if (least_stretch(lu, J) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
+    return line_without_stiffness(J);
+  }
+
+  /// Where some motion meets no stiffness: the shortest way that balances the load, or else that motion itself, in the
+  /// sense of the load.
+  [[nodiscard]] std::optional<Line> line_without_stiffness(const MatrixXd& J) const {
+    constexpr double balanced = 1e-9;
+    Eigen::CompleteOrthogonalDecomposition<MatrixXd> shortest;
+    shortest.setThreshold(rounding);
+    shortest.compute(J);
+    const VectorXd rate = shortest.solve(q_);
+    if ((J * rate - q_).norm() <= balanced * q_.norm()) return Line{c_ - load_ * rate, rate};
+    // The rest of the load, projected on the motions without stiffness, drives them (docs/theory.md, section 8.6).
+    const VectorXd left = q_ - J * rate;
+    const VectorXd motion = left - shortest.solve(J * left);
+    if (!(motion.norm() > balanced * left.norm())) return std::nullopt;
+    return Line{c_, motion, false};
+  }
+
+  /// Parameter at which the line ends, and the switches there.
+  [[nodiscard]] std::pair<double, std::vector<Switch>> next(const Line& line) const {
+    const double now = line.loads ? load_ : 0;
+    const double least_rate = rounding * line.rate.cwiseAbs().maxCoeff();
+    double end = infinity;
+    std::vector<Switch> reached;
+    const auto meet = [&](double t, const Switch& s) {
+      if (t < end) {
+        end = std::max(t, now);
+        reached.assign(1, s);
+      }
+    };
+    for (std::size_t j = 0; j < joint_.n_planes(); ++j) {
+      const double rate = line.rate[static_cast<Index>(j)];
+      const auto& corners = joint_.curve(j).corners;
+      const std::size_t piece = cell_.piece[j];
+      const bool up = rate > 0;
+      if (std::abs(rate) <= least_rate || (up ? piece == corners.size() : piece == 0)) continue;
+      const std::size_t corner = up ? piece : piece - 1;
+      meet((corners[corner] - line.offset[static_cast<Index>(j)]) / rate, {j, corner});
+    }
+    for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i) {
+      const Index at = joint_.shared_rims()[i];
+      const double rate = joint_.rim_rate(cell_, at, line.rate);
+      if (!(cell_.side[static_cast<std::size_t>(at)] * rate < -least_rate)) continue;
+      meet(-joint_.rim_force(cell_, at, line.offset) / rate, {joint_.n_planes() + i, 0});
+    }
+    return {end, reached};
+  }
+
+  /// Goes along the line; whether that is further than rounding.
+  bool advance(const Line& line, double t) {
+    const double now = line.loads ? load_ : 0;
+    const bool moved = t - now > rounding * t;
+    c_ = line.offset + t * line.rate;
+    if (line.loads && t > load_) {
+      path_.pieces.push_back({load_, t, line.offset, line.rate});
+      load_ = t;
+    }
+    return moved;
+  }
+
+  PiecewiseJoint joint_;
+  Cell cell_;
+  double target_;
+  ExactPath path_;
+  VectorXd c_, q_;
+  double load_ = 0;  ///< |lambda|
+};
+
+}  // namespace
+
+std::size_t ExactPath::piece_of(double load_factor) const {
+  assert(!pieces.empty());
+  const double load = std::abs(load_factor);
+  const auto found =
+      std::lower_bound(pieces.begin(), pieces.end(), load, [](const PathPiece& p, double x) { return p.end < x; });
+  return static_cast<std::size_t>((found == pieces.end() ? found - 1 : found) - pieces.begin());
+}
+
+VectorXd ExactPath::at(double load_factor) const {
+  const PathPiece& piece = pieces[piece_of(load_factor)];
+  return piece.offset + std::abs(load_factor) * piece.rate;
+}
+
+ExactPath exact_path(const JointEquations& equations, double target) {
+  assert(is_piecewise_linear(equations));
+  return Tracer(equations, target).trace();
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/path/walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "stage3_nonlinear/equations/first_guess.hpp"
+#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
+#include "stage3_nonlinear/solvers/newton_solver.hpp"
+
+namespace fastjoint::stage3 {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+double force_scale(const CondensedSystem& system, double load_factor) {
+  const double scale = std::abs(load_factor) * system.q.lpNorm<Eigen::Infinity>();
+  return scale > 0 ? scale : 1;
+}
+
+Walk::Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact)
+    : equations_(equations),
+      options_(options),
+      solver_(options.solver.method == Method::damped_newton ? newton_root : hybridsj_root),
+      may_snap_(!planes_that_may_snap(equations).empty()),
+      exact_(std::move(exact)),
+      here_{0, VectorXd::Zero(equations.n_unknowns())} {
+  constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
+  for (const Contact& contact : equations.contacts)
+    rounding_ = std::max(rounding_, rounding * contact.stiffness * contact.law->gap(contact.clearance));
+}
+
+bool Walk::is_small(double residual) const {
+  return residual <= std::max(options_.solver.tolerance * scale_, rounding_);
+}
+
+bool Walk::reach(double target) {
+  iterations_ = 0;
+  for (const auto& path : exact_)  // its end tells where to go on from
+    if (path.sign * target > path.reach() && path.reach() > path.sign * here_.load_factor)
+      solve_from_here(path.sign * path.reach());
+  const Place before = here_;
+  const bool started = may_snap_ || here_.load_factor != 0;
+  if (started && follow(target, max_halvings)) return true;
+  const Place furthest = std::exchange(here_, before);
+  if (!guess(target, max_halvings)) {
+    if (std::abs(target - furthest.load_factor) < std::abs(target - here_.load_factor)) here_ = furthest;
+    return false;
+  }
+  if (may_snap_ && !left_) left_ = {target, true};
+  return true;
+}
+
+void Walk::put(Place place, int iterations) {
+  here_ = std::move(place);
+  iterations_ = iterations;
+}
+
+PathStep Walk::step() const {
+  const auto state = contact_state(equations_.contacts, here_.c);
+  const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor);
+  // On a corner of its law the side counts on which a fastener bears more.
+  const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
+  return {.load_factor = here_.load_factor,
+          .F = state.F,
+          .delta = state.delta,
+          .iterations = iterations_,
+          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_.system, here_.load_factor),
+          .check = check_tangent(equations_, contact_state(equations_.contacts, beyond)),
+          .exact = here_.exact};
+}
+
+PathFailure Walk::failure(std::size_t increment, double load_factor) const {
+  return {increment,           load_factor,
+          here_.load_factor,   worst_row_ / equations_.n_directions(),
+          worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
+          locking(load_factor)};
+}
+
+std::optional<double> Walk::locking(double load_factor) const {
+  const auto last = self_locking(equations_.system, contact_state(equations_.contacts, here_.c).F);
+  const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q);
+  return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
+}
+
+/// From the last state only.
+bool Walk::follow(double target, int halvings_left) {
+  const Place start = here_;
+  const bool whole = solve_from_here(target);
+  if (whole && (target == 0 || here_.exact || !may_snap_)) return true;
+  const Place there = here_;
+  const double middle = 0.5 * (start.load_factor + target);
+  if (whole) {
+    here_ = start;
+    constexpr double same = 1e-3;
+    if (solve_from_here(middle) && solve_from_here(target) &&
+        (here_.c - there.c).cwiseAbs().maxCoeff() <= same * there.c.cwiseAbs().maxCoeff())
+      return true;
+  }
+  here_ = start;
+  if (halvings_left > 0) return follow(middle, halvings_left - 1) && follow(target, halvings_left - 1);
+  if (!whole) return false;
+  here_ = there;
+  if (!left_) left_ = {target, false};
+  return true;
+}
+
+bool Walk::guess(double target, int halvings_left) {
+  if (take_known(target) || solve_from_guesses(target)) return true;
+  if (halvings_left == 0) return false;
+  const double middle = 0.5 * (here_.load_factor + target);
+  return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
+}
+
+bool Walk::solve_from_here(double target) { return take_known(target) || solve_from({here_.c}, target); }
+
+bool Walk::take_known(double target) {
+  worst_residual_ = std::numeric_limits<double>::infinity();
+  scale_ = force_scale(equations_.system, target);
+  if (target == 0) {  // without load the joint as it was built is in equilibrium, exactly
+    here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
+    return true;
+  }
+  return take_exact(target);
+}
+
+bool Walk::solve_from_guesses(double target) {
+  auto starts = first_guesses(equations_, options_.initial, target);
+  starts.insert(here_.load_factor != 0 ? starts.begin() : starts.end(), here_.c);
+  if (may_snap_)  // far out, where nothing else has led to any of several solutions
+    for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
+  return solve_from(starts, target) || solve_by_turns(target);
+}
+
+bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
+  const auto problem = root_problem(equations_, target, scale_);
+  const auto solved_by = [&](SolveFunction solver) {
+    return std::any_of(starts.begin(), starts.end(),
+                       [&](const VectorXd& start) { return take(run(problem, start, solver), target); });
+  };
+  return solved_by(solver_) || (solver_ != newton_root && solved_by(newton_root));
+}
+
+bool Walk::take_exact(double target) {
+  for (const auto& path : exact_) {
+    if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
+    const VectorXd c = path.at(target);
+    const auto state = contact_state(equations_.contacts, c);
+    const VectorXd r = equations_.system.residual(state.F, state.delta, target);
+    if (!is_small(r.lpNorm<Eigen::Infinity>())) return false;
+    iterations_ += static_cast<int>(path.piece_of(target)) + 1;
+    here_ = {target, c, true};
+    return true;
+  }
+  return false;
+}
+
+/// Friction of the turn before as a load: each turn then has a solution that damped Newton finds, and the turns
+/// converge where friction changes the forces by less than themselves.
+bool Walk::solve_by_turns(double target) {
+  constexpr int most_turns = 50;
+  if (!equations_.system.has_friction() || equations_.metric.size() == 0) return false;
+  const auto problem = root_problem(equations_, target, scale_);
+  VectorXd c = here_.c;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const VectorXd F = contact_state(equations_.contacts, c).F;
+    const Root root = run(root_problem(equations_, target, scale_, &F), c, newton_root);
+    if (!root.converged) return false;
+    c = scale_ * root.x;
+    if (take(run(problem, c, newton_root), target)) return true;
+  }
+  return false;
+}
+
+Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction solver) {
+  Root root = solver(problem, start / scale_, {options_.solver.tolerance, options_.solver.max_iterations});
+  iterations_ += root.iterations;
+  return root;
+}
+
+bool Walk::take(const Root& root, double target) {
+  if (!root.converged && !is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>())) {
+    note_failure(root);
+    return false;
+  }
+  const VectorXd c = scale_ * root.x;
+  if (const auto spent = contact_state(equations_.contacts, c).spent) {
+    if (std::isinf(worst_residual_)) {
+      worst_row_ = *spent * equations_.n_directions();
+      best_ = c;
+    }
+    return false;
+  }
+  here_ = {target, c};
+  return true;
+}
+
+/// Of all tries the one that came closest counts.
+void Walk::note_failure(const Root& root) {
+  Index at = 0;
+  const double worst = root.residual.cwiseAbs().maxCoeff(&at);
+  if (!(worst < worst_residual_)) return;
+  worst_residual_ = worst;
+  worst_row_ = at;
+  best_ = scale_ * root.x;
+}
+
+}  // namespace fastjoint::stage3

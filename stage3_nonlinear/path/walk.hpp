@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "stage3_nonlinear/path/exact_path.hpp"
+#include "stage3_nonlinear/path/path_result.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Where a walk along the load factors is.
+struct Place {
+  double load_factor = 0;
+  Eigen::VectorXd c;   ///< (n a) contact coordinates, force
+  bool exact = false;  ///< on an exact path
+};
+
+/// One walk along the load factors: what has converged, and what it took.
+class Walk {
+ public:
+  /// @param exact Paths to go by as far as they reach; where one ends, the solvers go on.
+  Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact = {});
+
+  /// Goes to a load factor, as load_path.hpp says; false if nothing led there.
+  bool reach(double target);
+  [[nodiscard]] const Place& here() const { return here_; }
+  /// Goes on from a solution found elsewhere by so many iterations.
+  void put(Place place, int iterations);
+
+  [[nodiscard]] PathStep step() const;
+  [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const;
+
+  /// The place where the path from no load was left, if it was.
+  [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
+
+ private:
+  /// On the sides that bear at the last load factor, or would with rigid fasteners without friction: the lower level.
+  [[nodiscard]] std::optional<double> locking(double load_factor) const;
+  /// A residual within the tolerance, or within rounding, force.
+  [[nodiscard]] bool is_small(double residual) const;
+  bool follow(double target, int halvings_left);
+  bool guess(double target, int halvings_left);
+  bool solve_from_here(double target);
+  /// At no load, or on an exact path.
+  bool take_known(double target);
+  bool solve_from_guesses(double target);
+  bool solve_from(const std::vector<Eigen::VectorXd>& starts, double target);
+  bool take_exact(double target);
+  bool solve_by_turns(double target);
+  Root run(const RootProblem& problem, const Eigen::VectorXd& start, SolveFunction solver);
+  bool take(const Root& root, double target);
+  void note_failure(const Root& root);
+
+  const JointEquations& equations_;
+  const PathOptions& options_;
+  SolveFunction solver_;
+  double rounding_ = 0;  ///< what wide gaps leave of residuals, force
+  double scale_ = 1;     ///< of the load factor that is tried, force
+  bool may_snap_;        ///< the solution may be one of several
+  std::vector<ExactPath> exact_;
+  Place here_;
+  int iterations_ = 0;
+  std::optional<PathLeft> left_;
+  double worst_residual_ = 0;  ///< of the best try
+  Eigen::Index worst_row_ = 0;
+  Eigen::VectorXd best_;  ///< contact coordinates of the best try
+};
+
+/// Largest |q| at a load factor, force; 1 if nothing reaches the fasteners.
+[[nodiscard]] double force_scale(const CondensedSystem& system, double load_factor);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/joint_state.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// The laws' forces on the plates by fastener and hole, each (a), force.
+using Bearing = std::vector<std::vector<VectorXd>>;
+
+Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
+  const Index a = joint.n_directions();
+  Bearing bearing;
+  for (const auto& fastener : joint.fasteners) bearing.emplace_back(fastener.holes.size(), VectorXd::Zero(a));
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    bearing[plane.fastener][plane.first] -= F.segment(j * a, a);
+    bearing[plane.fastener][plane.first + 1] += F.segment(j * a, a);
+  }
+  return bearing;
+}
+
+/// Null without friction.
+const FrictionLoad* friction_at(const HoleModel& hole, Index direction, double bearing) {
+  if (hole.friction.empty()) return nullptr;
+  return &hole.friction[static_cast<std::size_t>(direction)][bearing < 0 ? minus_side : plus_side];
+}
+
+/// @param side 0: in the first hole of each plane, 1: in the second.
+VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, std::size_t side) {
+  const Index a = joint.n_directions();
+  VectorXd result = F;
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    const std::size_t hole = plane.first + side;
+    for (Index d = 0; d < a; ++d)
+      if (const auto* friction =
+              friction_at(joint.fasteners[plane.fastener].holes[hole], d, bearing[plane.fastener][hole][d]))
+        result[j * a + d] *= friction->bearing + friction->resultant;
+  }
+  return amounts(result, a);
+}
+
+/// What acts on one plate and what its rows ask for, force.
+struct PlateForces {
+  VectorXd asked;     ///< (m+e) S u + R Lambda + T f
+  VectorXd discs;     ///< (m) by the fasteners' bearing
+  VectorXd friction;  ///< (m) by their friction
+  VectorXd Lambda;    ///< (h) stress
+};
+
+void add_hole(PlateForces& forces, const HoleModel& hole, const VectorXd& bearing) {
+  for (Index d = 0; d < bearing.size(); ++d) {
+    const double b = bearing[d];
+    const FrictionLoad* friction = friction_at(hole, d, b);
+    forces.discs[hole.disc + d] += friction ? friction->bearing * b : b;
+    if (!friction || friction->load.size() == 0) continue;
+    forces.asked += friction->load * std::abs(b);
+    forces.Lambda[friction->case_index] += friction->peak * std::abs(b);
+    forces.friction[hole.disc + d] += b * friction->resultant;
+  }
+}
+
+PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd& u, double load_factor,
+                         const Bearing& bearing) {
+  const PlateModel& plate = joint.plates[at];
+  const VectorXd none = VectorXd::Zero(plate.n_discs());
+  PlateForces forces{plate.S * u + load_factor * (plate.T * plate.traction_force), none, none,
+                     VectorXd::Zero(plate.friction_unit_force.size())};
+  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
+    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
+      if (joint.fasteners[i].holes[hole].plate == at)
+        add_hole(forces, joint.fasteners[i].holes[hole], bearing[i][hole]);
+  return forces;
+}
+
+void add_sums(PlateState& state, const PlateModel& plate, const PlateForces& forces) {
+  for (Index i = 0; i < state.Pe.size(); ++i)
+    state.applied[plate.external_axis[static_cast<std::size_t>(i)]] += state.Pe[i];
+  for (Index i = 0; i < state.traction.size(); ++i)
+    state.applied[plate.traction_axis[static_cast<std::size_t>(i)]] += state.traction[i];
+  for (Index i = 0; i < plate.n_discs(); ++i)
+    state.by_fasteners[plate.axis_of(i)] += forces.discs[i] + forces.friction[i];
+  state.by_supports = -(state.applied + state.by_fasteners);
+}
+
+/// Fills in the plate and returns its worst row, force.
+double fill(PlateState& state, const PlateModel& plate, const PlateForces& forces, const VectorXd& u, double factor) {
+  const Index m = plate.n_discs();
+  state.D = u.head(m);
+  state.De = u.tail(plate.n_externals());
+  state.Pe = factor * plate.external_force;
+  state.Lambda = forces.Lambda;
+  state.traction = factor * plate.traction_force;
+  VectorXd amounts(state.De.size() + m + state.Lambda.size() + state.traction.size());
+  amounts << state.De, state.D, state.Lambda, state.traction;
+  state.rims = rim_states(plate, {amounts, forces.discs, forces.friction});
+  double worst = (forces.asked.head(m) - forces.discs).cwiseAbs().maxCoeff();
+  for (Index i = 0; i < state.Pe.size(); ++i) {
+    if (plate.external_displacement[static_cast<std::size_t>(i)]) {
+      state.Pe[i] = forces.asked[m + i];
+    } else {
+      worst = std::max(worst, std::abs(forces.asked[m + i] - state.Pe[i]));
+    }
+  }
+  add_sums(state, plate, forces);
+  return worst;
+}
+
+/// What the holes of a fastener give it altogether, bearing and friction: worst component of all fasteners, force.
+double worst_fastener(const JointModel& joint, const std::vector<PlateForces>& plates) {
+  double worst = 0;
+  for (const auto& fastener : joint.fasteners) {
+    VectorXd sum = VectorXd::Zero(joint.n_directions());
+    for (const auto& hole : fastener.holes) {
+      const PlateForces& forces = plates[hole.plate];
+      sum += (forces.discs + forces.friction).segment(hole.disc, sum.size());
+    }
+    worst = std::max(worst, sum.lpNorm<Eigen::Infinity>());
+  }
+  return worst;
+}
+
+/// What the supports of a plate must give along axes along which it has none, since it moves as one without force:
+/// worst of them, force; none if there are no such axes.
+std::optional<double> given_by_no_support(const PlateModel& plate, const PlateState& state) {
+  constexpr double rounding = 1e-9;
+  std::optional<double> worst;
+  for (const int axis : {0, 1}) {
+    VectorXd motion(plate.n_unknowns());
+    for (Index i = 0; i < motion.size(); ++i) {
+      const Index external = i - plate.n_discs();
+      motion[i] = (external < 0 ? plate.axis_of(i) : plate.external_axis[static_cast<std::size_t>(external)]) == axis;
+    }
+    if (motion.isZero(0) || (plate.S * motion).norm() > rounding * plate.S.norm()) continue;
+    worst = std::max(worst.value_or(0), std::abs(state.by_supports[axis]));
+  }
+  return worst;
+}
+
+/// Of a plane, in ascending order.
+std::array<std::size_t, 2> plates_of(const JointModel& joint, Index plane) {
+  const ShearPlane& at = joint.planes[static_cast<std::size_t>(plane)];
+  const auto [lower, higher] = std::minmax(joint.first_hole(at).plate, joint.second_hole(at).plate);
+  return {lower, higher};
+}
+
+/// Forces of the planes with the sign that they have when the lower plate comes first; amounts have none.
+VectorXd from_lower_plate(const JointModel& joint, VectorXd forces) {
+  for (Index j = 0; j < forces.size() && joint.n_directions() == 1; ++j)
+    if (joint.first_hole(joint.planes[static_cast<std::size_t>(j)]).plate != plates_of(joint, j)[0])
+      forces[j] = -forces[j];
+  return forces;
+}
+
+}  // namespace
+
+JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
+  const VectorXd D = system.displacements(step.F, step.delta, step.load_factor);
+  JointState state;
+  state.plates.resize(joint.plates.size());
+  const Bearing bearing = bearing_forces(joint, step.F);
+  state.transferred_first = transferred(joint, step.F, bearing, 0);
+  state.transferred_second = transferred(joint, step.F, bearing, 1);
+  state.largest_force = step.F.lpNorm<Eigen::Infinity>();
+  std::vector<PlateForces> forces;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
+    forces.push_back(plate_forces(joint, i, u, step.load_factor, bearing));
+    state.out_of_balance = std::max(state.out_of_balance, fill(state.plates[i], plate, forces[i], u, step.load_factor));
+    if (const auto sheet = given_by_no_support(plate, state.plates[i]))
+      state.sheets_out_of_balance = std::max(state.sheets_out_of_balance.value_or(0), *sheet);
+    const double traction = std::abs(step.load_factor) * plate.traction_force.lpNorm<Eigen::Infinity>();
+    state.largest_force = std::max({state.largest_force, state.plates[i].Pe.lpNorm<Eigen::Infinity>(), traction});
+  }
+  state.fasteners_out_of_balance = worst_fastener(joint, forces);
+  if (!(state.largest_force > 0)) return state;
+  for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;
+  if (state.sheets_out_of_balance) *state.sheets_out_of_balance /= state.largest_force;
+  return state;
+}
+
+std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system, double tolerance,
+                                        LoadPath& path) {
+  const double allowed = std::max(1e-8, 10 * tolerance);
+  std::vector<JointState> states;
+  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+    JointState state = joint_state(joint, system, path.steps[i]);
+    const auto [worst, what] =
+        std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
+                  std::pair(state.sheets_out_of_balance.value_or(0), "a sheet")});
+    if (!(worst <= allowed)) {
+      const double reached = i > 0 ? path.steps[i - 1].load_factor : 0;
+      path.failure = PathFailure{i, path.steps[i].load_factor, reached, 0, 0, {}, {}, what, worst, allowed};
+      path.steps.erase(path.steps.begin() + static_cast<std::ptrdiff_t>(i), path.steps.end());
+      break;
+    }
+    states.push_back(std::move(state));
+  }
+  return states;
+}
+
+VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
+  constexpr double rounding = 1e-9;
+  const VectorXd passed = from_lower_plate(joint, transferred);
+  VectorXd result(passed.size());
+  for (Index j = 0; j < result.size(); ++j) {
+    double sum = 0, amount = 0;
+    for (Index i = 0; i < result.size(); ++i) {
+      if (plates_of(joint, i) != plates_of(joint, j)) continue;
+      sum += passed[i];
+      amount += std::abs(passed[i]);
+    }
+    const bool known = std::abs(sum) > rounding * amount;
+    result[j] = known ? 100 / sum * passed[j] : std::numeric_limits<double>::quiet_NaN();
+  }
+  return result;
+}
+
+}  // namespace fastjoint::stage3

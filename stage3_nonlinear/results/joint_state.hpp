@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "stage3_nonlinear/equations/condensed_system.hpp"
+#include "stage3_nonlinear/path/path_result.hpp"
+#include "stage3_nonlinear/results/rim_state.hpp"
+
+namespace fastjoint::stage3 {
+
+/// One plate at one increment.
+struct PlateState {
+  Eigen::VectorXd D;           ///< (m) disc displacements, length
+  Eigen::VectorXd De, Pe;      ///< (e) displacements of the rigid externals and forces on them, length, force
+  Eigen::VectorXd Lambda;      ///< (h) peak stress of each friction case, stress
+  Eigen::VectorXd traction;    ///< (q) force on each traction boundary, force
+  std::vector<RimState> rims;  ///< of every hole that the plate's stresses know
+  // Sums of the forces that act on the plate along x and y, force.
+  Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
+  Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction
+  Eigen::Vector2d by_supports{0, 0};   ///< the remainder: what stage 1's supports must give
+};
+
+/// The whole joint at one increment, from the plates' own matrices.
+struct JointState {
+  std::vector<PlateState> plates;
+  /// What each plane transfers, friction included, by the friction of its first and of its second hole, by amount where
+  /// the discs have two directions, (n), force; a fastener in balance transfers one and the same.
+  Eigen::VectorXd transferred_first, transferred_second;
+  double largest_force = 0;  ///< of externals, tractions and fasteners
+  // Over the largest force:
+  double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
+  double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of a fastener give it
+  /// Worst sum of all forces on a sheet along an axis along which nothing supports it; none if there is none.
+  std::optional<double> sheets_out_of_balance;
+};
+
+/// The states of all steps. A path whose forces do not balance, to 1e-8 of the largest or to what the solver's
+/// tolerance leaves, ends there: rounding carries load.
+[[nodiscard]] std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system,
+                                                      double tolerance, LoadPath& path);
+
+[[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
+
+/// Per cent of the sum over all planes between the same two plates, whichever their fasteners name first, shape (n);
+/// NaN where the sum is nothing but rounding.
+[[nodiscard]] Eigen::VectorXd shares(const JointModel& joint, const Eigen::VectorXd& transferred);
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/scene/joint_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/errors.hpp"
+#include "common/input/value.hpp"
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/scene/scene_check.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using input::Value;
+
+constexpr int most_increments = 100000;
+constexpr int most_iterations = 1000000;
+/// Rounding sets the lower end; a joint known to less than the upper end is not solved.
+constexpr input::Range tolerances{.low = 1e-14, .high = 1e-2};
+
+std::string where(const std::string& file, const Value& value) { return fmt::format("{}: {}", file, value.pointer()); }
+
+/// Splits at the first colon: the names of holes may hold colons, those of plates may not.
+Reference read_reference(const std::string& file, const Value& value, const char* kind) {
+  const std::string text = value.text();
+  const auto colon = text.find(':');
+  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
+    value.not_allowed(fmt::format("\"plate:{}\"", kind));
+  return {text.substr(0, colon), text.substr(colon + 1), where(file, value)};
+}
+
+std::vector<PlateScene> read_plates(const std::string& file, const Value& plates) {
+  const auto folder = std::filesystem::path(file).parent_path();
+  std::vector<PlateScene> result;
+  for (const auto& [name, plate] : plates.members()) {
+    if (name.find_first_of(":/") != std::string::npos || name == ".")
+      plate.fail("name of a plate", "names without ':' and '/', other than \".\"");
+    if (plate.is_object()) plate.only({"file", "digest"});
+    const Value path = plate.is_object() ? plate.at("file") : plate;
+    const auto digest = plate.is_object() ? plate.find("digest") : std::nullopt;
+    result.push_back({name, (folder / path.text()).string(), where(file, plate), digest ? digest->text() : ""});
+  }
+  if (result.size() < 2) plates.fail(program::counted(result.size(), "plate"), "at least 2");
+  return result;
+}
+
+void read_laws(const Value& laws, JointScene& scene) {
+  for (const auto& [name, value] : laws.members()) {
+    LawScene law{read_law(value)};
+    if (const auto file = value.find("file"))
+      law.file = (std::filesystem::path(scene.file).parent_path() / file->text()).string();
+    if (const auto one_sided = value.find("one_sided")) law.one_sided = one_sided->boolean();
+    for (const auto& doubt : law.law->doubts())
+      scene.warnings.push_back(fmt::format("{}: {}", where(scene.file, value), doubt));
+    scene.laws.emplace(name, std::move(law));
+  }
+  if (scene.laws.empty()) laws.fail("no law", "at least one");
+}
+
+/// A number for all holes, or {"plate": mu} where a plate left out has none.
+std::vector<double> read_friction(const Value& value, const std::vector<Reference>& between) {
+  if (!value.is_object()) return std::vector<double>(between.size(), value.number(input::not_negative));
+  std::vector<double> friction(between.size(), 0.0);
+  for (const auto& [plate, mu] : value.members()) {
+    const auto is_named = [&name = plate](const Reference& hole) { return hole.plate == name; };
+    const auto hole = std::find_if(between.begin(), between.end(), is_named);
+    if (hole == between.end()) {
+      std::vector<std::string> plates;
+      plates.reserve(between.size());
+      for (const auto& each : between) plates.push_back(each.plate);
+      mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
+    }
+    friction[static_cast<std::size_t>(hole - between.begin())] = mu.number(input::not_negative);
+  }
+  return friction;
+}
+
+/// One value for all shear planes, or a list with one for each.
+template <class Read>
+auto for_each_plane(const Value& value, std::size_t n_planes, Read read) {
+  if (!value.is_array()) return std::vector(n_planes, read(value));
+  std::vector<decltype(read(value))> result;
+  for (const auto& item : value.items(n_planes, n_planes)) result.push_back(read(item));
+  return result;
+}
+
+FastenerScene read_fastener(const Value& value, const JointScene& scene) {
+  value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction"});
+  FastenerScene fastener;
+  fastener.where = where(scene.file, value);
+  fastener.id = value.at("id").text();
+  for (const auto& hole : value.at("between").items(2))
+    fastener.between.push_back(read_reference(scene.file, hole, "hole"));
+  const std::size_t n_planes = fastener.between.size() - 1;
+  std::vector<std::string> laws;
+  laws.reserve(scene.laws.size());
+  for (const auto& [name, law] : scene.laws) laws.push_back(name);
+  fastener.law = for_each_plane(value.at("law"), n_planes, [&](const Value& law) { return law.choice(laws); });
+  fastener.clearance.assign(n_planes, 0.0);
+  if (const auto clearance = value.find("clearance"))
+    fastener.clearance =
+        for_each_plane(*clearance, n_planes, [](const Value& gap) { return gap.number(input::not_negative); });
+  fastener.friction.assign(fastener.between.size(), 0.0);
+  if (const auto friction = value.find("friction")) fastener.friction = read_friction(*friction, fastener.between);
+  if (const auto includes = value.find("law_includes_friction")) fastener.law_includes_friction = includes->boolean();
+  return fastener;
+}
+
+LoadScene read_load(const std::string& file, const Value& value) {
+  value.only({"external", "force", "displacement"});
+  LoadScene load;
+  load.external = read_reference(file, value.at("external"), "external");
+  const auto force = value.find("force");
+  const auto displacement = value.find("displacement");
+  if (force && displacement) value.fail("both \"force\" and \"displacement\"", "exactly one of them");
+  if (force) {
+    load.value = force->number();
+  } else if (displacement) {
+    load.value = displacement->number();
+    load.is_displacement = true;
+  } else {
+    value.fail("neither \"force\" nor \"displacement\"", "exactly one of them");
+  }
+  return load;
+}
+
+bool is_at_events(const Value& increments) {
+  if (increments.is_array() || increments.is_number()) return false;
+  if (!increments.is_string() || increments.text() != "events")
+    increments.not_allowed(
+        fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", most_increments));
+  return true;
+}
+
+std::vector<double> read_increments(const Value& value) {
+  std::vector<double> factors;
+  if (value.is_array()) {
+    for (const auto& item : value.items(1, most_increments)) factors.push_back(item.number());
+  } else {
+    const int n = value.integer(1, most_increments);
+    for (int i = 1; i <= n; ++i) factors.push_back(static_cast<double>(i) / n);
+  }
+  return factors;
+}
+
+InitialScene read_initial(const Value& value) {
+  if (value.is_object()) {
+    value.only({"linear"});
+    return {Guess::linear, value.at("linear").number(input::positive)};
+  }
+  if (!value.is_string()) value.not_allowed("\"rigid\", \"equal\" or {\"linear\": stiffness}");
+  return {value.choice({"rigid", "equal"}) == "rigid" ? Guess::rigid : Guess::equal, std::nullopt};
+}
+
+/// The exact path needs laws that are linear between corners.
+void check_exact_path(const JointScene& scene, const Value& method) {
+  for (const auto& fastener : scene.fasteners)
+    for (const auto& name : fastener.law)
+      if (!scene.laws.at(name).law->kinks(1, 0))
+        method.fail(fmt::format("\"exact path\", but law \"{}\" of fastener \"{}\" is curved", name, fastener.id),
+                    "another method, or linear, formula, bilinear and four stage laws and power laws with n = 1");
+}
+
+SolverScene read_solver(const Value& value, const JointScene& scene) {
+  value.only({"method", "tolerance", "max_iterations"});
+  SolverScene solver;
+  if (const auto method = value.find("method")) {
+    const std::string name = method->choice(method_names);
+    const auto at = std::find(method_names.begin(), method_names.end(), name) - method_names.begin();
+    solver.method = static_cast<Method>(at + 1);
+    if (solver.method == Method::exact_path) check_exact_path(scene, *method);
+  }
+  if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
+  if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);
+  return solver;
+}
+
+Units read_units(const Value& value) {
+  value.only({"length", "force"});
+  return {value.at("length").text(), value.at("force").text()};
+}
+
+}  // namespace
+
+JointScene read_joint_scene(const input::Document& document) {
+  const Value root(document);
+  input::check_format(root, "joint");
+  root.only({"$schema", "format", "version", "name", "units", "plates", "laws", "fasteners", "loads", "increments",
+             "initial", "solver"});
+  JointScene scene;
+  scene.file = document.file;
+  if (const auto name = root.find("name")) scene.name = name->text();
+  if (const auto units = root.find("units")) scene.units = read_units(*units);
+  scene.plates = read_plates(scene.file, root.at("plates"));
+  read_laws(root.at("laws"), scene);
+  for (const auto& item : root.at("fasteners").items(1)) scene.fasteners.push_back(read_fastener(item, scene));
+  for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(scene.file, item));
+  if (const auto increments = root.find("increments")) {
+    scene.at_events = is_at_events(*increments);
+    if (!scene.at_events) scene.load_factors = read_increments(*increments);
+  }
+  if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
+  if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver, scene);
+  check_scene(scene);
+  return scene;
+}
+
+void refuse(const std::string& where, const std::string& found, const std::string& allowed) {
+  throw InputError(fmt::format("{}: {}; allowed: {}", where, found, allowed));
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/input/json.hpp"
+#include "common/units.hpp"
+#include "stage3_nonlinear/laws/law.hpp"
+
+namespace fastjoint::stage3 {
+
+/// "plate:name" of the input, and where it stands there ("FILE: POINTER") for messages.
+struct Reference {
+  std::string plate, name, where;
+};
+
+struct PlateScene {
+  std::string name;
+  std::string file;  ///< path of its MATRICES.h5, relative to the current folder
+  std::string where;
+  std::string digest{};  ///< that the file must have; empty: any
+};
+
+struct LawScene {
+  std::shared_ptr<const Law> law;
+  bool one_sided = false;
+  std::string file{};  ///< path of its points if they stand in a file of their own
+};
+
+/// A fastener through h >= 2 holes in their order along its axis: h - 1 shear planes, each between neighbours.
+struct FastenerScene {
+  std::string id;
+  std::vector<Reference> between;  ///< (h) "plate:hole"
+  std::vector<std::string> law;    ///< (h - 1) keys of JointScene::laws
+  std::vector<double> clearance;   ///< (h - 1) radial gap, length
+  std::vector<double> friction;    ///< (h) mu in each hole
+  bool law_includes_friction = false;
+  std::string where;
+};
+
+struct LoadScene {
+  Reference external;  ///< "plate:external"
+  double value = 0;    ///< at load factor 1: force, or length
+  bool is_displacement = false;
+};
+
+/// First guesses of Bortman & Szabo, section 6.1.
+enum class Guess { rigid, linear, equal };
+
+struct InitialScene {
+  Guess guess = Guess::linear;
+  std::optional<double> stiffness;  ///< of {"linear": K}, force / length
+};
+
+enum class Method {
+  fitting,  ///< unless the input says otherwise: the exact path where it applies, else hybridsj
+  hybridsj,
+  damped_newton,
+  exact_path,
+};
+
+/// What "method" in JOINT.json may say, in the order of Method from hybridsj on.
+inline const std::vector<std::string> method_names{"hybridsj", "damped newton", "exact path"};
+
+struct SolverScene {
+  Method method = Method::fitting;
+  double tolerance = 1e-10;  ///< largest residual, relative to the largest force of the increment
+  int max_iterations = 200;  ///< of one try
+};
+
+/// Whether an exact path is taken where there is one.
+[[nodiscard]] inline bool may_be_exact(Method method) {
+  return method == Method::fitting || method == Method::exact_path;
+}
+
+/// JOINT.json as it stands (schemas/joint.schema.json).
+struct JointScene {
+  std::string file, name;
+  std::optional<Units> units;
+  std::vector<PlateScene> plates;
+  std::map<std::string, LawScene> laws;
+  std::vector<FastenerScene> fasteners;
+  std::vector<LoadScene> loads;
+  std::vector<double> load_factors{1};  ///< one per increment
+  bool at_events = false;               ///< increments at every event instead (event_path.hpp)
+  InitialScene initial;
+  SolverScene solver;
+  std::vector<std::string> warnings;  ///< one sentence each, with file and pointer
+};
+
+/// Reads types and ranges strictly, then checks what one file alone can tell (check_scene). Throws InputError.
+[[nodiscard]] JointScene read_joint_scene(const input::Document& document);
+
+/// Throws InputError "WHERE: FOUND; allowed: ALLOWED".
+[[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed);
+
+}  // namespace fastjoint::stage3

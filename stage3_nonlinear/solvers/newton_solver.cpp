@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/solvers/newton_solver.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::VectorXd;
+
+/// A point on the way along a step.
+struct Point {
+  VectorXd x, residual;
+};
+
+Point point_at(const RootProblem& problem, const Root& root, const VectorXd& step, double length) {
+  Point point{root.x + length * step, {}};
+  point.residual = problem.residual(point.x);
+  return point;
+}
+
+bool take(Root& root, Point&& point) {
+  root.x = std::move(point.x);
+  root.residual = std::move(point.residual);
+  return true;
+}
+
+/// Moves as far as the residual's norm falls; false if it falls nowhere.
+bool move_by_norm(const RootProblem& problem, const VectorXd& step, Root& root) {
+  constexpr int most_halvings = 40;
+  constexpr double least_fall = 1e-4;  // Armijo's share of what the tangent promises
+  const double norm = root.residual.norm();
+  double length = 1;
+  for (int i = 0; i < most_halvings; ++i, length /= 2) {
+    Point point = point_at(problem, root, step, length);
+    if (point.residual.norm() <= (1 - least_fall * length) * norm) return take(root, std::move(point));
+  }
+  return false;
+}
+
+/// Lengths of a step between which a convex function is least, by its slopes there.
+class Bracket {
+ public:
+  explicit Bracket(double before) : low_{0, before} {}
+
+  /// Whether the function is surely lower here than at 0: slopes only rise, so that it has fallen by at least
+  /// -slope * length up to `low` and risen by at most slope (length - low) since.
+  [[nodiscard]] bool falls_to(double length, double slope) const {
+    return slope <= 0 || slope * (length - low_.length) <= -0.5 * low_.slope * low_.length;
+  }
+
+  /// Takes in a slope; returns the length to try next: out along the secant until the slope has turned, then in turn by
+  /// the secant through both ends, through the last two on the side that was hit (exact where that side is one linear
+  /// piece), and the mean of the lengths or of their logarithms.
+  double next(double length, double slope) {
+    const bool behind = slope >= 0;
+    const Sample here{length, slope};
+    Sample& end = behind ? high_ : low_;
+    const Sample before = std::exchange(end, here);
+    if (!(high_.length > 0))
+      return length + (length - before.length) * std::clamp(slope / (before.slope - slope), 1.0, 9.0);
+    const bool again = behind == was_behind_ && before.length > 0;
+    was_behind_ = behind;
+    repeated_ = again ? repeated_ + 1 : 0;
+    if (repeated_ % 3 != 2) {
+      const double secant = repeated_ % 3 == 0 ? crossing(low_, high_) : crossing(before, here);
+      if (secant > low_.length && secant < high_.length) return secant;
+    }
+    if (low_.length > 0 && high_.length > 4 * low_.length) return std::sqrt(low_.length * high_.length);
+    return 0.5 * (low_.length + high_.length);
+  }
+
+ private:
+  struct Sample {
+    double length, slope;
+  };
+  static double crossing(const Sample& a, const Sample& b) {
+    return a.length - a.slope * (b.length - a.length) / (b.slope - a.slope);
+  }
+
+  Sample low_, high_{0, 0};  // high at 0: not known yet
+  bool was_behind_ = false;
+  int repeated_ = 0;
+};
+
+/// Moves to where the convex function surely is lower, and either its slope along the step has risen from `before` < 0
+/// to little, or as near as rounding lets it, or the residual is well below what it was; a whole step that brings it
+/// well below all before is taken as it is (docs/theory.md, section 8.4, shows that they may mix). False if there is no
+/// such place.
+bool move_downhill(const RootProblem& problem, const VectorXd& step, double before, double least_norm, Root& root) {
+  constexpr int most_tries = 100;
+  constexpr double little = 0.03;
+  constexpr double well = 0.5;
+  const double norm_here = root.residual.norm();
+  Bracket bracket(before);
+  std::optional<Point> best;
+  double best_slope = -before;
+  double length = 1;
+  for (int i = 0; i < most_tries && best_slope > -little * before; ++i) {
+    Point point = point_at(problem, root, step, length);
+    const double norm = point.residual.norm();
+    if (i == 0 && norm <= well * least_norm) return take(root, std::move(point));
+    const double slope = problem.descent(point.residual).dot(step);
+    if (norm <= well * norm_here && bracket.falls_to(length, slope)) return take(root, std::move(point));
+    if (std::abs(slope) < best_slope && bracket.falls_to(length, slope)) {
+      best = std::move(point);
+      best_slope = std::abs(slope);
+    }
+    length = bracket.next(length, slope);
+  }
+  return best && take(root, *std::move(best));
+}
+
+bool move(const RootProblem& problem, const VectorXd& step, double least_norm, Root& root) {
+  if (problem.descent) {
+    const double slope = problem.descent(root.residual).dot(step);
+    if (slope < 0 && move_downhill(problem, step, slope, least_norm, root)) return true;
+  }
+  return move_by_norm(problem, step, root);
+}
+
+}  // namespace
+
+Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
+  Root root{start, problem.residual(start)};
+  if (!root.residual.allFinite()) {
+    root.residual.setConstant(std::numeric_limits<double>::infinity());
+    return root;
+  }
+  double least_norm = std::numeric_limits<double>::infinity();
+  while (!(root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) &&
+         root.iterations < options.max_iterations) {
+    ++root.iterations;
+    least_norm = std::min(least_norm, root.residual.norm());
+    const VectorXd step = -problem.jacobian(root.x).partialPivLu().solve(root.residual);
+    if (!step.allFinite() || !move(problem, step, least_norm, root)) break;
+  }
+  return root;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/run/accuracy.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/support/message.hpp"
+#include "tests/support/random_sheets.hpp"
+
+namespace fastjoint {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+stage1::PlateScene scene(const std::string& json) { return stage1::read_scene(input::parse("plate.json", json)); }
+
+std::string without_rings(std::string json) {
+  const std::string rings = R"(, "rings": 0)";
+  for (auto at = json.find(rings); at != std::string::npos; at = json.find(rings)) json.erase(at, rings.size());
+  return json;
+}
+
+test::Plate plate_of(const stage1::PlateScene& chosen) {
+  test::Plate plate{chosen, stage1::make_mesh(chosen), {}};
+  plate.problem = stage1::assemble(plate.scene, plate.mesh);
+  return plate;
+}
+
+Eigen::MatrixXd last_stiffness(const test::Plate& plate) {
+  const auto solution = test::solve(plate);
+  return test::stiffness(solution, solution.cases.size() - 1);
+}
+
+TEST(Accuracy, IsReachedByTheLeastDegree) {
+  const auto open = scene(without_rings(test::panel(3, 1)));
+  const auto exact = last_stiffness(test::make_plate(test::panel(3, 1, 3, R"(, "space": "product")")));
+  for (const double asked : {1e-2, 1e-3, 1e-4, 1e-5, 1e-6, 1e-7}) {
+    const auto chosen = stage1::meet_accuracy(open, asked);
+    EXPECT_TRUE(chosen.is_reached());
+    EXPECT_LE((last_stiffness(plate_of(chosen.scene)) - exact).norm(), 1.5 * asked * exact.norm());
+    EXPECT_EQ(chosen.scene.space, pfem::Space::product);
+    EXPECT_EQ(chosen.scene.p_low, 1);
+    for (const auto& hole : chosen.scene.holes) EXPECT_EQ(hole.rings, asked < 1e-6 ? 2 : 1);
+    auto lower = chosen.scene;  // its rings are kept: one degree less, and no other rings
+    for (auto& hole : lower.holes) hole.has_rings = true;
+    ASSERT_GT(--lower.p_high, 1);
+    EXPECT_FALSE(stage1::meet_accuracy(lower, asked).is_reached());
+  }
+}
+
+TEST(Accuracy, IsTrueOfRandomSheets) {
+  constexpr double asked = 1e-4;
+  int reached = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    const auto sheet = test::random_sheet(seed);
+    const auto chosen = stage1::meet_accuracy(scene(without_rings(sheet.json(0, ""))), asked);
+    const std::string top = R"(, "space": "product", "p": [8, 8])";
+    const auto exact = last_stiffness(test::make_plate(test::graded(sheet, 2).json(3, top)));
+    const double error = (last_stiffness(plate_of(chosen.scene)) - exact).norm() / exact.norm();
+    EXPECT_LE(error, 1.5 * chosen.errors[0].value) << seed;
+    if (chosen.is_reached()) ++reached;
+  }
+  EXPECT_GT(reached, 15);
+}
+
+/// What the program says is what stage 2 says.
+TEST(Accuracy, IsThatOfTheMatrices) {
+  const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), 1e-4);
+  const auto extraction = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test");
+  ASSERT_EQ(extraction.errors.size(), 2U);
+  for (std::size_t i = 0; i < 2; ++i)  // quadrature is of p = 8 in the search
+    EXPECT_NEAR(extraction.errors[i].value / chosen.errors[i].value, 1, 1e-3);
+  EXPECT_EQ(stage1::to_text(chosen),
+            "accuracy 0.0001: product space, p = 6, rings 1: " + matrices::to_text(chosen.errors));
+}
+
+TEST(Accuracy, TakesAnotherRingWhereTheHighestDegreeDoesNotDo) {
+  auto low = scene(without_rings(test::panel(1, 1)));
+  low.p_high = 5;
+  const auto one = stage1::meet_accuracy(low, 4e-4), more = stage1::meet_accuracy(low, 4e-5);
+  EXPECT_EQ(one.scene.holes[0].rings, 1);
+  EXPECT_EQ(more.scene.holes[0].rings, 2);
+  EXPECT_LT(more.error(), 0.5 * one.error());
+}
+
+/// What the scene says is as good as 2.4e-3 at its highest degree, by R, whose friction jumps on elements without a
+/// ring; S alone would be good for 1e-3.
+TEST(Accuracy, KeepsWhatTheSceneSays) {
+  for (const double asked : {3e-3, 1e-3}) {
+    const auto chosen = stage1::meet_accuracy(scene(test::panel(1, 1, 0, R"(, "space": "trunk", "p": [2, 7])")), asked);
+    EXPECT_EQ(chosen.scene.space, pfem::Space::trunk);
+    EXPECT_EQ(chosen.scene.holes[0].rings, 0);
+    EXPECT_EQ(chosen.scene.p_low, 2);
+    EXPECT_EQ(chosen.scene.p_high, 7);
+    EXPECT_FALSE(chosen.free_rings);
+    EXPECT_EQ(chosen.is_reached(), asked == 3e-3);
+    ASSERT_EQ(chosen.errors.size(), 2U);
+    EXPECT_LT(chosen.errors[0].value, 2e-4);
+    EXPECT_EQ(chosen.errors[1].value, chosen.error());
+  }
+  const auto missed = stage1::meet_accuracy(scene(test::panel(1, 1)), 1e-9);
+  EXPECT_FALSE(missed.is_reached());
+  EXPECT_EQ(missed.scene.p_high, 8);
+  EXPECT_THAT(stage1::to_text(missed),
+              AllOf(HasSubstr("accuracy 1e-09: product space, p = 8: error of S about "), HasSubstr(", not reached")));
+}
+
+/// Rings do not help at the ends of a clamped edge: the search ends, and keeps the model that costs less.
+TEST(Accuracy, GivesUpWhereRingsDoNotHelp) {
+  const std::string json = test::grid_scene({0, 1}, {0, 1}, {{"1", 0.5, 0.5, 0.1}},
+                                            R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
+  const auto chosen = stage1::meet_accuracy(scene(without_rings(json)), 1e-8);
+  EXPECT_FALSE(chosen.is_reached());
+  EXPECT_EQ(chosen.scene.holes[0].rings, 1);
+  EXPECT_EQ(chosen.scene.p_high, 8);
+}
+
+/// A sheet that one disc and a support across hold has no stiffness: what its load does must be exact enough.
+TEST(Accuracy, IsThatOfTheComplianceWhereTheStiffnessIsZero) {
+  const std::string json = test::grid_scene({0, 1, 2}, {0, 1}, {{"1", 0.5, 0.5, 0.125}, {"2", 1.4, 0.6, 0.2, 0, false}},
+                                            R"(, "supports": [{"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])");
+  constexpr double asked = 1e-5;
+  const auto chosen = stage1::meet_accuracy(scene(without_rings(json)), asked);
+  EXPECT_TRUE(chosen.is_reached());
+  EXPECT_GT(chosen.scene.p_high, 3);
+  const auto extracted = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test").matrices;
+  EXPECT_EQ(extracted.S_dd.back()(0, 0), 0);
+  auto finer = chosen.scene;
+  finer.p_high = 8;
+  for (auto& hole : finer.holes) hole.rings += 2;
+  const auto exact = stage2::extract(test::solve(plate_of(finer)), "plate.h5", "test").matrices;
+  EXPECT_NEAR(extracted.C_t.back()(0, 0) / exact.C_t.back()(0, 0), 1, asked);
+}
+
+/// Friction is exact enough too, where its tractions jump.
+TEST(Accuracy, IsThatOfFriction) {
+  for (const double asked : {1e-3, 1e-5}) {
+    const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), asked);
+    EXPECT_TRUE(chosen.is_reached());
+    const auto R = [](const test::Plate& plate) {
+      return stage2::extract(test::solve(plate), "plate.h5", "test").matrices.R_df.back();
+    };
+    const auto exact = R(test::make_plate(test::panel(2, 1, 3, R"(, "space": "product")")));
+    EXPECT_LT((R(plate_of(chosen.scene)) - exact).norm(), asked * exact.norm());
+  }
+}
+
+TEST(Accuracy, RefusesWhatHasNone) {
+  const auto refused = [](const std::string& json) {
+    return test::message_of([&] { return stage1::meet_accuracy(scene(json), 1e-3); });
+  };
+  EXPECT_THAT(refused(test::panel(1, 1, 0, R"(, "p": [8, 8])")),
+              AllOf(HasSubstr("degree 8 alone"), HasSubstr("allowed: a range")));
+  EXPECT_THAT(refused(test::grid_scene({0, 1}, {0, 1}, {}, R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
+    "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])")),
+              AllOf(HasSubstr("plate.json"), HasSubstr("a disc or a rigid external")));
+}
+
+}  // namespace
+}  // namespace fastjoint

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/field/field_state.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "common/errors.hpp"
+#include "common/formats/joint_result.hpp"
+#include "stage2_extract/field/case_sum.hpp"
+#include "stage2_extract/field/field_file.hpp"
+#include "tests/support/files.hpp"
+#include "tests/support/plates.hpp"
+
+namespace fastjoint {
+namespace {
+
+using Eigen::VectorXd;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+/// Names of cases only: external P, discs 1 and 0,0, their frictions on one side, traction T; degrees 1..3.
+formats::PlateSolution sheet() {
+  formats::PlateSolution plate;
+  plate.external_id = {"P"};
+  plate.disc_hole = {"1", "0,0"};
+  plate.disc_direction = {"x", "x"};
+  plate.friction_hole = {"1", "0,0"};
+  plate.friction_bearing = {"+x", "+x"};
+  plate.traction_id = {"T"};
+  plate.K_cc.setZero(3, 3);
+  plate.p = Eigen::VectorXi::LinSpaced(3, 1, 3);
+  plate.stress_p = Eigen::VectorXi::Constant(1, 3);
+  return plate;
+}
+
+VectorXd amounts(const formats::PlateSolution& plate, const std::string& spec) {
+  return stage2::field_state(plate, "plate.h5", {spec}).amounts;
+}
+VectorXd vector(std::initializer_list<double> values) {
+  return Eigen::Map<const VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
+}
+
+TEST(CaseSum, AmountsByName) {
+  EXPECT_EQ(amounts(sheet(), "external:P"), vector({1, 0, 0, 0, 0, 0}));
+  EXPECT_EQ(amounts(sheet(), "traction:T=-1e2,friction:1:+x=5,disc:0,0:x=0.003,external:P=0.01"),
+            vector({0.01, 0, 0.003, 5, 0, -100}));
+  EXPECT_EQ(amounts(sheet(), "disc:0,0:x,disc:1:x"), vector({0, 1, 1, 0, 0, 0}));
+}
+
+/// Where one name begins another's, the longer one is meant.
+TEST(CaseSum, IdsMayHoldTheSigns) {
+  auto plate = sheet();
+  plate.external_id = {"a"};
+  plate.traction_id = {"a,external:a"};
+  plate.disc_hole = {"a:b", "a=2"};
+  EXPECT_EQ(amounts(plate, "disc:a:b:x=3,disc:a=2:x=4,external:a=5"), vector({5, 3, 4, 0, 0, 0}));
+  plate.disc_hole = {"a", "a:x,disc:a"};
+  EXPECT_EQ(amounts(plate, "disc:a:x,disc:a:x"), vector({0, 0, 1, 0, 0, 0}));
+}
+
+TEST(CaseSum, WhatIsRefused) {
+  const auto refused = [](const std::string& spec, const auto& message) {
+    EXPECT_THAT([&] { return amounts(sheet(), spec); }, ThrowsMessage<InputError>(message)) << spec;
+  };
+  refused("external:Q", HasSubstr("--field: 'external:Q' is not a case of the plate; allowed: loads, a RESULT.h5, or a "
+                                  "sum CASE=AMOUNT,... of the cases external:P, disc:1:x, disc:0,0:x, friction:1:+x, "
+                                  "friction:0,0:+x, traction:T"));
+  refused("nonsense", HasSubstr("'nonsense' is not a case of the plate nor a file"));
+  refused("", HasSubstr("'' is not a case"));
+  refused("external:P,", HasSubstr("'' is not a case"));
+  refused("external:P;disc:1:x", HasSubstr("'external:P;disc:1:x' is not a case"));
+  refused("external:P=1,disc:1:y", HasSubstr("'disc:1:y' is not a case"));
+  for (const std::string amount : {"", "x", "1x", "inf", "nan", "1e999"})
+    refused("external:P=" + amount, HasSubstr("'" + amount + "' is not allowed as the amount of external:P"));
+  refused("external:P,disc:1:x,external:P=2", HasSubstr("external:P stands twice"));
+}
+
+TEST(CaseSum, LongListsAreCut) {
+  auto plate = sheet();
+  plate.disc_hole.assign(400, "h");
+  plate.disc_direction.assign(400, "x");
+  EXPECT_THAT([&] { return amounts(plate, "disc:i:x"); }, ThrowsMessage<InputError>(HasSubstr(" and 392 more")));
+}
+
+TEST(SceneLoads, AreTheRowOfTheFileOrRefused) {
+  auto plate = sheet();
+  EXPECT_THAT([&] { return amounts(plate, "loads"); },
+              ThrowsMessage<InputError>(HasSubstr("'loads' is not allowed: the scene of plate.h5 has no loads")));
+  plate.load_displacement = Eigen::RowVector3d(1, 2, 3);
+  plate.load_friction = Eigen::RowVector2d(4, 5);
+  plate.load_traction = Eigen::MatrixXd::Constant(1, 1, 6);
+  EXPECT_EQ(amounts(plate, "loads"), vector({1, 2, 3, 4, 5, 6}));
+}
+
+/// Two sheets with the sheet's names, "up" and "down", and one without; two increments.
+class StateOfAJoint : public testing::Test {
+ protected:
+  static formats::PlateHistory history(const std::string& name, double value) {
+    const auto plate = sheet();
+    formats::PlateHistory sheet{.name = name,
+                                .disc_hole = plate.disc_hole,
+                                .disc_direction = plate.disc_direction,
+                                .external_id = plate.external_id,
+                                .traction_id = plate.traction_id,
+                                .friction_hole = plate.friction_hole,
+                                .friction_bearing = plate.friction_bearing,
+                                .D = {},
+                                .De = {},
+                                .Pe = {},
+                                .Lambda = {},
+                                .traction = {},
+                                .rims = {}};
+    const auto table = [&](Eigen::Index cols, double offset) -> Eigen::MatrixXd {
+      return Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(cols, value + offset, value + offset + 0.1);
+    };
+    sheet.De = table(1, 1);
+    sheet.Pe = table(1, 2);
+    sheet.D = table(2, 3);
+    sheet.Lambda = table(2, 4);
+    sheet.traction = table(1, 5);
+    for (auto* rims : {&sheet.rims.bearing_load, &sheet.rims.bearing_load_y, &sheet.rims.bearing_stress,
+                       &sheet.rims.peak_hoop, &sheet.rims.peak_angle, &sheet.rims.peak_error, &sheet.rims.bypass_load,
+                       &sheet.rims.bypass_error, &sheet.rims.gross_concentration, &sheet.rims.net_concentration})
+      rims->resize(2, 0);
+    return sheet;
+  }
+  std::string joint(const std::vector<std::string>& names) const {
+    formats::JointResult result;
+    result.header.name = "lap";
+    result.p = 3;
+    result.direction = {"x"};
+    result.load_factor = Eigen::Vector2d(0.5, 1);
+    result.event.resize(static_cast<std::size_t>(result.load_factor.size()));
+    result.converged = result.iterations = Eigen::VectorXi::Ones(2);
+    result.residual = Eigen::Vector2d::Zero();
+    for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred_first,
+                        &result.transferred_second})
+      table->setZero(2, 0);
+    for (const auto& name : names) result.plates.push_back(history(name, 10 * static_cast<double>(name.size())));
+    if (names.size() > 1) result.plates.back().disc_hole[0] = "other";
+    formats::write(folder_.path("joint.h5"), result);
+    return folder_.path("joint.h5");
+  }
+  static stage2::FieldState state(const stage2::FieldRequest& request) {
+    return stage2::field_state(sheet(), "plate.h5", request);
+  }
+  template <class Message>
+  static void refused(const stage2::FieldRequest& request, const Message& message) {
+    EXPECT_THAT([&] { return state(request); }, ThrowsMessage<InputError>(message));
+  }
+  test::TemporaryFolder folder_;
+};
+
+TEST_F(StateOfAJoint, OfTheOnlySheetThatFits) {
+  const auto last = state({joint({"up", "third"})});
+  EXPECT_LT((last.amounts - 2 * vector({21.1, 23, 23.1, 24, 24.1, 25.1})).norm(), 1e-12);
+  EXPECT_EQ(last.p, 3);
+  EXPECT_EQ(last.joint_plate, "up");
+  EXPECT_EQ(last.increment, 2);
+  EXPECT_EQ(last.words, "lap, increment 2 of 2, load factor 1");
+  const auto first = state({joint({"up", "third"}), "", 1});
+  EXPECT_EQ(2 * first.amounts, last.amounts);
+  EXPECT_EQ(first.words, "lap, increment 1 of 2, load factor 0.5");
+}
+
+TEST_F(StateOfAJoint, OfTheSheetThatIsNamed) {
+  const auto file = joint({"up", "down", "third"});
+  EXPECT_DOUBLE_EQ(state({file, "down"}).amounts[0], 2 * 41.1);
+  refused({file}, AllOf(HasSubstr("--field: 2 sheets of "), HasSubstr("tell which by --plate: up, down")));
+  refused({file, "left"}, AllOf(HasSubstr("--plate: 'left' is not a sheet of"), HasSubstr("allowed: up, down, third")));
+  refused({file, "third"},
+          AllOf(HasSubstr("--plate: 'third' of "), HasSubstr(" is not the sheet of plate.h5: its cases "
+                                                             "are external:P, disc:other:x, ")));
+}
+
+TEST_F(StateOfAJoint, WhatIsRefused) {
+  const auto file = joint({"up"});
+  refused({file, "", 3}, AllOf(HasSubstr("--increment: 3 is not allowed"), HasSubstr("has the increments 1..2")));
+  auto other = sheet();
+  other.traction_id[0] = "S";
+  EXPECT_THAT([&] { return stage2::field_state(other, "other.h5", {file}); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--field: no sheet of "), HasSubstr("(up) has the cases of "
+                                                                                            "other.h5: external:P"))));
+  refused({"external:P", "up"}, HasSubstr("--plate: goes with --field RESULT.h5 only"));
+  refused({"external:P", "", 1}, HasSubstr("--increment: goes with --field RESULT.h5 only"));
+  EXPECT_THAT([&] { return state({folder_.path("none.h5")}); },
+              ThrowsMessage<FileError>(HasSubstr("none.h5: cannot be opened")));
+  EXPECT_THAT([&] { return state({folder_.write("text", "text")}); },
+              ThrowsMessage<FileError>(HasSubstr("text: is not an HDF5 file")));
+}
+
+TEST(FieldLevel, OfTheRequestTheJointOrTheHighest) {
+  auto plate = sheet();
+  plate.stress_p = plate.p;
+  stage2::FieldState state{VectorXd::Zero(6), "", 0, "", 0};
+  const auto level = [&](int p) { return stage2::field_level(plate, "plate.h5", {"", "", 0, p}, state); };
+  EXPECT_EQ(level(0), 2);
+  EXPECT_EQ(level(1), 0);
+  EXPECT_THAT([&] { return level(4); },
+              ThrowsMessage<InputError>(HasSubstr("--p: 4 is not allowed; plate.h5 has the degrees 1, 2, 3")));
+  state.p = 2;
+  EXPECT_EQ(level(0), 1);
+  EXPECT_EQ(level(3), 2);
+  state.p = 8;
+  EXPECT_THAT([&] { return level(0); },
+              ThrowsMessage<InputError>(HasSubstr("--p: 8 is the degree of the joint and not allowed")));
+}
+
+TEST(FieldLevel, MustHaveFields) {
+  auto plate = sheet();
+  stage2::FieldState state{vector({1, 1, 1, 0, 0, 1}), "", 0, "", 0};
+  const auto level = [&](int p) { return stage2::field_level(plate, "plate.h5", {"", "", 0, p}, state); };
+  EXPECT_EQ(level(3), 2);
+  EXPECT_THAT([&] { return level(1); }, ThrowsMessage<InputError>(AllOf(
+                                            HasSubstr("plate.h5:stress_p: the fields at p = 1 are not in the file; it "
+                                                      "has those at p = 3"),
+                                            HasSubstr("stage1_plate was told --loads-only"))));
+  plate.stress_p.resize(0);
+  EXPECT_THAT([&] { return level(3); }, ThrowsMessage<InputError>(HasSubstr("it has those at p = none")));
+}
+
+TEST(FieldOptions, ThatNeedOthers) {
+  const auto check = [](const stage2::FieldRequest& request) {
+    return [=] { stage2::check_field_options(request, false, "out.h5", ""); };
+  };
+  EXPECT_NO_THROW(check({})());
+  EXPECT_THAT(check({"", "", 0, 8}), ThrowsMessage<InputError>(HasSubstr("--p: goes with --field only")));
+  EXPECT_THAT(check({"", "up"}), ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 only")));
+  EXPECT_THAT(check({"", "", 2}), ThrowsMessage<InputError>(HasSubstr("--increment: goes with --field RESULT.h5")));
+  const test::TemporaryFolder folder;
+  const auto file = folder.write("joint.h5", "");
+  EXPECT_THAT([&] { stage2::check_field_options({file}, true, file, ""); },
+              ThrowsMessage<InputError>(HasSubstr("joint.h5: is the file of --field; choose another name")));
+  EXPECT_THAT([&] { stage2::check_field_options({file}, true, "out.vtu", file); },
+              ThrowsMessage<InputError>(testing::StartsWith("--timings " + file + ": is the file of --field")));
+}
+
+TEST(FieldFile, AmountsThatOverflowAreRefused) {
+  const auto plate = test::solve(test::make_plate(test::panel(1, 1)));
+  const test::TemporaryFolder folder;
+  program::Timings timings;
+  EXPECT_THAT(
+      [&] { (void)stage2::write_field(folder.path("f.vtu"), plate, "plate.h5", {"external:P=1e305"}, timings); },
+      ThrowsMessage<NumericalError>(HasSubstr("plate.h5: --field external:P=1e305: displacements or stresses")));
+  EXPECT_FALSE(std::filesystem::exists(folder.path("f.vtu")));
+}
+
+}  // namespace
+}  // namespace fastjoint

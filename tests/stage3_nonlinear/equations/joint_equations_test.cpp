@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/joint_equations.hpp"
+
+#include <gmock/gmock.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "stage3_nonlinear/equations/tangent_check.hpp"
+#include "stage3_nonlinear/laws/cubic_law.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using testing::ElementsAre;
+
+VectorXd residual_at(const JointEquations& equations, const VectorXd& c) {
+  const ContactState state = contact_state(equations.contacts, c);
+  return equations.system.residual(state.F, state.delta, 1);
+}
+
+TEST(JointEquations, TangentIsTheDerivative) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> coordinate(-3000, 3000);
+  for (int i = 0; i < 200; ++i) {
+    const auto joint = test::random_joint(
+        random, {.cubics = true, .friction = i % 2 == 0, .one_sided = i % 3 == 0, .floating = i % 5 == 0});
+    const JointEquations equations = make_equations(joint);
+    const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
+    const MatrixXd J = tangent(equations.system, contact_state(equations.contacts, c));
+    for (Index j = 0; j < c.size(); ++j) {
+      // Far from a kink the functions are smooth: error of central differences ~ h^2 + eps / h, relative.
+      const double h = 1e-5 * std::abs(c[j]);
+      const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+      if (std::abs(std::abs(c[j]) - contact.stiffness * contact.law->gap(contact.clearance)) < 2e-2 * std::abs(c[j]))
+        continue;
+      VectorXd above = c, below = c;
+      above[j] += h;
+      below[j] -= h;
+      const VectorXd difference = (residual_at(equations, above) - residual_at(equations, below)) / (2 * h);
+      const double rounding = 1e-15 * residual_at(equations, c).norm() / h;
+      EXPECT_LT((difference - J.col(j)).norm(), 1e-6 * J.col(j).norm() + 1e2 * rounding) << "joint " << i;
+    }
+  }
+}
+
+/// K - S_ud > 0 and its inverse, whatever the joint: what the guarantee of damped Newton stands on.
+TEST(JointEquations, MetricIsPositiveDefinite) {
+  std::mt19937 random(12);
+  for (int i = 0; i < 200; ++i) {
+    const JointEquations equations = make_equations(test::random_joint(random, {.floating = i % 3 == 0}));
+    MatrixXd W = -equations.system.S_ud;
+    for (Index j = 0; j < W.rows(); ++j) W(j, j) += equations.contacts[static_cast<std::size_t>(j)].stiffness;
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(W).eigenvalues()[0], 0.01 * W.diagonal().minCoeff()) << i;
+    EXPECT_LT((W * equations.metric - MatrixXd::Identity(W.rows(), W.rows())).norm(), 1e-9) << i;
+  }
+}
+
+/// W^-1 J, the Hessian behind damped Newton (docs/theory.md, section 8.4), also where all fasteners of a sheet that
+/// nothing else holds are open: the trace of stiffness in the Jacobian sees to that.
+TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int i = 0; i < 100; ++i) {
+    const JointEquations equations =
+        make_equations(test::random_joint(random, {.cubics = true, .one_sided = i % 2 == 0, .floating = i % 3 != 0}));
+    const double load = equations.system.q.cwiseAbs().maxCoeff();  // 0 at a floating sheet with one fastener
+    const auto problem = root_problem(equations, 1, load > 0 ? load : 1);
+    const double size = i % 4 == 0 ? 0 : 10;  // at 0 all are open or begin to bear
+    const VectorXd x = size * VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
+    const MatrixXd H = equations.metric * problem.jacobian(x);
+    EXPECT_LT((H - H.transpose()).norm(), 1e-10 * H.norm()) << i;
+    // The trace is at least 1e-11 of the reference stiffness; rounding takes a little.
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(H).eigenvalues()[0], 1e-12 * equations.metric.norm()) << i;
+  }
+}
+
+/// A law that falls has no energy to descend on.
+TEST(JointEquations, MetricNeedsLawsThatRise) {
+  const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  EXPECT_EQ(make_equations(test::joint_of(test::two_fastener_lap(), falling)).metric.size(), 0);
+}
+
+TEST(JointEquations, ASheetOnOneFastenerStillHasAReferenceStiffness) {
+  const auto joint = test::joint_of(
+      {test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, test::ground, 1000}}), 10},
+      test::linear_law(5));
+  EXPECT_GT(make_equations(joint).contacts[0].stiffness, 0);
+}
+
+TEST(JointEquations, TellsASheetThatNothingHolds) {
+  // Plate b floats: with both fasteners in their gaps nothing holds it, with one closed all is determined.
+  auto lap = test::two_fastener_lap();
+  lap.a = test::chain(2, 1, 1000, {{1, 2, 1000}, {0, test::ground, 1000}});
+  lap.b = test::chain(2, 0, 1000, {});
+  auto joint = test::joint_of(lap, test::linear_law(5));
+  for (auto& plane : joint.planes) plane.clearance = 1;
+  const JointEquations equations = make_equations(joint);
+  const auto open_at = [&](double c0, double c1) {
+    return check_tangent(equations, contact_state(equations.contacts, Eigen::Vector2d(c0, c1))).mechanism;
+  };
+  ASSERT_TRUE(open_at(0, 0));
+  EXPECT_THAT(open_at(0, 0)->open, ElementsAre(0, 1));
+  EXPECT_FALSE(open_at(1e5, 0));
+  EXPECT_FALSE(open_at(1e5, 1e5));
+}
+
+/// F = x (1.1 - 0.1 x) in parallel with plates of 0.5: 1.6 x - 0.1 x^2 rises to x = 8 and falls beyond.
+TEST(JointEquations, TellsASolutionPastTheLargestLoad) {
+  const test::Lap lap{test::spring_plate(1, 1, {{0, 1, 1000}, {0, test::ground, 0.5}}),
+                      test::spring_plate(1, 0, {{0, test::ground, 1e6}}), 1};
+  const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const JointEquations equations = make_equations(test::joint_of(lap, falling));
+  const auto unstable_at = [&](double delta) {
+    const double c = equations.contacts[0].stiffness * delta;
+    return check_tangent(equations, contact_state(equations.contacts, VectorXd::Constant(1, c))).unstable;
+  };
+  EXPECT_EQ(unstable_at(7.9), 0);
+  EXPECT_EQ(unstable_at(8.1), 1);
+  EXPECT_THAT(planes_that_may_snap(equations), ElementsAre(0));
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/linear_joint.hpp"
+
+#include <gmock/gmock.h>
+
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/path/walk.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using test::ground;
+
+/// Vogt's lap joint: plates of equal segments k between neighbouring fasteners. The first is pulled at its
+/// end beyond the last fastener, the second held before the first fastener, so that between j and j + 1 the
+/// first plate carries sum(F_i, i <= j) and the second sum(F_i, i > j): delta_{j+1} - delta_j = (their
+/// difference) / k. With fasteners of two segments' flexibility, delta = 2 F / k: 2 (F_{j+1} - F_j) =
+/// sum(F_i, i <= j) - sum(F_i, i > j).
+test::Lap vogt(int n, double k) {
+  return {test::chain(n, 1, k, {{n - 1, n, k}}), test::chain(n, 0, k, {{0, ground, k}}), 1};
+}
+
+TEST(LinearJoint, IsVogtsChain) {
+  constexpr double k = 12345;
+  const auto expect = [](int n, const std::vector<double>& forces) {
+    const JointEquations equations = make_equations(test::joint_of(vogt(n, k), test::linear_law(k / 2)));
+    const LoadPath path = follow(equations, {1}, {});
+    EXPECT_TRUE(path.linear);
+    for (int j = 0; j < n; ++j)
+      EXPECT_NEAR(path.steps[0].F[j], forces[static_cast<std::size_t>(j)], 1e-12) << n << " fasteners";
+  };
+  expect(3, {3. / 8, 1. / 4, 3. / 8});
+  expect(5, {7. / 22, 3. / 22, 1. / 11, 3. / 22, 7. / 22});
+}
+
+TEST(LinearJoint, HoldsLongRows) {
+  // 200 fasteners: the middle carries next to nothing, the ends share equally, the sum is the load.
+  const JointEquations equations = make_equations(test::joint_of(vogt(200, 1000), test::linear_law(500)));
+  const VectorXd F = follow(equations, {1}, {}).steps[0].F;
+  EXPECT_NEAR(F.sum(), 1, 1e-12);
+  EXPECT_NEAR(F[0], F[199], 1e-12);
+  EXPECT_LT(std::abs(F[100]), 1e-12);
+}
+
+TEST(LinearJoint, OneSolveServesAllIncrements) {
+  const JointEquations equations = make_equations(test::joint_of(vogt(3, 1000), test::linear_law(500)));
+  const LoadPath path = follow(equations, {0.5, 1, -2}, {});
+  ASSERT_EQ(path.steps.size(), 3U);
+  for (const auto& step : path.steps) {
+    EXPECT_EQ(step.iterations, 1);
+    EXPECT_NEAR(step.F[0], step.load_factor * 3 / 8, 1e-12);
+    EXPECT_LT(step.residual, 1e-14);
+    EXPECT_LT((step.delta - step.F / 500).norm(), 1e-16);
+  }
+}
+
+TEST(LinearJoint, OnlyPlainSpringsAreLinear) {
+  const auto flexibility = [](const std::vector<Contact>& contacts) {
+    JointEquations equations{{}, contacts, {}};
+    equations.system.q = VectorXd::Zero(static_cast<Index>(contacts.size()));
+    return linear_flexibility(equations);
+  };
+  const Contact plain{.law = test::linear_law(5)};
+  EXPECT_DOUBLE_EQ(flexibility({plain, plain}).value()[1], 0.2);
+  Contact gap = plain, one_sided = plain, curved = plain;
+  gap.clearance = 0.1;
+  one_sided.one_sided = true;
+  curved.law = test::power_law(5, 0.9);
+  EXPECT_FALSE(flexibility({plain, gap}));
+  EXPECT_FALSE(flexibility({plain, one_sided}));
+  EXPECT_FALSE(flexibility({plain, curved}));
+}
+
+TEST(LinearJoint, AgreesWithTheNonlinearPath) {
+  std::mt19937 random(21);
+  for (int i = 0; i < 200; ++i) {
+    auto joint =
+        test::random_joint(random, {.least_n = 1, .clearances = false, .friction = i % 2 == 0, .floating = i % 3 == 0});
+    const JointEquations equations = make_equations(joint);
+    const std::vector<double> factors{0.3, 1, -0.7};
+    const PathOptions options{{}, {.tolerance = 1e-13, .max_iterations = 200}};
+    const LoadPath linear = follow(equations, factors, {});
+    const LoadPath nonlinear = follow_nonlinear(equations, factors, options);
+    ASSERT_TRUE(linear.linear) << "joint " << i;
+    ASSERT_FALSE(nonlinear.failure) << "joint " << i;
+    for (std::size_t step = 0; step < factors.size(); ++step)
+      EXPECT_LT((linear.steps[step].F - nonlinear.steps[step].F).norm(), 1e-10 * force_scale(equations.system, 1))
+          << "joint " << i;
+  }
+}
+
+TEST(LinearJoint, FrictionIsTakenOnTheSidesThatBear) {
+  // The two senses of load bear on different sides, whose friction differs: not a mirror image.
+  std::mt19937 random(22);
+  auto lap = vogt(3, 1000);
+  test::add_friction(lap.a, random);
+  test::add_friction(lap.b, random);
+  auto joint = test::joint_of(lap, test::linear_law(500));
+  for (std::size_t j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
+  const LoadPath path = follow(make_equations(joint), {1, -1}, {});
+  ASSERT_TRUE(path.linear);
+  EXPECT_EQ(path.steps[0].iterations, 2) << "one solve for the signs, one with friction";
+  EXPECT_GT((path.steps[0].F + path.steps[1].F).norm(), 1e-3);
+  EXPECT_LT(path.steps[1].residual, 1e-14);
+}
+
+TEST(LinearJoint, LeavesToTheNonlinearPathWhatHasNoConsistentSigns) {
+  // One fastener whose friction outweighs its force, H- = -3 and H+ = 3 by hand: F > 0 needs F (1 + 3) = q,
+  // but without friction F = q < 0 and with it F (1 - 3) = q turns round again.
+  CondensedSystem system{.q = VectorXd::Constant(1, -1),
+                         .S_ud = Eigen::MatrixXd::Zero(1, 1),
+                         .friction = {{0, 0, 0}},
+                         .E = Eigen::MatrixXd::Identity(1, 1),
+                         .H_plus = Eigen::MatrixXd::Constant(1, 1, 3),
+                         .H_minus = Eigen::MatrixXd::Constant(1, 1, 3),
+                         .D_load = {},
+                         .D_delta = {},
+                         .D_plus = {},
+                         .D_minus = {}};
+  EXPECT_FALSE(linear_forces(system, VectorXd::Constant(1, 1.0), 1).consistent);
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3

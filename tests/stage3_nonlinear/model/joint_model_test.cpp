@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/model/joint_model.hpp"
+
+#include <gmock/gmock.h>
+
+#include <numbers>
+
+#include "common/errors.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+using Members = std::map<std::string, std::string>;
+
+/// Writes the two plates and the joint, and loads it.
+JointModel load(const test::Lap& lap, const Members& members = {}, int p = 0) {
+  const test::TemporaryFolder folder;
+  const std::string path = test::write_joint(folder, lap, members);
+  return load_joint(read_joint_scene(input::parse(path, test::read_file(path))), p);
+}
+
+const Members with_friction{{"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin", "friction": 0.1},
+                      {"id": "f2", "between": ["a:2", "b:2"], "law": "lin"}])"}};
+
+test::Lap rubbing_lap() {
+  std::mt19937 random(1);
+  auto lap = test::two_fastener_lap();
+  test::add_friction(lap.a, random);
+  test::add_friction(lap.b, random);
+  return lap;
+}
+
+template <class Error>
+void expect_refusal(const test::Lap& lap, const Members& members, const std::string& message) {
+  EXPECT_THAT([&] { (void)load(lap, members); }, ThrowsMessage<Error>(HasSubstr(message)));
+}
+
+TEST(JointModel, ResolvesNamesToIndices) {
+  const JointModel joint =
+      load(test::two_fastener_lap(), {{"fasteners", R"([{"id": "f", "between": ["b:2", "a:1"], "law": "lin"}])"}});
+  EXPECT_EQ(joint.p, 8);
+  EXPECT_EQ(joint.units.length, "in");
+  EXPECT_EQ(joint.plates[0].name, "a");
+  EXPECT_EQ(joint.plates[0].external_force[0], 100);
+  ASSERT_EQ(joint.planes.size(), 1U);
+  EXPECT_EQ(joint.first_hole(joint.planes[0]).plate, 1U);
+  EXPECT_EQ(joint.first_hole(joint.planes[0]).disc, 1);
+  EXPECT_EQ(joint.second_hole(joint.planes[0]).plate, 0U);
+  EXPECT_EQ(joint.second_hole(joint.planes[0]).disc, 0);
+  EXPECT_EQ(joint.n_unknowns(), 5);
+  EXPECT_EQ(joint.offset(1), 3);
+}
+
+TEST(JointModel, AddsClearanceToTheLawsGap) {
+  const JointModel joint =
+      load(test::two_fastener_lap(),
+           {{"laws", R"({"lin": {"type": "power", "A": 1, "n": 1, "delta0": 0.01, "one_sided": true}})"},
+            {"fasteners", R"([{"id": "f", "between": ["a:1", "b:1"], "law": "lin", "clearance": 0.02}])"}});
+  EXPECT_DOUBLE_EQ(joint.planes[0].law->gap(joint.planes[0].clearance), 0.03);
+  EXPECT_TRUE(joint.planes[0].one_sided);
+}
+
+TEST(JointModel, TakesTheFrictionCaseOfTheSideThatBears) {
+  const auto lap = rubbing_lap();
+  const JointModel joint = load(lap, with_friction);
+  const auto& holes = joint.fasteners[0].holes;
+  const auto expect = [](const FrictionLoad& load, const formats::PlateMatrices& plate, Eigen::Index column) {
+    Eigen::VectorXd R(plate.n_discs() + plate.n_externals());
+    R << plate.R_df[0].col(column), plate.R_ef[0].col(column);
+    EXPECT_LT((load.load - R * 0.1 / plate.friction_unit_force[column]).norm(), 1e-15);
+    EXPECT_NEAR(load.resultant, 0.1 * 2 / std::numbers::pi, 1e-15);
+  };
+  expect(holes[0].friction[0][plus_side], lap.a, 0);
+  expect(holes[0].friction[0][minus_side], lap.a, 1);
+  expect(holes[1].friction[0][plus_side], lap.b, 0);
+  expect(holes[1].friction[0][minus_side], lap.b, 1);
+  EXPECT_TRUE(joint.fasteners[1].holes[0].friction.empty());
+}
+
+TEST(JointModel, OneSidedFastenersNeedOneSideOfFriction) {
+  auto lap = rubbing_lap();
+  lap.b.friction_unit_force[1] = 0;  // hole 1 of b cannot bear on -x
+  Members members = with_friction;
+  members["laws"] = R"({"lin": {"type": "linear", "k": 1, "one_sided": true}})";
+  EXPECT_EQ(load(lap, members).fasteners[0].holes[1].friction[0][minus_side].load.size(), 0);
+  expect_refusal<InputError>(
+      lap, with_friction,
+      "b.h5:friction/unit_force: hole \"1\" has 0 on its side -x: no rim there can bear, so friction 0.1 "
+      "has no meaning; allowed: a value > 0, a law with \"one_sided\"");
+}
+
+TEST(JointModel, TakesTheHighestCommonDegreeOrTheOneAskedFor) {
+  auto lap = test::two_fastener_lap();
+  const auto add_degrees = [](formats::PlateMatrices& plate, const std::vector<int>& degrees) {
+    plate.p = Eigen::Map<const Eigen::VectorXi>(degrees.data(), static_cast<Eigen::Index>(degrees.size()));
+    plate.ndof = plate.p;
+    for (auto* stack :
+         {&plate.S_dd, &plate.S_ed, &plate.S_ee, &plate.R_df, &plate.R_ef, &plate.T_d, &plate.T_e, &plate.C_t})
+      stack->resize(degrees.size(), stack->front());
+    for (std::size_t i = 0; i < degrees.size(); ++i) plate.S_dd[i] *= degrees[i];
+  };
+  const auto a = lap.a.S_dd[0];
+  add_degrees(lap.a, {5, 6, 7});
+  add_degrees(lap.b, {6, 7, 8});
+  EXPECT_EQ(load(lap).p, 7);
+  EXPECT_EQ(load(lap, {}, 6).p, 6);
+  EXPECT_DOUBLE_EQ(load(lap, {}, 6).plates[0].S(0, 0), 6 * a(0, 0));
+  EXPECT_FALSE(load(lap, {}, 6).plates[0].relative_error) << "the estimate is for the highest degree";
+  EXPECT_TRUE(load(lap).plates[0].relative_error);
+  EXPECT_THAT([&] { (void)load(lap, {}, 8); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("--p: 8 is not in the matrices of every plate of"),
+                                              HasSubstr("joint.json; allowed: 6, 7"))));
+  add_degrees(lap.b, {1, 2, 3});
+  expect_refusal<InputError>(lap, {}, "the plates have no polynomial degree in common");
+}
+
+TEST(JointModel, RefusesNamesThatThePlatesDoNotHave) {
+  const auto lap = test::two_fastener_lap();
+  expect_refusal<InputError>(lap, {{"fasteners", R"([{"id": "f", "between": ["a:1", "b:9"], "law": "lin"}])"}},
+                             "joint.json: /fasteners/0/between/1: hole \"9\" does not exist in ");
+  expect_refusal<InputError>(lap, {{"fasteners", R"([{"id": "f", "between": ["a:1", "b:9"], "law": "lin"}])"}},
+                             "b.h5; allowed: 1, 2");
+  expect_refusal<InputError>(lap, {{"loads", R"([{"external": "a:R", "force": 1}])"}},
+                             "joint.json: /loads/0/external: external \"R\" does not exist in ");
+  expect_refusal<InputError>(lap, {{"loads", R"([{"external": "a:R", "force": 1}])"}}, "a.h5; allowed: P");
+  expect_refusal<InputError>(lap, {{"loads", R"([{"external": "b:P", "force": 1}])"}},
+                             "allowed: none: this plate has no external boundary");
+}
+
+TEST(JointModel, RefusesADisplacementOfATraction) {
+  auto lap = test::two_fastener_lap();
+  lap.a.traction_id = {"T"};
+  lap.a.traction_direction = {"y"};
+  lap.a.T_d = {Eigen::MatrixXd::Zero(2, 1)};
+  lap.a.T_e = {Eigen::MatrixXd::Zero(1, 1)};
+  lap.a.C_t = {Eigen::MatrixXd::Zero(1, 1)};
+  expect_refusal<InputError>(
+      lap, {{"loads", R"([{"external": "a:T", "displacement": 1}])"}},
+      "/loads/0/external: \"T\" carries a traction and has no single displacement; allowed: \"force\", or "
+      "an external of kind \"rigid\"");
+  const JointModel joint = load(lap, {{"loads", R"([{"external": "a:T", "force": 7}])"}});
+  EXPECT_EQ(joint.plates[0].traction_force[0], 7);
+  EXPECT_EQ(joint.plates[0].traction_axis[0], 1);
+  EXPECT_EQ(joint.plates[0].external_axis[0], 0);
+}
+
+TEST(JointModel, RefusesUnitsThatDiffer) {
+  auto lap = test::two_fastener_lap();
+  expect_refusal<InputError>(
+      lap, {{"units", R"({"length": "mm", "force": "N"})"}},
+      "joint.json: /units: length \"mm\", force \"N\"; allowed: length \"in\", force \"lbf\", as in ");
+  lap.b.header.units = {"mm", "N"};
+  expect_refusal<InputError>(lap, {},
+                             "b.h5: units are length \"mm\", force \"N\"; allowed: length \"in\", force \"lbf\"");
+}
+
+TEST(JointModel, RefusesFrictionWithoutItsMatrices) {
+  expect_refusal<InputError>(
+      test::two_fastener_lap(), with_friction,
+      "a.h5:friction/hole: has no friction case for hole \"1\" bearing +x, but its fastener has friction "
+      "0.1; run stage 2 again, or set the friction to 0");
+}
+
+TEST(JointModel, RefusesPlatesWhoseDiscsMoveInOtherDirections) {
+  auto lap = test::two_fastener_lap();
+  lap.b.disc_direction = {"x", "y"};
+  expect_refusal<FileError>(
+      lap, {},
+      "b.h5:disc/direction: hole \"2\" has other directions than hole \"1\", expected the same of "
+      "every disc, hole after hole");
+  lap.b.disc_direction = {"x", "z"};
+  expect_refusal<FileError>(lap, {}, "b.h5:disc/direction: is \"z\", expected \"x\" or \"y\"");
+  lap.b.disc_direction = {"y", "y"};
+  expect_refusal<InputError>(lap, {}, "joint.json: /plates/b: the discs of ");
+  expect_refusal<InputError>(lap, {}, "b.h5 have the directions [\"y\"]; allowed: [\"x\"], as those of ");
+  expect_refusal<InputError>(lap, {},
+                             "a.h5: give both plates the same \"disc_directions\" and run stages 1 and 2 again");
+}
+
+TEST(JointModel, RefusesMatricesThatNoPlateHas) {
+  auto lap = test::two_fastener_lap();
+  lap.b.S_dd[0](0, 1) *= 1.001;
+  expect_refusal<FileError>(lap, {}, "b.h5:S_dd: is not symmetric: entries (1, 0) and (0, 1) are -1000 and -100");
+  lap = test::two_fastener_lap();
+  lap.b.S_dd[0](0, 0) = 500;
+  expect_refusal<FileError>(lap, {},
+                            "b.h5:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue -280.776");
+  lap = test::two_fastener_lap();
+  lap.b.disc_hole = {"1", "1"};
+  expect_refusal<FileError>(lap, {}, "b.h5:disc/hole: \"1\" stands twice, expected each name once");
+  lap = test::two_fastener_lap();
+  lap.b = test::chain(0, 0, 1000, {});
+  expect_refusal<FileError>(lap, {}, "b.h5:disc/hole: is empty, expected at least one disc");
+}
+
+TEST(JointModel, RefusesFilesThatAreMissing) {
+  expect_refusal<FileError>(test::two_fastener_lap(), {{"plates", R"({"a": "a.h5", "b": "nope.h5"})"}},
+                            "nope.h5: cannot be opened: No such file or directory; stage2_extract PLATE.h5 -o ");
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3

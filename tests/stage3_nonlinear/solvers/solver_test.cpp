@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tests/bench/gsl_methods.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using testing::HasSubstr;
+using testing::ThrowsMessage;
+
+constexpr RootOptions options{.tolerance = 1e-12, .max_iterations = 200};
+
+/// Rosenbrock's valley as two equations, root (1, 1).
+const RootProblem rosenbrock{
+    [](const VectorXd& x) -> VectorXd { return Vector2d(1 - x[0], 10 * (x[1] - x[0] * x[0])); },
+    [](const VectorXd& x) -> Eigen::MatrixXd {
+      return Matrix2d{{-1, 0}, {-20 * x[0], 10}};
+    },
+    {}};
+
+class Solves : public testing::TestWithParam<bench::Solver> {};
+
+TEST_P(Solves, FindsTheRootOfRosenbrock) {
+  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), options);
+  EXPECT_TRUE(root.converged);
+  EXPECT_GT(root.iterations, 0);
+  EXPECT_LE(root.residual.cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_LT((root.x - Vector2d(1, 1)).norm(), 1e-11);
+}
+
+TEST_P(Solves, IsDoneAtTheRoot) {
+  const Root root = GetParam().solve(rosenbrock, Vector2d(1, 1), options);
+  EXPECT_TRUE(root.converged);
+  EXPECT_EQ(root.iterations, 0);
+}
+
+TEST_P(Solves, StopsAtTheCap) {
+  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), {.tolerance = 1e-12, .max_iterations = 1});
+  EXPECT_FALSE(root.converged);
+  EXPECT_EQ(root.iterations, 1);
+  EXPECT_TRUE(root.residual.allFinite());
+}
+
+TEST_P(Solves, SaysThatThereIsNoRoot) {
+  const RootProblem none{[](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, 1 + x[0] * x[0]); },
+                         [](const VectorXd& x) -> Eigen::MatrixXd { return VectorXd::Constant(1, 2 * x[0]); },
+                         {}};
+  const Root root = GetParam().solve(none, VectorXd::Constant(1, 3), options);
+  EXPECT_FALSE(root.converged);
+  EXPECT_GE(root.residual[0], 1);
+}
+
+TEST_P(Solves, StopsWhereTheFunctionHasNoValue) {
+  const RootProblem nan{[](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, std::sqrt(-1 - x[0])); },
+                        [](const VectorXd&) -> Eigen::MatrixXd { return VectorXd::Constant(1, 1); },
+                        {}};
+  const Root root = GetParam().solve(nan, VectorXd::Constant(1, 3), options);
+  EXPECT_FALSE(root.converged);
+  EXPECT_EQ(root.residual[0], std::numeric_limits<double>::infinity());
+}
+
+TEST_P(Solves, LetsExceptionsOut) {
+  const RootProblem throwing{
+      [](const VectorXd&) -> VectorXd { throw std::runtime_error("from inside"); }, rosenbrock.jacobian, {}};
+  EXPECT_THAT([&] { (void)GetParam().solve(throwing, Vector2d(0, 0), options); },
+              ThrowsMessage<std::runtime_error>(HasSubstr("from inside")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, Solves, testing::ValuesIn(bench::solvers()), [](const auto& which) {
+  std::string name = which.param.name;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace fastjoint::stage3
