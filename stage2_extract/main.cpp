@@ -10,6 +10,7 @@
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
 #include "stage2_extract/field/field_file.hpp"
+#include "stage2_extract/stresses/stresses.hpp"
 
 namespace {
 
@@ -62,16 +63,31 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
   return request;
 }
 
+void require_memory(const std::string& file, double need) {
+  constexpr double libraries = 24e6;
+  program::require_memory(file + ": this", libraries + need, "",
+                          "a file of a lower p or fewer holes, or of stage1_plate --loads-only");
+}
+
+/// What the matrices take beside the plate's fields: stresses and condensed matrices stand in memory and in the file
+/// that is written, which HDF5 enlarges by copying it.
+double extraction_need(const formats::PlateSolution& plate, double file_size) {
+  constexpr double copies = 4;
+  double fields = 0;
+  for (const auto& each : plate.cases)
+    fields += 8.0 * static_cast<double>(each.U.size() + each.V.size() + each.W.size());
+  return fields + copies * (std::max(file_size - fields, 0.0) + stage2::stress_bytes(plate));
+}
+
 void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("read");
   const auto request = field_request(arguments);
-  constexpr double libraries = 24e6, of_file = 3;  // its fields, and as much again as is made of them
+  constexpr double of_reading = 3;  // the file's image, and its fields as they are filled
   std::error_code none;
-  const auto size = std::filesystem::file_size(arguments.input, none);
-  if (!none)
-    program::require_memory(arguments.input + ": this", libraries + of_file * static_cast<double>(size), "",
-                            "a file of a lower p or fewer holes, or of stage1_plate --loads-only");
+  const auto size = static_cast<double>(std::filesystem::file_size(arguments.input, none));
+  if (!none) require_memory(arguments.input, of_reading * size);
   const auto plate = formats::read_plate_solution(arguments.input);
+  if (!arguments.flag("--field")) require_memory(arguments.input, extraction_need(plate, size));
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
   if (!arguments.flag("--field")) return write_matrices(arguments, plate, timings);
   const std::string summary = stage2::write_field(arguments.output, plate, arguments.input, request, timings);

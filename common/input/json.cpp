@@ -54,9 +54,10 @@ std::string line_and_column(const std::string& text, std::size_t byte) {
 }
 
 /// Words of the parser for common mistakes, and what to do about each.
-constexpr std::array<std::pair<const char*, const char*>, 13> advice{{
+constexpr std::array<std::pair<const char*, const char*>, 14> advice{{
     {"unexpected '}'; expected string literal", "there is one comma too many before '}'; remove it"},
     {"unexpected ']'; expected '['", "a value is missing before ']', or there is one comma too many"},
+    {"unexpected ','", "there is one comma too many, or a value is missing before it"},
     {"unexpected '}'; expected '['", "a value is missing before '}'"},
     {"unexpected number literal; expected string literal",
      "a number follows a comma where a key must; write decimals with a point, 72.5"},

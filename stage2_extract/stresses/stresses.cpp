@@ -104,4 +104,12 @@ formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, con
   return a;
 }
 
+double stress_bytes(const formats::PlateSolution& plate) {
+  constexpr double components = 3;
+  const auto rows = static_cast<double>(plate.hole_rim.size()) * n_points_per_turn;
+  const auto& cases = plate.cases.back();
+  const auto n_cases = cases.E_c.rows() + cases.E_h.rows() + cases.V.cols();
+  return sizeof(double) * components * rows * static_cast<double>(n_cases * plate.stress_p.size());
+}
+
 }  // namespace fastjoint::stage2

@@ -11,4 +11,7 @@ namespace fastjoint::stage2 {
 /// @param file Name of the plate's file, for messages.
 [[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, const std::string& file);
 
+/// Bytes of the stresses at the rims, which are by far the most of them.
+[[nodiscard]] double stress_bytes(const formats::PlateSolution& plate);
+
 }  // namespace fastjoint::stage2

@@ -116,7 +116,7 @@ void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<s
 
 void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                              std::vector<std::string>& result) {
-  if (const auto planes = planes_that_may_snap(equations); !planes.empty()) {
+  if (const auto planes = planes_that_may_snap(equations); !planes.empty() && !path.steps.empty()) {
     const std::string found =
         !path.left           ? "the one given is followed from no load"
         : path.left->guessed ? fmt::format(
@@ -222,9 +222,12 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
   if (!failure.level.empty())
     return fmt::format(
-        "{}: limit load reached: beyond load factor {:.6g} the laws of {} allow no more force (a law that ends level "
-        "its last one, a cubic that turns down its peak); {} did not converge. {} "
-        "{}Take smaller loads, or more or stronger fasteners",
+        "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} allow no more "
+        "force (a "
+        "law that ends level holds its last one, a cubic that falls is past its peak); {} did not converge. {} "
+        "{}Take smaller loads or displacements, or more or stronger fasteners; what others carry once these have "
+        "failed, a "
+        "joint without these shows",
         scene.file, failure.reached, names(joint, failure.level), increment, kept, locking);
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)

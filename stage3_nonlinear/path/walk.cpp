@@ -137,8 +137,12 @@ bool Walk::solve_from_guesses(double target) {
 bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
   const auto problem = root_problem(equations_, target, scale_);
   const auto solved_by = [&](SolveFunction solver) {
-    return std::any_of(starts.begin(), starts.end(),
-                       [&](const VectorXd& start) { return take(run(problem, start, solver), target); });
+    return std::any_of(starts.begin(), starts.end(), [&](const VectorXd& start) {
+      const Root root = run(problem, start, solver);
+      if (take(root, target)) return true;
+      if (solver == newton_root) note_failure(root);  // it descends: where it ends is where the joint gives way
+      return false;
+    });
   };
   return solved_by(solver_) || (solver_ != newton_root && solved_by(newton_root));
 }
@@ -174,6 +178,10 @@ bool Walk::solve_by_turns(double target) {
   return false;
 }
 
+bool Walk::converged(const Root& root) const {
+  return root.converged || is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>());
+}
+
 Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction solver) {
   Root root = solver(problem, start / scale_, {options_.solver.tolerance, options_.solver.max_iterations});
   iterations_ += root.iterations;
@@ -181,10 +189,7 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
 }
 
 bool Walk::take(const Root& root, double target) {
-  if (!root.converged && !is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>())) {
-    note_failure(root);
-    return false;
-  }
+  if (!converged(root)) return false;
   const VectorXd c = scale_ * root.x;
   if (const auto spent = contact_state(equations_.contacts, c).spent) {
     if (std::isinf(worst_residual_)) {
@@ -199,6 +204,7 @@ bool Walk::take(const Root& root, double target) {
 
 /// Of all tries the one that came closest counts.
 void Walk::note_failure(const Root& root) {
+  if (converged(root)) return;  // past all that a law carries
   Index at = 0;
   const double worst = root.residual.cwiseAbs().maxCoeff(&at);
   if (!(worst < worst_residual_)) return;

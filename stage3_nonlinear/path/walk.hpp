@@ -51,6 +51,7 @@ class Walk {
   bool take_exact(double target);
   bool solve_by_turns(double target);
   Root run(const RootProblem& problem, const Eigen::VectorXd& start, SolveFunction solver);
+  [[nodiscard]] bool converged(const Root& root) const;
   bool take(const Root& root, double target);
   void note_failure(const Root& root);
 

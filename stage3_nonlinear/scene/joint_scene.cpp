@@ -48,14 +48,23 @@ std::vector<PlateScene> read_plates(const std::string& file, const Value& plates
   return result;
 }
 
+/// Doubts about the laws that fasteners have.
+void warn_of_laws(const Value& laws, JointScene& scene) {
+  const auto has = [](const FastenerScene& fastener, const std::string& name) {
+    return std::find(fastener.law.begin(), fastener.law.end(), name) != fastener.law.end();
+  };
+  for (const auto& [name, value] : laws.members())
+    if (std::any_of(scene.fasteners.begin(), scene.fasteners.end(), [&](const auto& each) { return has(each, name); }))
+      for (const auto& doubt : scene.laws.at(name).law->doubts())
+        scene.warnings.push_back(fmt::format("{}: {}", where(scene.file, value), doubt));
+}
+
 void read_laws(const Value& laws, JointScene& scene) {
   for (const auto& [name, value] : laws.members()) {
     LawScene law{read_law(value)};
     if (const auto file = value.find("file"))
       law.file = (std::filesystem::path(scene.file).parent_path() / file->text()).string();
     if (const auto one_sided = value.find("one_sided")) law.one_sided = one_sided->boolean();
-    for (const auto& doubt : law.law->doubts())
-      scene.warnings.push_back(fmt::format("{}: {}", where(scene.file, value), doubt));
     scene.laws.emplace(name, std::move(law));
   }
   if (scene.laws.empty()) laws.fail("no law", "at least one");
@@ -198,6 +207,7 @@ JointScene read_joint_scene(const input::Document& document) {
   scene.plates = read_plates(scene.file, root.at("plates"));
   read_laws(root.at("laws"), scene);
   for (const auto& item : root.at("fasteners").items(1)) scene.fasteners.push_back(read_fastener(item, scene));
+  warn_of_laws(root.at("laws"), scene);
   for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(scene.file, item));
   if (const auto increments = root.find("increments")) {
     scene.at_events = is_at_events(*increments);

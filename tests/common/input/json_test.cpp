@@ -50,6 +50,7 @@ TEST(Json, SaysWhatToDoAboutCommonMistakes) {
   says("{\"a\": 1.}", "this number is incomplete; write 1 or 1.0, 0.5, 1e-3");
   says("{\"a\": 1,\n}", "line 2, column 1: there is one comma too many before '}'; remove it");
   says("{\"a\": [1, 2,]}", "column 13: a value is missing before ']', or there is one comma too many");
+  says("{\"a\": [1,,2]}", "column 10: there is one comma too many, or a value is missing before it");
   says("{\"a\": }", "a value is missing before '}'");
   says("{\"E\": 72,4}", "a number follows a comma where a key must; write decimals with a point, 72.5");
   says("{\"a\": 1 \"b\": 2}", "a comma is missing before this");
