@@ -11,11 +11,10 @@ namespace {
 
 /// None of what line springs hold, (m).
 Eigen::VectorXd disc_modulus(const formats::PlateSolution& plate) {
-  Eigen::VectorXd modulus = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(plate.disc_hole.size()));
+  Eigen::VectorXd modulus = Eigen::VectorXd::Zero(plate.disc_hole.size());
   for (std::size_t i = 0; i < plate.disc_hole.size(); ++i)
     for (std::size_t hole = 0; hole < plate.hole_id.size(); ++hole)
-      if (plate.hole_id[hole] == plate.disc_hole[i])
-        modulus[static_cast<Eigen::Index>(i)] = plate.hole_spring[hole].modulus;
+      if (plate.hole_id[hole] == plate.disc_hole[i]) modulus[i] = plate.hole_spring[hole].modulus;
   return modulus;
 }
 
@@ -81,10 +80,9 @@ void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
 /// What stage 1 found of the scene's own loads, for readers of MATRICES.h5.
 void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
   for (const auto& contact : plate.contacts) {
-    const auto hole = static_cast<std::size_t>(contact.hole);
     a.contacts.push_back(
-        {plate.hole_id[hole], {}, contact.iterations, contact.peak_pressure, contact.peak_angle / rim::degree});
-    for (const auto& range : plate.hole_spring[hole].acts)
+        {plate.hole_id[contact.hole], {}, contact.iterations, contact.peak_pressure, contact.peak_angle / rim::degree});
+    for (const auto& range : plate.hole_spring[contact.hole].acts)
       a.contacts.back().arcs.push_back({range.from / rim::degree, range.to / rim::degree});
   }
   a.load_displacement = plate.load_displacement;

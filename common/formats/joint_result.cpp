@@ -17,9 +17,9 @@ std::vector<Eigen::MatrixXd> unfolded(const Eigen::MatrixXd& table, Eigen::Index
 }
 
 Eigen::MatrixXd folded(const std::vector<Eigen::MatrixXd>& stack, Eigen::Index columns) {
-  Eigen::MatrixXd table(static_cast<Eigen::Index>(stack.size()), columns);
+  Eigen::MatrixXd table(stack.size(), columns);
   for (std::size_t step = 0; step < stack.size(); ++step)
-    table.row(static_cast<Eigen::Index>(step)) = stack[step].transpose().reshaped().transpose();
+    table.row(step) = stack[step].transpose().reshaped().transpose();
   return table;
 }
 
@@ -62,7 +62,7 @@ void write_rims(h5::Writer& file, const std::string& group, const RimHistory& ri
 RimHistory read_rims(const h5::Reader& file, const std::string& group, Eigen::Index steps, const Units& units) {
   RimHistory rims;
   rims.hole = file.strings(group + "hole", h5::any);
-  const auto r = static_cast<Eigen::Index>(rims.hole.size());
+  const Eigen::Index r = rims.hole.size();
   rims.sections = file.integers(group + "sections", r);
   for_each_table(rims, units, [&](const char* name, Eigen::MatrixXd& table, const std::string& unit, const char*) {
     const bool may_be_unknown = &table == &rims.peak_error || &table == &rims.bypass_error;
@@ -92,19 +92,19 @@ PlateHistory read_plate(const h5::Reader& file, const std::string& name, Eigen::
   PlateHistory plate;
   plate.name = name;
   plate.disc_hole = file.strings(group + "disc/hole", h5::any);
-  const auto m = static_cast<Eigen::Index>(plate.disc_hole.size());
+  const Eigen::Index m = plate.disc_hole.size();
   plate.disc_direction = file.strings(group + "disc/direction", m);
   plate.external_id = file.strings(group + "external/id", h5::any);
-  const auto e = static_cast<Eigen::Index>(plate.external_id.size());
+  const Eigen::Index e = plate.external_id.size();
   plate.D = file.matrix(group + "D", steps, m, unit(units, 1, 0));
   plate.De = file.matrix(group + "De", steps, e, unit(units, 1, 0));
   plate.Pe = file.matrix(group + "Pe", steps, e, unit(units, 0, 1));
   plate.friction_hole = file.strings(group + "friction/hole", h5::any);
-  const auto h = static_cast<Eigen::Index>(plate.friction_hole.size());
+  const Eigen::Index h = plate.friction_hole.size();
   plate.friction_bearing = file.strings(group + "friction/bearing", h);
   plate.Lambda = file.matrix(group + "Lambda", steps, h, unit(units, -2, 1));
   plate.traction_id = file.strings(group + "traction/id", h5::any);
-  const auto q = static_cast<Eigen::Index>(plate.traction_id.size());
+  const Eigen::Index q = plate.traction_id.size();
   plate.traction = file.matrix(group + "traction/force", steps, q, unit(units, 0, 1));
   plate.rims = read_rims(file, group + "rim/", steps, units);
   return plate;
@@ -180,7 +180,7 @@ void write(const std::string& path, const JointResult& a) {
   file.write("delta", a.delta, {unit(units, 1, 0), "displacement of the first plate's disc relative to the second's"});
   file.write("F", a.F, {force, "force of the fastener's law: of bearing, or transferred if it includes friction"});
   if (a.F_error) file.write("F_error", *a.F_error, {force, "estimated error of F by those of the plates' matrices"});
-  const auto n_directions = static_cast<Eigen::Index>(a.direction.size());
+  const Eigen::Index n_directions = a.direction.size();
   file.write("delta_vector", unfolded(a.delta_vector, n_directions), a.F.cols(), n_directions,
              {unit(units, 1, 0), "components of delta"});
   file.write("F_vector", unfolded(a.F_vector, n_directions), a.F.cols(), n_directions, {force, "components of F"});
@@ -213,11 +213,11 @@ JointResult read_joint_result(const std::string& path) {
   a.residual = file.vector("residual", steps, "1");
   a.event = file.strings("event", steps);
   a.fastener_id = file.strings("fastener/id", h5::any);
-  const auto n = static_cast<Eigen::Index>(a.fastener_id.size());
+  const Eigen::Index n = a.fastener_id.size();
   a.first_hole = file.strings("fastener/first", n);
   a.second_hole = file.strings("fastener/second", n);
   a.direction = file.strings("direction", h5::any);
-  const auto directions = static_cast<Eigen::Index>(a.direction.size());
+  const Eigen::Index directions = a.direction.size();
   a.delta_vector = folded(file.stack("delta_vector", steps, n, directions, unit(units, 1, 0)), n * directions);
   a.F_vector = folded(file.stack("F_vector", steps, n, directions, unit(units, 0, 1)), n * directions);
   a.delta = file.matrix("delta", steps, n, unit(units, 1, 0));

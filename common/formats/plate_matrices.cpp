@@ -17,8 +17,7 @@ constexpr int minor = 4;
 /// A stack that is missing altogether is one of zero-width matrices.
 std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,
                                           Eigen::Index rows, Eigen::Index cols, const std::string& unit) {
-  if (!file.has(dataset) && rows * cols == 0)
-    return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(n), Eigen::MatrixXd::Zero(rows, cols));
+  if (!file.has(dataset) && rows * cols == 0) return std::vector<Eigen::MatrixXd>(n, Eigen::MatrixXd::Zero(rows, cols));
   return file.stack(dataset, n, rows, cols, unit);
 }
 
@@ -38,7 +37,7 @@ std::vector<std::string> strings_if_any(const h5::Reader& file, const char* data
 }
 
 std::vector<std::string> directions(const h5::Reader& file, const char* dataset, Eigen::Index n) {
-  return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>(static_cast<std::size_t>(n), "x");
+  return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>(n, "x");
 }
 
 void write_names(h5::Writer& file, const PlateMatrices& a) {
@@ -69,13 +68,13 @@ void write_stiffness(h5::Writer& file, const PlateMatrices& a, const std::string
 
 void write_contacts(h5::Writer& file, const PlateMatrices& a) {
   const Units& units = a.header.units;
-  const auto n = static_cast<Eigen::Index>(a.contacts.size());
+  const Eigen::Index n = a.contacts.size();
   std::vector<std::string> hole, arc_hole;
   Eigen::VectorXi iterations(n);
   Eigen::VectorXd pressure(n), angle(n);
   std::vector<double> arcs;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const HoleContact& contact = a.contacts[static_cast<std::size_t>(i)];
+    const HoleContact& contact = a.contacts[i];
     hole.push_back(contact.hole);
     iterations[i] = contact.iterations;
     pressure[i] = contact.peak_pressure;
@@ -85,8 +84,7 @@ void write_contacts(h5::Writer& file, const PlateMatrices& a) {
       arcs.insert(arcs.end(), {from, to});
     }
   }
-  const Eigen::MatrixXd arc =
-      Eigen::Map<const Eigen::Matrix2Xd>(arcs.data(), 2, static_cast<Eigen::Index>(arc_hole.size())).transpose();
+  const Eigen::MatrixXd arc = Eigen::Map<const Eigen::Matrix2Xd>(arcs.data(), 2, arc_hole.size()).transpose();
   file.write("contact/hole", hole, {"1", "holes whose springs push but do not pull, under the loads of the input"});
   file.write("contact/iterations", iterations, {"1", "until the ends of the arcs in contact stood still"});
   file.write("contact/peak_pressure", pressure, {unit(units, -2, 1), "largest pressure on the rim"});

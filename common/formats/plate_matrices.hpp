@@ -52,10 +52,10 @@ struct PlateMatrices {
   Eigen::MatrixXd load_friction;      ///< (l, h) stress
   Eigen::MatrixXd load_traction;      ///< (l, q) force
 
-  [[nodiscard]] Eigen::Index n_externals() const { return static_cast<Eigen::Index>(external_id.size()); }
-  [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(disc_hole.size()); }
-  [[nodiscard]] Eigen::Index n_friction_cases() const { return static_cast<Eigen::Index>(friction_hole.size()); }
-  [[nodiscard]] Eigen::Index n_tractions() const { return static_cast<Eigen::Index>(traction_id.size()); }
+  [[nodiscard]] Eigen::Index n_externals() const { return external_id.size(); }
+  [[nodiscard]] Eigen::Index n_discs() const { return disc_hole.size(); }
+  [[nodiscard]] Eigen::Index n_friction_cases() const { return friction_hole.size(); }
+  [[nodiscard]] Eigen::Index n_tractions() const { return traction_id.size(); }
   /// Unit cases in their order: externals, discs, friction, tractions.
   [[nodiscard]] Eigen::Index n_cases() const { return n_externals() + n_discs() + n_friction_cases() + n_tractions(); }
 };

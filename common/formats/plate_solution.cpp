@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/formats/plate_solution_geometry.hpp"
 
@@ -71,20 +72,19 @@ void check_levels(const h5::Reader& file, const PlateSolution& a) {
 }
 
 void read_names(const h5::Reader& file, PlateSolution& a) {
-  const auto count = [](const std::vector<std::string>& names) { return static_cast<Eigen::Index>(names.size()); };
   a.supported = file.strings("supported", h5::any);
   a.p = file.integers("p", h5::any);
   a.ndof = file.integers("ndof", a.p.size());
   a.stress_p = file.integers("stress_p", h5::any);
   a.external_id = file.strings("external/id", h5::any);
-  a.external_direction = file.strings("external/direction", count(a.external_id));
+  a.external_direction = file.strings("external/direction", count_of(a.external_id));
   a.traction_id = file.strings("traction/id", h5::any);
-  a.traction_direction = file.strings("traction/direction", count(a.traction_id));
-  a.traction_hole = file.strings("traction/hole", count(a.traction_id));
+  a.traction_direction = file.strings("traction/direction", count_of(a.traction_id));
+  a.traction_hole = file.strings("traction/hole", count_of(a.traction_id));
   a.disc_hole = file.strings("disc/hole", h5::any);
-  a.disc_direction = file.strings("disc/direction", count(a.disc_hole));
+  a.disc_direction = file.strings("disc/direction", count_of(a.disc_hole));
   a.friction_hole = file.strings("friction/hole", h5::any);
-  a.friction_bearing = file.strings("friction/bearing", count(a.friction_hole));
+  a.friction_bearing = file.strings("friction/bearing", count_of(a.friction_hole));
   const auto check_hole = [&](const char* dataset, const std::string& hole) {
     if (std::find(a.hole_id.begin(), a.hole_id.end(), hole) == a.hole_id.end())
       throw FileError(fmt::format("{}:{}: \"{}\" is not in hole/id", file.path(), dataset, hole));
@@ -103,11 +103,11 @@ void read_names(const h5::Reader& file, PlateSolution& a) {
 
 void write_loads(h5::Writer& file, const PlateSolution& a) {
   const Units& units = a.header.units;
-  const auto n = static_cast<Eigen::Index>(a.contacts.size());
+  const Eigen::Index n = a.contacts.size();
   Eigen::VectorXi hole(n), iterations(n);
   Eigen::VectorXd pressure(n), angle(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const Contact& contact = a.contacts[static_cast<std::size_t>(i)];
+    const Contact& contact = a.contacts[i];
     hole[i] = contact.hole;
     iterations[i] = contact.iterations;
     pressure[i] = contact.peak_pressure;
@@ -131,7 +131,7 @@ void read_loads(const h5::Reader& file, PlateSolution& a) {
   const Eigen::VectorXd pressure = file.vector("contact/peak_pressure", n, unit(units, -2, 1));
   const Eigen::VectorXd angle = file.vector("contact/peak_angle", n, "rad");
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (hole[i] < 0 || hole[i] >= static_cast<int>(a.hole_id.size()))
+    if (hole[i] < 0 || hole[i] >= count_of(a.hole_id))
       throw FileError(fmt::format("{}:contact/hole: {} is not a hole", file.path(), hole[i]));
     a.contacts.push_back({hole[i], iterations[i], pressure[i], angle[i]});
   }
@@ -198,8 +198,7 @@ void write(const std::string& path, const PlateSolution& a) {
   file.write("T_c", a.T_c, {"1", "the same on externals and discs"});
   file.write("shift", a.shift, {stiffness, "what E_c E_c^T has more than S on its diagonal"});
   write_loads(file, a);
-  for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    write_cases(file, units, case_group(a.p[i]), a.cases[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < a.p.size(); ++i) write_cases(file, units, case_group(a.p[i]), a.cases[i]);
   file.write("probe/displacement", a.probe.displacement, {length, "amounts of externals, then discs, in the field u"});
   file.write("probe/friction", a.probe.friction, {unit(units, -2, 1), "amounts of friction cases in the field w"});
   file.write("probe/u", a.probe.u, {length, "plate unknowns of the highest degree under these displacements"});
@@ -219,9 +218,9 @@ PlateSolution read_plate_solution(const std::string& path) {
   read_geometry(file, a);
   read_names(file, a);
   const auto n = a.ndof[a.p.size() - 1];
-  const auto nc = static_cast<Eigen::Index>(a.external_id.size() + a.disc_hole.size());
-  const auto h = static_cast<Eigen::Index>(a.friction_hole.size());
-  const auto q = static_cast<Eigen::Index>(a.traction_id.size());
+  const Eigen::Index nc = a.external_id.size() + a.disc_hole.size();
+  const Eigen::Index h = a.friction_hole.size();
+  const Eigen::Index q = a.traction_id.size();
   const int least = -1 - static_cast<int>(nc);
   if (a.unknown.size() == 0 || a.unknown.maxCoeff() >= n || a.unknown.minCoeff() < least)
     throw FileError(fmt::format("{}:unknown: an index is outside {}..{}", path, least, n - 1));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 
 namespace fastjoint::formats {
@@ -11,10 +12,10 @@ namespace {
 constexpr int n_sides_of_quad = 4;
 
 void write_mesh(h5::Writer& file, const pfem::Mesh& mesh, const std::string& length) {
-  Eigen::MatrixXi arc_nodes(static_cast<Eigen::Index>(mesh.arcs.size()), 2);
+  Eigen::MatrixXi arc_nodes(mesh.arcs.size(), 2);
   Eigen::MatrixXd arc_center(arc_nodes.rows(), 2);
   for (Eigen::Index i = 0; i < arc_nodes.rows(); ++i) {
-    const auto& arc = mesh.arcs[static_cast<std::size_t>(i)];
+    const auto& arc = mesh.arcs[i];
     arc_nodes.row(i) << arc.a, arc.b;
     arc_center.row(i) = arc.center.transpose();
   }
@@ -53,7 +54,7 @@ void write_elasticity(h5::Writer& file, const PlateSolution& a) {
 
 void read_elasticity(const h5::Reader& file, PlateSolution& a) {
   for (const auto& D : file.stack("elasticity", h5::any, 3, 3, unit(a.header.units, -2, 1))) a.elasticity.push_back(D);
-  const int n = static_cast<int>(a.elasticity.size());
+  const int n = count_of(a.elasticity);
   check_indices(file, "mesh/material", Eigen::MatrixXi(a.mesh.material), n);
 }
 
@@ -64,7 +65,7 @@ class SideTable {
     for (const auto& side : sides) rows_.insert(rows_.end(), {static_cast<int>(owner), side.element, side.local_edge});
   }
   [[nodiscard]] Eigen::MatrixXi matrix() const {
-    return Eigen::Map<const Eigen::MatrixXi>(rows_.data(), 3, static_cast<Eigen::Index>(rows_.size()) / 3).transpose();
+    return Eigen::Map<const Eigen::MatrixXi>(rows_.data(), 3, std::ssize(rows_) / 3).transpose();
   }
   /// Calls add(owner, side) for every row of a file.
   template <class Add>
@@ -74,7 +75,7 @@ class SideTable {
     for (Eigen::Index i = 0; i < rows.rows(); ++i) {
       if ((rows.row(i).array() < 0).any() || (rows.row(i).array() >= limit.array()).any())
         throw FileError(fmt::format("{}:{}: row {} names a side that does not exist", file.path(), dataset, i));
-      add(static_cast<std::size_t>(rows(i, 0)), pfem::Side{rows(i, 1), rows(i, 2)});
+      add(rows(i, 0), pfem::Side{rows(i, 1), rows(i, 2)});
     }
   }
 
@@ -83,22 +84,20 @@ class SideTable {
 };
 
 void write_holes(h5::Writer& file, const PlateSolution& a, const std::string& length) {
-  const auto n = static_cast<Eigen::Index>(a.hole_id.size());
+  const Eigen::Index n = a.hole_id.size();
   Eigen::MatrixXd center(n, 2);
   Eigen::VectorXd radius(n), modulus(n);
   std::vector<double> arcs;
   SideTable rims;
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto hole = static_cast<std::size_t>(i);
-    center.row(i) = a.hole_rim[hole].center.transpose();
-    radius[i] = a.hole_rim[hole].radius;
-    modulus[i] = a.hole_spring[hole].modulus;
-    for (const auto& range : a.hole_spring[hole].acts)
+    center.row(i) = a.hole_rim[i].center.transpose();
+    radius[i] = a.hole_rim[i].radius;
+    modulus[i] = a.hole_spring[i].modulus;
+    for (const auto& range : a.hole_spring[i].acts)
       arcs.insert(arcs.end(), {static_cast<double>(i), range.from, range.to});
-    rims.add(hole, a.hole_rim[hole].sides);
+    rims.add(i, a.hole_rim[i].sides);
   }
-  const Eigen::MatrixXd rows =
-      Eigen::Map<const Eigen::MatrixXd>(arcs.data(), 3, static_cast<Eigen::Index>(arcs.size()) / 3).transpose();
+  const Eigen::MatrixXd rows = Eigen::Map<const Eigen::MatrixXd>(arcs.data(), 3, std::ssize(arcs) / 3).transpose();
   file.write("hole/id", a.hole_id, {"1", "holes in the order of the input"});
   file.write("hole/center", center, {length, "x and y of each hole's centre"});
   file.write("hole/radius", radius, {length, "radius of each hole"});
@@ -110,14 +109,13 @@ void write_holes(h5::Writer& file, const PlateSolution& a, const std::string& le
 }
 
 void read_springs(const h5::Reader& file, PlateSolution& a) {
-  const auto n = static_cast<Eigen::Index>(a.hole_id.size());
+  const Eigen::Index n = a.hole_id.size();
   const Eigen::VectorXd modulus = file.vector("hole/modulus", n, unit(a.header.units, -3, 1));
   for (const double k : modulus) a.hole_spring.push_back({k, {}});
   const Eigen::VectorXi sprung = file.integers("hole/sprung", h5::any);
   check_indices(file, "hole/sprung", Eigen::MatrixXi(sprung), static_cast<int>(n));
   const Eigen::MatrixXd arc = file.matrix("hole/arc", sprung.size(), 2, "rad");
-  for (Eigen::Index i = 0; i < sprung.size(); ++i)
-    a.hole_spring[static_cast<std::size_t>(sprung[i])].acts.push_back({arc(i, 0), arc(i, 1)});
+  for (Eigen::Index i = 0; i < sprung.size(); ++i) a.hole_spring[sprung[i]].acts.push_back({arc(i, 0), arc(i, 1)});
 }
 
 /// Where the rim of a hole runs follows from the mesh as well.
@@ -134,7 +132,7 @@ void check_rims(const h5::Reader& file, const PlateSolution& a) {
 
 void read_holes(const h5::Reader& file, PlateSolution& a, const std::string& length) {
   a.hole_id = file.strings("hole/id", h5::any);
-  const auto n = static_cast<Eigen::Index>(a.hole_id.size());
+  const Eigen::Index n = a.hole_id.size();
   const Eigen::MatrixXd center = file.matrix("hole/center", n, 2, length);
   const Eigen::VectorXd radius = file.vector("hole/radius", n, length);
   for (Eigen::Index hole = 0; hole < n; ++hole) a.hole_rim.push_back({center.row(hole), radius[hole], {}});
@@ -145,12 +143,12 @@ void read_holes(const h5::Reader& file, PlateSolution& a, const std::string& len
 }
 
 void write_sections(h5::Writer& file, const PlateSolution& a) {
-  const auto n = static_cast<Eigen::Index>(a.sections.size());
+  const Eigen::Index n = a.sections.size();
   Eigen::VectorXi hole(n);
   std::vector<std::string> side;
   SideTable sides;
   for (std::size_t i = 0; i < a.sections.size(); ++i) {
-    hole[static_cast<Eigen::Index>(i)] = a.sections[i].hole;
+    hole[i] = a.sections[i].hole;
     side.push_back(a.sections[i].side);
     sides.add(i, a.sections[i].sides);
   }
@@ -161,9 +159,9 @@ void write_sections(h5::Writer& file, const PlateSolution& a) {
 
 void read_sections(const h5::Reader& file, PlateSolution& a) {
   const Eigen::VectorXi hole = file.integers("section/hole", h5::any);
-  check_indices(file, "section/hole", Eigen::MatrixXi(hole), static_cast<int>(a.hole_id.size()));
+  check_indices(file, "section/hole", Eigen::MatrixXi(hole), count_of(a.hole_id));
   const auto side = file.strings("section/side", hole.size());
-  for (Eigen::Index i = 0; i < hole.size(); ++i) a.sections.push_back({hole[i], side[static_cast<std::size_t>(i)], {}});
+  for (Eigen::Index i = 0; i < hole.size(); ++i) a.sections.push_back({hole[i], side[i], {}});
   SideTable::read(file, "section/sides", a.sections.size(), a.mesh.n_elements(),
                   [&](std::size_t section, const pfem::Side& s) { a.sections[section].sides.push_back(s); });
 }

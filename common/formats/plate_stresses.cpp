@@ -13,7 +13,7 @@ namespace {
 /// The unit of a column depends on its case.
 constexpr const char* per_case = "per unit of the case";
 
-Eigen::Index count(const std::vector<std::string>& names) { return static_cast<Eigen::Index>(names.size()); }
+Eigen::Index count(const std::vector<std::string>& names) { return names.size(); }
 
 void check_starts(const h5::Reader& file, const Eigen::VectorXi& start, Eigen::Index n_points) {
   const bool steps_up =

@@ -51,7 +51,7 @@ std::string shape_text(const Shape& shape) {
 }
 
 std::size_t count(const Shape& shape) {
-  return static_cast<std::size_t>(std::accumulate(shape.begin(), shape.end(), Eigen::Index{1}, std::multiplies<>()));
+  return std::accumulate(shape.begin(), shape.end(), Eigen::Index{1}, std::multiplies<>());
 }
 
 }  // namespace
@@ -73,7 +73,7 @@ struct Reader::Impl {
   Shape shape(const Dataset& set, const std::string& name, const Shape& expected) const {
     const Space space(H5Dget_space(set.get()));
     const int rank = H5Sget_simple_extent_ndims(space.get());
-    std::vector<hsize_t> extents(static_cast<std::size_t>(std::max(rank, 0)));
+    std::vector<hsize_t> extents(std::max(rank, 0));
     H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
     Shape found(extents.begin(), extents.end());
     bool fits = found.size() == expected.size();
@@ -218,7 +218,7 @@ int Reader::integer_attribute(const std::string& name) const {
 Eigen::VectorXd Reader::vector(const std::string& dataset, Eigen::Index n, const std::string& unit) const {
   std::vector<double> values;
   impl_->doubles(dataset, {n}, unit, values);
-  return Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
 }
 
 Eigen::MatrixXd Reader::matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols,
@@ -248,7 +248,7 @@ Eigen::MatrixXd Reader::transposed(const std::string& dataset, Eigen::Index cols
 Eigen::VectorXi Reader::integers(const std::string& dataset, Eigen::Index n) const {
   std::vector<int> values;
   impl_->read(dataset, {n}, H5T_INTEGER, H5T_NATIVE_INT, values);
-  return Eigen::Map<Eigen::VectorXi>(values.data(), static_cast<Eigen::Index>(values.size()));
+  return Eigen::Map<Eigen::VectorXi>(values.data(), values.size());
 }
 
 Eigen::MatrixXi Reader::integer_matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols) const {

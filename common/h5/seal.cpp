@@ -26,7 +26,7 @@ std::string seal(const std::string& digest) { return fmt::format("{}{}\n", mark,
 std::string checked_digest(const std::string& path) {
   std::ifstream in(path, std::ios::binary | std::ios::ate);
   if (!in) throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  std::string bytes(static_cast<std::size_t>(in.tellg()), '\0');
+  std::string bytes(in.tellg(), '\0');
   in.seekg(0).read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   const std::string_view image = std::string_view(bytes).substr(0, bytes.size() - std::min(bytes.size(), seal_size));
   const std::string_view end = std::string_view(bytes).substr(image.size());

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/h5/handle.hpp"
 #include "common/h5/seal.hpp"
@@ -74,14 +75,14 @@ struct Writer::Impl {
   void doubles(const std::string& name, const Shape& shape, const double* data, const Meta& meta) const {
     std::size_t n = 1;
     for (const auto e : shape) n *= e;
-    const Eigen::Map<const Eigen::ArrayXd> values(data, static_cast<Eigen::Index>(n));
+    const Eigen::Map<const Eigen::ArrayXd> values(data, n);
     if (values.isNaN().any()) throw NumericalError(fmt::format("{}: {} would hold a NaN", path, name));
-    const Space space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
+    const Space space(H5Screate_simple(count_of(shape), shape.data(), nullptr));
     dataset(name, space, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data, meta);
   }
 
   void integers(const std::string& name, const Shape& shape, const int* data, const Meta& meta) const {
-    const Space space(H5Screate_simple(static_cast<int>(shape.size()), shape.data(), nullptr));
+    const Space space(H5Screate_simple(count_of(shape), shape.data(), nullptr));
     dataset(name, space, H5T_STD_I32LE, H5T_NATIVE_INT, data, meta);
   }
 };
@@ -131,9 +132,9 @@ void Writer::write(const std::string& dataset, const Eigen::MatrixXi& A, const M
 
 void Writer::write(const std::string& dataset, const std::vector<Eigen::MatrixXd>& stack, Eigen::Index rows,
                    Eigen::Index cols, const Meta& meta) {
-  RowMajorXd flat(static_cast<Eigen::Index>(stack.size()), rows * cols);
+  RowMajorXd flat(stack.size(), rows * cols);
   for (Eigen::Index i = 0; i < flat.rows(); ++i) {
-    const RowMajorXd A = stack[static_cast<std::size_t>(i)];
+    const RowMajorXd A = stack[i];
     flat.row(i) = A.reshaped<Eigen::RowMajor>().transpose();
   }
   impl_->doubles(dataset, {stack.size(), extent(rows), extent(cols)}, flat.data(), meta);
@@ -160,8 +161,8 @@ std::string Writer::commit() {
   if (n_bytes <= 0) impl_->fail("file");
   std::string image;
   constexpr std::size_t room_for_seal = 64;
-  image.reserve(static_cast<std::size_t>(n_bytes) + room_for_seal);
-  image.resize(static_cast<std::size_t>(n_bytes));
+  image.reserve(n_bytes + room_for_seal);
+  image.resize(n_bytes);
   if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) impl_->fail("file");
   std::string found = digest(image);
   image += seal(found);

@@ -46,7 +46,7 @@ class Watch {
 };
 
 std::string line_and_column(const std::string& text, std::size_t byte) {
-  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(byte == 0 ? 0 : byte - 1, text.size()));
+  const auto end = text.begin() + std::min(byte == 0 ? 0 : byte - 1, text.size());
   const auto line = 1 + std::count(text.begin(), end, '\n');
   const auto newline = std::find(std::make_reverse_iterator(end), text.rend(), '\n');
   const auto column = 1 + std::distance(std::make_reverse_iterator(end), newline);

@@ -36,9 +36,9 @@ using Dense = std::unique_ptr<cholmod_dense, Free<cholmod_free_dense>>;
 cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
   assert(lower.isCompressed() && lower.rows() == lower.cols());
   cholmod_sparse v{};
-  v.nrow = static_cast<std::size_t>(lower.rows());
-  v.ncol = static_cast<std::size_t>(lower.cols());
-  v.nzmax = static_cast<std::size_t>(lower.nonZeros());
+  v.nrow = lower.rows();
+  v.ncol = lower.cols();
+  v.nzmax = lower.nonZeros();
   v.p = const_cast<int*>(lower.outerIndexPtr());
   v.i = const_cast<int*>(lower.innerIndexPtr());
   v.x = const_cast<double*>(lower.valuePtr());
@@ -53,8 +53,8 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
 
 cholmod_dense view(const Eigen::MatrixXd& B) {
   cholmod_dense v{};
-  v.nrow = static_cast<std::size_t>(B.rows());
-  v.ncol = static_cast<std::size_t>(B.cols());
+  v.nrow = B.rows();
+  v.ncol = B.cols();
   v.nzmax = v.nrow * v.ncol;
   v.d = v.nrow;
   v.x = const_cast<double*>(B.data());

@@ -28,7 +28,7 @@ void set_threads(int n) {
 }
 
 void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
-  const auto n_workers = std::min(n, static_cast<std::size_t>(n_threads));
+  const auto n_workers = std::min<std::size_t>(n, n_threads);
   if (n_workers <= 1) {
     for (std::size_t i = 0; i < n; ++i) f(i);
     return;

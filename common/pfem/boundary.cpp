@@ -16,11 +16,11 @@ Rule piecewise(int p, const std::vector<double>& breaks) {
   ends.insert(ends.end(), breaks.begin(), breaks.end());
   ends.push_back(1);
   const auto n = rule.x.size();
-  const auto n_pieces = static_cast<Eigen::Index>(ends.size()) - 1;
+  const Eigen::Index n_pieces = std::ssize(ends) - 1;
   Rule all{Eigen::VectorXd(n * n_pieces), Eigen::VectorXd(n * n_pieces)};
   for (Eigen::Index i = 0; i < n_pieces; ++i) {
-    const double low = ends[static_cast<std::size_t>(i)];
-    const double half = (ends[static_cast<std::size_t>(i) + 1] - low) / 2;
+    const double low = ends[i];
+    const double half = (ends[i + 1] - low) / 2;
     all.x.segment(i * n, n) = (low + half) + half * rule.x.array();
     all.w.segment(i * n, n) = half * rule.w;
   }

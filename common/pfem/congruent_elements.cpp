@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 
+#include "common/count.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/pfem/element_stiffness.hpp"
 
@@ -25,9 +26,9 @@ Shape shape_of(const Mesh& mesh, const Edges& edges, int element) {
   };
   for (int v = 1; v < 4; ++v) add(mesh.nodes.col(mesh.quads(v, element)));
   for (int edge = 0; edge < 4; ++edge) {
-    const int arc = edges.arc[static_cast<std::size_t>(edges.of_element(edge, element))];
+    const int arc = edges.arc[edges.of_element(edge, element)];
     shape.push_back(arc < 0 ? 0 : 1);
-    if (arc >= 0) add(mesh.arcs[static_cast<std::size_t>(arc)].center);
+    if (arc >= 0) add(mesh.arcs[arc].center);
   }
   return shape;
 }
@@ -38,8 +39,7 @@ CongruentElements find_congruent(const Mesh& mesh, const Edges& edges) {
   CongruentElements congruent;
   std::map<Shape, int> index;
   for (int element = 0; element < mesh.n_elements(); ++element) {
-    const auto [found, is_new] =
-        index.try_emplace(shape_of(mesh, edges, element), static_cast<int>(congruent.first.size()));
+    const auto [found, is_new] = index.try_emplace(shape_of(mesh, edges, element), count_of(congruent.first));
     if (is_new) congruent.first.push_back(element);
     congruent.shape.push_back(found->second);
   }
@@ -52,7 +52,7 @@ std::vector<Eigen::MatrixXd> integrate(const CongruentElements& congruent, const
   std::vector<Eigen::MatrixXd> K(congruent.first.size());
   linalg::for_each_index(K.size(), [&](std::size_t i) {
     const int element = congruent.first[i];
-    K[i] = stiffness(ElementMap(mesh, edges, element), elasticity[static_cast<std::size_t>(mesh.material[element])], 1);
+    K[i] = stiffness(ElementMap(mesh, edges, element), elasticity[mesh.material[element]], 1);
   });
   return K;
 }

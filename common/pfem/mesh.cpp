@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
@@ -26,12 +27,12 @@ Edges find_edges(const Mesh& mesh) {
   std::map<Ends, int> index;
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int edge = 0; edge < n_local_edges; ++edge) {
-      const auto [found, is_new] = index.try_emplace(ends_of(mesh, element, edge), static_cast<int>(index.size()));
+      const auto [found, is_new] = index.try_emplace(ends_of(mesh, element, edge), count_of(index));
       if (is_new) edges.n_elements.push_back(0);
-      ++edges.n_elements[static_cast<std::size_t>(found->second)];
+      ++edges.n_elements[found->second];
       edges.of_element(edge, element) = found->second;
     }
-  edges.nodes.resize(2, static_cast<Eigen::Index>(index.size()));
+  edges.nodes.resize(2, index.size());
   for (const auto& [ends, edge] : index) edges.nodes.col(edge) << ends.first, ends.second;
   edges.arc.assign(index.size(), -1);
   for (std::size_t i = 0; i < mesh.arcs.size(); ++i) {
@@ -39,7 +40,7 @@ Edges find_edges(const Mesh& mesh) {
     if (found == index.end()) {
       edges.arc_without_edge.push_back(static_cast<int>(i));
     } else {
-      edges.arc[static_cast<std::size_t>(found->second)] = static_cast<int>(i);
+      edges.arc[found->second] = static_cast<int>(i);
     }
   }
   return edges;
@@ -55,8 +56,8 @@ Curve edge_curve(const Mesh& mesh, const Edges& edges, int element, int local_ed
   const auto [first, second] = natural_ends(local_edge);
   const Eigen::Vector2d a = mesh.nodes.col(mesh.quads(first, element));
   const Eigen::Vector2d b = mesh.nodes.col(mesh.quads(second, element));
-  const int arc = edges.arc[static_cast<std::size_t>(edges.of_element(local_edge, element))];
-  return arc < 0 ? Curve::line(a, b) : Curve::arc(a, b, mesh.arcs[static_cast<std::size_t>(arc)].center);
+  const int arc = edges.arc[edges.of_element(local_edge, element)];
+  return arc < 0 ? Curve::line(a, b) : Curve::arc(a, b, mesh.arcs[arc].center);
 }
 
 }  // namespace fastjoint::pfem

@@ -14,9 +14,9 @@ struct DegreeBlock {
 
 std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, const std::vector<Mode>& modes,
                                        Numbering& numbering) {
-  std::vector<DegreeBlock> blocks(static_cast<std::size_t>(numbering.p) + 1);
-  for (auto m = static_cast<std::size_t>(edge_mode(numbering.p, n_local_edges, 2)); m < modes.size(); ++m)
-    ++blocks[static_cast<std::size_t>(modes[m].degree)].n_interior;
+  std::vector<DegreeBlock> blocks(numbering.p + 1);
+  for (std::size_t m = edge_mode(numbering.p, n_local_edges, 2); m < modes.size(); ++m)
+    ++blocks[modes[m].degree].n_interior;
   numbering.n_functions = {0, mesh.n_nodes()};
   for (std::size_t k = 2; k < blocks.size(); ++k) {
     blocks[k].first_edge = numbering.n_functions.back();
@@ -30,7 +30,7 @@ std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, con
 
 Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p) {
   const auto list = modes(space, p);
-  const auto n_modes = static_cast<Eigen::Index>(list.size());
+  const Eigen::Index n_modes = list.size();
   Numbering numbering{space, p, {}, {}, Eigen::MatrixXd::Ones(n_modes, mesh.n_elements())};
   numbering.function.resize(n_modes, mesh.n_elements());
   const auto blocks = degree_blocks(mesh, edges, list, numbering);
@@ -40,7 +40,7 @@ Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, in
       const int global = edges.of_element(edge, element);
       const bool against = mesh.quads(natural_ends(edge).first, element) != edges.nodes(0, global);
       for (int k = 2; k <= p; ++k) {
-        numbering.function(edge_mode(p, edge, k), element) = blocks[static_cast<std::size_t>(k)].first_edge + global;
+        numbering.function(edge_mode(p, edge, k), element) = blocks[k].first_edge + global;
         if (against && k % 2 == 1) numbering.sign(edge_mode(p, edge, k), element) = -1;
       }
     }

@@ -25,13 +25,13 @@ std::vector<Mode> modes(Space space, int p) {
 
 ShapeValues shape_values(Space space, int p, const Eigen::VectorXd& xi, const Eigen::VectorXd& eta) {
   const auto list = modes(space, p);
-  const auto n_modes = static_cast<Eigen::Index>(list.size());
+  const Eigen::Index n_modes = list.size();
   const Values X = integrated_legendre(p, xi);
   const Values Y = integrated_legendre(p, eta);
   ShapeValues v{Eigen::MatrixXd(n_modes, xi.size()), Eigen::MatrixXd(n_modes, xi.size()),
                 Eigen::MatrixXd(n_modes, xi.size())};
   for (Eigen::Index m = 0; m < n_modes; ++m) {
-    const auto [i, j, degree] = list[static_cast<std::size_t>(m)];
+    const auto [i, j, degree] = list[m];
     v.N.row(m) = X.N.row(i).cwiseProduct(Y.N.row(j));
     v.dN_dxi.row(m) = X.dN.row(i).cwiseProduct(Y.N.row(j));
     v.dN_deta.row(m) = X.N.row(i).cwiseProduct(Y.dN.row(j));

@@ -27,7 +27,7 @@ void Timings::credit(Clock::time_point now) {
 void Timings::phase(const std::string& name) {
   credit(now_());
   const auto found = std::find_if(phases_.begin(), phases_.end(), [&](const auto& each) { return each.first == name; });
-  present_ = static_cast<std::size_t>(found - phases_.begin());
+  present_ = found - phases_.begin();
   if (found == phases_.end()) phases_.emplace_back(name, Clock::duration::zero());
 }
 

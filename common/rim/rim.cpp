@@ -23,10 +23,9 @@ Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vect
   Rim rim{center, radius, {}};
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) {
-      const auto global = static_cast<std::size_t>(edges.of_element(edge, element));
+      const std::size_t global = edges.of_element(edge, element);
       const int arc = edges.arc[global];
-      if (arc >= 0 && edges.n_elements[global] == 1 &&
-          on_circle(mesh, mesh.arcs[static_cast<std::size_t>(arc)], center, radius))
+      if (arc >= 0 && edges.n_elements[global] == 1 && on_circle(mesh, mesh.arcs[arc], center, radius))
         rim.sides.push_back({element, edge});
     }
   return rim;

@@ -17,7 +17,7 @@ constexpr double at_rest = 1e-6;  // radians
 /// Force on the disc of a hole from outside, as far as its directions tell.
 Eigen::Vector2d disc_force(const PlateScene& scene, const Unknowns& unknowns, const Eigen::VectorXd& P, int hole) {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
-  const int first = unknowns.disc_of_hole[static_cast<std::size_t>(hole)];
+  const int first = unknowns.disc_of_hole[hole];
   for (std::size_t a = 0; a < scene.disc_directions.size(); ++a)
     force += P[unknowns.controlled_of_disc(first + static_cast<int>(a))] * rim::axis(scene.disc_directions[a]);
   return force;
@@ -74,7 +74,7 @@ class ContactSearch {
     const double move = result_[worst].last_move;
     throw NumericalError(fmt::format(
         "{}: /holes/{}/spring: the contact of hole \"{}\" has not come to rest in {} iterations: {}; allowed: {:g} rad",
-        scene_.file, result_[worst].hole, scene_.holes[static_cast<std::size_t>(result_[worst].hole)].id, iterations,
+        scene_.file, result_[worst].hole, scene_.holes[result_[worst].hole].id, iterations,
         std::isfinite(move) ? fmt::format("the ends of its arcs still move by {:.3g} rad", move)
                             : std::string("the number of its arcs still changes"),
         at_rest));
@@ -86,7 +86,7 @@ class ContactSearch {
     contact.arcs = arcs_[i];
     if (contact.arcs.empty()) return;
     const RimGap::Peak peak = gap.peak(state_.z);
-    contact.peak_pressure = scene_.holes[static_cast<std::size_t>(contact.hole)].sprung().modulus * peak.gap;
+    contact.peak_pressure = scene_.holes[contact.hole].sprung().modulus * peak.gap;
     contact.peak_angle = peak.angle;
     for (const auto& arc : contact.arcs)  // as the arc counts: 180 degrees at its end, not -180
       if (peak.angle < arc.from && peak.angle + rim::full_turn <= arc.to) contact.peak_angle += rim::full_turn;
@@ -122,7 +122,7 @@ ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const
 
 PlateScene with_arcs(PlateScene scene, const ContactState& state) {
   for (const auto& contact : state.holes)
-    if (auto& spring = scene.holes[static_cast<std::size_t>(contact.hole)].spring) spring->acts = contact.arcs;
+    if (auto& spring = scene.holes[contact.hole].spring) spring->acts = contact.arcs;
   return scene;
 }
 

@@ -23,7 +23,7 @@ std::vector<Load> controlled_loads(const PlateScene& scene, const Unknowns& unkn
   const SceneLoads& given = scene.given_loads();
   std::vector<Load> loads;
   loads.reserve(unknowns.rigid.size() + given.disc.size());
-  for (const int external : unknowns.rigid) loads.push_back(given.external[static_cast<std::size_t>(external)]);
+  for (const int external : unknowns.rigid) loads.push_back(given.external[external]);
   loads.insert(loads.end(), given.disc.begin(), given.disc.end());
   return loads;
 }
@@ -37,12 +37,11 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
       rim_(find_rim_unknowns(scene, plate, problem)),
       plate_matrices_(condense_to_rims(problem, rim_, has_friction(scene.given_loads().disc))),
       loads_(controlled_loads(scene, problem.unknowns)),
-      traction_(static_cast<Eigen::Index>(problem.unknowns.traction.size())),
+      traction_(problem.unknowns.traction.size()),
       side_(loads_.size(), 0),
       whole_(Eigen::MatrixXd::Zero(rim_.size(), rim_.size())) {
   for (std::size_t i = 0; i < problem.unknowns.traction.size(); ++i)
-    traction_[static_cast<Eigen::Index>(i)] =
-        scene.given_loads().external[static_cast<std::size_t>(problem.unknowns.traction[i])].value;
+    traction_[i] = scene.given_loads().external[problem.unknowns.traction[i]].value;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     const auto& spring = scene.holes[hole].spring;
     if (!spring || !spring->compression_only) continue;
@@ -55,7 +54,7 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
 ContactSystem::State ContactSystem::solve_whole() {
   std::vector<Arcs> arcs;
   arcs.reserve(holes_.size());
-  for (const int hole : holes_) arcs.push_back(scene_.holes[static_cast<std::size_t>(hole)].sprung().acts);
+  for (const int hole : holes_) arcs.push_back(scene_.holes[hole].sprung().acts);
   return solve(arcs);
 }
 
@@ -64,36 +63,38 @@ ContactSystem::State ContactSystem::solve_whole() {
 ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   PlateScene sprung = scene_;
   for (std::size_t i = 0; i < arcs.size(); ++i)
-    if (auto& spring = sprung.holes[static_cast<std::size_t>(holes_[i])].spring) spring->acts = arcs[i];
+    if (auto& spring = sprung.holes[holes_[i]].spring) spring->acts = arcs[i];
   if (!is_held_under_loads(sprung, plate_, problem_.unknowns)) lost(arcs);
   Eigen::MatrixXd dM = -whole_;
   for (std::size_t i = 0; i < gaps_.size(); ++i) dM += gaps_[i].stiffness(arcs[i]);
-  const auto n_r = static_cast<Eigen::Index>(rim_.free.size());
-  const auto nc = static_cast<Eigen::Index>(rim_.n_controlled);
+  const Eigen::Index n_r = rim_.free.size();
   const auto& [C, U_r, V_r, W_r, S, T, R] = plate_matrices_;
   const Eigen::MatrixXd A = friction_per_force();
   const double kappa = problem_.K_cc.cwiseAbs().maxCoeff();
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_r + 2 * nc, n_r + 2 * nc);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_r + 2 * rim_.n_controlled, n_r + 2 * rim_.n_controlled);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(K.rows());
-  K.topLeftCorner(n_r, n_r + nc) = C * dM.topRows(n_r);
+  K.topLeftCorner(n_r, n_r + rim_.n_controlled) = C * dM.topRows(n_r);
   K.topLeftCorner(n_r, n_r) += Eigen::MatrixXd::Identity(n_r, n_r);
-  K.block(0, n_r, n_r, nc) -= U_r;
-  K.topRightCorner(n_r, nc) = -kappa * W_r * A;
+  K.block(0, n_r, n_r, rim_.n_controlled) -= U_r;
+  K.topRightCorner(n_r, rim_.n_controlled) = -kappa * W_r * A;
   b.head(n_r) = V_r * traction_;
-  K.block(n_r, 0, nc, n_r + nc) = -(dM.bottomRows(nc) + U_r.transpose() * dM.topRows(n_r)) / kappa;
-  K.block(n_r, n_r, nc, nc) -= S / kappa;
-  K.block(n_r, n_r + nc, nc, nc) = Eigen::MatrixXd::Identity(nc, nc) - R * A;
-  b.segment(n_r, nc) = T * traction_ / kappa;
-  for (Eigen::Index i = 0; i < nc; ++i) {
-    const Load& load = loads_[static_cast<std::size_t>(i)];
-    K(n_r + nc + i, load.is_force ? n_r + nc + i : n_r + i) = 1;
-    b[n_r + nc + i] = load.is_force ? load.value / kappa : load.value;
+  K.block(n_r, 0, rim_.n_controlled, n_r + rim_.n_controlled) =
+      -(dM.bottomRows(rim_.n_controlled) + U_r.transpose() * dM.topRows(n_r)) / kappa;
+  K.block(n_r, n_r, rim_.n_controlled, rim_.n_controlled) -= S / kappa;
+  K.block(n_r, n_r + rim_.n_controlled, rim_.n_controlled, rim_.n_controlled) =
+      Eigen::MatrixXd::Identity(rim_.n_controlled, rim_.n_controlled) - R * A;
+  b.segment(n_r, rim_.n_controlled) = T * traction_ / kappa;
+  for (Eigen::Index i = 0; i < rim_.n_controlled; ++i) {
+    const Load& load = loads_[i];
+    K(n_r + rim_.n_controlled + i, load.is_force ? n_r + rim_.n_controlled + i : n_r + i) = 1;
+    b[n_r + rim_.n_controlled + i] = load.is_force ? load.value / kappa : load.value;
   }
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(K);
   constexpr double singular = 1e-13;
   if (!(lu.rcond() > singular)) lost(arcs);
   const Eigen::VectorXd x = lu.solve(b);
-  State state{x.head(n_r + nc), x.segment(n_r, nc), kappa * x.tail(nc), {}, false};
+  State state{
+      x.head(n_r + rim_.n_controlled), x.segment(n_r, rim_.n_controlled), kappa * x.tail(rim_.n_controlled), {}, false};
   state.friction = A * state.force;
   state.friction_settled = choose_sides(state.force);
   return state;
@@ -105,13 +106,13 @@ Eigen::MatrixXd ContactSystem::friction_per_force() const {
   Eigen::MatrixXd A = Eigen::MatrixXd::Zero(problem_.L_f.cols(), rim_.n_controlled);
   for (int disc = 0; disc < unknowns.n_discs(); ++disc) {
     const int controlled = unknowns.controlled_of_disc(disc);
-    const double friction = loads_[static_cast<std::size_t>(controlled)].friction;
-    const int side = side_[static_cast<std::size_t>(controlled)];
+    const double friction = loads_[controlled].friction;
+    const int side = side_[controlled];
     if (friction == 0 || side == 0) continue;
-    const std::string& id = unknowns.disc_hole[static_cast<std::size_t>(disc)];
+    const std::string& id = unknowns.disc_hole[disc];
     const auto hole = std::find_if(scene_.holes.begin(), scene_.holes.end(), [&](const Hole& h) { return h.id == id; });
-    const auto& rim = plate_.rims[static_cast<std::size_t>(hole - scene_.holes.begin())];
-    const Eigen::Vector2d e = rim::axis(unknowns.disc_direction[static_cast<std::size_t>(disc)]);
+    const auto& rim = plate_.rims[hole - scene_.holes.begin()];
+    const Eigen::Vector2d e = rim::axis(unknowns.disc_direction[disc]);
     const double c = rim::bearing(plate_.mesh, plate_.edges, rim, side * e).unit_force;
     const int friction_case = 2 * disc + (side > 0 ? 0 : 1);
     if (c > 0) A(friction_case, controlled) = friction * side / c;
@@ -125,7 +126,7 @@ bool ContactSystem::choose_sides(const Eigen::VectorXd& force) {
   const double largest = std::max(force.lpNorm<Eigen::Infinity>(), traction_.lpNorm<Eigen::Infinity>());
   bool right = true;
   for (std::size_t i = 0; i < side_.size(); ++i) {
-    const double f = force[static_cast<Eigen::Index>(i)];
+    const double f = force[i];
     if (loads_[i].friction == 0 || std::abs(f) <= nothing * largest) continue;
     const int side = f > 0 ? 1 : -1;
     right = right && side == side_[i];
@@ -140,10 +141,9 @@ void ContactSystem::lost(const std::vector<Arcs>& arcs) const {
       throw NumericalError(fmt::format(
           "{}: /loads: hole \"{}\" has lost contact all round, and then something that carries load can move freely; "
           "allowed: loads that press discs against rims, or supports that hold the plate without them",
-          scene_.file, scene_.holes[static_cast<std::size_t>(holes_[i])].id));
+          scene_.file, scene_.holes[holes_[i]].id));
   bool whole = true;
-  for (std::size_t i = 0; i < arcs.size(); ++i)
-    whole = whole && arcs[i] == scene_.holes[static_cast<std::size_t>(holes_[i])].sprung().acts;
+  for (std::size_t i = 0; i < arcs.size(); ++i) whole = whole && arcs[i] == scene_.holes[holes_[i]].sprung().acts;
   if (whole)
     throw NumericalError(
         fmt::format("{}: /loads: even with the whole rims sprung, something that carries load can move freely; "

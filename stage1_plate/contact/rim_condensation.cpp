@@ -7,14 +7,14 @@ namespace fastjoint::stage1 {
 
 RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns& rim, bool with_friction) {
   const auto n = problem.K_fc.rows();
-  const auto n_r = static_cast<Eigen::Index>(rim.free.size());
+  const Eigen::Index n_r = rim.free.size();
   const auto nc = problem.K_fc.cols();
   const auto q = problem.T_f.cols();
   const auto h = problem.L_f.cols();
   Eigen::MatrixXd B = Eigen::MatrixXd::Zero(n, nc + q + n_r + (with_friction ? h : 0));
   B.leftCols(nc) = -Eigen::MatrixXd(problem.K_fc);
   B.middleCols(nc, q) = Eigen::MatrixXd(problem.T_f);
-  for (Eigen::Index i = 0; i < n_r; ++i) B(rim.free[static_cast<std::size_t>(i)], nc + q + i) = 1;
+  for (Eigen::Index i = 0; i < n_r; ++i) B(rim.free[i], nc + q + i) = 1;
   if (with_friction) B.rightCols(h) = Eigen::MatrixXd(problem.L_f);
   const Eigen::MatrixXd X = PlateFactor(problem, Skeleton(problem), problem.numbering.p).solve(B);
   const Eigen::MatrixXd X_r = X(rim.free, Eigen::all);

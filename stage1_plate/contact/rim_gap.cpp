@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/count.hpp"
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/rim/bearing.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 int target(const PlateProblem& problem, const pfem::Side& side, int mode, int component) {
   const int function = problem.numbering.function(mode, side.element);
-  return problem.unknowns.target[static_cast<std::size_t>(2 * function + component)];
+  return problem.unknowns.target[2 * function + component];
 }
 
 /// Global shape function per local one.
@@ -51,13 +52,13 @@ double highest(const Function& f, double low, double high) {
 
 int RimUnknowns::place(int target) const {
   if (target == Unknowns::fixed) return -1;
-  if (Unknowns::is_free(target)) return position[static_cast<std::size_t>(target)];
-  return static_cast<int>(free.size()) + Unknowns::controlled_index(target);
+  if (Unknowns::is_free(target)) return position[target];
+  return count_of(free) + Unknowns::controlled_index(target);
 }
 
 RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
   RimUnknowns unknowns{{}, {}, problem.unknowns.n_controlled};
-  unknowns.position.assign(static_cast<std::size_t>(problem.unknowns.n_free.back()), -1);
+  unknowns.position.assign(problem.unknowns.n_free.back(), -1);
   constexpr int on_rim = 0;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     if (!scene.holes[hole].spring || !scene.holes[hole].spring->compression_only) continue;
@@ -65,11 +66,11 @@ RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, c
       for (const int mode : pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p).modes)
         for (const int component : {0, 1})
           if (const int to = target(problem, side, mode, component); Unknowns::is_free(to))
-            unknowns.position[static_cast<std::size_t>(to)] = on_rim;
+            unknowns.position[to] = on_rim;
   }
   for (std::size_t i = 0; i < unknowns.position.size(); ++i)
     if (unknowns.position[i] == on_rim) {
-      unknowns.position[i] = static_cast<int>(unknowns.free.size());
+      unknowns.position[i] = count_of(unknowns.free);
       unknowns.free.push_back(static_cast<int>(i));
     }
   return unknowns;
@@ -91,7 +92,7 @@ class RimGap::Trace {
           u_(component, k) = sign(rim.problem_, side, mode) * z[place];
     }
     const Unknowns& unknowns = rim.problem_.unknowns;
-    const int first_disc = unknowns.disc_of_hole[static_cast<std::size_t>(rim.hole_)];
+    const int first_disc = unknowns.disc_of_hole[rim.hole_];
     for (std::size_t a = 0; a < rim.scene_.disc_directions.size(); ++a) {
       const int controlled = unknowns.controlled_of_disc(first_disc + static_cast<int>(a));
       disc_ += z[rim.unknowns_.place(Unknowns::controlled(controlled))] * rim::axis(rim.scene_.disc_directions[a]);
@@ -137,37 +138,36 @@ RimGap::SideGap RimGap::side_gap(const pfem::Side& side, const pfem::SideRule& r
       if (place < 0) continue;
       const double s = sign(problem_, side, rule.modes[i]);
       gap.place.push_back(place);
-      rows.emplace_back(s * rule.N.row(static_cast<Eigen::Index>(i)).cwiseProduct(rule.normal.row(component)));
+      rows.emplace_back(s * rule.N.row(i).cwiseProduct(rule.normal.row(component)));
     }
-  const int first_disc = problem_.unknowns.disc_of_hole[static_cast<std::size_t>(hole_)];
+  const int first_disc = problem_.unknowns.disc_of_hole[hole_];
   for (std::size_t a = 0; a < scene_.disc_directions.size(); ++a) {
     const int controlled = problem_.unknowns.controlled_of_disc(first_disc + static_cast<int>(a));
     gap.place.push_back(unknowns_.place(Unknowns::controlled(controlled)));
     rows.emplace_back(-rim::axis(scene_.disc_directions[a]).transpose() * rule.normal);
   }
-  gap.a.resize(static_cast<Eigen::Index>(rows.size()), n_points);
-  for (std::size_t i = 0; i < rows.size(); ++i) gap.a.row(static_cast<Eigen::Index>(i)) = rows[i];
+  gap.a.resize(rows.size(), n_points);
+  for (std::size_t i = 0; i < rows.size(); ++i) gap.a.row(i) = rows[i];
   return gap;
 }
 
 Eigen::MatrixXd RimGap::stiffness(const Arcs& arcs) const {
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(unknowns_.size(), unknowns_.size());
-  Spring spring = scene_.holes[static_cast<std::size_t>(hole_)].sprung();
+  Spring spring = scene_.holes[hole_].sprung();
   spring.acts = arcs;
-  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+  for (const auto& side : plate_.rims[hole_].sides) {
     const SideSprings springs = side_springs(spring, plate_, side, problem_.numbering.p);
     const SideGap gap = side_gap(side, springs.rule);
     const Eigen::MatrixXd K = gap.a * springs.weight.asDiagonal() * gap.a.transpose();
     for (std::size_t i = 0; i < gap.place.size(); ++i)
-      for (std::size_t j = 0; j < gap.place.size(); ++j)
-        M(gap.place[i], gap.place[j]) += K(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+      for (std::size_t j = 0; j < gap.place.size(); ++j) M(gap.place[i], gap.place[j]) += K(i, j);
   }
   return M;
 }
 
 Arcs RimGap::pressed(const Eigen::VectorXd& z) const {
   std::vector<rim::AngleRange> pieces;
-  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+  for (const auto& side : plate_.rims[hole_].sides) {
     const Trace g(*this, side, z);
     const Eigen::VectorXd s = g.samples();
     double from = -1;
@@ -191,7 +191,7 @@ Arcs RimGap::bearing_half(const Eigen::Vector2d& d) const {
   const double middle = std::atan2(d.y(), d.x());
   const double quarter = rim::full_turn / 4;
   std::vector<rim::AngleRange> pieces;
-  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+  for (const auto& side : plate_.rims[hole_].sides) {
     const auto curve = pfem::edge_curve(plate_.mesh, plate_.edges, side.element, side.local_edge);
     const double a = wrapped(std::min(curve.start_angle(), curve.start_angle() + curve.sweep()) - middle);
     const double b = a + std::abs(curve.sweep());
@@ -205,7 +205,7 @@ Arcs RimGap::bearing_half(const Eigen::Vector2d& d) const {
 }
 
 double RimGap::at(const Eigen::VectorXd& z, double angle) const {
-  const auto& sides = plate_.rims[static_cast<std::size_t>(hole_)].sides;
+  const auto& sides = plate_.rims[hole_].sides;
   const auto off = [&](const pfem::Side& side) { return std::abs(Trace(*this, side, z).coordinate(angle)); };
   const auto nearest =
       *std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
@@ -215,7 +215,7 @@ double RimGap::at(const Eigen::VectorXd& z, double angle) const {
 
 std::vector<double> RimGap::ends() const {
   std::vector<rim::AngleRange> pieces;
-  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides)
+  for (const auto& side : plate_.rims[hole_].sides)
     pieces.push_back(Trace(*this, side, Eigen::VectorXd::Zero(unknowns_.size())).range(-1, 1));
   const Arcs rim = joined(std::move(pieces));
   std::vector<double> ends;
@@ -226,7 +226,7 @@ std::vector<double> RimGap::ends() const {
 
 RimGap::Peak RimGap::peak(const Eigen::VectorXd& z) const {
   Peak best{-std::numeric_limits<double>::infinity(), 0};
-  for (const auto& side : plate_.rims[static_cast<std::size_t>(hole_)].sides) {
+  for (const auto& side : plate_.rims[hole_].sides) {
     const Trace g(*this, side, z);
     const Eigen::VectorXd s = g.samples();
     Eigen::Index top = 0;

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "common/count.hpp"
 #include "stage1_plate/contact/sprung_arcs.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 
@@ -16,7 +17,7 @@ struct RimUnknowns {
   std::vector<int> position;  ///< (n_f) place of a free unknown in `free`, or -1
   int n_controlled;
 
-  [[nodiscard]] int size() const { return static_cast<int>(free.size()) + n_controlled; }
+  [[nodiscard]] int size() const { return count_of(free) + n_controlled; }
   /// Place of a coefficient's target in z, or -1 of a fixed one.
   [[nodiscard]] int place(int target) const;
 };

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -11,13 +13,11 @@ namespace {
 void add_rim(const ElementKind::RimSide& rim, const std::vector<int>& row, Eigen::Index first_border,
              Eigen::MatrixXd& M) {
   const RimTerms& terms = rim.terms;
-  const auto n_modes = static_cast<Eigen::Index>(row.size()) / 2;
-  const auto n = static_cast<Eigen::Index>(terms.modes.size());
+  const Eigen::Index n_modes = std::ssize(row) / 2;
+  const Eigen::Index n = terms.modes.size();
   const auto n_discs = terms.coupling.cols();
   const auto disc = first_border + 3 * n_discs * rim.hole;
-  const auto row_of = [&](Eigen::Index i) {
-    return row[static_cast<std::size_t>((i < n ? 0 : n_modes) + terms.modes[static_cast<std::size_t>(i % n)])];
-  };
+  const auto row_of = [&](Eigen::Index i) { return row[(i < n ? 0 : n_modes) + terms.modes[i % n]]; };
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     if (row_of(i) < 0) continue;
     for (Eigen::Index j = 0; j <= i; ++j)
@@ -32,22 +32,22 @@ void add_rim(const ElementKind::RimSide& rim, const std::vector<int>& row, Eigen
 
 CondensedElement condense(const ElementKind& kind, const Eigen::MatrixXd& K, const pfem::Numbering& numbering, int p) {
   CondensedElement element{{}, {}, 0, {}};
-  const int n_modes = static_cast<int>(kind.kept.size());
+  const int n_modes = count_of(kind.kept);
   for (int mode = 0; mode < n_modes; ++mode) {
-    if (numbering.function(mode, kind.first) >= numbering.n_functions[static_cast<std::size_t>(p)]) continue;
-    auto& list = kind.kept[static_cast<std::size_t>(mode)] ? element.outside : element.inside;
+    if (numbering.function(mode, kind.first) >= numbering.n_functions[p]) continue;
+    auto& list = kind.kept[mode] ? element.outside : element.inside;
     list.insert(list.end(), {mode, n_modes + mode});
   }
   for (const auto& rim : kind.rims)
     element.n_border = std::max(element.n_border, (rim.hole + 1) * 3 * static_cast<int>(rim.terms.coupling.cols()));
-  std::vector<int> order = element.inside, row(static_cast<std::size_t>(2 * n_modes), -1);
+  std::vector<int> order = element.inside, row(2 * n_modes, -1);
   order.insert(order.end(), element.outside.begin(), element.outside.end());
-  const auto n = static_cast<Eigen::Index>(order.size());
-  for (std::size_t i = 0; i < order.size(); ++i) row[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  const Eigen::Index n = order.size();
+  for (std::size_t i = 0; i < order.size(); ++i) row[order[i]] = static_cast<int>(i);
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + element.n_border, n + element.n_border);
   M.topLeftCorner(n, n) = kind.thickness * K(order, order);
   for (const auto& rim : kind.rims) add_rim(rim, row, n, M);
-  element.matrix = {std::move(M), static_cast<Eigen::Index>(element.inside.size())};
+  element.matrix = {std::move(M), std::ssize(element.inside)};
   return element;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "common/count.hpp"
 #include "common/linalg/threads.hpp"
 #include "stage1_plate/factor/element_solution.hpp"
 
@@ -22,17 +23,16 @@ class SkeletonAssembler {
            const Eigen::Ref<const Eigen::MatrixXd>& C) {
     order_.resize(rows.size());
     std::iota(order_.begin(), order_.end(), 0);
-    std::erase_if(order_, [&](int i) { return rows[static_cast<std::size_t>(i)] < 0; });
-    std::sort(order_.begin(), order_.end(),
-              [&](int i, int j) { return rows[static_cast<std::size_t>(i)] < rows[static_cast<std::size_t>(j)]; });
+    std::erase_if(order_, [&](int i) { return rows[i] < 0; });
+    std::sort(order_.begin(), order_.end(), [&](int i, int j) { return rows[i] < rows[j]; });
     for (std::size_t c = 0; c < order_.size(); ++c) {
       const int j = order_[c];
-      const int column = rows[static_cast<std::size_t>(j)];
+      const int column = rows[j];
       const int* end = A_.innerIndexPtr() + A_.outerIndexPtr()[column + 1];
       const int* at = A_.innerIndexPtr() + A_.outerIndexPtr()[column];
       for (std::size_t r = c; r < order_.size(); ++r) {
         const int i = order_[r];
-        const int row = rows[static_cast<std::size_t>(i)];
+        const int row = rows[i];
         while (*at != row) at = at[1] == row ? at + 1 : std::lower_bound(at, end, row);
         const double value = scale * sign[i] * sign[j] * C(std::max(i, j), std::min(i, j));
         A_.valuePtr()[at - A_.innerIndexPtr()] += row == column && i != j ? 2 * value : value;
@@ -58,16 +58,14 @@ PlateFactor::PlateFactor(const PlateProblem& problem, const Skeleton& skeleton, 
     : problem_(problem), kinds_(problem.elements.kinds.size()), rows_(skeleton.rows(problem, p)) {
   linalg::for_each_index(kinds_.size(), [&](std::size_t i) {
     const ElementKind& kind = problem.elements.kinds[i];
-    kinds_[i] = condense(kind, problem.elements.stiffness[static_cast<std::size_t>(kind.shape)], problem.numbering, p);
+    kinds_[i] = condense(kind, problem.elements.stiffness[kind.shape], problem.numbering, p);
   });
   const Eigen::SparseMatrix<double> A = skeleton_stiffness(skeleton);
   diagonal_ = A.diagonal();
   factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_border);
 }
 
-const CondensedElement& PlateFactor::condensed(int element) const {
-  return kinds_[static_cast<std::size_t>(problem_.elements.kind[static_cast<std::size_t>(element)])];
-}
+const CondensedElement& PlateFactor::condensed(int element) const { return kinds_[problem_.elements.kind[element]]; }
 
 Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skeleton) const {
   Eigen::SparseMatrix<double> A = skeleton.pattern(rows_);
@@ -79,9 +77,9 @@ Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skel
     std::vector<int> rows;
     Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
     for (const int coefficient : K.outside) {
-      sign[static_cast<Eigen::Index>(rows.size())] = numbering.sign(coefficient % n_modes, element);
+      sign[rows.size()] = numbering.sign(coefficient % n_modes, element);
       const auto place = Eigen::Index{2} * numbering.function(coefficient % n_modes, element) + coefficient / n_modes;
-      rows.push_back(rows_.of_target(problem_.unknowns.target[static_cast<std::size_t>(place)]));
+      rows.push_back(rows_.of_target(problem_.unknowns.target[place]));
     }
     for (const int column : border_of(problem_, static_cast<int>(element))) rows.push_back(rows_.n_skeleton + column);
     assembler.add(rows, sign, problem_.elements.scale[element], K.matrix.outside());
@@ -106,7 +104,7 @@ Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(proble
 double PlateFactor::rounding(const Eigen::VectorXd& u) const {
   double sum = 0;
   for (Eigen::Index i = 0; i < u.size(); ++i)
-    if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0) sum += diagonal_[row] * u[i] * u[i];
+    if (const int row = rows_.of_unknown[i]; row >= 0) sum += diagonal_[row] * u[i] * u[i];
   return std::numeric_limits<double>::epsilon() * sum;
 }
 
@@ -117,11 +115,10 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
     const auto k = std::min(block, B.cols() - first);
     Eigen::MatrixXd skeleton = Eigen::MatrixXd::Zero(rows_.n_skeleton, k);
     for (Eigen::Index i = 0; i < B.rows(); ++i)
-      if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
-        skeleton.row(row) = B.row(i).segment(first, k);
+      if (const int row = rows_.of_unknown[i]; row >= 0) skeleton.row(row) = B.row(i).segment(first, k);
     std::vector<ElementSolution> elements;
     elements.reserve(problem_.elements.kind.size());
-    for (int element = 0; element < static_cast<int>(problem_.elements.kind.size()); ++element)
+    for (int element = 0; element < count_of(problem_.elements.kind); ++element)
       elements.emplace_back(problem_, element, condensed(element), rows_);
     linalg::for_each_index(elements.size(), [&](std::size_t i) { elements[i].eliminate(B.middleCols(first, k)); });
     for (const auto& element : elements) element.add_to(skeleton);
@@ -129,8 +126,7 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
     linalg::for_each_index(elements.size(),
                            [&](std::size_t i) { elements[i].restore(skeleton, X.middleCols(first, k)); });
     for (Eigen::Index i = 0; i < X.rows(); ++i)
-      if (const int row = rows_.of_unknown[static_cast<std::size_t>(i)]; row >= 0)
-        X.row(i).segment(first, k) = skeleton.row(row);
+      if (const int row = rows_.of_unknown[i]; row >= 0) X.row(i).segment(first, k) = skeleton.row(row);
   }
   return X;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/count.hpp"
 #include "common/linalg/cholesky.hpp"
 #include "common/pfem/shape_functions.hpp"
 
@@ -17,13 +18,12 @@ void sort_unique(std::vector<int>& list) {
 
 /// First functions of the vertices and edges on the skeleton of an element.
 std::vector<int> on_skeleton_of(const PlateProblem& problem, int element) {
-  const auto& kind =
-      problem.elements.kinds[static_cast<std::size_t>(problem.elements.kind[static_cast<std::size_t>(element)])];
+  const auto& kind = problem.elements.kinds[problem.elements.kind[element]];
   const auto& numbering = problem.numbering;
   std::vector<int> list = {numbering.function(0, element), numbering.function(1, element),
                            numbering.function(2, element), numbering.function(3, element)};
   for (int edge = 0; edge < pfem::n_local_edges && numbering.p > 1; ++edge)
-    if (const int mode = pfem::edge_mode(numbering.p, edge, 2); kind.kept[static_cast<std::size_t>(mode)])
+    if (const int mode = pfem::edge_mode(numbering.p, edge, 2); kind.kept[mode])
       list.push_back(numbering.function(mode, element));
   return list;
 }
@@ -34,8 +34,7 @@ std::vector<int> border_beside(const PlateProblem& problem, int element, const s
   std::vector<int> list = border_of(problem, element);
   for (const int function : on_skeleton)
     for (int component = 0; component < 2; ++component)
-      if (const int to = problem.unknowns.target[static_cast<std::size_t>(2 * function + component)];
-          Unknowns::is_controlled(to))
+      if (const int to = problem.unknowns.target[2 * function + component]; Unknowns::is_controlled(to))
         list.push_back(Unknowns::controlled_index(to));
   return list;
 }
@@ -45,8 +44,8 @@ std::vector<int> border_beside(const PlateProblem& problem, int element, const s
 std::vector<int> border_of(const PlateProblem& problem, int element) {
   const Unknowns& unknowns = problem.unknowns;
   std::vector<int> list;
-  for (const int hole : problem.elements.holes[static_cast<std::size_t>(element)]) {
-    const int disc = unknowns.disc_of_hole[static_cast<std::size_t>(hole)];
+  for (const int hole : problem.elements.holes[element]) {
+    const int disc = unknowns.disc_of_hole[hole];
     for (int a = 0; a < unknowns.n_directions; ++a) list.push_back(unknowns.controlled_of_disc(disc + a));
     for (int c = 0; c < 2 * unknowns.n_directions; ++c) list.push_back(unknowns.n_controlled + 2 * disc + c);
   }
@@ -55,22 +54,20 @@ std::vector<int> border_of(const PlateProblem& problem, int element) {
 
 Skeleton::Skeleton(const PlateProblem& problem) {
   std::vector<Blocks> cliques;
-  const auto n_elements = static_cast<int>(problem.elements.kind.size());
+  const auto n_elements = count_of(problem.elements.kind);
   cliques.reserve(problem.elements.kind.size());
   for (int element = 0; element < n_elements; ++element) cliques.push_back(on_skeleton_of(problem, element));
   order(cliques);
-  const int first_border = static_cast<int>(function_.size());
-  higher_.resize(function_.size() + static_cast<std::size_t>(problem.unknowns.n_controlled) +
-                 problem.friction_hole.size());
+  const int first_border = count_of(function_);
+  higher_.resize(function_.size() + problem.unknowns.n_controlled + problem.friction_hole.size());
   for (std::size_t i = 0; i < cliques.size(); ++i) {
     const auto border = border_beside(problem, static_cast<int>(i), cliques[i]);
-    for (int& block : cliques[i]) block = position_[static_cast<std::size_t>(block)];
+    for (int& block : cliques[i]) block = position_[block];
     for (const int column : border) cliques[i].push_back(first_border + column);
     join(cliques[i]);
   }
   for (const auto& tie : problem.ties)
-    join({Unknowns::is_free(tie.target) ? position_[static_cast<std::size_t>(tie.vertex)]
-                                        : first_border + Unknowns::controlled_index(tie.target),
+    join({Unknowns::is_free(tie.target) ? position_[tie.vertex] : first_border + Unknowns::controlled_index(tie.target),
           first_border + tie.controlled});
   for (auto& list : higher_) sort_unique(list);
 }
@@ -79,17 +76,17 @@ void Skeleton::order(const std::vector<Blocks>& on_skeleton) {
   std::vector<int> functions;
   for (const auto& clique : on_skeleton) functions.insert(functions.end(), clique.begin(), clique.end());
   sort_unique(functions);
-  const auto n = static_cast<int>(functions.size());
-  position_.assign(functions.empty() ? 0 : static_cast<std::size_t>(functions.back()) + 1, -1);
-  for (int i = 0; i < n; ++i) position_[static_cast<std::size_t>(functions[static_cast<std::size_t>(i)])] = i;
+  const auto n = count_of(functions);
+  position_.assign(functions.empty() ? 0 : functions.back() + 1, -1);
+  for (int i = 0; i < n; ++i) position_[functions[i]] = i;
   higher_.resize(functions.size());
   for (auto clique : on_skeleton) {
-    for (int& block : clique) block = position_[static_cast<std::size_t>(block)];
+    for (int& block : clique) block = position_[block];
     join(clique);
   }
   Eigen::SparseMatrix<double> graph(n, n);
   for (int a = 0; a < n; ++a) {
-    auto& list = higher_[static_cast<std::size_t>(a)];
+    auto& list = higher_[a];
     sort_unique(list);
     graph.startVec(a);
     graph.insertBack(a, a) = 1;
@@ -98,39 +95,38 @@ void Skeleton::order(const std::vector<Blocks>& on_skeleton) {
   }
   graph.finalize();
   for (const int i : linalg::elimination_order(graph)) {
-    position_[static_cast<std::size_t>(functions[static_cast<std::size_t>(i)])] = static_cast<int>(function_.size());
-    function_.push_back(functions[static_cast<std::size_t>(i)]);
+    position_[functions[i]] = count_of(function_);
+    function_.push_back(functions[i]);
   }
 }
 
 void Skeleton::join(const Blocks& clique) {
   for (const int a : clique)
     for (const int b : clique)
-      if (a < b) higher_[static_cast<std::size_t>(a)].push_back(b);
+      if (a < b) higher_[a].push_back(b);
 }
 
 int Skeleton::Rows::of_target(int target) const {
-  if (Unknowns::is_free(target)) return of_unknown[static_cast<std::size_t>(target)];
+  if (Unknowns::is_free(target)) return of_unknown[target];
   return Unknowns::is_controlled(target) ? n_skeleton + Unknowns::controlled_index(target) : -1;
 }
 
 Skeleton::Rows Skeleton::rows(const PlateProblem& problem, int p) const {
   const auto& n_functions = problem.numbering.n_functions;
   Rows rows;
-  rows.of_unknown.assign(static_cast<std::size_t>(problem.unknowns.n_free.back()), -1);
+  rows.of_unknown.assign(problem.unknowns.n_free.back(), -1);
   int n = 0;
   const auto number = [&](int function) {
     for (int component = 0; component < 2; ++component)
-      if (const int to = problem.unknowns.target[static_cast<std::size_t>(2 * function + component)];
-          Unknowns::is_free(to))
-        rows.of_unknown[static_cast<std::size_t>(to)] = n++;
+      if (const int to = problem.unknowns.target[2 * function + component]; Unknowns::is_free(to))
+        rows.of_unknown[to] = n++;
   };
   for (const int function : function_) {
     rows.first.push_back(n);
     if (function < n_functions[1]) {
       number(function);
     } else {
-      for (int k = 2; k <= p; ++k) number(n_functions[static_cast<std::size_t>(k) - 1] + function - n_functions[1]);
+      for (int k = 2; k <= p; ++k) number(n_functions[k - 1] + function - n_functions[1]);
     }
   }
   rows.n_skeleton = n;
@@ -146,7 +142,7 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
   const auto n_rows = [&](std::size_t block) { return static_cast<double>(rows.first[block + 1] - rows.first[block]); };
   const auto n_rows_of = [&](const Blocks& blocks) {
     double n = 0;
-    for (const int block : blocks) n += n_rows(static_cast<std::size_t>(block));
+    for (const int block : blocks) n += n_rows(block);
     return n;
   };
   for (std::size_t a = 0; a < joined.size(); ++a) {
@@ -155,7 +151,7 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
     size.factor += own * own + own * below;
     size.largest_front = std::max(size.largest_front, below * below);
     if (joined[a].empty()) continue;
-    Blocks& parent = joined[static_cast<std::size_t>(joined[a].front())];
+    Blocks& parent = joined[joined[a].front()];
     Blocks both;
     std::set_union(parent.begin(), parent.end(), joined[a].begin() + 1, joined[a].end(), std::back_inserter(both));
     parent = std::move(both);
@@ -166,14 +162,12 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
 
 Eigen::SparseMatrix<double> Skeleton::pattern(const Rows& rows) const {
   const int n = rows.n_skeleton + rows.n_border;
-  const auto size = [&](int block) {
-    return rows.first[static_cast<std::size_t>(block) + 1] - rows.first[static_cast<std::size_t>(block)];
-  };
+  const auto size = [&](int block) { return rows.first[block + 1] - rows.first[block]; };
   Eigen::SparseMatrix<double> A(n, n);
   Eigen::Index n_entries = 0;
-  for (int a = 0; a < static_cast<int>(higher_.size()); ++a) {
+  for (int a = 0; a < count_of(higher_); ++a) {
     n_entries += size(a) * (size(a) + 1) / 2;
-    for (const int b : higher_[static_cast<std::size_t>(a)]) n_entries += Eigen::Index{size(a)} * size(b);
+    for (const int b : higher_[a]) n_entries += Eigen::Index{size(a)} * size(b);
   }
   A.reserve(n_entries);
   for (std::size_t a = 0; a < higher_.size(); ++a)
@@ -181,9 +175,7 @@ Eigen::SparseMatrix<double> Skeleton::pattern(const Rows& rows) const {
       A.startVec(column);
       for (int row = column; row < rows.first[a + 1]; ++row) A.insertBackByOuterInner(column, row) = 0;
       for (const int b : higher_[a])
-        for (int row = rows.first[static_cast<std::size_t>(b)]; row < rows.first[static_cast<std::size_t>(b) + 1];
-             ++row)
-          A.insertBackByOuterInner(column, row) = 0;
+        for (int row = rows.first[b]; row < rows.first[b + 1]; ++row) A.insertBackByOuterInner(column, row) = 0;
     }
   A.finalize();
   return A;

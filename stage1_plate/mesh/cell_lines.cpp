@@ -41,8 +41,7 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
     while (end < n && !strip[end].has_hole) ++end;
     const auto before = begin > 0 ? strip[begin - 1].wish : std::nullopt;
     const auto after = end < n ? strip[end].wish : std::nullopt;
-    std::fill(nodes.begin() + static_cast<std::ptrdiff_t>(begin), nodes.begin() + static_cast<std::ptrdiff_t>(end) + 1,
-              agreed(before, after));
+    std::fill(nodes.begin() + begin, nodes.begin() + end + 1, agreed(before, after));
     begin = end + 1;
   }
   return nodes;
@@ -56,29 +55,25 @@ CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const st
   std::vector<std::vector<StripCell>> columns(n_columns, std::vector<StripCell>(n_rows));
   std::vector<std::vector<StripCell>> rows(n_rows, std::vector<StripCell>(n_columns));
   for (const auto& cell : holes) {
-    const auto column = static_cast<std::size_t>(cell.column);
-    const auto row = static_cast<std::size_t>(cell.row);
-    const double radius = scene.holes[static_cast<std::size_t>(cell.hole)].radius;
-    columns[column][row].has_hole = rows[row][column].has_hole = true;
-    if (!cell.cuts[left] && !cell.cuts[right]) columns[column][row].wish = Wish{cell.center.x(), radius};
-    if (!cell.cuts[bottom] && !cell.cuts[top]) rows[row][column].wish = Wish{cell.center.y(), radius};
+    const double radius = scene.holes[cell.hole].radius;
+    columns[cell.column][cell.row].has_hole = rows[cell.row][cell.column].has_hole = true;
+    if (!cell.cuts[left] && !cell.cuts[right]) columns[cell.column][cell.row].wish = Wish{cell.center.x(), radius};
+    if (!cell.cuts[bottom] && !cell.cuts[top]) rows[cell.row][cell.column].wish = Wish{cell.center.y(), radius};
   }
   for (const auto& strip : columns) horizontal_.push_back(strip_nodes(strip));
   for (const auto& strip : rows) vertical_.push_back(strip_nodes(strip));
 }
 
 const std::vector<double>& CellLines::nodes(int column, int row, CellSide side) const {
-  const auto c = static_cast<std::size_t>(column);
-  const auto r = static_cast<std::size_t>(row);
   switch (side) {
     case bottom:
-      return horizontal_[c][r];
+      return horizontal_[column][row];
     case top:
-      return horizontal_[c][r + 1];
+      return horizontal_[column][row + 1];
     case left:
-      return vertical_[r][c];
+      return vertical_[row][column];
     default:
-      return vertical_[r][c + 1];
+      return vertical_[row][column + 1];
   }
 }
 

@@ -13,11 +13,11 @@ namespace {
 
 pfem::Mesh to_mesh(const MeshGeometry& geometry) {
   pfem::Mesh mesh;
-  const auto n = static_cast<Eigen::Index>(geometry.quads.size());
-  mesh.nodes.resize(2, static_cast<Eigen::Index>(geometry.nodes.size()));
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = geometry.nodes[static_cast<std::size_t>(i)];
+  const Eigen::Index n = geometry.quads.size();
+  mesh.nodes.resize(2, geometry.nodes.size());
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = geometry.nodes[i];
   mesh.quads.resize(4, n);
-  for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = geometry.quads[static_cast<std::size_t>(i)];
+  for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = geometry.quads[i];
   for (const auto& arc : geometry.arcs) mesh.arcs.push_back({arc.a, arc.b, arc.center});
   mesh.thickness = Eigen::Map<const Eigen::VectorXd>(geometry.thickness.data(), n);
   mesh.material = Eigen::Map<const Eigen::VectorXi>(geometry.material.data(), n);
@@ -25,8 +25,8 @@ pfem::Mesh to_mesh(const MeshGeometry& geometry) {
 }
 
 void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
-  std::vector<bool> used(static_cast<std::size_t>(mesh.n_nodes()), false);
-  for (const int node : mesh.quads.reshaped()) used[static_cast<std::size_t>(node)] = true;
+  std::vector<bool> used(mesh.n_nodes(), false);
+  for (const int node : mesh.quads.reshaped()) used[node] = true;
   const auto unused = std::find(used.begin(), used.end(), false);
   if (unused != used.end())
     reject(scene, fmt::format("/geometry/mesh/nodes/{}", unused - used.begin()), "no element uses this node",
@@ -50,7 +50,7 @@ void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edg
   }
   if (!edges.arc_without_edge.empty()) {
     const int i = edges.arc_without_edge.front();
-    const auto& arc = mesh.arcs[static_cast<std::size_t>(i)];
+    const auto& arc = mesh.arcs[i];
     reject(scene, fmt::format("/geometry/mesh/arcs/{}/edge", i),
            fmt::format("nodes {} and {} are not joined by an edge of an element", arc.a, arc.b), "edges of elements");
   }
@@ -58,7 +58,7 @@ void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edg
 
 void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
   for (int edge = 0; edge < edges.size(); ++edge)
-    if (const int n = edges.n_elements[static_cast<std::size_t>(edge)]; n > 2)
+    if (const int n = edges.n_elements[edge]; n > 2)
       reject(scene, "/geometry/mesh/quads",
              fmt::format("the edge between nodes {} and {} belongs to {} elements", edges.nodes(0, edge),
                          edges.nodes(1, edge), n),
@@ -70,12 +70,12 @@ void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
 std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge,
                                    const Eigen::Vector2d& point) {
   const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge)), b = mesh.nodes.col(edges.nodes(1, edge));
-  const int arc = edges.arc[static_cast<std::size_t>(edge)];
+  const int arc = edges.arc[edge];
   if (arc < 0) {
     const double along = (point - a).dot(b - a) / (b - a).squaredNorm();
     return {along, (point - a - along * (b - a)).norm() / (b - a).norm()};
   }
-  const Eigen::Vector2d& center = mesh.arcs[static_cast<std::size_t>(arc)].center;
+  const Eigen::Vector2d& center = mesh.arcs[arc].center;
   const auto curve = pfem::Curve::arc(a, b, center);
   const Eigen::Vector2d ray = point - center;
   const double turned = std::remainder(std::atan2(ray.y(), ray.x()) - curve.start_angle(), rim::full_turn);
@@ -93,7 +93,7 @@ void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const 
   constexpr double end = 1e-9, tolerance = 1e-6;  // of the edge's length: digits that a hand-written file has
   std::vector<int> border;
   for (int edge = 0; edge < edges.size(); ++edge)
-    if (edges.n_elements[static_cast<std::size_t>(edge)] == 1) border.push_back(edge);
+    if (edges.n_elements[edge] == 1) border.push_back(edge);
   for (const int edge : border)
     for (const int node : edges.nodes(Eigen::all, border).reshaped()) {
       if ((edges.nodes.col(edge).array() == node).any()) continue;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <map>
 
+#include "common/count.hpp"
 #include "stage1_plate/mesh/cell_lines.hpp"
 
 namespace fastjoint::stage1 {
@@ -17,29 +18,29 @@ using Point = Eigen::Vector2d;
 class Builder {
  public:
   int shared_node(const Point& at) {
-    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, static_cast<int>(nodes_.size()));
+    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, count_of(nodes_));
     if (is_new) nodes_.push_back(at);
     return found->second;
   }
   int own_node(const Point& at) {
     nodes_.push_back(at);
-    return static_cast<int>(nodes_.size()) - 1;
+    return count_of(nodes_) - 1;
   }
   void quad(const Eigen::Vector4i& nodes, double thickness, int material) {
     quads_.push_back(nodes);
     thickness_.push_back(thickness);
     material_.push_back(material);
   }
-  int n_elements() const { return static_cast<int>(quads_.size()); }
+  int n_elements() const { return count_of(quads_); }
   void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
 
   pfem::Mesh mesh() const {
     pfem::Mesh mesh;
-    const auto n = static_cast<Eigen::Index>(quads_.size());
-    mesh.nodes.resize(2, static_cast<Eigen::Index>(nodes_.size()));
-    for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = nodes_[static_cast<std::size_t>(i)];
+    const Eigen::Index n = quads_.size();
+    mesh.nodes.resize(2, nodes_.size());
+    for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = nodes_[i];
     mesh.quads.resize(4, n);
-    for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = quads_[static_cast<std::size_t>(i)];
+    for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = quads_[i];
     mesh.arcs = arcs_;
     mesh.thickness = Eigen::Map<const Eigen::VectorXd>(thickness_.data(), n);
     mesh.material = Eigen::Map<const Eigen::VectorXi>(material_.data(), n);
@@ -63,14 +64,12 @@ struct Cell {
 };
 
 Cell cell_at(const GridGeometry& grid, int column, int row) {
-  const auto c = static_cast<std::size_t>(column);
-  const auto r = static_cast<std::size_t>(row);
   return {column,
           row,
-          grid.x[c],
-          grid.x[c + 1],
-          grid.y[r],
-          grid.y[r + 1],
+          grid.x[column],
+          grid.x[column + 1],
+          grid.y[row],
+          grid.y[row + 1],
           grid.thickness(row, column),
           grid.material(row, column)};
 }
@@ -133,13 +132,12 @@ std::vector<Point> side_points(const CellLines& lines, const Cell& cell, CellSid
 std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleCell& hole) {
   int first = 0;  // the side after a cut that is not cut itself
   for (int side = 0; side < n_cell_sides; ++side)
-    if (hole.cuts[static_cast<std::size_t>(side)] && !hole.cuts[static_cast<std::size_t>((side + 1) % n_cell_sides)])
-      first = (side + 1) % n_cell_sides;
+    if (hole.cuts[side] && !hole.cuts[(side + 1) % n_cell_sides]) first = (side + 1) % n_cell_sides;
   std::vector<Point> points;
   int last = first;
   for (int i = 0; i < n_cell_sides; ++i) {
     const int side = (first + i) % n_cell_sides;
-    if (hole.cuts[static_cast<std::size_t>(side)]) continue;
+    if (hole.cuts[side]) continue;
     const auto next = side_points(lines, cell, static_cast<CellSide>(side));
     points.insert(points.end(), next.begin(), next.end());
     last = side;
@@ -247,7 +245,7 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
         mesh_plain_cell(builder, lines, cell);
       } else {
         const int first = builder.n_elements();
-        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[static_cast<std::size_t>(hole->hole)]);
+        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[hole->hole]);
         with_hole.push_back({&*hole, cell, first, builder.n_elements()});
       }
     }

@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -23,22 +25,20 @@ class Locator {
   Interval locate(const std::vector<double>& lines, int axis) const {
     const double c = hole_.center[axis];
     const double same = 1e-9 * (lines.back() - lines.front());
-    const int last = static_cast<int>(lines.size()) - 2;
+    const int last = count_of(lines) - 2;
     if (std::abs(c - lines.front()) < same) return check({0, lines.front(), true, false}, lines, axis);
     if (std::abs(c - lines.back()) < same) return check({last, lines.back(), false, true}, lines, axis);
     for (int i = 0; i <= last; ++i)
-      if (c > lines[static_cast<std::size_t>(i)] && c < lines[static_cast<std::size_t>(i) + 1])
-        return check({i, c, false, false}, lines, axis);
+      if (c > lines[i] && c < lines[i + 1]) return check({i, c, false, false}, lines, axis);
     if (c < lines.front() || c > lines.back()) outside();
     over_line(axis, c);
   }
 
  private:
   Interval check(const Interval& at, const std::vector<double>& lines, int axis) const {
-    const auto i = static_cast<std::size_t>(at.index);
-    if (!at.at_low_border && at.center - hole_.radius <= lines[i]) touches(i == 0, axis, lines[i]);
-    if (!at.at_high_border && at.center + hole_.radius >= lines[i + 1])
-      touches(i + 2 == lines.size(), axis, lines[i + 1]);
+    if (!at.at_low_border && at.center - hole_.radius <= lines[at.index]) touches(at.index == 0, axis, lines[at.index]);
+    if (!at.at_high_border && at.center + hole_.radius >= lines[at.index + 1])
+      touches(at.index + 2 == count_of(lines), axis, lines[at.index + 1]);
     return at;
   }
 
@@ -76,8 +76,7 @@ std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometr
     for (const auto& other : cells)
       if (other.column == x.index && other.row == y.index)
         reject(scene, fmt::format("/holes/{}", i),
-               fmt::format("holes \"{}\" and \"{}\" are in one cell",
-                           scene.holes[static_cast<std::size_t>(other.hole)].id, scene.holes[i].id),
+               fmt::format("holes \"{}\" and \"{}\" are in one cell", scene.holes[other.hole].id, scene.holes[i].id),
                "one hole in a cell; draw a cell line between them");
     cells.push_back({static_cast<int>(i),
                      x.index,

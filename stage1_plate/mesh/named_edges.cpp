@@ -46,8 +46,7 @@ struct Cut {
 
 Cut cut_of(const PlateScene& scene, const MeshSection& section) {
   const char direction = section.side[1];
-  return {scene.holes[static_cast<std::size_t>(section.hole)], direction, direction == 'x' ? 0 : 1,
-          section.side[0] == '+' ? 1.0 : -1.0};
+  return {scene.holes[section.hole], direction, direction == 'x' ? 0 : 1, section.side[0] == '+' ? 1.0 : -1.0};
 }
 
 /// The forces over a section are integrals of one normal stress: all of it must face one way, on one line, with the
@@ -57,7 +56,7 @@ void check_cut(const PlateScene& scene, const PlateMesh& plate, const std::strin
                const NodePair& edge, const pfem::Side& side, double line) {
   constexpr double tolerance = 1e-9;      // of the edge's length
   constexpr double rim_tolerance = 1e-6;  // of the radius: digits that a hand-written file has
-  if (plate.edges.arc[static_cast<std::size_t>(plate.edges.of_element(side.local_edge, side.element))] >= 0)
+  if (plate.edges.arc[plate.edges.of_element(side.local_edge, side.element)] >= 0)
     reject(scene, pointer, named(edge) + " is an arc", "straight edges");
   const Eigen::Vector2d a = plate.mesh.nodes.col(edge.first);
   const Eigen::Vector2d ab = plate.mesh.nodes.col(edge.second) - a;

@@ -5,7 +5,7 @@ namespace fastjoint::stage1 {
 namespace {
 
 int target(const pfem::Numbering& numbering, const Unknowns& unknowns, int element, Eigen::Index mode, int component) {
-  return unknowns.target[static_cast<std::size_t>(2 * numbering.function(mode, element) + component)];
+  return unknowns.target[2 * numbering.function(mode, element) + component];
 }
 
 Eigen::SparseMatrix<double> compressed(const std::vector<Eigen::Triplet<double>>& triplets, int rows, int cols) {
@@ -22,8 +22,8 @@ Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns)
 }
 
 void Assembler::add_stiffness(int element, const std::vector<int>& modes, const Eigen::MatrixXd& K, double factor) {
-  const auto n = static_cast<Eigen::Index>(modes.size());
-  const auto mode = [&](Eigen::Index i) { return modes[static_cast<std::size_t>(i % n)]; };
+  const Eigen::Index n = modes.size();
+  const auto mode = [&](Eigen::Index i) { return modes[i % n]; };
   const auto to = [&](Eigen::Index i) { return target(numbering_, unknowns_, element, mode(i), i < n ? 0 : 1); };
   for (Eigen::Index j = 0; j < 2 * n; ++j) {
     if (!Unknowns::is_controlled(to(j))) continue;
@@ -40,7 +40,7 @@ void Assembler::add_coupling(int element, const ElementVector& g, int controlled
   for (std::size_t i = 0; i < g.modes.size(); ++i)
     for (int component = 0; component < 2; ++component) {
       const int row = target(numbering_, unknowns_, element, g.modes[i], component);
-      const double value = numbering_.sign(g.modes[i], element) * g.values(component, static_cast<Eigen::Index>(i));
+      const double value = numbering_.sign(g.modes[i], element) * g.values(component, i);
       if (row == Unknowns::fixed) continue;
       if (Unknowns::is_free(row)) {
         fc_.emplace_back(row, controlled, value);
@@ -76,7 +76,7 @@ void LoadAssembler::add(int element, const ElementVector& g, int column) {
   for (std::size_t i = 0; i < g.modes.size(); ++i)
     for (int component = 0; component < 2; ++component) {
       const int row = target(numbering_, unknowns_, element, g.modes[i], component);
-      const double value = numbering_.sign(g.modes[i], element) * g.values(component, static_cast<Eigen::Index>(i));
+      const double value = numbering_.sign(g.modes[i], element) * g.values(component, i);
       if (Unknowns::is_free(row)) {
         free_.emplace_back(row, column, value);
       } else if (row != Unknowns::fixed) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 
+#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -21,19 +22,14 @@ class KindFinder {
  public:
   KindFinder(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
              const Unknowns& unknowns)
-      : scene_(scene),
-        plate_(plate),
-        numbering_(numbering),
-        unknowns_(unknowns),
-        rims_(static_cast<std::size_t>(plate.mesh.n_elements())) {}
+      : scene_(scene), plate_(plate), numbering_(numbering), unknowns_(unknowns), rims_(plate.mesh.n_elements()) {}
 
   PlateElements run() {
     const int n = plate_.mesh.n_elements();
     result_.congruent = pfem::find_congruent(plate_.mesh, plate_.edges);
     result_.scale.resize(n);
     for (std::size_t hole = 0; hole < scene_.holes.size(); ++hole)
-      for (const auto& side : plate_.rims[hole].sides)
-        rims_[static_cast<std::size_t>(side.element)].push_back({static_cast<int>(hole), side});
+      for (const auto& side : plate_.rims[hole].sides) rims_[side.element].push_back({static_cast<int>(hole), side});
     for (int element = 0; element < n; ++element) add(element);
     return std::move(result_);
   }
@@ -43,41 +39,37 @@ class KindFinder {
 
   void add(int element) {
     result_.holes.push_back(sprung_holes(element));
-    const auto [found, is_new] = index_.try_emplace(key(element), static_cast<int>(result_.kinds.size()));
+    const auto [found, is_new] = index_.try_emplace(key(element), count_of(result_.kinds));
     if (is_new) add_kind(element);
     result_.kind.push_back(found->second);
-    result_.scale[element] =
-        plate_.mesh.thickness[element] / result_.kinds[static_cast<std::size_t>(found->second)].thickness;
+    result_.scale[element] = plate_.mesh.thickness[element] / result_.kinds[found->second].thickness;
   }
 
   [[nodiscard]] std::vector<int> sprung_holes(int element) const {
     std::vector<int> holes;
-    for (const auto& [hole, side] : rims_[static_cast<std::size_t>(element)])
-      if (scene_.holes[static_cast<std::size_t>(hole)].spring &&
-          std::find(holes.begin(), holes.end(), hole) == holes.end())
+    for (const auto& [hole, side] : rims_[element])
+      if (scene_.holes[hole].spring && std::find(holes.begin(), holes.end(), hole) == holes.end())
         holes.push_back(hole);
     return holes;
   }
 
   /// Whether the element's function k = 2 on one of its edges must stay: only a rim has no neighbour and no support.
   [[nodiscard]] bool is_edge_kept(int element, int edge) const {
-    const auto& sides = rims_[static_cast<std::size_t>(element)];
+    const auto& sides = rims_[element];
     const bool on_rim =
         std::any_of(sides.begin(), sides.end(), [&](const HoleSide& at) { return at.side.local_edge == edge; });
     if (!on_rim || numbering_.p == 1) return true;
-    const auto function =
-        static_cast<std::size_t>(numbering_.function(pfem::edge_mode(numbering_.p, edge, 2), element));
+    const auto function = numbering_.function(pfem::edge_mode(numbering_.p, edge, 2), element);
     return !Unknowns::is_free(unknowns_.target[2 * function]) || !Unknowns::is_free(unknowns_.target[2 * function + 1]);
   }
 
   /// Equal keys, equal matrices up to the thickness.
   [[nodiscard]] Key key(int element) const {
-    const auto at = static_cast<std::size_t>(element);
-    Key key{result_.congruent.shape[at]};
+    Key key{result_.congruent.shape[element]};
     const auto bits = [&](double x) { key.push_back(std::bit_cast<std::int64_t>(x)); };
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) key.push_back(is_edge_kept(element, edge));
-    for (const auto& [hole, side] : rims_[at]) {
-      const auto& spring = scene_.holes[static_cast<std::size_t>(hole)].spring;
+    for (const auto& [hole, side] : rims_[element]) {
+      const auto& spring = scene_.holes[hole].spring;
       if (!spring) continue;
       key.insert(key.end(), {index_of(hole, element), side.local_edge});
       bits(spring->modulus);
@@ -91,22 +83,20 @@ class KindFinder {
   }
 
   [[nodiscard]] int index_of(int hole, int element) const {
-    const auto& holes = result_.holes[static_cast<std::size_t>(element)];
+    const auto& holes = result_.holes[element];
     return static_cast<int>(std::find(holes.begin(), holes.end(), hole) - holes.begin());
   }
 
   void add_kind(int element) {
-    const auto at = static_cast<std::size_t>(element);
-    ElementKind kind{element, result_.congruent.shape[at], plate_.mesh.thickness[element], {}, {}};
-    kind.kept.assign(static_cast<std::size_t>(numbering_.function.rows()), false);
-    for (int v = 0; v < 4; ++v) kind.kept[static_cast<std::size_t>(v)] = true;
+    ElementKind kind{element, result_.congruent.shape[element], plate_.mesh.thickness[element], {}, {}};
+    kind.kept.assign(numbering_.function.rows(), false);
+    for (int v = 0; v < 4; ++v) kind.kept[v] = true;
     for (int edge = 0; edge < pfem::n_local_edges; ++edge)
       for (int k = 2; k <= numbering_.p; ++k)
-        kind.kept[static_cast<std::size_t>(pfem::edge_mode(numbering_.p, edge, k))] = is_edge_kept(element, edge);
-    for (const auto& [hole, side] : rims_[at])
-      if (scene_.holes[static_cast<std::size_t>(hole)].spring)
-        kind.rims.push_back(
-            {index_of(hole, element), rim_terms(scene_, plate_, static_cast<std::size_t>(hole), side, numbering_.p)});
+        kind.kept[pfem::edge_mode(numbering_.p, edge, k)] = is_edge_kept(element, edge);
+    for (const auto& [hole, side] : rims_[element])
+      if (scene_.holes[hole].spring)
+        kind.rims.push_back({index_of(hole, element), rim_terms(scene_, plate_, hole, side, numbering_.p)});
     result_.kinds.push_back(std::move(kind));
   }
 

@@ -12,7 +12,7 @@ std::vector<PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate
   for (std::size_t i = 0; i < scene.points.size(); ++i)
     for (std::size_t a = 0; a < scene.disc_directions.size(); ++a) {
       const std::string& direction = scene.disc_directions[a];
-      const auto coefficient = static_cast<std::size_t>(2 * plate.point_nodes[i] + (direction == "x" ? 0 : 1));
+      const std::size_t coefficient = 2 * plate.point_nodes[i] + (direction == "x" ? 0 : 1);
       const int target = unknowns.target[coefficient];
       if (target == Unknowns::fixed)
         reject(scene, fmt::format("/points/{}/at", i),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/count.hpp"
 #include "common/rim/bearing.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 
@@ -27,10 +28,10 @@ void add_uniform(const PlateMesh& plate, const External& external, int p, int co
 /// Cosine pressure on the half of an open hole that bears along the external's direction, of unit force along it.
 void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_index, int p, int column,
                   LoadAssembler& loads) {
-  const External& external = scene.externals[static_cast<std::size_t>(external_index)];
+  const External& external = scene.externals[external_index];
   const auto is_meant = [&](const Hole& hole) { return hole.id == external.on; };
   const auto hole = std::find_if(scene.holes.begin(), scene.holes.end(), is_meant) - scene.holes.begin();
-  const rim::Rim& rim = plate.rims[static_cast<std::size_t>(hole)];
+  const rim::Rim& rim = plate.rims[hole];
   const Eigen::Vector2d d = rim::axis(external.direction);
   const double unit_force = rim::bearing(plate.mesh, plate.edges, rim, d).unit_force;
   constexpr double nothing = 1e-12;  // of what a whole rim bears; rounding leaves about 1e-16
@@ -55,9 +56,9 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
 
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   const auto& list = problem.unknowns.traction;
-  LoadAssembler loads(problem.numbering, problem.unknowns, static_cast<int>(list.size()));
+  LoadAssembler loads(problem.numbering, problem.unknowns, count_of(list));
   for (std::size_t column = 0; column < list.size(); ++column) {
-    const External& external = scene.externals[static_cast<std::size_t>(list[column])];
+    const External& external = scene.externals[list[column]];
     if (external.kind == ExternalKind::bearing)
       add_pressure(scene, plate, list[column], problem.numbering.p, static_cast<int>(column), loads);
     else
@@ -66,8 +67,7 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   problem.T_f = loads.free();
   problem.T_c = loads.controlled();
   for (std::size_t column = 0; column < list.size(); ++column) {
-    const auto c = static_cast<Eigen::Index>(column);
-    if (Eigen::VectorXd(problem.T_f.col(c)).isZero(0) && problem.T_c.col(c).isZero(0))
+    if (Eigen::VectorXd(problem.T_f.col(column)).isZero(0) && problem.T_c.col(column).isZero(0))
       reject(scene, fmt::format("/external/{}", list[column]), "supports hold all that it loads against it",
              "a load along a direction in which the plate can move there");
   }

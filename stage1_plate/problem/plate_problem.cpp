@@ -15,10 +15,10 @@ namespace {
 
 /// What elements at rigid externals add to K_fc and K_cc.
 void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assembler& assembler) {
-  std::vector<int> modes(static_cast<std::size_t>(problem.numbering.function.rows()));
+  std::vector<int> modes(problem.numbering.function.rows());
   std::iota(modes.begin(), modes.end(), 0);
   for (int element = 0; element < plate.mesh.n_elements(); ++element) {
-    const auto shape = static_cast<std::size_t>(problem.elements.congruent.shape[static_cast<std::size_t>(element)]);
+    const std::size_t shape = problem.elements.congruent.shape[element];
     assembler.add_stiffness(element, modes, problem.elements.stiffness[shape], plate.mesh.thickness[element]);
   }
 }

@@ -33,33 +33,30 @@ struct Part {
 
 /// Part of every node, numbered from 0.
 std::vector<int> connected_parts(const pfem::Mesh& mesh) {
-  std::vector<int> root(static_cast<std::size_t>(mesh.n_nodes()));
+  std::vector<int> root(mesh.n_nodes());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](int node) {
-    while (root[static_cast<std::size_t>(node)] != node) {
-      auto& up = root[static_cast<std::size_t>(node)];
-      up = root[static_cast<std::size_t>(up)];
+    while (root[node] != node) {
+      auto& up = root[node];
+      up = root[up];
       node = up;
     }
     return node;
   };
   for (int element = 0; element < mesh.n_elements(); ++element)
-    for (int v = 1; v < 4; ++v)
-      root[static_cast<std::size_t>(find(mesh.quads(v, element)))] = find(mesh.quads(0, element));
+    for (int v = 1; v < 4; ++v) root[find(mesh.quads(v, element))] = find(mesh.quads(0, element));
   std::vector<int> part(root.size(), -1);
   int n_parts = 0;
   for (int node = 0; node < mesh.n_nodes(); ++node)
-    if (find(node) == node) part[static_cast<std::size_t>(node)] = n_parts++;
-  for (int node = 0; node < mesh.n_nodes(); ++node)
-    part[static_cast<std::size_t>(node)] = part[static_cast<std::size_t>(find(node))];
+    if (find(node) == node) part[node] = n_parts++;
+  for (int node = 0; node < mesh.n_nodes(); ++node) part[node] = part[find(node)];
   return part;
 }
 
 std::vector<Part> make_parts(const pfem::Mesh& mesh, const std::vector<int>& part_of_node) {
-  const auto n_parts = static_cast<std::size_t>(*std::max_element(part_of_node.begin(), part_of_node.end())) + 1;
+  const std::size_t n_parts = *std::max_element(part_of_node.begin(), part_of_node.end()) + 1;
   std::vector<Eigen::AlignedBox2d> box(n_parts);
-  for (int node = 0; node < mesh.n_nodes(); ++node)
-    box[static_cast<std::size_t>(part_of_node[static_cast<std::size_t>(node)])].extend(mesh.nodes.col(node));
+  for (int node = 0; node < mesh.n_nodes(); ++node) box[part_of_node[node]].extend(mesh.nodes.col(node));
   std::vector<Part> parts;
   for (const auto& b : box) parts.push_back({b.center(), b.diagonal().norm() / 2});
   return parts;
@@ -84,16 +81,14 @@ class Ties {
   [[nodiscard]] const std::vector<Tie>& all() const { return ties_; }
 
  private:
-  [[nodiscard]] std::size_t part_of(int node) const {
-    return static_cast<std::size_t>(part_of_node_[static_cast<std::size_t>(node)]);
-  }
+  [[nodiscard]] std::size_t part_of(int node) const { return part_of_node_[node]; }
 
   void add_supports(const PlateMesh& plate, const Unknowns& unknowns) {
     for (int node = 0; node < plate.mesh.n_nodes(); ++node) {
       const std::size_t part = part_of(node);
       const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
       for (int component = 0; component < 2; ++component) {
-        const int target = unknowns.target[static_cast<std::size_t>(2 * node + component)];
+        const int target = unknowns.target[2 * node + component];
         if (Unknowns::is_free(target)) continue;
         ties_.push_back({part, u.row(component), {}});
         if (target != Unknowns::fixed) ties_.back().b = {{Unknowns::controlled_index(target), 1}};
@@ -172,21 +167,19 @@ void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns&
 
 bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   const Ties ties(scene, plate, unknowns);
-  const auto first = 3 * static_cast<Eigen::Index>(ties.parts().size());
+  const auto first = 3 * ties.parts().size();
   Eigen::MatrixXd held = Eigen::MatrixXd::Zero(first + unknowns.n_controlled, first + unknowns.n_controlled);
   for (const auto& tie : ties.all()) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(held.cols());
-    row.segment<3>(3 * static_cast<Eigen::Index>(tie.part)) = tie.a;
+    row.segment<3>(3 * tie.part) = tie.a;
     for (const auto& [controlled, share] : tie.b) row[first + controlled] = -share;
     held += row.transpose() * row;
   }
   const auto hold = [&](int controlled, const Load& load) {
     if (!load.is_force) held(first + controlled, first + controlled) += 1;
   };
-  for (int i = 0; i < unknowns.n_externals(); ++i)
-    hold(i, scene.loads->external[static_cast<std::size_t>(unknowns.rigid[static_cast<std::size_t>(i)])]);
-  for (int i = 0; i < unknowns.n_discs(); ++i)
-    hold(unknowns.controlled_of_disc(i), scene.loads->disc[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < unknowns.n_externals(); ++i) hold(i, scene.loads->external[unknowns.rigid[i]]);
+  for (int i = 0; i < unknowns.n_discs(); ++i) hold(unknowns.controlled_of_disc(i), scene.loads->disc[i]);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held, Eigen::EigenvaluesOnly);
   return eigen.eigenvalues()[0] > free_to_move * eigen.eigenvalues()[held.rows() - 1];
 }

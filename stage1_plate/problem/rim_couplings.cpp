@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -10,9 +12,8 @@ namespace {
 template <class Visit>
 void for_each_rim_side(const PlateElements& elements, Visit visit) {
   for (std::size_t element = 0; element < elements.kind.size(); ++element)
-    for (const auto& rim : elements.kinds[static_cast<std::size_t>(elements.kind[element])].rims)
-      visit(static_cast<std::size_t>(elements.holes[element][static_cast<std::size_t>(rim.hole)]),
-            static_cast<int>(element), rim.terms, elements.scale[static_cast<Eigen::Index>(element)]);
+    for (const auto& rim : elements.kinds[elements.kind[element]].rims)
+      visit(elements.holes[element][rim.hole], static_cast<int>(element), rim.terms, elements.scale[element]);
 }
 
 ElementVector element_vector(const RimTerms& terms, const Eigen::VectorXd& coefficients) {
@@ -44,7 +45,7 @@ void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler
 }
 
 void add_friction_loads(PlateProblem& problem) {
-  LoadAssembler loads(problem.numbering, problem.unknowns, static_cast<int>(problem.friction_hole.size()));
+  LoadAssembler loads(problem.numbering, problem.unknowns, count_of(problem.friction_hole));
   for_each_rim_side(problem.elements, [&](std::size_t hole, int element, const RimTerms& terms, double scale) {
     const int first = 2 * problem.unknowns.disc_of_hole[hole];  // discs of holes come before those of points
     for (int i = 0; i < terms.friction.cols(); ++i)

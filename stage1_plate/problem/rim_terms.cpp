@@ -14,7 +14,7 @@ Eigen::VectorXd tested(const pfem::SideRule& rule, const Eigen::Matrix2Xd& value
 
 void add_springs(const SideSprings& springs, const Eigen::Matrix2Xd& axes, RimTerms& terms) {
   pfem::SideRule rule = springs.rule;
-  const auto n = static_cast<Eigen::Index>(terms.modes.size());
+  const Eigen::Index n = terms.modes.size();
   const auto n_sprung = rule.N.rows();  // links have but the traces of the two vertices, which come first
   rule.N.conservativeResize(n, Eigen::NoChange);
   rule.N.bottomRows(n - n_sprung).setZero();
@@ -48,10 +48,10 @@ Eigen::VectorXd friction_load(const pfem::SideRule& rule, double thickness, cons
 RimTerms rim_terms(const PlateScene& scene, const PlateMesh& plate, std::size_t hole, const pfem::Side& side, int p) {
   const auto rule = rim::rim_rule(plate.mesh, plate.edges, side, p);
   const auto springs = side_springs(scene.holes[hole].sprung(), plate, side, p);
-  const auto n = static_cast<Eigen::Index>(rule.modes.size());
-  const auto a = static_cast<Eigen::Index>(scene.disc_directions.size());
+  const Eigen::Index n = rule.modes.size();
+  const Eigen::Index a = scene.disc_directions.size();
   Eigen::Matrix2Xd axes(2, a);
-  for (Eigen::Index i = 0; i < a; ++i) axes.col(i) = rim::axis(scene.disc_directions[static_cast<std::size_t>(i)]);
+  for (Eigen::Index i = 0; i < a; ++i) axes.col(i) = rim::axis(scene.disc_directions[i]);
   RimTerms terms{rule.modes,
                  Eigen::MatrixXd::Zero(2 * n, 2 * n),
                  Eigen::MatrixXd(2 * n, a),

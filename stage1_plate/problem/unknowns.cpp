@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -15,9 +16,7 @@ int component_of(const std::string& direction) { return direction == "x" ? 0 : 1
 /// Coefficients of one displacement component that do not vanish on a side: two vertices, then the edge's modes.
 std::vector<std::size_t> side_coefficients(const pfem::Numbering& numbering, const pfem::Side& side, int component) {
   std::vector<std::size_t> result;
-  const auto add = [&](int mode) {
-    result.push_back(static_cast<std::size_t>(2 * numbering.function(mode, side.element) + component));
-  };
+  const auto add = [&](int mode) { result.push_back(2 * numbering.function(mode, side.element) + component); };
   const auto [first, second] = pfem::natural_ends(side.local_edge);
   add(first);
   add(second);
@@ -29,7 +28,7 @@ class Classifier {
  public:
   Classifier(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering)
       : scene_(scene), plate_(plate), numbering_(numbering) {
-    result_.target.assign(static_cast<std::size_t>(2 * numbering.n_functions.back()), undecided);
+    result_.target.assign(2 * numbering.n_functions.back(), undecided);
   }
 
   Unknowns run() {
@@ -56,8 +55,7 @@ class Classifier {
 
   /// The side's vertices move with the external; its edge modes, which would bend it, are zero.
   void control(int index) {
-    const External& external =
-        scene_.externals[static_cast<std::size_t>(result_.rigid[static_cast<std::size_t>(index)])];
+    const External& external = scene_.externals[result_.rigid[index]];
     for (const auto& side : sides(external.on)) {
       const auto list = side_coefficients(numbering_, side, component_of(external.direction));
       for (std::size_t i = 0; i < list.size(); ++i) {
@@ -86,7 +84,7 @@ class Classifier {
       result_.disc_hole.push_back(disc.id);
       result_.disc_direction.push_back(disc.direction);
     }
-    const auto n_directions = static_cast<int>(scene_.disc_directions.size());
+    const auto n_directions = count_of(scene_.disc_directions);
     result_.n_directions = n_directions;
     int disc = 0;
     for (const auto& hole : scene_.holes) {
@@ -99,9 +97,9 @@ class Classifier {
 
   void number_free() {
     int n_free = 0;
-    std::size_t coefficient = 0;
+    int coefficient = 0;
     for (const int n_functions : numbering_.n_functions) {
-      for (; coefficient < static_cast<std::size_t>(2 * n_functions); ++coefficient)
+      for (; coefficient < 2 * n_functions; ++coefficient)
         if (result_.target[coefficient] == undecided) result_.target[coefficient] = n_free++;
       result_.n_free.push_back(n_free);
     }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/count.hpp"
 #include "common/pfem/numbering.hpp"
 #include "stage1_plate/mesh/plate_mesh.hpp"
 
@@ -30,8 +31,8 @@ struct Unknowns {
   [[nodiscard]] static constexpr int controlled_index(int target) { return -2 - target; }
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals() + disc; }
-  [[nodiscard]] int n_externals() const { return static_cast<int>(rigid.size()); }
-  [[nodiscard]] int n_discs() const { return static_cast<int>(disc_hole.size()); }
+  [[nodiscard]] int n_externals() const { return count_of(rigid); }
+  [[nodiscard]] int n_discs() const { return count_of(disc_hole); }
 };
 
 /// Applies supports and rigid externals. Throws InputError where two of them want the same displacement.

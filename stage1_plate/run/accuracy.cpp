@@ -40,7 +40,7 @@ void raise_degree(Accuracy& model) {
     const Eigen::MatrixXd E = K.energy_rows();
     levels.S.push_back(linalg::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
     levels.R.push_back(E.topRows(nc) * E.bottomRows(E.rows() - nc).transpose());
-    const Eigen::MatrixXd T = problem.T_f.topRows(problem.unknowns.n_free[static_cast<std::size_t>(p)]);
+    const Eigen::MatrixXd T = problem.T_f.topRows(problem.unknowns.n_free[p]);
     levels.C.push_back(T.transpose() * K.solve(T));
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
     model.errors =

@@ -23,7 +23,7 @@ std::string arcs_text(const HoleContact& contact) {
 std::string contact_summary(const PlateScene& scene, const ContactState& state) {
   std::string text;
   for (const auto& contact : state.holes) {
-    text += fmt::format("  hole {}: {}, {}", scene.holes[static_cast<std::size_t>(contact.hole)].id, arcs_text(contact),
+    text += fmt::format("  hole {}: {}, {}", scene.holes[contact.hole].id, arcs_text(contact),
                         program::counted(contact.iterations, "iteration"));
     if (!contact.arcs.empty())
       text += fmt::format(", peak pressure {:.6g} at {:.2f} degrees", contact.peak_pressure,

@@ -18,7 +18,7 @@ double square(double n) { return n * n; }
 /// Each shape's matrix, of the highest degree that is integrated, and those of the kinds, condensed, at degree p alone.
 double shapes(const PlateProblem& problem, int p) {
   const auto& numbering = problem.numbering;
-  const auto of_p = numbering.n_functions[static_cast<std::size_t>(p)];
+  const auto of_p = numbering.n_functions[p];
   const auto n_shapes = static_cast<double>(problem.elements.congruent.first.size());
   double kinds = 0;
   for (const auto& kind : problem.elements.kinds)
@@ -35,9 +35,7 @@ MemoryNeed memory_need(const PlateProblem& problem, const Skeleton& skeleton, co
   const auto nc = static_cast<double>(problem.unknowns.n_controlled);
   const auto h = static_cast<double>(problem.friction_hole.size());
   const auto q = static_cast<double>(problem.unknowns.traction.size());
-  const auto n_p = [&](Eigen::Index level) {
-    return static_cast<double>(problem.unknowns.n_free[static_cast<std::size_t>(p[level])]);
-  };
+  const auto n_p = [&](Eigen::Index level) { return static_cast<double>(problem.unknowns.n_free[p[level]]); };
   const double rows_of_E = static_cast<double>(p.size()) * (nc + h) * nc;
   const bool with_fields = wanted == Wanted::loads_and_stresses;
   const double of_last = n_p(p.size() - 1) * (q + 2 + (with_fields ? nc + h : 0));

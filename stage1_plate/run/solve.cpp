@@ -59,21 +59,20 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   std::sort(a.supported.begin(), a.supported.end());
   a.supported.erase(std::unique(a.supported.begin(), a.supported.end()), a.supported.end());
   const Unknowns& unknowns = problem.unknowns;
-  a.unknown = Eigen::Map<const Eigen::Matrix2Xi>(unknowns.target.data(), 2,
-                                                 static_cast<Eigen::Index>(unknowns.target.size()) / 2);
+  a.unknown = Eigen::Map<const Eigen::Matrix2Xi>(unknowns.target.data(), 2, std::ssize(unknowns.target) / 2);
   a.space = problem.numbering.space;
   a.p = degrees(scene);
-  a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[static_cast<std::size_t>(p)]; });
+  a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[p]; });
   const auto name = [&](const std::vector<int>& list, auto& ids, auto& directions) {
     for (const int i : list) {
-      ids.push_back(scene.externals[static_cast<std::size_t>(i)].id);
-      directions.push_back(scene.externals[static_cast<std::size_t>(i)].direction);
+      ids.push_back(scene.externals[i].id);
+      directions.push_back(scene.externals[i].direction);
     }
   };
   name(unknowns.rigid, a.external_id, a.external_direction);
   name(unknowns.traction, a.traction_id, a.traction_direction);
   for (const int i : unknowns.traction) {
-    const External& external = scene.externals[static_cast<std::size_t>(i)];
+    const External& external = scene.externals[i];
     a.traction_hole.push_back(external.kind == ExternalKind::bearing ? external.on : "");
   }
   a.disc_hole = unknowns.disc_hole;

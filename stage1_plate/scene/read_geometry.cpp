@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -49,10 +51,10 @@ void read_cells(const Value& value, Table& table, const Read& read) {
     return;
   }
   using Scalar = typename Table::Scalar;
-  const auto rows = static_cast<std::size_t>(table.rows());
+  const std::size_t rows = table.rows();
   Eigen::Index row = 0;
   for (const auto& line : value.items(rows, rows)) {
-    const auto cells = read_list<Scalar>(line, static_cast<std::size_t>(table.cols()), read);
+    const auto cells = read_list<Scalar>(line, table.cols(), read);
     table.row(row++) = Eigen::Map<const Eigen::RowVectorX<Scalar>>(cells.data(), table.cols());
   }
 }
@@ -62,8 +64,8 @@ double read_thickness(const Value& value) { return value.number(input::positive)
 GridGeometry read_grid(const Value& value, const Materials& materials) {
   value.only({"x", "y", "thickness", "material"});
   GridGeometry grid{read_lines(value.at("x")), read_lines(value.at("y")), {}, {}};
-  const auto rows = static_cast<Eigen::Index>(grid.y.size()) - 1;
-  const auto cols = static_cast<Eigen::Index>(grid.x.size()) - 1;
+  const Eigen::Index rows = std::ssize(grid.y) - 1;
+  const Eigen::Index cols = std::ssize(grid.x) - 1;
   grid.thickness.resize(rows, cols);
   read_cells(value.at("thickness"), grid.thickness, read_thickness);
   grid.material = Eigen::MatrixXi::Zero(rows, cols);
@@ -101,7 +103,7 @@ MeshGeometry read_mesh(const Value& value, const Materials& materials) {
   value.only({"nodes", "quads", "arcs", "thickness", "material", "edges", "sections"});
   MeshGeometry mesh;
   for (const auto& node : value.at("nodes").items(4)) mesh.nodes.push_back(read_point(node));
-  const int n_nodes = static_cast<int>(mesh.nodes.size());
+  const int n_nodes = count_of(mesh.nodes);
   for (const auto& quad : value.at("quads").items(1)) mesh.quads.push_back(read_quad(quad, n_nodes));
   if (const auto arcs = value.find("arcs"))
     for (const auto& arc : arcs->items()) {

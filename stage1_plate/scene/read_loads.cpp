@@ -83,7 +83,7 @@ class LoadReader {
   }
 
   static std::size_t index(const std::vector<std::string>& names, const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+    return std::find(names.begin(), names.end(), name) - names.begin();
   }
 
   static void take_once(std::vector<bool>& given, std::size_t i, const Value& id) {

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <set>
 
+#include "common/count.hpp"
 #include "stage1_plate/scene/read_geometry.hpp"
 
 namespace fastjoint::stage1 {
@@ -54,11 +55,11 @@ void read_sections(const Value& root, PlateScene& scene) {
   for (const auto& item : list->items()) {
     item.only({"hole", "side", "edges"});
     MeshSection section{read_hole(item.at("hole"), scene), read_side(item.at("side"), scene),
-                        read_cut(item.at("edges"), static_cast<int>(mesh->nodes.size()))};
+                        read_cut(item.at("edges"), count_of(mesh->nodes))};
     if (!seen.insert({section.hole, section.side}).second)
-      item.fail(fmt::format("a second section of hole \"{}\" on its side {}",
-                            scene.holes[static_cast<std::size_t>(section.hole)].id, section.side),
-                "one on each side of a hole");
+      item.fail(
+          fmt::format("a second section of hole \"{}\" on its side {}", scene.holes[section.hole].id, section.side),
+          "one on each side of a hole");
     mesh->sections.push_back(std::move(section));
   }
 }

@@ -20,8 +20,7 @@ std::ptrdiff_t first_case(const std::vector<std::string>& names, std::string_vie
     const auto& name = names[i];
     if (!text.starts_with(name)) continue;
     if (text.size() > name.size() && text[name.size()] != ',' && text[name.size()] != '=') continue;
-    if (longest < 0 || name.size() > names[static_cast<std::size_t>(longest)].size())
-      longest = static_cast<std::ptrdiff_t>(i);
+    if (longest < 0 || name.size() > names[longest].size()) longest = i;
   }
   return longest;
 }
@@ -54,18 +53,17 @@ FieldState case_sum(const formats::PlateSolution& plate, const std::string& spec
   const auto names = case_names(plate);
   FieldState state;
   state.words = spec;
-  state.amounts = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(names.size()));
+  state.amounts = Eigen::VectorXd::Zero(names.size());
   std::vector<bool> given(names.size());
   for (std::string_view rest = spec;;) {
     const auto found = first_case(names, rest);
     if (found < 0)
       throw InputError(fmt::format("--field: '{}' is not a case of the plate{}; allowed: loads, {}", rest,
                                    starts_as_case(spec) ? "" : " nor a file", case_sum_allowed(plate)));
-    const auto at = static_cast<std::size_t>(found);
-    if (given[at]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[at]));
-    given[at] = true;
-    rest.remove_prefix(names[at].size());
-    state.amounts[found] = take_amount(rest, names[at]);
+    if (given[found]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[found]));
+    given[found] = true;
+    rest.remove_prefix(names[found].size());
+    state.amounts[found] = take_amount(rest, names[found]);
     if (rest.empty()) return state;
     rest.remove_prefix(1);  // the comma
   }

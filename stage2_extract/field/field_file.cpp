@@ -40,7 +40,7 @@ std::string write_field(const std::string& output, const formats::PlateSolution&
   timings.phase("extract");
   UnitFields fields(plate, file);
   fields.use(level);
-  const Field field = superpose(fields, plate.p[static_cast<Eigen::Index>(level)], state.amounts);
+  const Field field = superpose(fields, plate.p[level], state.amounts);
   if (!field.displacement.allFinite() || !von_mises(field.stress).allFinite())
     throw NumericalError(
         fmt::format("{}: --field {}: displacements or stresses are too large for the numbers of this "

@@ -35,7 +35,7 @@ FieldState scene_loads(const formats::PlateSolution& plate, const std::string& f
 std::string listed(const std::vector<std::string>& names) {
   constexpr std::size_t most = 12;
   const auto shown = std::min(names.size(), most);
-  const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + static_cast<Index>(shown), ", "));
+  const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
   if (shown == names.size()) return names.empty() ? "none" : text;
   return fmt::format("{} and {} more", text, names.size() - shown);
 }
@@ -65,7 +65,7 @@ std::size_t field_level(const formats::PlateSolution& plate, const std::string& 
         fmt::format("{}:stress_p: the fields at p = {} are not in the file; it has those at p = {} (none if "
                     "stage1_plate was told --loads-only)",
                     file, p, plate.stress_p.size() > 0 ? fmt::format("{}", fmt::join(plate.stress_p, ", ")) : "none"));
-  return static_cast<std::size_t>(std::distance(plate.p.begin(), found));
+  return std::distance(plate.p.begin(), found);
 }
 
 }  // namespace fastjoint::stage2

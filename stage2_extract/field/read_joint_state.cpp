@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/formats/joint_result.hpp"
 
@@ -71,7 +72,7 @@ FieldState joint_state(const formats::PlateSolution& plate, const std::string& f
   const auto& sheet = request.plate.empty() ? only_fitting_sheet(joint, plate, file, request)
                                             : named_sheet(joint, plate, file, request);
   check_digest(sheet, plate, file, request);
-  const auto steps = static_cast<int>(joint.load_factor.size());
+  const auto steps = count_of(joint.load_factor);
   if (steps == 0) throw InputError(fmt::format("--field: {} holds no increment that converged", request.spec));
   if (request.increment > steps)
     throw InputError(fmt::format("--increment: {} is not allowed; {} has the increments 1..{}", request.increment,

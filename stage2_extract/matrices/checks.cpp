@@ -103,9 +103,8 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
     std::vector<std::string> direction = plate.external_direction;
     direction.insert(direction.end(), plate.disc_direction.begin(), plate.disc_direction.end());
     const auto is_along = [&](const std::vector<std::string>& names) -> Eigen::VectorXd {
-      return Eigen::VectorXd::NullaryExpr(std::ssize(names), [&](Eigen::Index i) {
-        return names[static_cast<std::size_t>(i)].ends_with(along) ? 1.0 : 0.0;
-      });
+      return Eigen::VectorXd::NullaryExpr(std::ssize(names),
+                                          [&](Eigen::Index i) { return names[i].ends_with(along) ? 1.0 : 0.0; });
     };
     result.push_back({is_along(direction), is_along(plate.friction_bearing).cwiseProduct(resultant).transpose(),
                       is_along(plate.traction_direction).transpose()});

@@ -14,17 +14,16 @@ Eigen::Vector2d bearing_direction(const std::string& side) {
 }
 
 FrictionConstants friction_constants(const formats::PlateSolution& plate) {
-  const auto h = static_cast<Eigen::Index>(plate.friction_hole.size());
+  const Eigen::Index h = plate.friction_hole.size();
   const auto edges = pfem::find_edges(plate.mesh);
   FrictionConstants constants{Eigen::VectorXd::Zero(h), Eigen::VectorXd::Zero(h)};
   for (Eigen::Index j = 0; j < h; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    const auto id = std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.friction_hole[at]);
-    const auto hole = static_cast<std::size_t>(std::distance(plate.hole_id.begin(), id));
+    const auto id = std::find(plate.hole_id.begin(), plate.hole_id.end(), plate.friction_hole[j]);
+    const std::size_t hole = std::distance(plate.hole_id.begin(), id);
     const auto bearing =
-        rim::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(plate.friction_bearing[at]));
+        rim::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(plate.friction_bearing[j]));
     constants.unit_force[j] = bearing.unit_force;
-    constants.resultant[j] = plate.friction_bearing[at][0] == '+' ? bearing.resultant : -bearing.resultant;
+    constants.resultant[j] = plate.friction_bearing[j][0] == '+' ? bearing.resultant : -bearing.resultant;
   }
   return constants;
 }

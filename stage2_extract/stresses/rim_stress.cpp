@@ -45,7 +45,7 @@ Eigen::RowVectorXd disc_motion(const UnitFields& fields, std::size_t hole, const
   Eigen::RowVectorXd motion = Eigen::RowVectorXd::Zero(fields.n_cases());
   for (std::size_t i = 0; i < plate.disc_hole.size(); ++i)
     if (plate.disc_hole[i] == plate.hole_id[hole])
-      motion[static_cast<Eigen::Index>(plate.external_id.size() + i)] = rim::axis(plate.disc_direction[i]).dot(n);
+      motion[plate.external_id.size() + i] = rim::axis(plate.disc_direction[i]).dot(n);
   return motion;
 }
 
@@ -55,11 +55,10 @@ Eigen::RowVectorXd radial_stress(const UnitFields& fields, std::size_t hole, dou
   const auto& spring = plate.hole_spring[hole];
   Eigen::RowVectorXd sigma = Eigen::RowVectorXd::Zero(fields.n_cases());
   if (rim::covers(spring.acts, angle)) sigma = spring.modulus * (u_n - disc_motion(fields, hole, n));
-  const auto q = static_cast<Eigen::Index>(plate.traction_hole.size());
+  const Eigen::Index q = plate.traction_hole.size();
   for (Eigen::Index i = 0; i < q; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    if (plate.traction_hole[k] != plate.hole_id[hole]) continue;
-    const Eigen::Vector2d d = rim::axis(plate.traction_direction[k]);
+    if (plate.traction_hole[i] != plate.hole_id[hole]) continue;
+    const Eigen::Vector2d d = rim::axis(plate.traction_direction[i]);
     sigma[fields.n_cases() - q + i] -= rim::cosine_bearing(n, d).contact /
                                        rim::bearing(plate.mesh, fields.edges(), plate.hole_rim[hole], d).unit_force;
   }
@@ -74,7 +73,7 @@ Eigen::RowVectorXd shear_stress(const UnitFields& fields, std::size_t hole, cons
   for (std::size_t i = 0; i < plate.friction_hole.size(); ++i) {
     if (plate.friction_hole[i] != plate.hole_id[hole]) continue;
     const auto at = rim::cosine_bearing(frame.n, bearing_direction(plate.friction_bearing[i]));
-    sigma[first + static_cast<Eigen::Index>(i)] = -at.contact * at.tangent.dot(frame.t);
+    sigma[first + i] = -at.contact * at.tangent.dot(frame.t);
   }
   return sigma;
 }

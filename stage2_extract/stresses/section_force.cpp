@@ -54,8 +54,8 @@ SectionArea section_area(const UnitFields& fields, const rim::Section& section) 
   double gross = 0;
   for (const auto& side : section.sides)
     gross += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();
-  const auto hole = static_cast<std::size_t>(section.hole);
-  return {gross, gross - rim::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(section.side)).area};
+  return {gross,
+          gross - rim::bearing(plate.mesh, edges, plate.hole_rim[section.hole], bearing_direction(section.side)).area};
 }
 
 }  // namespace fastjoint::stage2

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/count.hpp"
 #include "common/rim/bearing.hpp"
 #include "stage2_extract/matrices/friction_constants.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
@@ -19,7 +20,7 @@ using Rims = std::vector<std::vector<RimPoint>>;
 /// Names, places, areas and what the sheet is there.
 void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges, const Rims& rims,
                    formats::PlateStresses& a) {
-  const auto r = static_cast<Eigen::Index>(rims.size());
+  const Eigen::Index r = rims.size();
   a.rim_hole = plate.hole_id;
   a.rim_center.resize(r, 2);
   a.rim_radius.resize(r);
@@ -29,34 +30,33 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
   a.rim_start = Eigen::VectorXi::Zero(r + 1);
   std::vector<double> angle;
   for (Eigen::Index i = 0; i < r; ++i) {
-    const auto hole = static_cast<std::size_t>(i);
-    a.rim_center.row(i) = plate.hole_rim[hole].center.transpose();
-    a.rim_radius[i] = plate.hole_rim[hole].radius;
-    const auto& sides = plate.hole_rim[hole].sides;
+    a.rim_center.row(i) = plate.hole_rim[i].center.transpose();
+    a.rim_radius[i] = plate.hole_rim[i].radius;
+    const auto& sides = plate.hole_rim[i].sides;
     const auto n = static_cast<double>(sides.size());
     for (const auto& side : sides) {
-      const auto& D = plate.elasticity[static_cast<std::size_t>(plate.mesh.material[side.element])];
+      const auto& D = plate.elasticity[plate.mesh.material[side.element]];
       a.rim_thickness[i] += plate.mesh.thickness[side.element] / n;
       a.rim_modulus.row(i) += D.inverse().diagonal().head<2>().cwiseInverse().transpose() / n;
     }
     const auto area = [&](const char* side) {
-      return rim::bearing(plate.mesh, edges, plate.hole_rim[hole], bearing_direction(side)).area;
+      return rim::bearing(plate.mesh, edges, plate.hole_rim[i], bearing_direction(side)).area;
     };
     a.bearing_area.row(i) << std::max(area("+x"), area("-x")), std::max(area("+y"), area("-y"));
-    for (const auto& point : rims[hole]) angle.push_back(point.angle / rim::degree);
-    a.rim_start[i + 1] = static_cast<int>(angle.size());
+    for (const auto& point : rims[i]) angle.push_back(point.angle / rim::degree);
+    a.rim_start[i + 1] = count_of(angle);
   }
-  a.angle = Eigen::Map<const Eigen::VectorXd>(angle.data(), static_cast<Eigen::Index>(angle.size()));
+  a.angle = Eigen::Map<const Eigen::VectorXd>(angle.data(), angle.size());
 }
 
 void describe_sections(const UnitFields& fields, formats::PlateStresses& a) {
   const auto& plate = fields.plate();
-  const auto s = static_cast<Eigen::Index>(plate.sections.size());
+  const Eigen::Index s = plate.sections.size();
   a.gross_area.resize(s);
   a.net_area.resize(s);
   for (Eigen::Index i = 0; i < s; ++i) {
-    const auto& section = plate.sections[static_cast<std::size_t>(i)];
-    a.section_hole.push_back(plate.hole_id[static_cast<std::size_t>(section.hole)]);
+    const auto& section = plate.sections[i];
+    a.section_hole.push_back(plate.hole_id[section.hole]);
     a.section_side.push_back(section.side);
     const auto area = section_area(fields, section);
     a.gross_area[i] = area.gross;
@@ -78,9 +78,8 @@ void add_level(const UnitFields& fields, const Rims& rims, formats::PlateStresse
   a.sigma_tt.push_back(std::move(tt));
   a.sigma_rt.push_back(std::move(rt));
   const auto& sections = fields.plate().sections;
-  Eigen::MatrixXd force(static_cast<Eigen::Index>(sections.size()), fields.n_cases());
-  for (Eigen::Index i = 0; i < force.rows(); ++i)
-    force.row(i) = section_force(fields, sections[static_cast<std::size_t>(i)]);
+  Eigen::MatrixXd force(sections.size(), fields.n_cases());
+  for (Eigen::Index i = 0; i < force.rows(); ++i) force.row(i) = section_force(fields, sections[i]);
   a.section_force.push_back(std::move(force));
 }
 
@@ -98,7 +97,7 @@ formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, con
   UnitFields fields(plate, file);
   describe_sections(fields, a);
   for (const int p : a.p) {
-    fields.use(static_cast<std::size_t>(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p))));
+    fields.use(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p)));
     add_level(fields, rims, a);
   }
   return a;

@@ -26,14 +26,14 @@ void UnitFields::use(std::size_t level) {
 }
 
 const Eigen::Matrix3d& UnitFields::elasticity(int element) const {
-  return plate_.elasticity[static_cast<std::size_t>(plate_.mesh.material[element])];
+  return plate_.elasticity[plate_.mesh.material[element]];
 }
 
 Eigen::MatrixXd UnitFields::coefficients(int element, const std::vector<int>& modes) const {
-  const auto n = static_cast<Eigen::Index>(modes.size());
+  const Eigen::Index n = modes.size();
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(2 * n, n_cases());
   for (Eigen::Index i = 0; i < n; ++i) {
-    const int mode = modes[static_cast<std::size_t>(i)];
+    const int mode = modes[i];
     const int function = numbering_.function(mode, element);
     for (Eigen::Index component = 0; component < 2; ++component) {
       const int unknown = plate_.unknown(component, function);
@@ -46,7 +46,7 @@ Eigen::MatrixXd UnitFields::coefficients(int element, const std::vector<int>& mo
 }
 
 Eigen::MatrixXd UnitFields::coefficients(int element) const {
-  std::vector<int> modes(static_cast<std::size_t>(numbering_.function.rows()));
+  std::vector<int> modes(numbering_.function.rows());
   std::iota(modes.begin(), modes.end(), 0);
   return coefficients(element, modes);
 }

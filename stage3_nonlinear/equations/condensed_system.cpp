@@ -33,8 +33,8 @@ std::vector<FrictionRow> friction_rows(const JointModel& joint) {
   std::vector<FrictionRow> rows;
   for (std::size_t fastener = 0; fastener < joint.fasteners.size(); ++fastener)
     for (std::size_t hole = 0; hole < joint.fasteners[fastener].holes.size(); ++hole)
-      for (std::size_t d = 0; d < joint.fasteners[fastener].holes[hole].friction.size(); ++d)
-        rows.push_back({fastener, hole, static_cast<Index>(d)});
+      for (Index d = 0; d < std::ssize(joint.fasteners[fastener].holes[hole].friction); ++d)
+        rows.push_back({fastener, hole, d});
   return rows;
 }
 
@@ -45,8 +45,7 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
   rows.load.segment(offset, n) = -plate.T * plate.traction_force;
   rows.load.segment(offset + m, plate.n_externals()) += plate.external_force;
   for (Index i = 0; i < n; ++i) {
-    const auto& displacement =
-        i < m ? std::optional<double>() : plate.external_displacement[static_cast<std::size_t>(i - m)];
+    const auto& displacement = i < m ? std::optional<double>() : plate.external_displacement[i - m];
     if (displacement) {
       rows.given[offset + i] = *displacement;
     } else {
@@ -56,7 +55,7 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
 }
 
 void add_plane(Rows& rows, const JointModel& joint, Index at) {
-  const ShearPlane& plane = joint.planes[static_cast<std::size_t>(at)];
+  const ShearPlane& plane = joint.planes[at];
   const HoleModel& first = joint.first_hole(plane);
   const HoleModel& second = joint.second_hole(plane);
   for (Index d = 0; d < joint.n_directions(); ++d) {
@@ -68,15 +67,15 @@ void add_plane(Rows& rows, const JointModel& joint, Index at) {
     const FrictionRow& row = rows.friction[i];
     if (row.fastener != plane.fastener) continue;
     const Index column = at * joint.n_directions() + row.direction;
-    if (row.hole == plane.first) rows.E(static_cast<Index>(i), column) = -1;
-    if (row.hole == plane.first + 1) rows.E(static_cast<Index>(i), column) = 1;
+    if (row.hole == plane.first) rows.E(i, column) = -1;
+    if (row.hole == plane.first + 1) rows.E(i, column) = 1;
   }
 }
 
 void add_friction(Rows& rows, const JointModel& joint, Index at) {
-  const FrictionRow& row = rows.friction[static_cast<std::size_t>(at)];
+  const FrictionRow& row = rows.friction[at];
   const HoleModel& hole = joint.fasteners[row.fastener].holes[row.hole];
-  const auto& [plus, minus] = hole.friction[static_cast<std::size_t>(row.direction)];
+  const auto& [plus, minus] = hole.friction[row.direction];
   const Index offset = joint.offset(hole.plate);
   if (plus.load.size() > 0) rows.G_plus.block(offset, at, plus.load.size(), 1) = plus.load;
   if (minus.load.size() > 0) rows.G_minus.block(offset, at, minus.load.size(), 1) = minus.load;
@@ -89,7 +88,7 @@ Rows assemble(const JointModel& joint) {
   const Index N = joint.n_unknowns();
   const Index n = joint.n_planes() * joint.n_directions();
   auto friction = friction_rows(joint);
-  const auto f = static_cast<Index>(friction.size());
+  const Index f = friction.size();
   Rows rows{.S = MatrixXd::Zero(N, N),
             .B = MatrixXd::Zero(N, n),
             .friction = std::move(friction),
@@ -123,7 +122,7 @@ Rows assemble(const JointModel& joint) {
 
 /// Right-hand sides of the saddle-point system, block after block: load, delta, b+, b-.
 MatrixXd right_hand_sides(const Rows& rows) {
-  const Index N = static_cast<Index>(rows.free.size());
+  const Index N = rows.free.size();
   const Index n = rows.B.cols();
   const Index n_friction = rows.G_plus.cols();
   MatrixXd rhs = MatrixXd::Zero(N + n, 1 + n + 2 * n_friction);
@@ -140,7 +139,7 @@ CondensedSystem unpack(const Rows& rows, const MatrixXd& rhs, const MatrixXd& so
   const Index n_friction = rows.G_plus.cols();
   const MatrixXd F = solution.bottomRows(n);
   MatrixXd D = MatrixXd::Zero(rows.S.rows(), solution.cols());
-  D(rows.free, Eigen::all) = solution.topRows(static_cast<Index>(rows.free.size()));
+  D(rows.free, Eigen::all) = solution.topRows(rows.free.size());
   D.col(0) += rows.given;
   return {.q = without_rounding(F.col(0), rhs.col(0).cwiseAbs().maxCoeff()),
           .S_ud = -F.middleCols(1, n),

@@ -11,7 +11,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 Index directions(const std::vector<Contact>& contacts, const VectorXd& vectors) {
-  const auto n = static_cast<Index>(contacts.size());
+  const Index n = contacts.size();
   assert(n > 0 && vectors.size() % n == 0);
   return vectors.size() / n;
 }
@@ -43,7 +43,7 @@ Eigen::MatrixXd ContactState::times(const Eigen::MatrixXd& A, const Blocks& bloc
 }
 
 ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c) {
-  const auto n = static_cast<Index>(contacts.size());
+  const Index n = contacts.size();
   const Index a = directions(contacts, c);
   ContactState state{VectorXd(n * a),
                      VectorXd(n * a),
@@ -52,7 +52,7 @@ ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd&
                      {VectorXd(n), VectorXd(n)},
                      {}};
   for (Index j = 0; j < n; ++j) {
-    const Contact& contact = contacts[static_cast<std::size_t>(j)];
+    const Contact& contact = contacts[j];
     const VectorXd here = c.segment(j * a, a);
     const VectorXd e = along(here);
     const double k = contact.stiffness;
@@ -77,7 +77,7 @@ VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorX
   VectorXd c(F.size());
   for (std::size_t j = 0; j < contacts.size(); ++j) {
     const Contact& contact = contacts[j];
-    const auto at = static_cast<Index>(j) * a;
+    const Index at = j * a;
     const VectorXd here = F.segment(at, a);
     const double force = here.norm();
     const bool carries = force > 0 && !contact.is_pulled_open(here);

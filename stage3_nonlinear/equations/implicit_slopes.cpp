@@ -36,10 +36,10 @@ Slopes solve_singular(const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rh
 }  // namespace
 
 VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, const VectorXd& delta) {
-  const Index a = F.size() / static_cast<Index>(contacts.size());
+  const Index a = F.size() / contacts.size();
   VectorXd c(F.size());
   for (Index j = 0; j < c.size() / a; ++j) {
-    const Contact& contact = contacts[static_cast<std::size_t>(j)];
+    const Contact& contact = contacts[j];
     c.segment(j * a, a) = contact.stiffness * delta.segment(j * a, a);
     if (contact.law->rises()) c.segment(j * a, a) += F.segment(j * a, a);
   }

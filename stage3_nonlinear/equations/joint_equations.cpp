@@ -20,14 +20,14 @@ using Eigen::VectorXd;
 VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& contacts) {
   constexpr double more = 1.05;
   constexpr double negligible = 1e-9, rounding = 1e-12;
-  const auto n = static_cast<Index>(contacts.size());
+  const Index n = contacts.size();
   const Index a = S.rows() / n;
   const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
   const double largest = rows.maxCoeff();
   VectorXd k(n);
   for (Index j = 0; j < n; ++j) {
     const double row = rows.segment(j * a, a).maxCoeff();
-    const double own = contacts[static_cast<std::size_t>(j)].stiffness;
+    const double own = contacts[j].stiffness;
     k[j] = largest <= rounding * own ? own : row > negligible * largest ? row : largest;
   }
   return k;
@@ -43,9 +43,9 @@ double plate_stiffness(const JointModel& joint, const ShearPlane& plane) {
 }
 
 MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts) {
-  const Index a = S.rows() / static_cast<Index>(contacts.size());
+  const Index a = S.rows() / contacts.size();
   MatrixXd W = -0.5 * (S + S.transpose());
-  for (Index i = 0; i < W.rows(); ++i) W(i, i) += contacts[static_cast<std::size_t>(i / a)].stiffness;
+  for (Index i = 0; i < W.rows(); ++i) W(i, i) += contacts[i / a].stiffness;
   return W.llt().solve(MatrixXd::Identity(W.rows(), W.rows()));
 }
 
@@ -57,7 +57,7 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
   constexpr double least = 1e-11;  // rounding over this is still a small step
   const double trace = std::clamp(share * residual, least, share);
   for (Index j = 0; j < state.dF.along.size(); ++j) {
-    const double k = equations.contacts[static_cast<std::size_t>(j)].stiffness;
+    const double k = equations.contacts[j].stiffness;
     const auto add = [&](double& dF, double& ddelta) {
       if (std::abs(dF) >= trace) return;
       dF = trace;
@@ -83,12 +83,12 @@ JointEquations make_equations(CondensedSystem system, std::vector<Contact> conta
   const VectorXd rows = system.S_ud.cwiseAbs().rowwise().sum();
   for (Index i = 0; i < rows.size(); ++i) {
     const Index plane = i * std::ssize(contacts) / rows.size();
-    if (rows[i] > rounding * contacts[static_cast<std::size_t>(plane)].stiffness) continue;
+    if (rows[i] > rounding * contacts[plane].stiffness) continue;
     system.S_ud.row(i).setZero();
     system.S_ud.col(i).setZero();
   }
   const VectorXd k = reference_stiffnesses(system.S_ud, contacts);
-  for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j].stiffness = k[static_cast<Index>(j)];
+  for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j].stiffness = k[j];
   const bool rise = std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.law->rises(); });
   MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();
   return {std::move(system), std::move(contacts), std::move(metric)};

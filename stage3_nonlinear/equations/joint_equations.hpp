@@ -19,7 +19,7 @@ struct JointEquations {
   /// length / force (docs/theory.md, section 8.4).
   Eigen::MatrixXd metric;
 
-  [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(contacts.size()); }
+  [[nodiscard]] Eigen::Index n_planes() const { return contacts.size(); }
   /// a
   [[nodiscard]] Eigen::Index n_directions() const { return n_unknowns() / n_planes(); }
   /// n a

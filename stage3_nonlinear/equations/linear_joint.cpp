@@ -28,7 +28,7 @@ std::optional<VectorXd> linear_flexibility(const JointEquations& equations) {
   const Index n = equations.n_planes(), a = equations.n_directions();
   VectorXd flexibility(n * a);
   for (Index j = 0; j < n; ++j) {
-    const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+    const Contact& contact = equations.contacts[j];
     const auto kinks = contact.law->kinks(contact.stiffness, contact.clearance);
     if (!kinks || !kinks->empty() || contact.one_sided) return std::nullopt;
     const Branch on = contact.law->at(1, contact.stiffness, contact.clearance);

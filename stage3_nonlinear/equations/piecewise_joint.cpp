@@ -31,13 +31,12 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
   const bool bears_at_once = contact.law->at(0, contact.stiffness, contact.clearance).dF > 0;
   CornerCurve curve{corners(contact, friction || (contact.one_sided && bears_at_once)), {}, {}, {}, {}, {}};
   const auto& at = curve.corners;
-  const auto m = static_cast<Index>(at.size()) + 1;
+  const Index m = std::ssize(at) + 1;
   for (auto* each : {&curve.F0, &curve.dF, &curve.delta0, &curve.ddelta}) each->resize(m);
   curve.sign.resize(m);
   for (Index i = 0; i < m; ++i) {
-    const auto end = static_cast<std::size_t>(i);
-    const double low = i == 0 ? (at.empty() ? 0 : at[0] - outward(at[0])) : at[end - 1];
-    const double high = i == m - 1 ? low + outward(low) : at[end];
+    const double low = i == 0 ? (at.empty() ? 0 : at[0] - outward(at[0])) : at[i - 1];
+    const double high = i == m - 1 ? low + outward(low) : at[i];
     const double c = 0.5 * (low + high);
     const auto state = contact_state({contact}, VectorXd::Constant(1, c));
     curve.dF[i] = state.dF.along[0];
@@ -51,16 +50,15 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
 
 template <class Values>
 VectorXd picked(const Cell& cell, Values values) {
-  VectorXd result(static_cast<Index>(cell.piece.size()));
-  for (std::size_t j = 0; j < cell.piece.size(); ++j)
-    result[static_cast<Index>(j)] = values(j)[static_cast<Index>(cell.piece[j])];
+  VectorXd result(cell.piece.size());
+  for (std::size_t j = 0; j < cell.piece.size(); ++j) result[j] = values(j)[cell.piece[j]];
   return result;
 }
 
 }  // namespace
 
 std::size_t CornerCurve::piece_of(double c) const {
-  return static_cast<std::size_t>(std::upper_bound(corners.begin(), corners.end(), c) - corners.begin());
+  return std::upper_bound(corners.begin(), corners.end(), c) - corners.begin();
 }
 
 bool is_piecewise_linear(const JointEquations& equations) {
@@ -80,7 +78,7 @@ PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equat
     if (rim.planes.size() > 1) {
       shared_rims_.push_back(at);
     } else {
-      alone[static_cast<std::size_t>(rim.planes[0].first)] = true;
+      alone[rim.planes[0].first] = true;
     }
   }
   for (std::size_t j = 0; j < alone.size(); ++j) curves_.push_back(make_curve(equations.contacts[j], alone[j]));
@@ -89,7 +87,7 @@ PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equat
 Cell PiecewiseJoint::start() const {
   Cell cell;
   for (const auto& curve : curves_) cell.piece.push_back(curve.piece_of(0));
-  cell.side.assign(static_cast<std::size_t>(system_->E.rows()), 1);
+  cell.side.assign(system_->E.rows(), 1);
   follow_signs(cell);
   return cell;
 }
@@ -98,18 +96,17 @@ void PiecewiseJoint::follow_signs(Cell& cell) const {
   for (const Rim& rim : rims_) {
     if (rim.planes.size() > 1) continue;
     const auto& [plane, sign] = rim.planes[0];
-    const auto j = static_cast<std::size_t>(plane);
-    const int of_force = curves_[j].sign[static_cast<Index>(cell.piece[j])];
-    cell.side[static_cast<std::size_t>(rim.at)] = sign > 0 ? of_force : -of_force;
+    const int of_force = curves_[plane].sign[cell.piece[plane]];
+    cell.side[rim.at] = sign > 0 ? of_force : -of_force;
   }
 }
 
 CellEquations PiecewiseJoint::equations(const Cell& cell) const {
-  const auto n = static_cast<Index>(curves_.size());
+  const Index n = curves_.size();
   Eigen::MatrixXd on_forces = Eigen::MatrixXd::Identity(n, n);
   for (const Rim& rim : rims_)
     for (const auto& [plane, sign] : rim.planes) {
-      const bool plus = cell.side[static_cast<std::size_t>(rim.at)] > 0;
+      const bool plus = cell.side[rim.at] > 0;
       const auto H = plus ? system_->H_plus.col(rim.at) : system_->H_minus.col(rim.at);
       on_forces.col(plane) += (plus ? sign : -sign) * H;
     }
@@ -122,18 +119,16 @@ CellEquations PiecewiseJoint::equations(const Cell& cell) const {
 
 double PiecewiseJoint::rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const {
   double sum = 0;
-  for (const auto& [plane, sign] : rims_[static_cast<std::size_t>(rim)].planes) {
-    const auto j = static_cast<std::size_t>(plane);
-    sum += sign * curves_[j].dF[static_cast<Index>(cell.piece[j])] * rate[plane];
+  for (const auto& [plane, sign] : rims_[rim].planes) {
+    sum += sign * curves_[plane].dF[cell.piece[plane]] * rate[plane];
   }
   return sum;
 }
 
 double PiecewiseJoint::rim_force(const Cell& cell, Index rim, const VectorXd& c) const {
   double sum = rim_rate(cell, rim, c);
-  for (const auto& [plane, sign] : rims_[static_cast<std::size_t>(rim)].planes) {
-    const auto j = static_cast<std::size_t>(plane);
-    sum += sign * curves_[j].F0[static_cast<Index>(cell.piece[j])];
+  for (const auto& [plane, sign] : rims_[rim].planes) {
+    sum += sign * curves_[plane].F0[cell.piece[plane]];
   }
   return sum;
 }

@@ -34,7 +34,7 @@ Mechanism mechanism(const JointEquations& equations, const ContactState& state, 
     if (!(delta.middleRows(j * a, a).norm() > moves * delta.norm())) continue;
     if (state.F.segment(j * a, a).isZero(0)) {
       result.open.push_back(j);
-    } else if (const Contact& at = equations.contacts[static_cast<std::size_t>(j)];
+    } else if (const Contact& at = equations.contacts[j];
                state.dF.along[j] <= level &&
                at.law->at(far * (state.F + at.stiffness * state.delta).norm(), at.stiffness, at.clearance).F <=
                    (1 + far * level) * state.F.segment(j * a, a).norm()) {
@@ -130,7 +130,7 @@ std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
   MatrixXd S = equations.system.S_ud;
   const Index n = equations.n_planes(), a = equations.n_directions();
   for (Index j = 0; j < n; ++j) {
-    const Law& law = *equations.contacts[static_cast<std::size_t>(j)].law;
+    const Law& law = *equations.contacts[j].law;
     if (law.rises()) continue;
     falling.push_back(j);
     for (Index d = 0; d < a; ++d) S(j * a + d, j * a + d) += law.least_slope();

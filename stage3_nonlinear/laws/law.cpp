@@ -35,7 +35,7 @@ std::shared_ptr<const Law> read_law(const input::Value& law) {
   for (const auto& kind : kinds) types.emplace_back(kind.type);
   const std::string type = law.at("type").choice(types);
   const auto found = std::find(types.begin(), types.end(), type);
-  return kinds[static_cast<std::size_t>(found - types.begin())].read(law);
+  return kinds[found - types.begin()].read(law);
 }
 
 }  // namespace fastjoint::stage3

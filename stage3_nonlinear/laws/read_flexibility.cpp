@@ -14,7 +14,7 @@ const FlexibilityFormula& read_formula(const input::Value& law) {
   names.reserve(formulas.size());
   for (const auto& formula : formulas) names.emplace_back(formula.name);
   const std::string name = law.at("formula").choice(names);
-  return formulas[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
+  return formulas[std::find(names.begin(), names.end(), name) - names.begin()];
 }
 
 int read_shear(const input::Value& law, const FlexibilityFormula& formula) {

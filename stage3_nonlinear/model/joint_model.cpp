@@ -83,8 +83,7 @@ std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateMod
   const auto names = [](const PlateModel& plate) {
     std::vector<std::string> result;
     result.reserve(plate.axes.size());
-    for (const int axis : plate.axes)
-      result.push_back(fmt::format("\"{}\"", axis_names[static_cast<std::size_t>(axis)]));
+    for (const int axis : plate.axes) result.push_back(fmt::format("\"{}\"", axis_names[axis]));
     return fmt::format("[{}]", fmt::join(result, ", "));
   };
   for (std::size_t i = 1; i < plates.size(); ++i)
@@ -99,11 +98,9 @@ std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateMod
 
 /// The friction case of a hole for the side that bears along an axis.
 FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
-  const std::string bearing =
-      fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[static_cast<std::size_t>(axis)]);
+  const std::string bearing = fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[axis]);
   for (Eigen::Index i = 0; i < plate.friction_unit_force.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    if (plate.friction_hole[at] != hole || plate.friction_bearing[at] != bearing) continue;
+    if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
     const double c = plate.friction_unit_force[i];
     if (!(c > 0))
       throw InputError(
@@ -136,7 +133,7 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
 /// off.
 void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
   for (std::size_t i = 0; i < plate.friction_hole.size(); ++i)
-    if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[static_cast<Eigen::Index>(i)] > 0))
+    if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0))
       throw InputError(fmt::format(
           "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, "
           "off its line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
@@ -187,7 +184,7 @@ void apply_load(JointModel& model, const LoadScene& load) {
   PlateModel& plate = *std::find_if(model.plates.begin(), model.plates.end(), is_named);
   if (const auto rigid = index_of(plate.externals, name.name)) {
     if (load.is_displacement) {
-      plate.external_displacement[static_cast<std::size_t>(*rigid)] = load.value;
+      plate.external_displacement[*rigid] = load.value;
     } else {
       plate.external_force[*rigid] = load.value;
     }
@@ -209,7 +206,7 @@ void apply_load(JointModel& model, const LoadScene& load) {
 double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d, Side side) {
   const auto& friction = fastener.holes[of].friction;
   if (friction.empty()) return 0;
-  const auto& sides = friction[static_cast<std::size_t>(d)];
+  const auto& sides = friction[d];
   const auto n = static_cast<double>(fastener.holes.size());
   if (fastener.holes.size() == 2) return sides[of == hole ? side : 1 - side].share() / n;
   const auto bears = std::count_if(sides.begin(), sides.end(), [](const auto& each) { return each.load.size() > 0; });
@@ -225,7 +222,7 @@ void balance(FastenerModel& fastener) {
       for (const Side side : {plus_side, minus_side}) {
         double transferred = 1;
         for (std::size_t of = 0; of < fastener.holes.size() && !fastener.law_includes_friction; ++of)
-          transferred += part_of_mean_share(fastener, of, at, static_cast<Eigen::Index>(d), side);
+          transferred += part_of_mean_share(fastener, of, at, d, side);
         FrictionLoad& friction = fastener.holes[at].friction[d][side];
         const double change = transferred / (1 + friction.share()) / friction.bearing;
         friction.load *= change;

@@ -75,10 +75,10 @@ struct JointModel {
   std::vector<FastenerModel> fasteners;
   std::vector<ShearPlane> planes;
 
-  [[nodiscard]] Eigen::Index n_directions() const { return static_cast<Eigen::Index>(axes.size()); }
-  [[nodiscard]] Eigen::Index n_planes() const { return static_cast<Eigen::Index>(planes.size()); }
+  [[nodiscard]] Eigen::Index n_directions() const { return axes.size(); }
+  [[nodiscard]] Eigen::Index n_planes() const { return planes.size(); }
   /// "x" or "y": direction d of the discs.
-  [[nodiscard]] const char* axis_name(std::size_t d) const { return axis_names[static_cast<std::size_t>(axes[d])]; }
+  [[nodiscard]] const char* axis_name(std::size_t d) const { return axis_names[axes[d]]; }
   /// First unknown of a plate in the joint's list, plate after plate.
   [[nodiscard]] Eigen::Index offset(std::size_t plate) const;
   [[nodiscard]] Eigen::Index n_unknowns() const { return offset(plates.size()); }

@@ -29,7 +29,7 @@ void check_once(const std::string& file, const char* dataset, const std::vector<
 
 int axis(const std::string& file, const std::string& place, const std::string& name) {
   for (int i = 0; i < 2; ++i)
-    if (name == axis_names[static_cast<std::size_t>(i)]) return i;
+    if (name == axis_names[i]) return i;
   throw FileError(fmt::format("{}:{}: is \"{}\", expected \"x\" or \"y\"", file, place, name));
 }
 
@@ -107,7 +107,7 @@ PlateDegrees degrees_up_to(const formats::PlateMatrices& a, int p) {
   constexpr std::size_t most = 4;  // no estimate looks further back
   std::map<int, std::size_t> levels;
   for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    if (a.p[i] <= p) levels.emplace(a.p[i], static_cast<std::size_t>(i));
+    if (a.p[i] <= p) levels.emplace(a.p[i], i);
   while (levels.size() > most) levels.erase(levels.begin());
   PlateDegrees degrees;
   degrees.p.resize(std::ssize(levels));
@@ -129,7 +129,7 @@ MatrixXd error_of(const formats::PlateMatrices& a, int p) {
 
 std::size_t level_of(const formats::PlateMatrices& a, int p) {
   for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    if (a.p[i] == p) return static_cast<std::size_t>(i);
+    if (a.p[i] == p) return i;
   throw std::logic_error("make_plate: degree not in the file");
 }
 
@@ -157,7 +157,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.axes = disc_axes(file, a);
   for (std::size_t i = 0; i < a.disc_hole.size(); i += plate.axes.size()) {
     plate.holes.push_back(a.disc_hole[i]);
-    plate.on_springs.push_back(a.disc_modulus[static_cast<Eigen::Index>(i)] > 0);
+    plate.on_springs.push_back(a.disc_modulus[i] > 0);
   }
   check_once(file, "disc/hole", plate.holes);
   plate.externals = a.external_id;
@@ -177,7 +177,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.stresses = std::move(a.stresses);
   const auto& levels = plate.stresses.p;
   if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())
-    plate.stress_level = static_cast<std::size_t>(at - levels.begin());
+    plate.stress_level = at - levels.begin();
   plate.external_force = Eigen::VectorXd::Zero(a.n_externals());
   plate.external_displacement.resize(a.external_id.size());
   plate.traction_force = Eigen::VectorXd::Zero(a.n_tractions());

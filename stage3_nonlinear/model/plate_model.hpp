@@ -48,13 +48,11 @@ struct PlateModel {
   Eigen::VectorXd traction_force;                            ///< (q)
 
   /// m: unknowns of the discs.
-  [[nodiscard]] Eigen::Index n_discs() const { return static_cast<Eigen::Index>(holes.size() * axes.size()); }
-  [[nodiscard]] Eigen::Index n_externals() const { return static_cast<Eigen::Index>(externals.size()); }
+  [[nodiscard]] Eigen::Index n_discs() const { return holes.size() * axes.size(); }
+  [[nodiscard]] Eigen::Index n_externals() const { return externals.size(); }
   /// Of a disc unknown.
-  [[nodiscard]] const std::string& hole_of(Eigen::Index disc) const {
-    return holes[static_cast<std::size_t>(disc) / axes.size()];
-  }
-  [[nodiscard]] int axis_of(Eigen::Index disc) const { return axes[static_cast<std::size_t>(disc) % axes.size()]; }
+  [[nodiscard]] const std::string& hole_of(Eigen::Index disc) const { return holes[disc / axes.size()]; }
+  [[nodiscard]] int axis_of(Eigen::Index disc) const { return axes[disc % axes.size()]; }
   [[nodiscard]] Eigen::Index n_unknowns() const { return n_discs() + n_externals(); }
 };
 

@@ -16,14 +16,14 @@ namespace {
 using Eigen::Index;
 
 formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
-  const auto steps = static_cast<Index>(states.size());
+  const Index steps = states.size();
   formats::PlateHistory history;
   history.name = plate.name;
   history.matrices_digest = plate.matrices_digest;
   history.plate_digest = plate.plate_digest;
   for (Index i = 0; i < plate.n_discs(); ++i) {
     history.disc_hole.push_back(plate.hole_of(i));
-    history.disc_direction.emplace_back(axis_names[static_cast<std::size_t>(plate.axis_of(i))]);
+    history.disc_direction.emplace_back(axis_names[plate.axis_of(i)]);
   }
   history.external_id = plate.externals;
   history.traction_id = plate.tractions;
@@ -35,7 +35,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.Lambda.resize(steps, plate.friction_unit_force.size());
   history.traction.resize(steps, plate.traction_force.size());
   for (Index step = 0; step < steps; ++step) {
-    const PlateState& state = states[static_cast<std::size_t>(step)].plates[at];
+    const PlateState& state = states[step].plates[at];
     history.D.row(step) = state.D.transpose();
     history.De.row(step) = state.De.transpose();
     history.Pe.row(step) = state.Pe.transpose();
@@ -82,7 +82,7 @@ std::string component_fields(const JointModel& joint, const formats::JointResult
 
 formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
                                   const std::vector<JointState>& states) {
-  const auto steps = static_cast<Index>(path.steps.size());
+  const Index steps = path.steps.size();
   const Index n = joint.n_planes();
   const Index a = joint.n_directions();
   formats::JointResult result;
@@ -96,8 +96,8 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     table->resize(steps, n);
   for (auto* table : {&result.delta_vector, &result.F_vector}) table->resize(steps, n * a);
   for (Index i = 0; i < steps; ++i) {
-    const PathStep& step = path.steps[static_cast<std::size_t>(i)];
-    const JointState& state = states[static_cast<std::size_t>(i)];
+    const PathStep& step = path.steps[i];
+    const JointState& state = states[i];
     result.load_factor[i] = step.load_factor;
     result.iterations[i] = step.iterations;
     result.residual[i] = step.residual;
@@ -125,16 +125,14 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
   for (Index i = 0; i < a.F.rows(); ++i) {
     const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {
-      const auto at = static_cast<std::size_t>(j);
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[at]),
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[j]),
                           a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j),
                           std::isfinite(share[j]) ? fmt::to_string(share[j]) : "", a.iterations[i], a.residual[i],
-                          field(a.first_hole[at]), field(a.second_hole[at]));
+                          field(a.first_hole[j]), field(a.second_hole[j]));
       text += component_fields(joint, a, i, j);
-      for (const HoleModel* hole : {&joint.first_hole(joint.planes[at]), &joint.second_hole(joint.planes[at])})
+      for (const HoleModel* hole : {&joint.first_hole(joint.planes[j]), &joint.second_hole(joint.planes[j])})
         text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
-      text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "",
-                          field(a.event[static_cast<std::size_t>(i)]));
+      text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "", field(a.event[i]));
     }
   }
   return text;

@@ -28,7 +28,7 @@ struct KnownPlane {
 std::vector<KnownPlane> known_planes(const JointModel& joint) {
   std::vector<KnownPlane> result;
   for (Index j = 0; j < joint.n_planes(); ++j) {
-    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    const ShearPlane& plane = joint.planes[j];
     const HoleModel &first = joint.first_hole(plane), &second = joint.second_hole(plane);
     KnownPlane known{j, std::minmax(first.plate, second.plate), Vector2d::Zero(), {0, 0}, {0, 0}, {0, 0}};
     for (const HoleModel* hole : {&first, &second}) {
@@ -91,7 +91,7 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
   for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
   std::set<std::string> compared;
   for (const auto& known : planes) {
-    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(known.at)];
+    const ShearPlane& plane = joint.planes[known.at];
     const std::string& where = scene.fasteners[plane.fastener].where;
     const double radius = known.d.minCoeff() / 2;
     if (const double gap = plane.law->gap(plane.clearance); gap > radius)

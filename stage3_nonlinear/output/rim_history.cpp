@@ -46,17 +46,15 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
 RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
   RimHistory rims;
   if (plate.stress_level) rims.hole = plate.stresses.rim_hole;
-  const auto steps = static_cast<Index>(states.size());
-  const auto r = static_cast<Index>(rims.hole.size());
+  const Index steps = states.size();
+  const Index r = rims.hole.size();
   rims.sections.resize(r);
-  for (Index i = 0; i < r; ++i) rims.sections[i] = n_sections(plate.stresses, rims.hole[static_cast<std::size_t>(i)]);
+  for (Index i = 0; i < r; ++i) rims.sections[i] = n_sections(plate.stresses, rims.hole[i]);
   for (const auto& column : columns) {
     Eigen::MatrixXd& table = rims.*column.table;
     table.resize(steps, r);
     for (Index step = 0; step < steps; ++step)
-      for (Index i = 0; i < r; ++i)
-        table(step, i) =
-            states[static_cast<std::size_t>(step)].plates[at].rims[static_cast<std::size_t>(i)].*column.state;
+      for (Index i = 0; i < r; ++i) table(step, i) = states[step].plates[at].rims[i].*column.state;
   }
   return rims;
 }

@@ -43,11 +43,11 @@ double rounded(double force, double largest) {
 std::string method(const JointScene& scene, const LoadPath& path) {
   if (path.linear) return "linear";
   const auto is_exact = [](const PathStep& step) { return step.exact; };
-  const auto exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
+  const std::size_t exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
   const bool newton = scene.solver.method == Method::damped_newton;
   const std::string iterative = newton ? "damped newton" : "hybridsj";
   if (exact == 0) return iterative;
-  return exact == static_cast<Index>(path.n_increments) ? "exact path" : "exact path, " + iterative;
+  return exact == path.n_increments ? "exact path" : "exact path, " + iterative;
 }
 
 std::string effort(const LoadPath& path, const PathStep& step) {
@@ -97,9 +97,8 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
   const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
   const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
   for (Index j = 0; j < F.size(); ++j) {
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}",
-                        joint.short_name(joint.planes[static_cast<std::size_t>(j)]), width, delta[j], F[j],
-                        components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
+    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}", joint.short_name(joint.planes[j]), width, delta[j],
+                        F[j], components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
     text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
   }
   return text;
@@ -113,7 +112,7 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
     for (const int axis : joint.axes) {
       const PlateState& plate = state.plates[i];
       const std::string& name = joint.plates[i].name;
-      const char* along = axis_names[static_cast<std::size_t>(axis)];
+      const char* along = axis_names[axis];
       text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n",
                           joint.n_directions() == 1 ? name : fmt::format("{} {}", name, along), width,
                           rounded(plate.applied[axis], state.largest_force),
@@ -136,13 +135,12 @@ std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen
     Index at = 0;
     if (const double here = F.cwiseAbs().maxCoeff(&at); here > std::abs(largest)) {
       largest = F[at];
-      step = static_cast<Index>(i);
+      step = i;
       plane = at;
     }
   }
   return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
-                     largest, F_error(step, plane), unit(joint.units, 0, 1),
-                     joint.name(joint.planes[static_cast<std::size_t>(plane)]), step + 1);
+                     largest, F_error(step, plane), unit(joint.units, 0, 1), joint.name(joint.planes[plane]), step + 1);
 }
 
 std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,

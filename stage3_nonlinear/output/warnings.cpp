@@ -29,7 +29,7 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
     const ShearPlane& plane = joint.planes[j];
     const double last = plane.law->last_delta(plane.clearance);
     for (const auto& step : path.steps) {
-      const double delta = amounts(step.delta, joint.n_directions())[static_cast<Index>(j)];
+      const double delta = amounts(step.delta, joint.n_directions())[j];
       const bool open = plane.one_sided && delta < 0;
       if (open || std::abs(delta) <= last) continue;
       worst.add(std::abs(delta) / last,
@@ -45,7 +45,7 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
 std::string names(const JointModel& joint, const std::vector<Index>& planes) {
   std::vector<std::string> result;
   result.reserve(planes.size());
-  for (const Index j : planes) result.push_back(joint.name(joint.planes[static_cast<std::size_t>(j)]));
+  for (const Index j : planes) result.push_back(joint.name(joint.planes[j]));
   return fmt::format("{}", fmt::join(result, ", "));
 }
 
@@ -59,8 +59,8 @@ std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) 
       for (Index disc = d; disc < joint.plates[i].n_discs(); disc += joint.n_directions())
         if (const double u = motion[joint.offset(i) + disc]; std::abs(u) > std::abs(largest)) largest = u;
       if (std::abs(largest) > moves)
-        parts.push_back(fmt::format("plate \"{}\" by {:.3g} along {}", joint.plates[i].name, largest,
-                                    joint.axis_name(static_cast<std::size_t>(d))));
+        parts.push_back(
+            fmt::format("plate \"{}\" by {:.3g} along {}", joint.plates[i].name, largest, joint.axis_name(d)));
     }
   return fmt::format("{}", fmt::join(parts, ", "));
 }
@@ -87,7 +87,7 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& re
     if (!source || !source->bearing_of_sheet) continue;
     for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)}) {
       const PlateModel& plate = joint.plates[hole->plate];
-      const bool twice = plate.on_springs[static_cast<std::size_t>(hole->disc / joint.n_directions())];
+      const bool twice = plate.on_springs[hole->disc / joint.n_directions()];
       if (!twice || !said.insert(plane.law_name).second) continue;
       result.push_back(fmt::format(
           "{}: /laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole \"{}\" have "
@@ -177,7 +177,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
       const bool falls = c.norm() < less * before || most.col(j).dot(c) < turned * c.norm() * before;
       if (c.norm() > before) most.col(j) = c;
       const auto passed = [&](const Mark& mark) { return mark.corner != Corner::contact && mark.at < before; };
-      const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+      const Contact& contact = equations.contacts[j];
       const bool curved = !contact.law->kinks(contact.stiffness, contact.clearance);
       if (falls && (curved || std::any_of(marks.of(j).begin(), marks.of(j).end(), passed))) unloaded.push_back(j);
     }
@@ -238,8 +238,7 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       "increments, allow more than {} or, if the residual is close to it, a larger tolerance than {:.0e}; and see that "
       "each plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of them "
       "are open, and one-sided fasteners cannot pull it",
-      scene.file, increment, max_halvings, failure.reached, at,
-      joint.name(joint.planes[static_cast<std::size_t>(failure.plane)]), kept, locking,
+      scene.file, increment, max_halvings, failure.reached, at, joint.name(joint.planes[failure.plane]), kept, locking,
       program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance);
 }
 

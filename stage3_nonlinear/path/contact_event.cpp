@@ -62,15 +62,13 @@ double ContactMarks::nearness(const VectorXd& c, double at) {
   return of_mark * at + of_largest * c.cwiseAbs().maxCoeff();
 }
 
-VectorXd ContactMarks::positions(const VectorXd& c) const {
-  return amounts(c, c.size() / static_cast<Index>(marks_.size()));
-}
+VectorXd ContactMarks::positions(const VectorXd& c) const { return amounts(c, c.size() / marks_.size()); }
 
 VectorXi ContactMarks::stages(const VectorXd& c) const {
   const VectorXd x = positions(c);
   VectorXi result(x.size());
   for (Index j = 0; j < x.size(); ++j) {
-    const bool mirrored = x[j] < 0 && !one_sided_[static_cast<std::size_t>(j)];
+    const bool mirrored = x[j] < 0 && !one_sided_[j];
     const double position = mirrored ? -x[j] : x[j];
     const auto& marks = of(j);
     const auto reached = static_cast<int>(std::count_if(
@@ -86,8 +84,8 @@ std::vector<ContactEvent> ContactMarks::between(const VectorXi& before, const Ve
     const auto& marks = of(j);
     const int was = std::abs(before[j]), is = std::abs(after[j]);
     const int common = before[j] * after[j] < 0 ? 0 : std::min(was, is);
-    for (int i = was; i-- > common;) result.push_back({j, marks[static_cast<std::size_t>(i)].corner, true});
-    for (int i = common; i < is; ++i) result.push_back({j, marks[static_cast<std::size_t>(i)].corner, false});
+    for (int i = was; i-- > common;) result.push_back({j, marks[i].corner, true});
+    for (int i = common; i < is; ++i) result.push_back({j, marks[i].corner, false});
   }
   return result;
 }
@@ -97,7 +95,7 @@ std::vector<ContactEvent> ContactMarks::at(const VectorXd& before, const VectorX
   if (c.isZero(0)) return result;
   const VectorXd x = positions(c), was = positions(before);
   for (Index j = 0; j < x.size(); ++j) {
-    const bool mirrored = x[j] < 0 && !one_sided_[static_cast<std::size_t>(j)];
+    const bool mirrored = x[j] < 0 && !one_sided_[j];
     const double sign = mirrored ? -1 : 1;
     for (const Mark& mark : of(j)) {
       const double near = nearness(c, mark.at);
@@ -115,7 +113,7 @@ std::string event_text(const JointModel& joint, const std::vector<ContactEvent>&
       std::vector<std::string> names;
       for (const auto& event : events)
         if (event.corner == each.corner && event.back == back)
-          names.push_back(joint.short_name(joint.planes[static_cast<std::size_t>(event.plane)]));
+          names.push_back(joint.short_name(joint.planes[event.plane]));
       if (names.empty()) continue;
       const auto& verb = back ? each.back : each.onward;
       parts.push_back(fmt::format("{} {}", fmt::join(names, ", "), verb[names.size() == 1 ? 0 : 1]));

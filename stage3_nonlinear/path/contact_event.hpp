@@ -34,9 +34,7 @@ class ContactMarks {
   explicit ContactMarks(const std::vector<Contact>& contacts);
 
   /// Marks of a plane, ascending: where its rim begins to bear, and the corners of a law that is linear between them.
-  [[nodiscard]] const std::vector<Mark>& of(Eigen::Index plane) const {
-    return marks_[static_cast<std::size_t>(plane)];
-  }
+  [[nodiscard]] const std::vector<Mark>& of(Eigen::Index plane) const { return marks_[plane]; }
   /// How many marks each plane has reached, negative on the negative side, (n).
   ///
   /// @param c Contact coordinates, shape (n a), force.

@@ -100,7 +100,7 @@ class Search {
   [[nodiscard]] double next_mark(Index plane, int from, int to) const {
     const bool up = to > from;
     const int number = up ? (from >= 0 ? from + 1 : from) : (from > 0 ? from : from - 1);
-    return std::copysign(marks_.of(plane)[static_cast<std::size_t>(std::abs(number) - 1)].at, number);
+    return std::copysign(marks_.of(plane)[std::abs(number) - 1].at, number);
   }
 
   /// Solves for the load factor and all c with one plane on its mark.

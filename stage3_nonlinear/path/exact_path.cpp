@@ -83,8 +83,7 @@ class Tracer {
     for (std::size_t j = 0; j < joint_.n_planes(); ++j)
       for (std::size_t i = 0; i < joint_.curve(j).corners.size(); ++i) {
         const bool borders = i == cell_.piece[j] || i + 1 == cell_.piece[j];
-        if (borders && std::abs(c[static_cast<Index>(j)] - joint_.curve(j).corners[i]) <= near)
-          result.push_back({j, i});
+        if (borders && std::abs(c[j] - joint_.curve(j).corners[i]) <= near) result.push_back({j, i});
       }
     for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i)
       if (std::abs(joint_.rim_force(cell_, joint_.shared_rims()[i], c)) <= near)
@@ -98,15 +97,15 @@ class Tracer {
       piece = piece == s.corner ? s.corner + 1 : s.corner;
       joint_.follow_signs(cell_);
     } else {
-      auto& side = cell_.side[static_cast<std::size_t>(rim(s))];
+      auto& side = cell_.side[rim(s)];
       side = -side;
     }
   }
 
   /// Whether the line leaves the cell at a switch where it begins.
   [[nodiscard]] bool contradicts(const Switch& s, const Line& line, double least_rate) const {
-    const double rate = is_plane(s) ? line.rate[static_cast<Index>(s.at)] : joint_.rim_rate(cell_, rim(s), line.rate);
-    const bool above = is_plane(s) ? cell_.piece[s.at] > s.corner : cell_.side[static_cast<std::size_t>(rim(s))] > 0;
+    const double rate = is_plane(s) ? line.rate[s.at] : joint_.rim_rate(cell_, rim(s), line.rate);
+    const bool above = is_plane(s) ? cell_.piece[s.at] > s.corner : cell_.side[rim(s)] > 0;
     return (above ? -rate : rate) > least_rate;
   }
 
@@ -164,18 +163,18 @@ class Tracer {
       }
     };
     for (std::size_t j = 0; j < joint_.n_planes(); ++j) {
-      const double rate = line.rate[static_cast<Index>(j)];
+      const double rate = line.rate[j];
       const auto& corners = joint_.curve(j).corners;
       const std::size_t piece = cell_.piece[j];
       const bool up = rate > 0;
       if (std::abs(rate) <= least_rate || (up ? piece == corners.size() : piece == 0)) continue;
       const std::size_t corner = up ? piece : piece - 1;
-      meet((corners[corner] - line.offset[static_cast<Index>(j)]) / rate, {j, corner});
+      meet((corners[corner] - line.offset[j]) / rate, {j, corner});
     }
     for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i) {
       const Index at = joint_.shared_rims()[i];
       const double rate = joint_.rim_rate(cell_, at, line.rate);
-      if (!(cell_.side[static_cast<std::size_t>(at)] * rate < -least_rate)) continue;
+      if (!(cell_.side[at] * rate < -least_rate)) continue;
       meet(-joint_.rim_force(cell_, at, line.offset) / rate, {joint_.n_planes() + i, 0});
     }
     return {end, reached};
@@ -208,7 +207,7 @@ std::size_t ExactPath::piece_of(double load_factor) const {
   const double load = std::abs(load_factor);
   const auto found =
       std::lower_bound(pieces.begin(), pieces.end(), load, [](const PathPiece& p, double x) { return p.end < x; });
-  return static_cast<std::size_t>((found == pieces.end() ? found - 1 : found) - pieces.begin());
+  return (found == pieces.end() ? found - 1 : found) - pieces.begin();
 }
 
 VectorXd ExactPath::at(double load_factor) const {

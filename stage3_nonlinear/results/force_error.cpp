@@ -21,8 +21,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 VectorXd energies(const PlateDegrees& degrees, const VectorXd& u, const VectorXd& f) {
   VectorXd values(degrees.p.size());
   for (Index i = 0; i < values.size(); ++i) {
-    const auto at = static_cast<std::size_t>(i);
-    values[i] = u.dot(degrees.S[at] * u) + 2 * u.dot(degrees.T[at] * f) - f.dot(degrees.C[at] * f);
+    values[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
   }
   return values;
 }
@@ -76,7 +75,7 @@ std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquatio
   if (!std::all_of(joint.plates.begin(), joint.plates.end(), is_known)) return std::nullopt;
   MatrixXd result(std::ssize(path.steps), joint.n_planes());
   for (std::size_t i = 0; i < path.steps.size(); ++i)
-    result.row(static_cast<Index>(i)) = errors(joint, equations, path.steps[i], states[i]).transpose();
+    result.row(i) = errors(joint, equations, path.steps[i], states[i]).transpose();
   return result;
 }
 

@@ -21,7 +21,7 @@ Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
   Bearing bearing;
   for (const auto& fastener : joint.fasteners) bearing.emplace_back(fastener.holes.size(), VectorXd::Zero(a));
   for (Index j = 0; j < joint.n_planes(); ++j) {
-    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    const ShearPlane& plane = joint.planes[j];
     bearing[plane.fastener][plane.first] -= F.segment(j * a, a);
     bearing[plane.fastener][plane.first + 1] += F.segment(j * a, a);
   }
@@ -31,7 +31,7 @@ Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
 /// Null without friction.
 const FrictionLoad* friction_at(const HoleModel& hole, Index direction, double bearing) {
   if (hole.friction.empty()) return nullptr;
-  return &hole.friction[static_cast<std::size_t>(direction)][bearing < 0 ? minus_side : plus_side];
+  return &hole.friction[direction][bearing < 0 ? minus_side : plus_side];
 }
 
 /// @param side 0: in the first hole of each plane, 1: in the second.
@@ -39,7 +39,7 @@ VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& 
   const Index a = joint.n_directions();
   VectorXd result = F;
   for (Index j = 0; j < joint.n_planes(); ++j) {
-    const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+    const ShearPlane& plane = joint.planes[j];
     const std::size_t hole = plane.first + side;
     for (Index d = 0; d < a; ++d)
       if (const auto* friction =
@@ -83,10 +83,8 @@ PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd
 }
 
 void add_sums(PlateState& state, const PlateModel& plate, const PlateForces& forces) {
-  for (Index i = 0; i < state.Pe.size(); ++i)
-    state.applied[plate.external_axis[static_cast<std::size_t>(i)]] += state.Pe[i];
-  for (Index i = 0; i < state.traction.size(); ++i)
-    state.applied[plate.traction_axis[static_cast<std::size_t>(i)]] += state.traction[i];
+  for (Index i = 0; i < state.Pe.size(); ++i) state.applied[plate.external_axis[i]] += state.Pe[i];
+  for (Index i = 0; i < state.traction.size(); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
   for (Index i = 0; i < plate.n_discs(); ++i)
     state.by_fasteners[plate.axis_of(i)] += forces.discs[i] + forces.friction[i];
   state.by_supports = -(state.applied + state.by_fasteners);
@@ -105,7 +103,7 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
   state.rims = rim_states(plate, {amounts, forces.discs, forces.friction});
   double worst = (forces.asked.head(m) - forces.discs).cwiseAbs().maxCoeff();
   for (Index i = 0; i < state.Pe.size(); ++i) {
-    if (plate.external_displacement[static_cast<std::size_t>(i)]) {
+    if (plate.external_displacement[i]) {
       state.Pe[i] = forces.asked[m + i];
     } else {
       worst = std::max(worst, std::abs(forces.asked[m + i] - state.Pe[i]));
@@ -138,7 +136,7 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
     VectorXd motion(plate.n_unknowns());
     for (Index i = 0; i < motion.size(); ++i) {
       const Index external = i - plate.n_discs();
-      motion[i] = (external < 0 ? plate.axis_of(i) : plate.external_axis[static_cast<std::size_t>(external)]) == axis;
+      motion[i] = (external < 0 ? plate.axis_of(i) : plate.external_axis[external]) == axis;
     }
     if (motion.isZero(0) || (plate.S * motion).norm() > rounding * plate.S.norm()) continue;
     worst = std::max(worst.value_or(0), std::abs(state.by_supports[axis]));
@@ -148,7 +146,7 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
 
 /// Of a plane, in ascending order.
 std::array<std::size_t, 2> plates_of(const JointModel& joint, Index plane) {
-  const ShearPlane& at = joint.planes[static_cast<std::size_t>(plane)];
+  const ShearPlane& at = joint.planes[plane];
   const auto [lower, higher] = std::minmax(joint.first_hole(at).plate, joint.second_hole(at).plate);
   return {lower, higher};
 }
@@ -156,8 +154,7 @@ std::array<std::size_t, 2> plates_of(const JointModel& joint, Index plane) {
 /// Forces of the planes with the sign that they have when the lower plate comes first; amounts have none.
 VectorXd from_lower_plate(const JointModel& joint, VectorXd forces) {
   for (Index j = 0; j < forces.size() && joint.n_directions() == 1; ++j)
-    if (joint.first_hole(joint.planes[static_cast<std::size_t>(j)]).plate != plates_of(joint, j)[0])
-      forces[j] = -forces[j];
+    if (joint.first_hole(joint.planes[j]).plate != plates_of(joint, j)[0]) forces[j] = -forces[j];
   return forces;
 }
 
@@ -201,7 +198,7 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
     if (!(worst <= allowed)) {
       const double reached = i > 0 ? path.steps[i - 1].load_factor : 0;
       path.failure = PathFailure{i, path.steps[i].load_factor, reached, 0, 0, {}, {}, what, worst, allowed};
-      path.steps.erase(path.steps.begin() + static_cast<std::ptrdiff_t>(i), path.steps.end());
+      path.steps.erase(path.steps.begin() + i, path.steps.end());
       break;
     }
     states.push_back(std::move(state));

@@ -50,7 +50,7 @@ class Rim {
       const double jump = 90 * axis + (friction[axis] > 0 ? 0 : 180);
       return friction[axis] != 0 && std::abs(turn(angle - jump)) <= left_out;
     };
-    allowed_.reserve(static_cast<std::size_t>(angle_.size()));
+    allowed_.reserve(angle_.size());
     for (const double angle : angle_) allowed_.push_back(!jumps(angle, 0) && !jumps(angle, 1));
   }
 
@@ -102,7 +102,7 @@ class Rim {
   }
 
  private:
-  [[nodiscard]] bool allowed(Index i) const { return allowed_[static_cast<std::size_t>(i)]; }
+  [[nodiscard]] bool allowed(Index i) const { return allowed_[i]; }
   static constexpr double same_step = 1e-6;
 
   /// The next point counter-clockwise or before, around a closed rim.
@@ -142,8 +142,8 @@ Sections sections_of(const formats::PlateStresses& a, const std::string& hole) {
   Sections result;
   for (std::size_t i = 0; i < a.section_hole.size(); ++i) {
     if (a.section_hole[i] != hole) continue;
-    if (a.section_side[i] == "+x") result.plus = static_cast<Index>(i);
-    if (a.section_side[i] == "-x") result.minus = static_cast<Index>(i);
+    if (a.section_side[i] == "+x") result.plus = i;
+    if (a.section_side[i] == "-x") result.minus = i;
   }
   return result;
 }
@@ -195,21 +195,20 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
   if (level > 0) forces.below = a.section_force[level - 1] * loading.amounts;
   const double largest = std::max(forces.force.lpNorm<Eigen::Infinity>(), loading.bearing.lpNorm<Eigen::Infinity>());
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
-    const auto rim = static_cast<Index>(i);
     RimState state;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
     const auto hole = std::find(plate.holes.begin(), plate.holes.end(), a.rim_hole[i]) - plate.holes.begin();
     for (Index disc = 0; disc < plate.n_discs(); ++disc) {
-      if (disc / static_cast<Index>(plate.axes.size()) != hole) continue;
+      if (disc / std::ssize(plate.axes) != hole) continue;
       bearing[plate.axis_of(disc)] = loading.bearing[disc];
       friction[plate.axis_of(disc)] = loading.friction[disc];
     }
     state.bearing_load = bearing[0];
     state.bearing_load_y = bearing[1];
-    state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(rim).transpose()).norm();
+    state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(i).transpose()).norm();
     const Eigen::Vector2d jumps = jumping(friction, bearing);
     state.by_components = jumps[0] != 0 && jumps[1] != 0;
-    const Rim points(a, rim, jumps);
+    const Rim points(a, i, jumps);
     read_peak(a, points, level, loading.amounts, state);
     const VectorXd radial = points.stress(a.sigma_rr[level], loading.amounts);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
@@ -218,7 +217,7 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
     state.filled = static_cast<double>(touched) > (1 - hardly) * static_cast<double>(radial.size());
     if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
     if (const int across = 1 - plate.axes[0]; plate.axes.size() == 1 && hole < std::ssize(plate.holes))
-      state.across = points.force(radial, across, a.bearing_area(rim, across));
+      state.across = points.force(radial, across, a.bearing_area(i, across));
     state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
     read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);
     states.push_back(state);

@@ -25,13 +25,12 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
   MatrixXd F = MatrixXd::Zero(n * a, n + std::ssize(numbers.law));
   MatrixXd delta = F;
   for (Index j = 0; j < n; ++j) {
-    const auto at = static_cast<std::size_t>(j);
-    const Contact& contact = equations.contacts[at];
+    const Contact& contact = equations.contacts[j];
     const VectorXd here = c.segment(j * a, a);
     if (here.isZero(0) || contact.is_pulled_open(here)) continue;
     const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
     for (std::size_t i = 0; i < slopes.size(); ++i) {
-      const Index column = i == 0 ? j : n + numbers.first_of_law[at] + static_cast<Index>(i) - 1;
+      const Index column = i == 0 ? j : n + numbers.first_of_law[j] + i - 1;
       F.block(j * a, column, a, 1) = slopes[i].F * state.direction.col(j);
       delta.block(j * a, column, a, 1) = slopes[i].delta * state.direction.col(j);
     }
@@ -43,7 +42,7 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
 VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side side, std::size_t by) {
   const FastenerModel& fastener = joint.fasteners[row.fastener];
   const HoleModel& hole = fastener.holes[row.hole];
-  const FrictionLoad& friction = hole.friction[static_cast<std::size_t>(row.direction)][side];
+  const FrictionLoad& friction = hole.friction[row.direction][side];
   const double mu = fastener.holes[by].mu, transferred = friction.bearing + friction.resultant;
   double relative = row.hole == by ? -friction.resultant / transferred / mu : 0;  // d ln bearing / d mu
   if (!fastener.law_includes_friction)
@@ -59,13 +58,13 @@ VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side sid
 FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, std::size_t fastener,
                            std::size_t hole) {
   FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}};
-  for (std::size_t i = 0; i < system.friction.size(); ++i) {
+  for (Index i = 0; i < std::ssize(system.friction); ++i) {
     const FrictionRow& row = system.friction[i];
     if (row.fastener != fastener) continue;
     const std::size_t plate = joint.fasteners[fastener].holes[row.hole].plate;
     const auto D = system.D_delta.middleRows(joint.offset(plate), joint.plates[plate].n_unknowns());
     const auto dH = [&](Side side) -> VectorXd { return D.transpose() * change_of_row(joint, row, side, hole); };
-    result.rows.push_back({static_cast<Index>(i), dH(plus_side), dH(minus_side)});
+    result.rows.push_back({i, dH(plus_side), dH(minus_side)});
   }
   return result;
 }
@@ -75,7 +74,7 @@ MatrixXd friction_changes(const CondensedSystem& system, const std::vector<Frict
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
   const VectorXd b = system.E * F;
   for (Index i = 0; i < changes.cols(); ++i)
-    for (const auto& [row, plus, minus] : holes[static_cast<std::size_t>(i)].rows)
+    for (const auto& [row, plus, minus] : holes[i].rows)
       changes.col(i) += std::abs(b[row]) * (b[row] < 0 ? minus : plus);
   return changes;
 }

@@ -26,17 +26,16 @@ UnitLoads unit_loads(const JointModel& joint, const CondensedSystem& system) {
     const PlateModel& plate = joint.plates[p];
     const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
     for (Index i = 0; i < plate.n_externals(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      const std::string name = plate.name + ":" + plate.externals[at];
+      const std::string name = plate.name + ":" + plate.externals[i];
       const Index unknown = plate.n_discs() + i;
-      if (plate.external_displacement[at]) {
+      if (plate.external_displacement[i]) {
         add(loads.displacement, loads.q_displacement, name, D, -plate.S.col(unknown));
       } else {
         add(loads.force, loads.q_force, name, D, VectorXd::Unit(plate.n_unknowns(), unknown));
       }
     }
     for (std::size_t i = 0; i < plate.tractions.size(); ++i)
-      add(loads.force, loads.q_force, plate.name + ":" + plate.tractions[i], D, -plate.T.col(static_cast<Index>(i)));
+      add(loads.force, loads.q_force, plate.name + ":" + plate.tractions[i], D, -plate.T.col(i));
   }
   return loads;
 }

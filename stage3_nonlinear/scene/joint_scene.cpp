@@ -83,7 +83,7 @@ std::vector<double> read_friction(const Value& value, const std::vector<Referenc
       for (const auto& each : between) plates.push_back(each.plate);
       mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
     }
-    friction[static_cast<std::size_t>(hole - between.begin())] = mu.number(input::not_negative);
+    friction[hole - between.begin()] = mu.number(input::not_negative);
   }
   return friction;
 }

@@ -20,13 +20,12 @@ using Eigen::VectorXd;
 /// GSL's vectors and matrices as Eigen sees them.
 auto view(const gsl_vector* v) {
   using Strided = Eigen::Map<VectorXd, 0, Eigen::InnerStride<>>;
-  return Strided(v->data, static_cast<Index>(v->size), Eigen::InnerStride<>(static_cast<Index>(v->stride)));
+  return Strided(v->data, v->size, Eigen::InnerStride<>(v->stride));
 }
 auto view(const gsl_matrix* m) {
   using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Strided = Eigen::Map<RowMajorXd, 0, Eigen::OuterStride<>>;
-  return Strided(m->data, static_cast<Index>(m->size1), static_cast<Index>(m->size2),
-                 Eigen::OuterStride<>(static_cast<Index>(m->tda)));
+  return Strided(m->data, m->size1, m->size2, Eigen::OuterStride<>(m->tda));
 }
 
 /// What GSL carries through to the functions below.
@@ -81,7 +80,7 @@ void take_over_gsl_errors() { gsl_set_error_handler_off(); }
 
 Root hybridsj_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
   Payload payload{problem, nullptr};
-  const auto n = static_cast<std::size_t>(start.size());
+  const std::size_t n = start.size();
   gsl_multiroot_function_fdf functions{residual, jacobian, both, n, &payload};
   const std::unique_ptr<gsl_multiroot_fdfsolver, decltype(&gsl_multiroot_fdfsolver_free)> solver(
       gsl_multiroot_fdfsolver_alloc(gsl_multiroot_fdfsolver_hybridsj, n), &gsl_multiroot_fdfsolver_free);

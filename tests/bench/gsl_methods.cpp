@@ -26,13 +26,12 @@ using stage3::RootProblem;
 /// GSL's vectors and matrices as Eigen sees them.
 auto view(const gsl_vector* v) {
   using Strided = Eigen::Map<VectorXd, 0, Eigen::InnerStride<>>;
-  return Strided(v->data, static_cast<Index>(v->size), Eigen::InnerStride<>(static_cast<Index>(v->stride)));
+  return Strided(v->data, v->size, Eigen::InnerStride<>(v->stride));
 }
 auto view(const gsl_matrix* m) {
   using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   using Strided = Eigen::Map<RowMajorXd, 0, Eigen::OuterStride<>>;
-  return Strided(m->data, static_cast<Index>(m->size1), static_cast<Index>(m->size2),
-                 Eigen::OuterStride<>(static_cast<Index>(m->tda)));
+  return Strided(m->data, m->size1, m->size2, Eigen::OuterStride<>(m->tda));
 }
 
 /// What GSL carries through to the functions below.
@@ -110,7 +109,7 @@ void iterate(typename Family::Handle* solver, const RootOptions& options, Root& 
 template <class Family>
 Root solve(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
   Payload payload{problem, nullptr};
-  const auto n = static_cast<std::size_t>(start.size());
+  const std::size_t n = start.size();
   Family family(payload, n);
   const std::unique_ptr<typename Family::Handle, decltype(&Family::free)> solver(Family::alloc(n), &Family::free);
   if (!solver) throw std::bad_alloc();

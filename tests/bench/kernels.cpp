@@ -60,8 +60,7 @@ void condense(State& state) {
   const int p = static_cast<int>(state.range(0));
   for (auto _ : state)
     for (const auto& kind : elements.kinds)
-      DoNotOptimize(
-          stage1::condense(kind, elements.stiffness[static_cast<std::size_t>(kind.shape)], plate.problem.numbering, p));
+      DoNotOptimize(stage1::condense(kind, elements.stiffness[kind.shape], plate.problem.numbering, p));
 }
 BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 

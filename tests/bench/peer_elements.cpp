@@ -70,7 +70,7 @@ void Integrator::add_springs(FullMatrix<double>& K) const {
 }
 
 void condense(FullMatrix<double>& K, unsigned int first, unsigned int last) {
-  const auto n = static_cast<Eigen::Index>(K.m());
+  const Eigen::Index n = K.m();
   Eigen::Map<Eigen::MatrixXd> k(&K(0, 0), n, n);
   const Eigen::MatrixXd rows = k.middleRows(first, last - first);
   k -= rows.transpose() * rows.middleCols(first, last - first).llt().solve(rows);

@@ -41,12 +41,12 @@ Methods hoop_stress(const formats::PlateSolution& plate, std::size_t level) {
   stage2::UnitFields fields(plate, "strip");
   fields.use(level);
   const auto points = stage2::rim_points(plate.mesh, fields.edges(), plate.hole_rim[0]);
-  const auto n = static_cast<Eigen::Index>(points.size());
+  const Eigen::Index n = points.size();
   Methods m{Eigen::VectorXd(n), Eigen::VectorXd(n), test::patch_hoop_strain(fields, points).col(0),
             test::harmonic_hoop_strain(fields, points, highest_harmonic).col(0)};
   const Eigen::Matrix3d compliance = fields.elasticity(0).inverse();
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto& point = points[static_cast<std::size_t>(i)];
+    const auto& point = points[i];
     m.plain[i] = test::plain_rim_stress(fields, point)(1, 0);
     m.tractions[i] = stage2::rim_stress(fields, 0, point)(1, 0);
     const Eigen::Matrix3d to_global = pfem::polar_stress(-point.angle);
@@ -66,7 +66,7 @@ void print(const Material& material, int finest, const std::vector<int>& all_rin
     const auto plate = strip(material, rings);
     for (std::size_t level = 0; level < plate.cases.size(); ++level) {
       const Methods m = hoop_stress(plate, level);
-      const auto at = static_cast<Eigen::Index>(level);
+      const Eigen::Index at = level;
       std::cout << fmt::format("\"{}\",{},{},{},{:.3e},{:.3e},{:.3e},{:.3e}\n", material.name, rings, plate.p[at],
                                plate.ndof[at], error(m.plain), error(m.tractions), error(m.patch), error(m.harmonics));
     }

@@ -47,7 +47,7 @@ std::vector<VectorXd> solutions(const JointEquations& equations, std::mt19937& r
 bool is_solution(const JointEquations& equations, const stage3::PathStep& step, double tolerance) {
   VectorXd c = step.delta;
   for (Eigen::Index j = 0; j < c.size(); ++j) {
-    const auto& contact = equations.contacts[static_cast<std::size_t>(j)];
+    const auto& contact = equations.contacts[j];
     c[j] = contact.stiffness * step.delta[j] + (contact.law->rises() ? step.F[j] : 0);
   }
   const auto state = contact_state(equations.contacts, c);

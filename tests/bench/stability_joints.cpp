@@ -91,7 +91,7 @@ stage3::CondensedSystem three_plates(std::mt19937& random, int n_planes) {
 
 /// Eigenvalues over three decades, in one joint of two a plate that floats in x and y.
 stage3::CondensedSystem discs_in_x_and_y(std::mt19937& random, int n_planes) {
-  const Index n = 2 * static_cast<Index>(std::max(2, n_planes / 2));
+  const Index n = 2 * std::max(2, n_planes / 2);
   const auto normal = [&] { return std::normal_distribution<double>()(random); };
   const Eigen::HouseholderQR<MatrixXd> qr(MatrixXd::NullaryExpr(n, n, normal));
   const MatrixXd Q = qr.householderQ();
@@ -121,13 +121,13 @@ stage3::CondensedSystem random_system(std::mt19937& random, Family family, int n
 /// slips or yields. Then there is a solution also of fasteners that carry a limited force only.
 void load_from_solution(std::mt19937& random, RandomJoint& joint) {
   auto& [system, contacts, metric] = joint.equations;
-  const auto a = static_cast<Index>(system.q.size()) / static_cast<Index>(contacts.size());
+  const Index a = std::ssize(system.q) / contacts.size();
   const double scale = system.q.cwiseAbs().maxCoeff();
   VectorXd c = VectorXd::NullaryExpr(
       system.q.size(), [&] { return scale * (chance(random, 0.5) ? 1 : -1) * decades(random, 1e-2, 10); });
   for (std::size_t j = 0; j < contacts.size(); ++j) {
     const Contact& contact = contacts[j];
-    auto here = c.segment(static_cast<Index>(j) * a, a);
+    auto here = c.segment(j * a, a);
     const double open = contact.stiffness * contact.law->gap(contact.clearance);
     here += here.normalized() * open;
     if (joint.family != Family::contact || chance(random, 0.3)) continue;

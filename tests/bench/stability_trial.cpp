@@ -19,17 +19,17 @@ using stage3::RootProblem;
 /// Forces of all planes under delta, and their slopes as blocks like stage 3's.
 stage3::ContactState state_at(const RandomJoint& joint, const VectorXd& delta, double steepest) {
   const auto& contacts = joint.equations.contacts;
-  const auto n = static_cast<Index>(contacts.size());
+  const Index n = contacts.size();
   const Index a = delta.size() / n;
   stage3::ContactState state{
       VectorXd(n * a), delta, MatrixXd(a, n), {VectorXd(n), VectorXd(n)}, {VectorXd::Ones(n), VectorXd::Ones(n)}, {}};
   for (Index j = 0; j < n; ++j) {
-    const auto& contact = contacts[static_cast<std::size_t>(j)];
+    const auto& contact = contacts[j];
     const VectorXd here = delta.segment(j * a, a);
     const double length = here.norm();
     const VectorXd e = length > 0 ? VectorXd(here / length) : VectorXd(VectorXd::Unit(a, 0));
     const bool open = contact.one_sided && here[0] < 0;
-    const Force on = open ? Force{0, 0} : joint.curves[static_cast<std::size_t>(j)].at(length, contact.clearance);
+    const Force on = open ? Force{0, 0} : joint.curves[j].at(length, contact.clearance);
     state.F.segment(j * a, a) = on.F * e;
     state.direction.col(j) = e;
     state.dF.along[j] = std::min(on.slope, steepest);

@@ -51,7 +51,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
     const auto matrices = test::plain_matrices(K_ff, problem, p);
     S.push_back(json(matrices.S));
     R.push_back(json(matrices.R));
-    timings.set_unknowns(p, problem.unknowns.n_free[static_cast<std::size_t>(p)]);
+    timings.set_unknowns(p, problem.unknowns.n_free[p]);
   }
   timings.phase("write");
   h5::write_whole_file(arguments.output,

@@ -41,7 +41,7 @@ class RandomSheet {
         fmt::format(R"(, "supports": [{{"on": "left", "fix": ["x"]}}, {{"on": "bottom", "fix": ["y"]}}],
     "external": [{{"id": "P", "on": "right", "direction": "x", "kind": "traction"}}], "p": [{}, {}])",
                     p - 1, p)));
-    const auto m = static_cast<Eigen::Index>(discs_.size());
+    const Eigen::Index m = discs_.size();
     stage3::PlateLoading loading{Eigen::VectorXd::Zero(a.matrices.n_cases()), Eigen::VectorXd::Zero(m),
                                  Eigen::VectorXd::Zero(m)};
     loading.amounts.head(m) = Eigen::Map<const Eigen::VectorXd>(discs_.data(), m);

@@ -109,7 +109,7 @@ void add_friction(PlateMatrices& plate, std::mt19937& random) {
   plate.friction_resultant.resize(2 * m);
   for (Index i = 0; i < 2 * m; ++i) {
     const double side = i % 2 == 0 ? 1 : -1;
-    plate.friction_hole.push_back(plate.disc_hole[static_cast<std::size_t>(i / 2)]);
+    plate.friction_hole.push_back(plate.disc_hole[i / 2]);
     plate.friction_bearing.emplace_back(side > 0 ? "+x" : "-x");
     const double c = uniform(random, 0.005, 0.02);
     const double resultant = side * 2 / std::numbers::pi * c;

@@ -18,8 +18,8 @@ formats::PlateMatrices disc_plate(const MatrixXd& S, const std::vector<std::stri
   plate.S_dd[0] = S;
   const auto a = static_cast<int>(directions.size());
   for (int i = 0; i < S.rows(); ++i) {
-    plate.disc_hole[static_cast<std::size_t>(i)] = std::to_string(i / a + 1);
-    plate.disc_direction[static_cast<std::size_t>(i)] = directions[static_cast<std::size_t>(i % a)];
+    plate.disc_hole[i] = std::to_string(i / a + 1);
+    plate.disc_direction[i] = directions[i % a];
   }
   return plate;
 }
@@ -48,7 +48,7 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
   const std::vector<std::string> directions =
       n_directions == 1 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"};
   std::vector<formats::PlateMatrices> plates;
-  plates.reserve(static_cast<std::size_t>(n_plates));
+  plates.reserve(n_plates);
   for (int i = 0; i < n_plates; ++i)
     plates.push_back(disc_plate(100 * random_stiffness(random, n_holes * n_directions), directions));
   auto joint = joint_of(plates);

@@ -121,7 +121,7 @@ GridSheet random_sheet(unsigned seed) {
                                               R"({"id": "P", "on": "right", "direction": "x", "kind": "rigid"}, )"
                                               R"({"id": "Q", "on": "top", "direction": "y", "kind": "rigid"})",
                                               R"({"id": "P", "on": "top", "direction": "y", "kind": "traction"})"};
-  sheet.extra += fmt::format(R"(, "external": [{}])", externals[static_cast<std::size_t>(dice.among(clamped ? 2 : 4))]);
+  sheet.extra += fmt::format(R"(, "external": [{}])", externals[dice.among(clamped ? 2 : 4)]);
   if (!half && dice.happens(0.5)) sheet.extra += R"(, "disc_directions": ["x", "y"])";
   return sheet;
 }

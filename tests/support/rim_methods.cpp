@@ -47,12 +47,11 @@ Eigen::MatrixXd harmonic_hoop_strain(const stage2::UnitFields& fields, const std
       }
     }
   }
-  Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(points.size()), fields.n_cases());
+  Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(points.size(), fields.n_cases());
   for (Eigen::Index k = 0; k < strain.rows(); ++k)
     for (Eigen::Index i = 0; i < n; ++i) {
       const double m = 2 * static_cast<double>(i);
-      strain.row(k) +=
-          1 / rim.radius * std::cos(m * points[static_cast<std::size_t>(k)].angle) * (radial.row(i) + m * hoop.row(i));
+      strain.row(k) += 1 / rim.radius * std::cos(m * points[k].angle) * (radial.row(i) + m * hoop.row(i));
     }
   return strain;
 }
@@ -93,17 +92,17 @@ Eigen::MatrixXd powers(const Eigen::VectorXd& theta, int degree) {
 
 Eigen::MatrixXd patch_hoop_strain(const stage2::UnitFields& fields, const std::vector<stage2::RimPoint>& points) {
   const auto& rim = fields.plate().hole_rim[0];
-  const auto n = static_cast<Eigen::Index>(rim.sides.size()) * fields.p();
+  const Eigen::Index n = std::ssize(rim.sides) * fields.p();
   Eigen::VectorXd theta(n);
   Eigen::MatrixXd strain(n, fields.n_cases());
   for (std::size_t i = 0; i < rim.sides.size(); ++i) {
     const auto side = gauss_strains(fields, rim.sides[i], rim.radius);
-    theta.segment(static_cast<Eigen::Index>(i) * fields.p(), fields.p()) = side.theta;
-    strain.middleRows(static_cast<Eigen::Index>(i) * fields.p(), fields.p()) = side.strain;
+    theta.segment(i * fields.p(), fields.p()) = side.theta;
+    strain.middleRows(i * fields.p(), fields.p()) = side.strain;
   }
   const Eigen::MatrixXd c = powers(theta, fields.p()).colPivHouseholderQr().solve(strain);
-  Eigen::VectorXd at(static_cast<Eigen::Index>(points.size()));
-  for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = points[static_cast<std::size_t>(k)].angle;
+  Eigen::VectorXd at(points.size());
+  for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = points[k].angle;
   return powers(at, fields.p()) * c;
 }
 

@@ -15,11 +15,10 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
   const auto& numbering = problem.numbering;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int element, const std::vector<int>& modes, const Eigen::MatrixXd& K) {
-    const auto n = static_cast<Eigen::Index>(modes.size());
-    const auto mode = [&](Eigen::Index i) { return modes[static_cast<std::size_t>(i % n)]; };
+    const Eigen::Index n = modes.size();
+    const auto mode = [&](Eigen::Index i) { return modes[i % n]; };
     const auto target = [&](Eigen::Index i) {
-      return problem.unknowns
-          .target[static_cast<std::size_t>(2 * numbering.function(mode(i), element) + (i < n ? 0 : 1))];
+      return problem.unknowns.target[2 * numbering.function(mode(i), element) + (i < n ? 0 : 1)];
     };
     for (Eigen::Index i = 0; i < 2 * n; ++i)
       for (Eigen::Index j = 0; j < 2 * n; ++j)
@@ -28,12 +27,11 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
                                numbering.sign(mode(i), element) * numbering.sign(mode(j), element) * K(i, j));
   };
   const pfem::ElementStiffness stiffness(numbering.space, numbering.p);
-  std::vector<int> all(static_cast<std::size_t>(numbering.function.rows()));
+  std::vector<int> all(numbering.function.rows());
   for (std::size_t m = 0; m < all.size(); ++m) all[m] = static_cast<int>(m);
   for (int element = 0; element < mesh.mesh.n_elements(); ++element)
     add(element, all,
-        stiffness(pfem::ElementMap(mesh.mesh, mesh.edges, element),
-                  scene.elasticity[static_cast<std::size_t>(mesh.mesh.material[element])],
+        stiffness(pfem::ElementMap(mesh.mesh, mesh.edges, element), scene.elasticity[mesh.mesh.material[element]],
                   mesh.mesh.thickness[element]));
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     if (!scene.holes[hole].spring) continue;
@@ -51,7 +49,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
 }
 
 PlainMatrices plain_matrices(const Sparse& K_ff, const stage1::PlateProblem& problem, int p) {
-  const int n = problem.unknowns.n_free[static_cast<std::size_t>(p)];
+  const int n = problem.unknowns.n_free[p];
   const Eigen::CholmodSupernodalLLT<Sparse> factor(K_ff.block(0, 0, n, n));
   const Sparse K_fc = problem.K_fc.topRows(n);
   Eigen::MatrixXd B(n, problem.K_fc.cols() + problem.L_f.cols());

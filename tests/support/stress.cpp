@@ -9,9 +9,9 @@ namespace fastjoint::test {
 
 Eigen::Matrix2Xd coefficients(const Plate& plate, const Eigen::VectorXd& free, const Eigen::VectorXd& controlled) {
   const auto& target = plate.problem.unknowns.target;
-  Eigen::Matrix2Xd u = Eigen::Matrix2Xd::Zero(2, static_cast<Eigen::Index>(target.size()) / 2);
+  Eigen::Matrix2Xd u = Eigen::Matrix2Xd::Zero(2, std::ssize(target) / 2);
   for (std::size_t i = 0; i < target.size(); ++i) {
-    double& at = u(static_cast<Eigen::Index>(i % 2), static_cast<Eigen::Index>(i / 2));
+    double& at = u(i % 2, i / 2);
     if (stage1::Unknowns::is_free(target[i])) {
       at = target[i] < free.size() ? free[target[i]] : 0;
     } else if (target[i] != stage1::Unknowns::fixed) {
@@ -32,7 +32,7 @@ Eigen::Vector3d stress_at(const Plate& plate, const Eigen::Matrix2Xd& u, int ele
     c[n + m] = value.y();
   }
   const auto at = [](double x) { return Eigen::VectorXd::Constant(1, x); };
-  const auto& D = plate.scene.elasticity[static_cast<std::size_t>(plate.mesh.mesh.material[element])];
+  const auto& D = plate.scene.elasticity[plate.mesh.mesh.material[element]];
   return D * pfem::strain_operator(map, numbering.space, numbering.p, at(xi), at(eta)) * c;
 }
 

@@ -69,7 +69,7 @@ TEST(PlateMatrices, HandMadeFilesMayLeaveOutWhatTheyDoNotHave) {
 class HandMade : public testing::Test {
  protected:
   void write(const std::vector<int>& p, bool with_bearing = true, const std::string& side = "-x") const {
-    const auto n = static_cast<Eigen::Index>(p.size());
+    const Eigen::Index n = p.size();
     h5::Writer file(path_, "plate-matrices", 1, 0);
     file.write("p", Eigen::VectorXi(Eigen::Map<const Eigen::VectorXi>(p.data(), n)), {"1", ""});
     file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
@@ -192,7 +192,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.load_factor = Eigen::VectorXd::LinSpaced(steps, 0.5, 1);
     a.converged = a.iterations = Eigen::VectorXi::Ones(steps);
     a.residual = Eigen::VectorXd::Zero(steps);
-    a.event.assign(static_cast<std::size_t>(steps), "1 closes");
+    a.event.assign(steps, "1 closes");
     a.fastener_id = {"1", "2", "3"};
     a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
     a.transferred_second = 2 * a.F;
@@ -224,7 +224,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_FALSE(read_joint_result(folder.path("r.h5")).sensitivity);
     SensitivityHistory& by = a.sensitivity.emplace();
     const auto tables = [&](Eigen::Index columns) {
-      return std::vector<Eigen::MatrixXd>(static_cast<std::size_t>(steps), Eigen::MatrixXd::Random(3, columns));
+      return std::vector<Eigen::MatrixXd>(steps, Eigen::MatrixXd::Random(3, columns));
     };
     by.load_factor = Eigen::MatrixXd::Constant(steps, 3, std::numeric_limits<double>::infinity());
     by.clearance = tables(3);

@@ -41,9 +41,8 @@ double difference(const Mesh& mesh, const CongruentElements& congruent, const Ed
   const auto by_shape = integrate(congruent, mesh, edges, soft_and_stiff, Space::trunk, p);
   double worst = 0;
   for (int element = 0; element < mesh.n_elements(); ++element) {
-    const MatrixXd K =
-        each(ElementMap(mesh, edges, element), soft_and_stiff[static_cast<std::size_t>(mesh.material[element])], 1);
-    const auto shape = static_cast<std::size_t>(congruent.shape[static_cast<std::size_t>(element)]);
+    const MatrixXd K = each(ElementMap(mesh, edges, element), soft_and_stiff[mesh.material[element]], 1);
+    const std::size_t shape = congruent.shape[element];
     worst = std::max(worst, (by_shape[shape] - K).norm() / K.norm());
   }
   return worst;

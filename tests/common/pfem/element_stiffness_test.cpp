@@ -47,13 +47,13 @@ Body assemble(const Mesh& mesh, Space space, int p, const Eigen::Matrix2d& stres
                2 * n.function(j % n_modes, element) + j / n_modes) +=
             n.sign(i % n_modes, element) * n.sign(j % n_modes, element) * K(i, j);
     for (int edge = 0; edge < n_local_edges; ++edge) {
-      if (edges.n_elements[static_cast<std::size_t>(edges.of_element(edge, element))] == 2) continue;
+      if (edges.n_elements[edges.of_element(edge, element)] == 2) continue;
       const SideRule rule = side_rule(mesh, edges, {element, edge}, p);
       const MatrixXd traction =
           stress * rule.normal * (mesh.thickness[element] * rule.ds).asDiagonal() * rule.N.transpose();
       for (std::size_t m = 0; m < rule.modes.size(); ++m)
         body.load.segment<2>(2 * n.function(rule.modes[m], element)) +=
-            n.sign(rule.modes[m], element) * traction.col(static_cast<Eigen::Index>(m));
+            n.sign(rule.modes[m], element) * traction.col(m);
     }
   }
   return body;

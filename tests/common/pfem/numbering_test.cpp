@@ -23,8 +23,7 @@ TEST(Numbering, CountsVerticesEdgesAndInteriors) {
   EXPECT_EQ(trunk.n_functions[1], 9);
   EXPECT_EQ(trunk.n_functions[8], 9 + 7 * 12 + 15 * 4);
   const Numbering product = number_by_degree(mesh, edges, Space::product, 8);
-  for (int k = 1; k <= 8; ++k)
-    EXPECT_EQ(product.n_functions[static_cast<std::size_t>(k)], 9 + (k - 1) * 12 + (k - 1) * (k - 1) * 4) << "k=" << k;
+  for (int k = 1; k <= 8; ++k) EXPECT_EQ(product.n_functions[k], 9 + (k - 1) * 12 + (k - 1) * (k - 1) * 4) << "k=" << k;
 }
 
 TEST_P(NumberingIn, DegreesAreLeadingBlocks) {
@@ -35,8 +34,8 @@ TEST_P(NumberingIn, DegreesAreLeadingBlocks) {
   std::set<int> all;
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (std::size_t m = 0; m < list.size(); ++m) {
-      const int f = n.function(static_cast<Eigen::Index>(m), element);
-      const auto degree = static_cast<std::size_t>(list[m].degree);
+      const int f = n.function(m, element);
+      const std::size_t degree = list[m].degree;
       EXPECT_GE(f, n.n_functions[degree - 1]);
       EXPECT_LT(f, n.n_functions[degree]);
       all.insert(f);

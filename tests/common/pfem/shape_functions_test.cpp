@@ -45,7 +45,7 @@ TEST_P(ShapeFunctionsIn, EdgeModesStandWhereEdgeModeSays) {
     const auto list = modes(GetParam(), p);
     for (int edge = 0; edge < n_local_edges; ++edge)
       for (int k = 2; k <= p; ++k) {
-        const Mode& mode = list[static_cast<std::size_t>(edge_mode(p, edge, k))];
+        const Mode& mode = list[edge_mode(p, edge, k)];
         EXPECT_EQ(mode.degree, k);
         EXPECT_EQ(edge % 2 == 0 ? mode.i : mode.j, k);
         EXPECT_EQ(edge % 2 == 0 ? mode.j : mode.i, edge == 1 || edge == 2 ? 1 : 0);
@@ -60,7 +60,7 @@ TEST_P(ShapeFunctionsIn, InteriorModesEnterByDegree) {
     for (const Mode& mode : high)
       if (mode.degree < p) below.insert({mode.i, mode.j});
     EXPECT_EQ(below, factors(GetParam(), p - 1)) << "p=" << p;
-    for (auto m = static_cast<std::size_t>(edge_mode(p, n_local_edges, 2)) + 1; m < high.size(); ++m)
+    for (std::size_t m = edge_mode(p, n_local_edges, 2) + 1; m < high.size(); ++m)
       EXPECT_LE(high[m - 1].degree, high[m].degree) << "p=" << p;
   }
 }

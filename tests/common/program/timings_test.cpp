@@ -82,7 +82,7 @@ TEST(PeakMemory, GrowsWithWhatIsUsedAndNeverFalls) {
   EXPECT_GT(before, 1'000'000) << "a program with libraries";
   constexpr std::size_t more = 200'000'000;
   const long used = [&] {
-    const std::string memory(static_cast<std::size_t>(before) + more, 'x');
+    const std::string memory(before + more, 'x');
     return memory.back() == 'x' ? peak_memory() : 0;
   }();
   EXPECT_GT(used, before + static_cast<long>(more) * 9 / 10);

@@ -93,7 +93,7 @@ TEST(PlateFactor, SolvesForAnyLoads) {
     const auto K_ff = test::free_stiffness(plate.scene, plate.mesh, plate.problem);
     const stage1::Skeleton skeleton(plate.problem);
     for (const int p : {1, 2, 5, 8}) {
-      const int n = plate.problem.unknowns.n_free[static_cast<std::size_t>(p)];
+      const int n = plate.problem.unknowns.n_free[p];
       const Eigen::MatrixXd B = Eigen::MatrixXd::Random(n, 70);  // more than one block of columns
       const Eigen::MatrixXd X = stage1::PlateFactor(plate.problem, skeleton, p).solve(B);
       const Eigen::MatrixXd residual = K_ff.topLeftCorner(n, n) * X - B;

@@ -16,9 +16,9 @@ TEST(Skeleton, HasARowForEachUnknownOnASkeleton) {
   const stage1::Skeleton skeleton(plate.problem);
   for (const int p : {1, 2, 8}) {
     const auto rows = skeleton.rows(plate.problem, p);
-    std::vector<int> found(static_cast<std::size_t>(rows.n_skeleton), 0);
+    std::vector<int> found(rows.n_skeleton, 0);
     for (const int row : rows.of_unknown)
-      if (row >= 0) ++found[static_cast<std::size_t>(row)];
+      if (row >= 0) ++found[row];
     EXPECT_EQ(found, std::vector<int>(found.size(), 1)) << p;
     EXPECT_EQ(rows.n_border, 1 + 6 + 12) << "external, discs, friction cases";
     // 12 corners and 17 sides of squares with a vertex in the middle of each, 8 rays to the rim of each hole, whose

@@ -89,7 +89,7 @@ std::string rings_scene(int inner, int outer) {
   };
   const auto first = ring(1, inner), middle = ring(2, inner), last = ring(3, outer);
   std::vector<int> shared;
-  for (int i = 0; i < outer; ++i) shared.push_back(middle[static_cast<std::size_t>(i * inner / outer)]);
+  for (int i = 0; i < outer; ++i) shared.push_back(middle[i * inner / outer]);
   sectors(first, middle);
   sectors(shared, last);
   return mesh_scene(fmt::format("{}", fmt::join(nodes, ",")), fmt::format("{}", fmt::join(quads, ",")),

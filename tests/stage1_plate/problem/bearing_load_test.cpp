@@ -27,8 +27,7 @@ double resultant(const test::Plate& plate, int column, int component) {
   const Eigen::VectorXd load = plate.problem.T_f.col(column);
   double sum = 0;
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node)
-    if (const int to = plate.problem.unknowns.target[static_cast<std::size_t>(2 * node + component)]; to >= 0)
-      sum += load[to];
+    if (const int to = plate.problem.unknowns.target[2 * node + component]; to >= 0) sum += load[to];
   return sum;
 }
 

@@ -25,7 +25,7 @@ const Eigen::Matrix4d panel_3_S{{1186725.85121, -44477.39561, -223280.81667, -87
 
 /// Slope of log y against log x by least squares.
 double slope(const std::vector<double>& x, const std::vector<double>& y) {
-  const auto n = static_cast<Eigen::Index>(x.size());
+  const Eigen::Index n = x.size();
   Eigen::ArrayXd lx = Eigen::Map<const Eigen::ArrayXd>(x.data(), n).log();
   Eigen::ArrayXd ly = Eigen::Map<const Eigen::ArrayXd>(y.data(), n).log();
   lx -= lx.mean();
@@ -45,7 +45,7 @@ Errors measure(Space space, int p_low, int p_high) {
   const Eigen::VectorXd finest = solution.cases.back().U.col(0);
   Errors errors;
   for (int p = p_low; p <= p_high; ++p) {
-    const auto level = static_cast<std::size_t>(p - 1);
+    const std::size_t level = p - 1;
     Eigen::VectorXd u = Eigen::VectorXd::Zero(finest.size());
     u.head(solution.ndof[p - 1]) = solution.cases[level].U.col(0);
     const Eigen::VectorXd e = u - finest;

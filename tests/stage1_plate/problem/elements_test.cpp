@@ -23,15 +23,15 @@ TEST(Elements, OfARivetedPanelAreOfEightKinds) {
 TEST(Elements, WhatIsCondensedIsTheirOwn) {
   const auto plate = test::make_plate(test::panel(3, 2, 1));
   const auto& [numbering, unknowns] = std::tie(plate.problem.numbering, plate.problem.unknowns);
-  std::vector<int> n_elements(static_cast<std::size_t>(numbering.n_functions.back()), 0);
-  for (const int function : numbering.function.reshaped()) ++n_elements[static_cast<std::size_t>(function)];
+  std::vector<int> n_elements(numbering.n_functions.back(), 0);
+  for (const int function : numbering.function.reshaped()) ++n_elements[function];
   int n_condensed = 0;
   for (Eigen::Index element = 0; element < numbering.function.cols(); ++element) {
     const auto& elements = plate.problem.elements;
-    const auto& kind = elements.kinds[static_cast<std::size_t>(elements.kind[static_cast<std::size_t>(element)])];
+    const auto& kind = elements.kinds[elements.kind[element]];
     for (Eigen::Index mode = 0; mode < numbering.function.rows(); ++mode) {
-      if (kind.kept[static_cast<std::size_t>(mode)]) continue;
-      const auto function = static_cast<std::size_t>(numbering.function(mode, element));
+      if (kind.kept[mode]) continue;
+      const std::size_t function = numbering.function(mode, element);
       ++n_condensed;
       EXPECT_EQ(n_elements[function], 1);
       EXPECT_TRUE(stage1::Unknowns::is_free(unknowns.target[2 * function]));

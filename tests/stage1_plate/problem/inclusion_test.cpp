@@ -70,7 +70,7 @@ double exact_work(const test::Plate& plate, const test::SpringInclusion& exact) 
 }
 
 Eigen::VectorXd solve(const test::Plate& plate, const Eigen::VectorXd& load, int p) {
-  const int n = plate.problem.unknowns.n_free[static_cast<std::size_t>(p)];
+  const int n = plate.problem.unknowns.n_free[p];
   return stage1::PlateFactor(plate.problem, stage1::Skeleton(plate.problem), p).solve(load.head(n));
 }
 
@@ -128,7 +128,7 @@ Harmonics rim_harmonics(const test::Plate& plate, const Eigen::Matrix2Xd& u, dou
     for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
       Eigen::Vector2d at(0, 0);
       for (std::size_t m = 0; m < rule.modes.size(); ++m)
-        at += numbering.sign(rule.modes[m], side.element) * rule.N(static_cast<Eigen::Index>(m), q) *
+        at += numbering.sign(rule.modes[m], side.element) * rule.N(m, q) *
               u.col(numbering.function(rule.modes[m], side.element));
       const double value = 4 * modulus * at.dot(-rule.normal.col(q)) / tension;
       const double d_theta = rule.ds[q] / radius / (std::numbers::pi / 2);

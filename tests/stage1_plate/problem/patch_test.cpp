@@ -85,7 +85,7 @@ Eigen::VectorXd load(const test::Plate& plate, const Wave& wave) {
     for (int mode = 0; mode < N.rows(); ++mode) g.modes.push_back(mode);
     loads.add(element, g, 0);
     for (int edge = 0; edge < 4; ++edge) {
-      if (mesh.edges.n_elements[static_cast<std::size_t>(mesh.edges.of_element(edge, element))] == 2) continue;
+      if (mesh.edges.n_elements[mesh.edges.of_element(edge, element)] == 2) continue;
       const auto side = pfem::side_rule(mesh.mesh, mesh.edges, {element, edge}, p);
       stage1::ElementVector t{side.modes, Eigen::Matrix2Xd::Zero(2, side.N.rows())};
       for (Eigen::Index q = 0; q < side.ds.size(); ++q)

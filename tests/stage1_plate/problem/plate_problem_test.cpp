@@ -30,16 +30,13 @@ Eigen::VectorXd translation(const test::Plate& plate, int component) {
   const auto& unknowns = plate.problem.unknowns;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(unknowns.n_free.back() + unknowns.n_controlled);
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node) {
-    const int target = unknowns.target[static_cast<std::size_t>(2 * node + component)];
+    const int target = unknowns.target[2 * node + component];
     if (stage1::Unknowns::is_free(target)) u[target] = 1;
   }
   for (int i = 0; i < unknowns.n_externals(); ++i)
-    u[unknowns.n_free.back() + i] =
-        plate.scene.externals[static_cast<std::size_t>(unknowns.rigid[static_cast<std::size_t>(i)])].direction ==
-        (component == 0 ? "x" : "y");
+    u[unknowns.n_free.back() + i] = plate.scene.externals[unknowns.rigid[i]].direction == (component == 0 ? "x" : "y");
   for (int i = 0; i < unknowns.n_discs(); ++i)
-    u[unknowns.n_free.back() + unknowns.n_externals() + i] =
-        unknowns.disc_direction[static_cast<std::size_t>(i)] == (component == 0 ? "x" : "y");
+    u[unknowns.n_free.back() + unknowns.n_externals() + i] = unknowns.disc_direction[i] == (component == 0 ? "x" : "y");
   return u;
 }
 
@@ -68,8 +65,8 @@ TEST(PlateProblem, LoadsHaveTheirResultants) {
   EXPECT_NEAR(along(problem.T_f, problem.T_c, 0, 0), 0, 1e-13);
   const double t = 0.1;
   for (Eigen::Index j = 0; j < problem.L_f.cols(); ++j) {
-    const std::string bearing = problem.friction_bearing[static_cast<std::size_t>(j)];
-    const double r = problem.friction_hole[static_cast<std::size_t>(j)] == "a" ? 0.2 : 0.25;
+    const std::string bearing = problem.friction_bearing[j];
+    const double r = problem.friction_hole[j] == "a" ? 0.2 : 0.25;
     const double expected = (bearing[0] == '+' ? 1 : -1) * t * r;
     EXPECT_NEAR(along(problem.L_f, problem.L_c, j, 0), bearing[1] == 'x' ? expected : 0, 1e-14);
     EXPECT_NEAR(along(problem.L_f, problem.L_c, j, 1), bearing[1] == 'y' ? expected : 0, 1e-14);
@@ -96,7 +93,7 @@ TEST_P(PlateProblemIn, ALowerDegreeIsALeadingBlock) {
     scene.p_high = p;
     const auto low = stage1::assemble(scene, high.mesh);
     const auto n = low.K_fc.rows();
-    ASSERT_EQ(n, high.problem.unknowns.n_free[static_cast<std::size_t>(p)]);
+    ASSERT_EQ(n, high.problem.unknowns.n_free[p]);
     // the lower degree is integrated with fewer points; the rim's springs and loads to rounding
     const Eigen::MatrixXd K = test::free_stiffness(scene, high.mesh, low);
     EXPECT_LT((K - K_high.topLeftCorner(n, n)).norm(), 1e-6 * K.norm());

@@ -39,7 +39,7 @@ VectorXd amounts(const formats::PlateSolution& plate, const std::string& spec) {
   return stage2::field_state(plate, "plate.h5", {spec}).amounts;
 }
 VectorXd vector(std::initializer_list<double> values) {
-  return Eigen::Map<const VectorXd>(values.begin(), static_cast<Eigen::Index>(values.size()));
+  return Eigen::Map<const VectorXd>(values.begin(), values.size());
 }
 
 TEST(CaseSum, AmountsByName) {
@@ -132,7 +132,7 @@ class StateOfAJoint : public testing::Test {
     result.p = 3;
     result.direction = {"x"};
     result.load_factor = Eigen::Vector2d(0.5, 1);
-    result.event.resize(static_cast<std::size_t>(result.load_factor.size()));
+    result.event.resize(result.load_factor.size());
     result.converged = result.iterations = Eigen::VectorXi::Ones(2);
     result.residual = Eigen::Vector2d::Zero();
     for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred_first,

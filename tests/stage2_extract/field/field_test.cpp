@@ -38,7 +38,7 @@ class Fields : public testing::TestWithParam<pfem::Space> {
   }
   static stage2::UnitFields at(int p) {
     stage2::UnitFields fields(plate(), "plate.h5");
-    fields.use(static_cast<std::size_t>(p - 1));
+    fields.use(p - 1);
     return fields;
   }
   static stage2::Field superposed(int p, const Eigen::VectorXd& amounts) {
@@ -109,7 +109,7 @@ TEST(FieldOfAStrip, ConstantStrainGivesConstantStress) {
     {"on": "bottom", "fix": ["y"]}], "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}])")));
   stage2::UnitFields fields(strip, "strip.h5");
   for (const int p : {1, 2, 8}) {
-    fields.use(static_cast<std::size_t>(p - 1));
+    fields.use(p - 1);
     const auto field = stage2::superpose(fields, p, Eigen::VectorXd::Constant(1, 30));
     const double sigma = 30 / 0.1;  // the end is 1 wide and 0.1 thick
     const Eigen::Matrix3Xd exact = Eigen::Vector3d(sigma, 0, 0).replicate(1, field.stress.cols());

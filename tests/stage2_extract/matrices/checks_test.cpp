@@ -43,14 +43,13 @@ TEST(Checks, MatricesOfAFloatingSheetBalanceToTheLastDigits) {
     const auto a = test::extract(scene).matrices;
     for (std::size_t level = 0; level < a.S_dd.size(); ++level) {
       Eigen::VectorXd motion(a.n_discs());
-      for (Eigen::Index i = 0; i < motion.size(); ++i)
-        motion[i] = a.disc_direction[static_cast<std::size_t>(i)] == "x" ? 1 : 0;
+      for (Eigen::Index i = 0; i < motion.size(); ++i) motion[i] = a.disc_direction[i] == "x" ? 1 : 0;
       const Eigen::VectorXd external = Eigen::VectorXd::Ones(a.n_externals());  // P, along x
       const double largest = a.S_dd[level].cwiseAbs().maxCoeff();
       EXPECT_LE((a.S_dd[level] * motion + a.S_ed[level].transpose() * external).cwiseAbs().maxCoeff(), 1e-14 * largest);
       EXPECT_LE((a.S_ed[level] * motion + a.S_ee[level] * external).cwiseAbs().maxCoeff(), 1e-14 * largest);
       for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
-        const bool along = a.friction_bearing[static_cast<std::size_t>(j)].ends_with("x");
+        const bool along = a.friction_bearing[j].ends_with("x");
         const double sum = motion.dot(a.R_df[level].col(j)) + external.dot(a.R_ef[level].col(j));
         EXPECT_NEAR(sum, along ? -a.friction_resultant[j] : 0, 1e-14 * a.R_df[level].cwiseAbs().maxCoeff());
       }

@@ -105,7 +105,7 @@ test::GridSheet with_lines_beside_holes(test::GridSheet sheet) {
   sheet.thickness[0].clear();
   for (std::size_t i = 0; i + 1 < sheet.x.size(); ++i) {
     const auto cell = std::upper_bound(cells.begin(), cells.end(), (sheet.x[i] + sheet.x[i + 1]) / 2) - cells.begin();
-    sheet.thickness[0].push_back(thickness[static_cast<std::size_t>(cell) - 1]);
+    sheet.thickness[0].push_back(thickness[cell - 1]);
   }
   return sheet;
 }

@@ -13,13 +13,13 @@ constexpr double degree = rim::full_turn / 360;
 /// One element for each sector of a ring of radii 1 and 2, none shared.
 std::vector<RimPoint> points_of(const std::vector<rim::AngleRange>& sectors) {
   pfem::Mesh mesh;
-  const auto n = static_cast<Eigen::Index>(sectors.size());
+  const Eigen::Index n = sectors.size();
   mesh.nodes.resize(2, 4 * n);
   mesh.quads.resize(4, n);
   mesh.thickness = Eigen::VectorXd::Ones(n);
   mesh.material = Eigen::VectorXi::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const auto [from, to] = sectors[static_cast<std::size_t>(i)];
+    const auto [from, to] = sectors[i];
     const Eigen::Vector2d a(std::cos(from * degree), std::sin(from * degree));
     const Eigen::Vector2d b(std::cos(to * degree), std::sin(to * degree));
     mesh.nodes.middleCols<4>(4 * i) << a, 2 * a, 2 * b, b;

@@ -195,7 +195,7 @@ TEST_P(Friction, IsThatOfTheTheory) {
   auto joint = test::joint_of({a, b, 100}, test::linear_law(300));
   const Eigen::Vector4d mu(0.1, 0.3, 0, 0.2);
   for (std::size_t j = 0; j < n; ++j)
-    if (mu[static_cast<Index>(j)] > 0) test::set_friction(joint, j, mu[static_cast<Index>(j)]);
+    if (mu[j] > 0) test::set_friction(joint, j, mu[j]);
 
   const CondensedSystem system = condense(joint);
   const LinearForces forces = linear_forces(system, VectorXd::Constant(n, 1.0 / 300), 1);

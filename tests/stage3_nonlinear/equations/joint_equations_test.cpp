@@ -34,7 +34,7 @@ TEST(JointEquations, TangentIsTheDerivative) {
     for (Index j = 0; j < c.size(); ++j) {
       // Far from a kink the functions are smooth: error of central differences ~ h^2 + eps / h, relative.
       const double h = 1e-5 * std::abs(c[j]);
-      const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+      const Contact& contact = equations.contacts[j];
       if (std::abs(std::abs(c[j]) - contact.stiffness * contact.law->gap(contact.clearance)) < 2e-2 * std::abs(c[j]))
         continue;
       VectorXd above = c, below = c;
@@ -53,7 +53,7 @@ TEST(JointEquations, MetricIsPositiveDefinite) {
   for (int i = 0; i < 200; ++i) {
     const JointEquations equations = make_equations(test::random_joint(random, {.floating = i % 3 == 0}));
     MatrixXd W = -equations.system.S_ud;
-    for (Index j = 0; j < W.rows(); ++j) W(j, j) += equations.contacts[static_cast<std::size_t>(j)].stiffness;
+    for (Index j = 0; j < W.rows(); ++j) W(j, j) += equations.contacts[j].stiffness;
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(W).eigenvalues()[0], 0.01 * W.diagonal().minCoeff()) << i;
     EXPECT_LT((W * equations.metric - MatrixXd::Identity(W.rows(), W.rows())).norm(), 1e-9) << i;
   }

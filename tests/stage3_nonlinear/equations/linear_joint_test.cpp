@@ -29,8 +29,7 @@ TEST(LinearJoint, IsVogtsChain) {
     const JointEquations equations = make_equations(test::joint_of(vogt(n, k), test::linear_law(k / 2)));
     const LoadPath path = follow(equations, {1}, {});
     EXPECT_TRUE(path.linear);
-    for (int j = 0; j < n; ++j)
-      EXPECT_NEAR(path.steps[0].F[j], forces[static_cast<std::size_t>(j)], 1e-12) << n << " fasteners";
+    for (int j = 0; j < n; ++j) EXPECT_NEAR(path.steps[0].F[j], forces[j], 1e-12) << n << " fasteners";
   };
   expect(3, {3. / 8, 1. / 4, 3. / 8});
   expect(5, {7. / 22, 3. / 22, 1. / 11, 3. / 22, 7. / 22});
@@ -60,7 +59,7 @@ TEST(LinearJoint, OneSolveServesAllIncrements) {
 TEST(LinearJoint, OnlyPlainSpringsAreLinear) {
   const auto flexibility = [](const std::vector<Contact>& contacts) {
     JointEquations equations{{}, contacts, {}};
-    equations.system.q = VectorXd::Zero(static_cast<Index>(contacts.size()));
+    equations.system.q = VectorXd::Zero(contacts.size());
     return linear_flexibility(equations);
   };
   const Contact plain{.law = test::linear_law(5)};

@@ -34,8 +34,7 @@ JointModel single_stack(const std::vector<double>& springs, const VectorXd& forc
     holes.emplace_back(i, 0);
   }
   auto joint = test::joint_of(plates);
-  for (std::size_t i = 0; i < springs.size(); ++i)
-    test::load_discs(joint, i, VectorXd::Constant(1, forces[static_cast<Index>(i)]));
+  for (std::size_t i = 0; i < springs.size(); ++i) test::load_discs(joint, i, VectorXd::Constant(1, forces[i]));
   test::add_fastener(joint, holes, law);
   return joint;
 }
@@ -126,7 +125,7 @@ TEST(Stack, OfThreeAndMoreLayersIsThatOfTheDisplacementMethod) {
     MatrixXd B = MatrixXd::Zero(joint.n_unknowns(), joint.n_planes());
     VectorXd K(joint.n_planes());
     for (Index j = 0; j < joint.n_planes(); ++j) {
-      const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+      const ShearPlane& plane = joint.planes[j];
       for (const auto& [hole, sign] : {std::pair{joint.first_hole(plane), 1}, std::pair{joint.second_hole(plane), -1}})
         B(joint.offset(hole.plate) + hole.disc, j) = sign;
       K[j] = plane.law->at(1, 1, 0).F / plane.law->at(1, 1, 0).delta;
@@ -175,7 +174,7 @@ std::vector<Vector2d> by_hand(const JointModel& joint, const Vector3d& k, const 
     Vector3d sign;
     for (int i = 0; i < 3; ++i) {
       sign[i] = (signs >> i) % 2 == 0 ? 1 : -1;
-      const double r = friction_at(joint, static_cast<std::size_t>(i), sign[i]);
+      const double r = friction_at(joint, i, sign[i]);
       D.row(i) = (1 - r * sign[i]) / k[i] * bearing.row(i);
     }
     const Vector3d free = P.cwiseQuotient(k);
@@ -236,7 +235,7 @@ TEST(Stack, HolesInReversedOrderTurnTheSigns) {
     const JointState state = test::state_of(joint, step), turned = test::state_of(reversed, back);
     Index first = 0;
     for (const auto& fastener : joint.fasteners) {
-      const auto n = static_cast<Index>(fastener.holes.size()) - 1;
+      const Index n = std::ssize(fastener.holes) - 1;
       for (Index j = 0; j < n; ++j) {
         const Index here = first + j, there = first + n - 1 - j;
         EXPECT_NEAR(back.F[there], -step.F[here], 1e-9);
@@ -271,7 +270,7 @@ std::map<std::string, double> loads_of(const test::TemporaryFolder& folder, cons
   const auto a = formats::read_joint_result(folder.path("result.h5"));
   std::map<std::string, double> loads;
   for (std::size_t j = 0; j < a.fastener_id.size(); ++j)
-    loads[a.fastener_id[j] + a.first_hole[j] + a.second_hole[j]] = a.F(0, static_cast<Index>(j));
+    loads[a.fastener_id[j] + a.first_hole[j] + a.second_hole[j]] = a.F(0, j);
   return loads;
 }
 

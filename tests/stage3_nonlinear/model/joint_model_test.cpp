@@ -97,7 +97,7 @@ TEST(JointModel, OneSidedFastenersNeedOneSideOfFriction) {
 TEST(JointModel, TakesTheHighestCommonDegreeOrTheOneAskedFor) {
   auto lap = test::two_fastener_lap();
   const auto add_degrees = [](formats::PlateMatrices& plate, const std::vector<int>& degrees) {
-    plate.p = Eigen::Map<const Eigen::VectorXi>(degrees.data(), static_cast<Eigen::Index>(degrees.size()));
+    plate.p = Eigen::Map<const Eigen::VectorXi>(degrees.data(), degrees.size());
     plate.ndof = plate.p;
     for (auto* stack :
          {&plate.S_dd, &plate.S_ed, &plate.S_ee, &plate.R_df, &plate.R_ef, &plate.T_d, &plate.T_e, &plate.C_t})

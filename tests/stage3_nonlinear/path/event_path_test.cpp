@@ -159,7 +159,7 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, bo
     EXPECT_LE(step.residual, 1e-10) << "joint " << joint;
     bool one_is_exact = step.events.empty();
     for (const auto& event : step.events) {
-      const Contact& contact = equations.contacts[static_cast<std::size_t>(event.plane)];
+      const Contact& contact = equations.contacts[event.plane];
       one_is_exact |= event.corner != Corner::contact || step.check.mechanism;
       if (event.corner != Corner::contact || step.check.mechanism) continue;
       const double gap = contact.law->gap(contact.clearance);

@@ -177,14 +177,14 @@ TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
     joint.fasteners.clear();
     joint.planes.clear();
     for (int j = 0; j < n; ++j) {
-      const auto at = static_cast<std::size_t>(j);
+      const std::size_t at = j;
       test::add_fastener(joint, {{0, j}, {1, j}, {2, j}}, laws.planes[at].law);
       joint.planes[2 * at].clearance = laws.planes[at].clearance;
-      joint.planes[2 * at + 1].law = laws.planes[static_cast<std::size_t>(n - 1 - j)].law;
+      joint.planes[2 * at + 1].law = laws.planes[n - 1 - j].law;
       test::set_friction(joint, at, 0.2);
     }
     const JointEquations equations = make_equations(joint);
-    EXPECT_EQ(PiecewiseJoint(equations).shared_rims().size(), static_cast<std::size_t>(n));
+    EXPECT_EQ(PiecewiseJoint(equations).shared_rims().size(), n);
     for (const double sign : {1.0, -1.0}) {
       const ExactPath path = exact_path(equations, sign);
       ASSERT_EQ(path.reach(), 1) << "joint " << i;

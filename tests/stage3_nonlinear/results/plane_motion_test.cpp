@@ -97,7 +97,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
     const VectorXd u = condense(joint).displacements(step.F, step.delta, 1);
     VectorXd balance = A * u - load;
     for (Index j = 0; j < joint.n_planes(); ++j) {
-      const ShearPlane& plane = joint.planes[static_cast<std::size_t>(j)];
+      const ShearPlane& plane = joint.planes[j];
       const HoleModel &a = joint.first_hole(plane), &b = joint.second_hole(plane);
       const Index first = joint.offset(a.plate) + a.disc, second = joint.offset(b.plate) + b.disc;
       const double K = plane.law->at(1, 1, 0).F / plane.law->at(1, 1, 0).delta;
@@ -192,7 +192,7 @@ void rub(JointModel& joint, std::mt19937& random, double mu) {
           const double resultant = 2 / std::numbers::pi * mu;
           VectorXd load = VectorXd::NullaryExpr(m, [&] { return resultant * number(random); });
           load[hole.disc + d] -= (side == plus_side ? 0.7 : -0.7) * resultant;
-          hole.friction[static_cast<std::size_t>(d)][side] = {load, resultant, 0, 0};
+          hole.friction[d][side] = {load, resultant, 0, 0};
         }
     }
 }
@@ -225,9 +225,8 @@ void add_friction(JointModel& joint, std::size_t plate, const MatrixXd& R, doubl
   hole.friction.resize(2);
   for (Index direction = 0; direction < 2; ++direction)
     for (const Side side : {plus_side, minus_side}) {
-      const Index column = 2 * direction + static_cast<Index>(side);
-      hole.friction[static_cast<std::size_t>(direction)][side] = {R.col(column) * mu / c, 2 / std::numbers::pi * mu,
-                                                                  column, mu / c};
+      const Index column = 2 * direction + side;
+      hole.friction[direction][side] = {R.col(column) * mu / c, 2 / std::numbers::pi * mu, column, mu / c};
     }
 }
 

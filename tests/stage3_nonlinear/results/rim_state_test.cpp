@@ -25,7 +25,7 @@ PlateModel plate(double from, double to, const std::function<double(double)>& ho
   a.p = Eigen::VectorXi::LinSpaced(2, 7, 8);
   a.rim_hole = {"1"};
   a.bearing_area = Eigen::RowVector2d(0.5, 0.5);
-  const auto n = static_cast<Index>(std::lround((to - from) / 5));
+  const Index n = std::lround((to - from) / 5);
   const Index points = n < 72 ? n + 1 : n;
   a.rim_start.resize(2);
   a.rim_start << 0, static_cast<int>(points);

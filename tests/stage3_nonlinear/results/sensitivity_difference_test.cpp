@@ -35,7 +35,7 @@ std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
   std::vector<Index> result;
   const VectorXd lengths = amounts(c, a), F = contact_state(equations.contacts, c).F;
   for (Index j = 0; j < lengths.size(); ++j) {
-    const Contact& contact = equations.contacts[static_cast<std::size_t>(j)];
+    const Contact& contact = equations.contacts[j];
     const auto corners = contact.law->kinks(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
     const auto is_ahead = [&](double corner) { return std::abs(lengths[j]) < corner; };
     result.push_back(std::count_if(corners.begin(), corners.end(), is_ahead));
@@ -60,7 +60,7 @@ class Differences {
     const PathStep& at = path_.steps[0];
     c_ = VectorXd(at.F.size());
     for (Index i = 0; i < c_.size(); ++i) {
-      const Contact& contact = equations_.contacts[static_cast<std::size_t>(i / joint_.model.n_directions())];
+      const Contact& contact = equations_.contacts[i / joint_.model.n_directions()];
       c_[i] = contact.stiffness * at.delta[i] + (contact.law->rises() ? at.F[i] : 0);
     }
   }
@@ -111,11 +111,11 @@ std::vector<Number> Differences::numbers() const {
   for (std::size_t i = 0; i < joint_.model.planes.size(); ++i) {
     const double clearance = joint_.model.planes[i].clearance;
     all.push_back({"clearance", small * (clearance > 0 ? clearance : length),
-                   [i](NamedJoint& j, double h) { j.model.planes[i].clearance += h; },
-                   by.clearance.col(static_cast<Index>(i)), clearance == 0});
+                   [i](NamedJoint& j, double h) { j.model.planes[i].clearance += h; }, by.clearance.col(i),
+                   clearance == 0});
   }
   for (Index i = 0; i < by.law.cols(); ++i) {
-    const auto& [law, parameter] = names.law[static_cast<std::size_t>(i)];
+    const auto& [law, parameter] = names.law[i];
     const double value = NamedJoint(joint_).laws.at(law).number(parameter.name);
     if (value == 0) continue;  // delta0, or slip: not to be negative
     all.push_back({law + " " + parameter.name, small * value,
@@ -123,7 +123,7 @@ std::vector<Number> Differences::numbers() const {
                    by.law.col(i)});
   }
   for (Index i = 0; i < by.mu.cols(); ++i) {
-    const FrictionHole& hole = names.friction[static_cast<std::size_t>(i)];
+    const FrictionHole& hole = names.friction[i];
     const double mu = joint_.model.fasteners[hole.fastener].holes[hole.hole].mu;
     all.push_back({"mu " + hole.name, small * mu,
                    [at = hole.fastener, of = hole.hole](NamedJoint& j, double h) {
@@ -132,7 +132,7 @@ std::vector<Number> Differences::numbers() const {
                    by.mu.col(i)});
   }
   for (Index i = 0; i < by.force.cols(); ++i) {
-    const std::string name = names.loads.force[static_cast<std::size_t>(i)];
+    const std::string name = names.loads.force[i];
     const bool traction = name.ends_with(":T");
     all.push_back({name, small * force_scale(),
                    [name, traction](NamedJoint& j, double h) {
@@ -141,7 +141,7 @@ std::vector<Number> Differences::numbers() const {
                    by.force.col(i)});
   }
   for (Index i = 0; i < by.displacement.cols(); ++i) {
-    const std::string name = names.loads.displacement[static_cast<std::size_t>(i)];
+    const std::string name = names.loads.displacement[i];
     all.push_back({name, small * length,
                    [name](NamedJoint& j, double h) { *plate_of(j, name).external_displacement[0] += h; },
                    by.displacement.col(i)});
@@ -201,9 +201,7 @@ TEST_P(SensitivityOf, RandomJointsIsTheLimitOfCentralDifferences) {
   EXPECT_GT(tally.compared, 200);
   ASSERT_GT(tally.orders.size(), 50U);
   std::sort(tally.orders.begin(), tally.orders.end());
-  const auto order = [&](double share) {
-    return tally.orders[static_cast<std::size_t>(share * static_cast<double>(tally.orders.size()))];
-  };
+  const auto order = [&](double share) { return tally.orders[share * static_cast<double>(tally.orders.size())]; };
   EXPECT_NEAR(order(0.5), 2, 0.02) << "h^2";
   EXPECT_GT(order(0.05), 1.95);
   EXPECT_LT(order(0.95), 2.05);

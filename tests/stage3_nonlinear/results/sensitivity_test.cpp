@@ -116,10 +116,10 @@ TEST(UnitLoads, AddUpToQ) {
     for (const auto& plate : joint.plates) {
       for (std::size_t e = 0; e < plate.externals.size(); ++e) {
         if (const auto& given = plate.external_displacement[e]) {
-          EXPECT_EQ(loads.displacement.at(static_cast<std::size_t>(displacement)), plate.name + ":P");
+          EXPECT_EQ(loads.displacement.at(displacement), plate.name + ":P");
           q += *given * loads.q_displacement.col(displacement++);
         } else {
-          q += plate.external_force[static_cast<Index>(e)] * loads.q_force.col(force++);
+          q += plate.external_force[e] * loads.q_force.col(force++);
         }
       }
       for (const double f : plate.traction_force) q += f * loads.q_force.col(force++);
@@ -147,7 +147,7 @@ TEST(Sensitivity, ByTheLoadFactorIsBecauseOfTheLoads) {
         if (const auto& given = plate.external_displacement[e]) {
           sum += *given * a.by[0].displacement.col(displacement++);
         } else {
-          sum += plate.external_force[static_cast<Index>(e)] * a.by[0].force.col(force++);
+          sum += plate.external_force[e] * a.by[0].force.col(force++);
         }
       }
       for (const double f : plate.traction_force) sum += f * a.by[0].force.col(force++);
@@ -174,11 +174,10 @@ TEST(Sensitivity, FollowsTheUnits) {
     const Sensitivity& by = a.by[0];
     VectorXd sum = joint.load_factor * by.load_factor;
     for (std::size_t j = 0; j < joint.model.planes.size(); ++j)
-      sum += joint.model.planes[j].clearance * by.clearance.col(static_cast<Index>(j));
+      sum += joint.model.planes[j].clearance * by.clearance.col(j);
     for (std::size_t l = 0; l < a.numbers.law.size(); ++l) {
       const auto& [law, number] = a.numbers.law[l];
-      sum +=
-          (number.length + number.force) * joint.laws.at(law).number(number.name) * by.law.col(static_cast<Index>(l));
+      sum += (number.length + number.force) * joint.laws.at(law).number(number.name) * by.law.col(l);
     }
     const VectorXd F = amounts(a.path.steps[0].F, joint.model.n_directions());
     EXPECT_LT(largest(sum - F), 1e-8 * largest(F)) << "joint " << i << " of " << F.size();

@@ -62,7 +62,7 @@ TEST(TransferredLoad, OfOneBoltIsWhatIsAppliedWhateverTheFrictionOfItsHoles) {
         EXPECT_LT(*state.sheets_out_of_balance, 1e-13);
         // Each hole's friction is that of its own bearing force, P less that friction.
         const Index side = sign > 0 ? 0 : 1;
-        const FrictionLoad& b = joint.fasteners[0].holes[1].friction[0][static_cast<std::size_t>(side)];
+        const FrictionLoad& b = joint.fasteners[0].holes[1].friction[0][side];
         EXPECT_NEAR(b.bearing * F, P / (1 + cosine * mu_b), 1e-10);
         if (mu_b > 0) {
           EXPECT_NEAR(state.plates[1].Lambda[side],
@@ -157,7 +157,7 @@ VectorXd displacements(const JointModel& joint, const std::vector<std::vector<Ru
         for (Index d = 0; d < a; ++d) {
           const Index row = offset + hole.disc + d;
           const double sign = B[row] < 0 ? -1 : 1;
-          const VectorXd& load = rubbing.load[static_cast<std::size_t>(d)][sign < 0 ? minus_side : plus_side];
+          const VectorXd& load = rubbing.load[d][sign < 0 ? minus_side : plus_side];
           const VectorXd bearing = transfer.row(row) / (1 + cosine * rubbing.mu);
           A.row(row) -= bearing.transpose();
           A.middleRows(offset, load.size()) += sign * rubbing.mu * load * bearing.transpose();
