@@ -38,8 +38,9 @@ std::vector<std::uint32_t> seeds(int n) {
 }
 
 std::string name(const RandomJoint& joint) {
-  return fmt::format("seed {}: {}, {} planes, stiffness ratio {:.1e}", joint.seed, family_names[joint.family],
-                     joint.equations.contacts.size(), joint.ratio);
+  return fmt::format("seed {}: {}, {} planes, stiffness ratio {:.1e}", joint.seed,
+                     family_names[static_cast<std::size_t>(joint.family)], joint.equations.contacts.size(),
+                     joint.ratio);
 }
 
 /// Keeps what is promised of damped Newton and of the program.
@@ -70,8 +71,8 @@ class Promises {
     std::cout << "iterations of damped Newton: family, tries, median, worst\n";
     for (auto& [family, all] : iterations_) {
       std::sort(all.begin(), all.end());
-      std::cout << fmt::format("{:22} {:6} {:4} {:4}\n", family_names[family], all.size(), all[all.size() / 2],
-                               all.back());
+      std::cout << fmt::format("{:22} {:6} {:4} {:4}\n", family_names[static_cast<std::size_t>(family)], all.size(),
+                               all[all.size() / 2], all.back());
     }
     std::cout << fmt::format("largest difference of forces: {:.1e}; promises broken: {}\n", apart_, broken_);
     return broken_ == 0;
@@ -114,9 +115,10 @@ bool check(int n, const RootOptions& options) {
 void print(const RandomJoint& joint, const char* solver, const char* coordinate, const std::vector<Trial>& trials) {
   for (std::size_t guess = 0; guess < trials.size(); ++guess) {
     const Trial& t = trials[guess];
-    std::cout << fmt::format("{},{},{},{:.3g},{},{},{},{:d},{},{},{},{:.3g}\n", joint.seed, family_names[joint.family],
-                             joint.equations.contacts.size(), joint.ratio, solver, coordinate, guess, t.solved,
-                             t.iterations, t.residuals, t.jacobians, t.seconds);
+    std::cout << fmt::format("{},{},{},{:.3g},{},{},{},{:d},{},{},{},{:.3g}\n", joint.seed,
+                             family_names[static_cast<std::size_t>(joint.family)], joint.equations.contacts.size(),
+                             joint.ratio, solver, coordinate, guess, t.solved, t.iterations, t.residuals, t.jacobians,
+                             t.seconds);
   }
 }
 
@@ -126,7 +128,8 @@ void chart(int n, const RootOptions& options) {
     const RandomJoint joint = random_joint(seed);
     for (const auto coordinate : {Coordinate::contact, Coordinate::displacement})
       for (const auto& solver : solvers())
-        print(joint, solver.name, coordinate_names[coordinate], try_guesses(joint, solver.solve, coordinate, options));
+        print(joint, solver.name, coordinate_names[static_cast<std::size_t>(coordinate)],
+              try_guesses(joint, solver.solve, coordinate, options));
     print(joint, "as shipped", coordinate_names[0], {try_as_shipped(joint, options)});
   }
 }

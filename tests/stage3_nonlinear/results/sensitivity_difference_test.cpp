@@ -201,7 +201,9 @@ TEST_P(SensitivityOf, RandomJointsIsTheLimitOfCentralDifferences) {
   EXPECT_GT(tally.compared, 200);
   ASSERT_GT(tally.orders.size(), 50U);
   std::sort(tally.orders.begin(), tally.orders.end());
-  const auto order = [&](double share) { return tally.orders[share * static_cast<double>(tally.orders.size())]; };
+  const auto order = [&](double share) {
+    return tally.orders[static_cast<std::size_t>(share * static_cast<double>(tally.orders.size()))];
+  };
   EXPECT_NEAR(order(0.5), 2, 0.02) << "h^2";
   EXPECT_GT(order(0.05), 1.95);
   EXPECT_LT(order(0.95), 2.05);
