@@ -38,5 +38,5 @@ void body(const fastjoint::program::Arguments& arguments, fastjoint::program::Ti
 
 int main(int argc, char** argv) {
   fastjoint::stage3::take_over_gsl_errors();
-  return fastjoint::program::run(command, argc, argv, body);
+  fastjoint::program::run(command, argc, argv, body);
 }

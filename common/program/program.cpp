@@ -112,6 +112,27 @@ void catch_signals(const std::string& program) {
       ::sigaction(signal, &action, nullptr);
 }
 
+int outcome(const Command& command, int argc, char** argv, const Body& body) {
+  Timings timings;
+  keep_freed_memory();
+  catch_signals(command.name);
+  h5::take_over_error_reporting();
+  try {
+    if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);
+    return done;
+  } catch (const InputError& e) {
+    return report(command.name, e.what(), invalid_input);
+  } catch (const FileError& e) {
+    return report(command.name, e.what(), bad_file);
+  } catch (const NumericalError& e) {
+    return report(command.name, e.what(), numerical_failure);
+  } catch (const std::bad_alloc&) {
+    return report(command.name, "out of memory: the model is too large for this machine", numerical_failure);
+  } catch (const std::exception& e) {
+    return report(command.name, e.what(), internal_error);
+  }
+}
+
 }  // namespace
 
 int Arguments::integer(const std::string& name, int low, int high, int otherwise) const {
@@ -156,25 +177,11 @@ std::string one_line(const std::string& text) {
 
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, program_version); }
 
-int run(const Command& command, int argc, char** argv, const Body& body) {
-  Timings timings;
-  keep_freed_memory();
-  catch_signals(command.name);
-  h5::take_over_error_reporting();
-  try {
-    if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);
-    return done;
-  } catch (const InputError& e) {
-    return report(command.name, e.what(), invalid_input);
-  } catch (const FileError& e) {
-    return report(command.name, e.what(), bad_file);
-  } catch (const NumericalError& e) {
-    return report(command.name, e.what(), numerical_failure);
-  } catch (const std::bad_alloc&) {
-    return report(command.name, "out of memory: the model is too large for this machine", numerical_failure);
-  } catch (const std::exception& e) {
-    return report(command.name, e.what(), internal_error);
-  }
+void run(const Command& command, int argc, char** argv, const Body& body) {
+  const int status = outcome(command, argc, argv, body);
+  std::cout.flush();
+  // The libraries' own endings are left out: where memory is short, OpenBLAS waits in its own for threads without end.
+  std::_Exit(status);
 }
 
 }  // namespace fastjoint::program

@@ -47,9 +47,9 @@ struct Arguments {
 using Body = std::function<void(const Arguments&, Timings&)>;
 
 /// Whole life of a program: parses, checks that the outputs can be written, runs `body`, ends its summary with what the
-/// run took, and turns what is thrown into one line on stderr and the exit status of the contract (0 done, 1 internal
-/// error, 2 wrong usage or input, 3 file, 4 numerical failure).
-int run(const Command& command, int argc, char** argv, const Body& body);
+/// run took, turns what is thrown into one line on stderr, and ends the process with the exit status of the contract (0
+/// done, 1 internal error, 2 wrong usage or input, 3 file, 4 numerical failure).
+[[noreturn]] void run(const Command& command, int argc, char** argv, const Body& body);
 
 /// The text with line breaks and other control characters, which names in the input may hold, as JSON escapes them.
 [[nodiscard]] std::string one_line(const std::string& text);

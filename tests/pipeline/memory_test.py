@@ -82,6 +82,15 @@ def check_refusal():
     return own
 
 
+def check_end_without_threads():
+    """Where memory is too short for the threads of BLAS, whose ending then waits for them, the program ends all the same."""
+    scene = panel(6, [])
+    for kilobytes in range(180_000, 320_000, 20_000):
+        result = subprocess.run(["bash", "-c", f"ulimit -v {kilobytes}; OPENBLAS_NUM_THREADS=2 stage1_plate {scene} -o plate.h5 "
+                                 "--accuracy 1e-6"], capture_output=True, text=True, timeout=60)
+        assert result.returncode == 2 and re.search(r"MB are available; allowed: ", result.stderr), (kilobytes, result)
+
+
 def check_refusals(words, output, told, own):
     """The limit follows what each refusal asks for until the run fits. The last must be no less than what it takes, and
     no more than 1.5 times that.
@@ -150,6 +159,7 @@ def main():
         check_need(5, [], ["--p", "8", "--threads", "2"], irregular_panel)
         check_need(5, [], ["--p", "1..4", "--loads-only"], irregular_panel)
         own = check_refusal()
+        check_end_without_threads()
         check_search(panel(3, []), "1e-9", own)
         check_search(irregular_panel(5), "1e-2", own)
         check_stage2(own)
