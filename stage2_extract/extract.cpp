@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/extract.hpp"
 
-#include "common/linalg/condensed_stiffness.hpp"
+#include "common/linalg/condensed.hpp"
 #include "stage2_extract/matrices/friction_constants.hpp"
 #include "stage2_extract/matrices/load_reactions.hpp"
 #include "stage2_extract/stresses/stresses.hpp"

@@ -10,9 +10,9 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 STAGES = {
     "stage1_plate": {
         "scene": ["input", "pfem", "rim", ""],
-        "mesh": ["pfem", "rim"],
+        "mesh": ["pfem", "rim", ""],
         "problem": ["pfem", "rim", ""],
-        "factor": ["linalg", "pfem"],
+        "factor": ["linalg", "pfem", ""],
         "contact": ["pfem", "rim", ""],
         "run": ["formats", "linalg", "matrices", "program", "rim", ""],
         "": ["linalg", "program"],

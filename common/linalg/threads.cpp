@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/linalg/threads.hpp"
 
+#include <cblas.h>
+#include <omp.h>
+
 #include <algorithm>
 #include <atomic>
 #include <exception>
@@ -8,22 +11,23 @@
 #include <thread>
 #include <vector>
 
-extern "C" {  // of OpenBLAS, whose header Debian keeps outside the usual path, and of the OpenMP that CHOLMOD is built
-              // with
-void openblas_set_num_threads(int);
-void omp_set_max_active_levels(int);
-}
-
 namespace fastjoint::linalg {
 namespace {
 
 int n_threads = 1;
 
+/// Threads of the kernels of OpenBLAS; another BLAS keeps those that its own environment variable gives it.
+void set_blas_threads([[maybe_unused]] int n) {
+#ifdef FASTJOINT_HAS_OPENBLAS
+  openblas_set_num_threads(n);
+#endif
+}
+
 }  // namespace
 
 void set_threads(int n) {
   n_threads = n;
-  openblas_set_num_threads(n);
+  set_blas_threads(n);
   omp_set_max_active_levels(0);
 }
 
@@ -45,13 +49,13 @@ void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
         next = n;
       }
   };
-  openblas_set_num_threads(1);
+  set_blas_threads(1);
   {
     std::vector<std::jthread> workers;
     for (std::size_t i = 1; i < n_workers; ++i) workers.emplace_back(work);
     work();
   }
-  openblas_set_num_threads(n_threads);
+  set_blas_threads(n_threads);
   if (thrown) std::rethrow_exception(thrown);
 }
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "common/linalg/condensed_stiffness.hpp"
+#include "common/linalg/condensed.hpp"
 #include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/run/memory.hpp"

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/linalg/condensed_stiffness.hpp"
+#include "common/linalg/condensed.hpp"
 
 namespace fastjoint::test {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/linalg/condensed_stiffness.hpp"
+#include "common/linalg/condensed.hpp"
 
 #include <gtest/gtest.h>
 
