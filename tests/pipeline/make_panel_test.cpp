@@ -15,7 +15,7 @@ using nlohmann::json;
 
 test::Run make_panel(const std::string& words) {
   const test::TemporaryFolder folder;
-  return test::run(folder, fmt::format("/usr/bin/python3 '{}' {}", FASTJOINT_MAKE_PANEL, words));
+  return test::run(folder, fmt::format("'{}' {}", FASTJOINT_MAKE_PANEL, words));
 }
 
 json printed(const std::string& words) {
