@@ -3,7 +3,7 @@
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/run.hpp"
-#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 
 namespace {
 

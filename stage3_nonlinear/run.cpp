@@ -13,10 +13,8 @@
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage3_nonlinear/output/joint_history.hpp"
-#include "stage3_nonlinear/output/sensitivity_history.hpp"
 #include "stage3_nonlinear/output/summary.hpp"
 #include "stage3_nonlinear/output/warnings.hpp"
-#include "stage3_nonlinear/path/event_path.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/force_error.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
@@ -26,10 +24,11 @@ namespace {
 
 void check_csv(const RunOptions& options) {
   if (options.csv.empty()) return;
-  if (h5::same_file(options.csv, options.input) || h5::same_file(options.csv, options.output))
-    throw InputError(fmt::format("--csv {}: is the input or the output file; choose another name", options.csv));
-  if (h5::same_file(options.csv, options.timings))
-    throw InputError(fmt::format("--csv {}: is the file of --timings; choose another name", options.csv));
+  for (const auto& [path, what] :
+       {std::pair(options.input, "the input or the output file"),
+        std::pair(options.output, "the input or the output file"), std::pair(options.timings, "the file of --timings")})
+    if (h5::same_file(options.csv, path))
+      throw InputError(fmt::format("--csv {}: is {}; choose another name", options.csv, what));
   h5::check_can_write(options.csv);
 }
 
@@ -43,7 +42,7 @@ void check_results_spare(const RunOptions& options, const JointScene& scene) {
             fmt::format("{} {}: is a file that {} reads; choose another name", option, path, options.input));
   };
   for (const auto& plate : scene.plates) check(plate.file);
-  for (const auto& [name, law] : scene.laws) check(law.file);
+  for (const auto& [name, law] : scene.laws) check(law.law->file());
 }
 
 void warn(std::ostream& log, const std::vector<std::string>& sentences) {
@@ -66,7 +65,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
                     const RunOptions& options, std::size_t n_steps) {
   using program::bytes_text;
   const JointNumbers numbers = joint_numbers(joint, equations.system);
-  const auto n = static_cast<double>(joint.n_planes());
+  const double n = double(joint.n_planes());
   double of_plane = options.csv.empty() ? 12 : 37;
   if (options.sensitivities)
     of_plane += n + double(numbers.friction.size() + numbers.law.size() + numbers.loads.force.size() +

@@ -8,7 +8,7 @@
 
 namespace fastjoint::stage3 {
 
-/// What the command line says.
+/// Options of the command line.
 struct RunOptions {
   std::string input;           ///< JOINT.json
   std::string output;          ///< RESULT.h5

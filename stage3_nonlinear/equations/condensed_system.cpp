@@ -4,11 +4,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/equations/saddle.hpp"
+#include "stage3_nonlinear/equations/condition.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -16,6 +19,63 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+/// LU of the bordered system [[S, B], [B^T, 0]], scaled row and column so that units and the stiffness of one plate
+/// against the next do not matter.
+class BorderedSystem {
+ public:
+  /// @param S   Symmetric, positive semi-definite, shape (N, N), force / length.
+  /// @param own Stiffness of each unknown's plate, shape (N), force / length; 0 of a plate without any.
+  /// @param B   One column for each shear plane and direction, +1 at the first disc, -1 at the second, shape (N, n a).
+  BorderedSystem(const MatrixXd& S, const VectorXd& own, const MatrixXd& B)
+      : scale_(S.rows() + B.cols()), N_(S.rows()) {
+    const double largest = S.diagonal().maxCoeff();
+    for (Index i = 0; i < N_; ++i)
+      scale_[i] = 1 / std::sqrt(S(i, i) > singular * own[i] ? S(i, i)
+                                : own[i] > 0                ? own[i]
+                                : largest > 0               ? largest
+                                                            : 1.0);
+    for (Index j = 0; j < B.cols(); ++j)
+      scale_[N_ + j] = 1 / B.col(j).cwiseAbs().cwiseProduct(scale_.head(N_)).maxCoeff();
+    matrix_.resize(scale_.size(), scale_.size());
+    matrix_ << S, B, B.transpose(), MatrixXd::Zero(B.cols(), B.cols());
+    matrix_ = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
+    lu_.compute(matrix_);
+  }
+
+  /// False if some motion meets no stiffness while B^T holds.
+  [[nodiscard]] bool is_regular() const { return reciprocal_condition(lu_) > singular; }
+
+  /// @param rhs Shape (N + n a, columns): forces (force), then relative displacements (length).
+  /// @return    Same shape: displacements (length), then forces (force).
+  [[nodiscard]] MatrixXd solve(const MatrixXd& rhs) const {
+    return scale_.asDiagonal() * lu_.solve(scale_.asDiagonal() * rhs);
+  }
+
+  /// Largest displacement of each unknown in motions that meet no stiffness, each with the largest entry 1, shape (N).
+  [[nodiscard]] VectorXd free_motions() const {
+    // A little above the limit of is_regular, whose rcond is an estimate in another norm.
+    constexpr double small = 1e3 * singular;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix_);
+    const VectorXd values = eigen.eigenvalues().cwiseAbs();
+    VectorXd largest = VectorXd::Zero(N_);
+    for (Index i = 0; i < values.size(); ++i) {
+      if (values[i] > small * values.maxCoeff()) continue;
+      const VectorXd D = scale_.head(N_).cwiseProduct(eigen.eigenvectors().col(i).head(N_)).cwiseAbs();
+      largest = largest.cwiseMax(D / D.maxCoeff());
+    }
+    return largest;
+  }
+
+ private:
+  /// Stage 2's rounding leaves a floating plate about 1e-12 of its stiffness; a long chain of fasteners needs 1e-6. A
+  /// plate may be as much softer than its neighbours as it likes: its rows are scaled by its own stiffness.
+  static constexpr double singular = 1e-10;
+  VectorXd scale_;  ///< (N + n a)
+  MatrixXd matrix_;
+  Eigen::PartialPivLU<MatrixXd> lu_;
+  Index N_;
+};
 
 /// The joint's rows S u + G+ b+ + G- b- + B F = load, before anything is eliminated.
 struct Rows {
@@ -31,10 +91,9 @@ struct Rows {
 
 std::vector<FrictionRow> friction_rows(const JointModel& joint) {
   std::vector<FrictionRow> rows;
-  for (std::size_t fastener = 0; fastener < joint.fasteners.size(); ++fastener)
-    for (std::size_t hole = 0; hole < joint.fasteners[fastener].holes.size(); ++hole)
-      for (Index d = 0; d < std::ssize(joint.fasteners[fastener].holes[hole].friction); ++d)
-        rows.push_back({fastener, hole, d});
+  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
+    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
+      for (Index d = 0; d < std::ssize(joint.fasteners[i].holes[hole].friction); ++d) rows.push_back({i, hole, d});
   return rows;
 }
 
@@ -45,12 +104,9 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
   rows.load.segment(offset, n) = -plate.T * plate.traction_force;
   rows.load.segment(offset + m, plate.n_externals()) += plate.external_force;
   for (Index i = 0; i < n; ++i) {
-    const auto& displacement = i < m ? std::optional<double>() : plate.external_displacement[i - m];
-    if (displacement) {
-      rows.given[offset + i] = *displacement;
-    } else {
-      rows.free.push_back(offset + i);
-    }
+    const auto displacement = i < m ? std::nullopt : plate.external_displacement[i - m];
+    if (!displacement) rows.free.push_back(offset + i);
+    rows.given[offset + i] = displacement.value_or(0);
   }
 }
 
@@ -77,8 +133,8 @@ void add_friction(Rows& rows, const JointModel& joint, Index at) {
   const HoleModel& hole = joint.fasteners[row.fastener].holes[row.hole];
   const auto& [plus, minus] = hole.friction[row.direction];
   const Index offset = joint.offset(hole.plate);
-  if (plus.load.size() > 0) rows.G_plus.block(offset, at, plus.load.size(), 1) = plus.load;
-  if (minus.load.size() > 0) rows.G_minus.block(offset, at, minus.load.size(), 1) = minus.load;
+  rows.G_plus.block(offset, at, plus.load.size(), 1) = plus.load;  // no rows where the rim cannot bear
+  rows.G_minus.block(offset, at, minus.load.size(), 1) = minus.load;
   // B F is the laws' force on the disc; what the rim bears on instead is in G.
   rows.G_plus(offset + hole.disc + row.direction, at) += 1 - plus.bearing;
   rows.G_minus(offset + hole.disc + row.direction, at) -= 1 - minus.bearing;
@@ -104,11 +160,10 @@ Rows assemble(const JointModel& joint) {
   return rows;
 }
 
-[[noreturn]] void fail_as_mechanism(const JointModel& joint, const Rows& rows, const Saddle& saddle) {
+[[noreturn]] void fail_as_mechanism(const JointModel& joint, const Rows& rows, const BorderedSystem& bordered) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   VectorXd largest = VectorXd::Zero(joint.n_unknowns());
-  const MatrixXd motions = saddle.free_motions();
-  if (motions.cols() > 0) largest(rows.free) = motions.cwiseAbs().rowwise().maxCoeff();
+  largest(rows.free) = bordered.free_motions();
   std::vector<std::string> names;
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
     if (largest.segment(joint.offset(i), joint.plates[i].n_unknowns()).maxCoeff() > moves)
@@ -120,17 +175,14 @@ Rows assemble(const JointModel& joint) {
                   joint.file, fmt::join(names, " with plate ")));
 }
 
-/// Right-hand sides of the saddle-point system, block after block: load, delta, b+, b-.
+/// Right-hand sides of the bordered system, block after block: load, delta, b+, b-.
 MatrixXd right_hand_sides(const Rows& rows) {
-  const Index N = rows.free.size();
-  const Index n = rows.B.cols();
-  const Index n_friction = rows.G_plus.cols();
-  MatrixXd rhs = MatrixXd::Zero(N + n, 1 + n + 2 * n_friction);
-  const VectorXd load = rows.load - rows.S * rows.given;
-  rhs.topLeftCorner(N, 1) = load(rows.free);
+  const Index N = rows.free.size(), n = rows.B.cols();
+  MatrixXd forces(rows.S.rows(), 1 + n + 2 * rows.G_plus.cols());
+  forces << rows.load - rows.S * rows.given, MatrixXd::Zero(forces.rows(), n), -rows.G_plus, -rows.G_minus;
+  MatrixXd rhs = MatrixXd::Zero(N + n, forces.cols());
+  for (Index i = 0; i < N; ++i) rhs.row(i) = forces.row(rows.free[i]);
   rhs.block(N, 1, n, n).setIdentity();
-  rhs.block(0, 1 + n, N, n_friction) = -rows.G_plus(rows.free, Eigen::all);
-  rhs.block(0, 1 + n + n_friction, N, n_friction) = -rows.G_minus(rows.free, Eigen::all);
   return rhs;
 }
 
@@ -191,10 +243,10 @@ CondensedSystem condense(const JointModel& joint) {
   VectorXd own(joint.n_unknowns());
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
     own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(joint.plates[i].S.diagonal().maxCoeff());
-  const Saddle saddle(rows.S(rows.free, rows.free), own(rows.free), rows.B(rows.free, Eigen::all));
-  if (!saddle.is_regular()) fail_as_mechanism(joint, rows, saddle);
+  const BorderedSystem bordered(rows.S(rows.free, rows.free), own(rows.free), rows.B(rows.free, Eigen::all));
+  if (!bordered.is_regular()) fail_as_mechanism(joint, rows, bordered);
   const MatrixXd rhs = right_hand_sides(rows);
-  return unpack(rows, rhs, saddle.solve(rhs));
+  return unpack(rows, rhs, bordered.solve(rhs));
 }
 
 }  // namespace fastjoint::stage3

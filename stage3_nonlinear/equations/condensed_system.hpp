@@ -14,14 +14,14 @@ struct FrictionRow {
   Eigen::Index direction;      ///< of the joint's directions
 };
 
-/// All that is linear in a joint, condensed on its n shear planes in a directions, for any stack of plates
+/// Linear part of a joint, condensed on its n shear planes in a directions, for any stack of plates
 /// (docs/theory.md, section 7.1).
 ///
-/// Of the rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D remains
+/// The rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D leave
 ///   F + S_ud delta + H+ b+ + H- b- = lambda q,   b = E F, b+ = max(b, 0), b- = max(-b, 0),
 /// with the laws' forces b on the rims that friction acts on, and every displacement follows from lambda, delta, b.
 /// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
-/// S_ud is the parallel sum of the plates' matrices, and exists also when a sheet floats.
+/// S_ud is the parallel sum of the plates' matrices, and exists also when a plate floats.
 struct CondensedSystem {
   Eigen::VectorXd q;                  ///< (n a) forces of rigid fasteners at load factor 1, force
   Eigen::MatrixXd S_ud;               ///< (n a, n a) force / length
@@ -46,7 +46,8 @@ struct CondensedSystem {
                                               double load_factor) const;
 };
 
-/// Zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to the largest.
+/// Forces q with zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to
+/// the largest.
 [[nodiscard]] Eigen::VectorXd without_rounding(const Eigen::VectorXd& q, double largest_load);
 
 /// @throws NumericalError naming the plates that can move if nothing holds them.

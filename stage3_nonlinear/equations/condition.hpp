@@ -12,7 +12,7 @@ namespace fastjoint::stage3 {
   return (lu.matrixLU().diagonal().array() == 0).any() ? 0 : lu.rcond();
 }
 
-/// The same of a matrix of order 1, which is singular also if all of it is small.
+/// Reciprocal condition number of a matrix that is of order 1, and so singular also if all of it is small.
 [[nodiscard]] inline double least_stretch(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu, const Eigen::MatrixXd& A) {
   return reciprocal_condition(lu) * std::min(1.0, A.cwiseAbs().colwise().sum().maxCoeff());
 }

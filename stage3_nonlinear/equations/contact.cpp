@@ -16,7 +16,7 @@ Index directions(const std::vector<Contact>& contacts, const VectorXd& vectors) 
   return vectors.size() / n;
 }
 
-/// Unit vector along v; any where v = 0, the same each time.
+/// Unit vector along v; the first axis where v = 0.
 VectorXd along(const VectorXd& v) {
   const double length = v.norm();
   return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));

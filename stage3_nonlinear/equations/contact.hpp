@@ -10,7 +10,7 @@
 
 namespace fastjoint::stage3 {
 
-/// The law of a shear plane as a map from its contact coordinate c, a vector in force units with one entry for each
+/// Law of a shear plane as a map from its contact coordinate c, a vector in force units with one entry for each
 /// direction of the joint's discs: F and delta are along c, and their amounts those of the law at |c|. With one
 /// direction the law is odd; with two the clearance is a circle.
 struct Contact {
@@ -19,7 +19,7 @@ struct Contact {
   double stiffness = 1;    ///< k, force / length: of the plates at this plane, so that F and k delta balance
   bool one_sided = false;  ///< open for every c < 0; one direction only
 
-  /// Whether it is one-sided and c, shape (a), is on its other side.
+  /// True if it is one-sided and c, shape (a), is on its other side.
   [[nodiscard]] bool is_pulled_open(const Eigen::VectorXd& c) const { return one_sided && c[0] < 0; }
 };
 
@@ -37,12 +37,12 @@ struct ContactState {
   Blocks ddelta;                      ///< d delta / dc, length / force
   std::optional<Eigen::Index> spent;  ///< a plane past all that it can carry
 
-  /// A times the block diagonal matrix, shape as A, (rows, n a).
+  /// Product of A and the block diagonal matrix, shape as A, (rows, n a).
   [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& A, const Blocks& blocks) const;
 };
 
-/// Of vectors in a directions, row plane * a + direction: their lengths, or with one direction the entries with their
-/// signs, (n).
+/// Lengths of vectors in a directions, row plane * a + direction, or with one direction the entries with their signs,
+/// (n).
 [[nodiscard]] Eigen::VectorXd amounts(const Eigen::VectorXd& vectors, Eigen::Index n_directions);
 
 /// @param c Contact coordinates, shape (n a), force.

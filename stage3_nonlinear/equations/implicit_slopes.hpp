@@ -18,12 +18,13 @@ struct Slopes {
 [[nodiscard]] Eigen::VectorXd coordinates(const std::vector<Contact>& contacts, const Eigen::VectorXd& F,
                                           const Eigen::VectorXd& delta);
 
-/// By the implicit function theorem: dF = F_c dc with J dc = -residual, at a solution.
-/// @param residual What the residual of the condensed system rises by at fixed c, force, shape (n a, columns).
+/// Slopes by the implicit function theorem: dF = F_c dc with J dc = -residual, at a solution.
+/// @param residual Rise of the residual of the condensed system at fixed c, force, shape (n a, columns).
 [[nodiscard]] Slopes implicit_slopes(const CondensedSystem& system, const ContactState& state,
                                      const Eigen::MatrixXd& residual);
 
-/// Without load no rim bears yet: its forces are replaced by those of a small load, by whose sides friction acts.
+/// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
+/// friction acts.
 void bear(const JointEquations& equations, ContactState& state);
 
 /// Slopes of the forces' amounts, (n, columns); infinite where they do not exist.

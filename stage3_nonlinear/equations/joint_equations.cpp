@@ -12,11 +12,10 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// K, one entry for each plane.
+/// Reference stiffnesses K, one for each plane.
 ///
-/// @param contacts With the stiffnesses of the plates themselves, which replace a row of S that is nothing but
-/// rounding,
-///        as that of a sheet held by one fastener alone.
+/// @param contacts Contacts with the stiffnesses of the plates themselves, which replace a row of S that is nothing but
+///                 rounding, as that of a plate held by one fastener alone.
 VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& contacts) {
   constexpr double more = 1.05;
   constexpr double negligible = 1e-9, rounding = 1e-12;
@@ -33,7 +32,7 @@ VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& co
   return k;
 }
 
-/// Of the softer of the two plates at its discs.
+/// Stiffness of the softer of the two plates at its discs.
 double plate_stiffness(const JointModel& joint, const ShearPlane& plane) {
   const auto at = [&](const HoleModel& hole) {
     return joint.plates[hole.plate].S.diagonal().segment(hole.disc, joint.n_directions()).maxCoeff();
@@ -50,8 +49,8 @@ MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts)
 }
 
 /// Gives open and yielded fasteners a trace of stiffness in the Jacobian, not in the residual: without it the Jacobian
-/// is singular where such fasteners alone hold a sheet. The trace falls with the residual, so that the last steps are
-/// quick also where springs as weak as the trace hold a sheet (docs/theory.md, section 8.5).
+/// is singular where such fasteners alone hold a plate. The trace falls with the residual, so that the last steps are
+/// quick also where springs as weak as the trace hold a plate (docs/theory.md, section 8.5).
 void add_trace(const JointEquations& equations, double residual, ContactState& state) {
   constexpr double share = 1e-7;
   constexpr double least = 1e-11;  // rounding over this is still a small step
@@ -79,7 +78,7 @@ JointEquations make_equations(const JointModel& joint) {
 }
 
 JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts) {
-  constexpr double rounding = 1e-13;  // of what a sheet that one fastener alone holds resists: nothing
+  constexpr double rounding = 1e-13;  // of what a plate that one fastener alone holds resists: nothing
   const VectorXd rows = system.S_ud.cwiseAbs().rowwise().sum();
   for (Index i = 0; i < rows.size(); ++i) {
     const Index plane = i * std::ssize(contacts) / rows.size();

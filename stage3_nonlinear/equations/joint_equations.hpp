@@ -15,14 +15,14 @@ namespace fastjoint::stage3 {
 struct JointEquations {
   CondensedSystem system;
   std::vector<Contact> contacts;  ///< (n)
-  /// W^-1 with W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
+  /// Inverse of W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
   /// length / force (docs/theory.md, section 8.4).
   Eigen::MatrixXd metric;
 
   [[nodiscard]] Eigen::Index n_planes() const { return contacts.size(); }
-  /// a
+  /// Number a of directions.
   [[nodiscard]] Eigen::Index n_directions() const { return n_unknowns() / n_planes(); }
-  /// n a
+  /// Number n a of unknowns.
   [[nodiscard]] Eigen::Index n_unknowns() const { return system.q.size(); }
 };
 
@@ -30,10 +30,10 @@ struct JointEquations {
 /// its row of S_ud, so that K - S_ud is positive definite (docs/theory.md, section 8.2). Where S_ud is nothing but
 /// rounding, the plate's own stiffness takes its place.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
-/// @param contacts Their stiffness is that of the plate itself, and replaced.
+/// @param contacts Contacts whose stiffness is that of the plate itself, and is replaced.
 [[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
 
-/// d residual / d c, shape (n a, n a), at the state of the contact coordinates c.
+/// Derivative of the residual by c, shape (n a, n a), at the state of the contact coordinates c.
 [[nodiscard]] Eigen::MatrixXd tangent(const CondensedSystem& system, const ContactState& state);
 
 /// The equations at a load factor, unknowns and residuals over `scale` (force).

@@ -29,13 +29,38 @@ std::optional<VectorXd> linear_flexibility(const JointEquations& equations) {
   VectorXd flexibility(n * a);
   for (Index j = 0; j < n; ++j) {
     const Contact& contact = equations.contacts[j];
-    const auto kinks = contact.law->kinks(contact.stiffness, contact.clearance);
-    if (!kinks || !kinks->empty() || contact.one_sided) return std::nullopt;
+    const auto corners = contact.law->corners(contact.stiffness, contact.clearance);
+    if (!corners || !corners->empty() || contact.one_sided) return std::nullopt;
     const Branch on = contact.law->at(1, contact.stiffness, contact.clearance);
     if (!(on.dF > 0)) return std::nullopt;
     flexibility.segment(j * a, a).setConstant(on.ddelta / on.dF);
   }
   return flexibility;
+}
+
+VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor) {
+  const CondensedSystem& system = equations.system;
+  const auto rows = system.q.size();
+  if (initial.guess == Guess::linear) {
+    const double mean = system.S_ud.diagonal().mean();
+    const double K = initial.stiffness.value_or(mean);
+    const double flexibility = K > 0 ? 1 / K : 0;
+    return linear_forces(system, VectorXd::Constant(rows, flexibility), load_factor).F;
+  }
+  VectorXd rigid = linear_forces(system, VectorXd::Zero(rows), load_factor).F;
+  if (initial.guess == Guess::rigid) return rigid;
+  const VectorXd mean = rigid.reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
+  return mean.replicate(equations.n_planes(), 1);
+}
+
+std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial, double load_factor) {
+  std::vector<InitialScene> order{initial};
+  for (const Guess guess : {Guess::linear, Guess::rigid, Guess::equal})
+    if (guess != initial.guess) order.push_back({guess, std::nullopt});
+  std::vector<VectorXd> guesses;
+  for (const auto& each : order)
+    guesses.push_back(contact_coordinates(equations.contacts, guessed_forces(equations, each, load_factor)));
+  return guesses;
 }
 
 }  // namespace fastjoint::stage3

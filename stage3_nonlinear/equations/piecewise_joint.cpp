@@ -13,18 +13,20 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// @param zero Whether c = 0 counts as a corner.
+/// Corners of a plane over all of c, ascending.
+/// @param zero True if c = 0 counts as a corner.
 std::vector<double> corners(const Contact& contact, bool zero) {
-  const std::vector<double> kinks =
-      contact.law->kinks(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
-  std::vector<double> result = kinks;
-  if (!contact.one_sided) std::transform(kinks.begin(), kinks.end(), std::back_inserter(result), std::negate<>());
+  const std::vector<double> corners =
+      contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
+  std::vector<double> result = corners;
+  if (!contact.one_sided) std::transform(corners.begin(), corners.end(), std::back_inserter(result), std::negate<>());
   if (zero) result.push_back(0);
   std::sort(result.begin(), result.end());
   return result;
 }
 
-/// To a point inside the first or last piece: as far out again as its corner is, so that no unit of force loses digits.
+/// Distance to a point inside the first or last piece: as far out again as its corner is, so that no unit of force
+/// loses digits.
 double outward(double corner) { return corner != 0 ? std::abs(corner) : 1.0; }
 
 CornerCurve make_curve(const Contact& contact, bool friction) {
@@ -48,13 +50,6 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
   return curve;
 }
 
-template <class Values>
-VectorXd picked(const Cell& cell, Values values) {
-  VectorXd result(cell.piece.size());
-  for (std::size_t j = 0; j < cell.piece.size(); ++j) result[j] = values(j)[cell.piece[j]];
-  return result;
-}
-
 }  // namespace
 
 std::size_t CornerCurve::piece_of(double c) const {
@@ -64,7 +59,7 @@ std::size_t CornerCurve::piece_of(double c) const {
 bool is_piecewise_linear(const JointEquations& equations) {
   const auto& contacts = equations.contacts;
   return equations.n_directions() == 1 && std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) {
-           return c.law->kinks(c.stiffness, c.clearance).has_value();
+           return c.law->corners(c.stiffness, c.clearance).has_value();
          });
 }
 
@@ -111,7 +106,7 @@ CellEquations PiecewiseJoint::equations(const Cell& cell) const {
       on_forces.col(plane) += (plus ? sign : -sign) * H;
     }
   const auto of = [&](VectorXd CornerCurve::*values) {
-    return picked(cell, [&, values](std::size_t j) -> const VectorXd& { return curves_[j].*values; });
+    return VectorXd(VectorXd::NullaryExpr(n, [&](Index j) { return (curves_[j].*values)[cell.piece[j]]; }));
   };
   return {system_->S_ud * of(&CornerCurve::ddelta).asDiagonal() + on_forces * of(&CornerCurve::dF).asDiagonal(),
           system_->S_ud * of(&CornerCurve::delta0) + on_forces * of(&CornerCurve::F0)};
@@ -119,17 +114,13 @@ CellEquations PiecewiseJoint::equations(const Cell& cell) const {
 
 double PiecewiseJoint::rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const {
   double sum = 0;
-  for (const auto& [plane, sign] : rims_[rim].planes) {
-    sum += sign * curves_[plane].dF[cell.piece[plane]] * rate[plane];
-  }
+  for (const auto& [plane, sign] : rims_[rim].planes) sum += sign * curves_[plane].dF[cell.piece[plane]] * rate[plane];
   return sum;
 }
 
 double PiecewiseJoint::rim_force(const Cell& cell, Index rim, const VectorXd& c) const {
   double sum = rim_rate(cell, rim, c);
-  for (const auto& [plane, sign] : rims_[rim].planes) {
-    sum += sign * curves_[plane].F0[cell.piece[plane]];
-  }
+  for (const auto& [plane, sign] : rims_[rim].planes) sum += sign * curves_[plane].F0[cell.piece[plane]];
   return sum;
 }
 

@@ -13,7 +13,7 @@ namespace fastjoint::stage3 {
 /// The curve of a shear plane between corners, over all of its coordinate c: odd or one-sided.
 struct CornerCurve {
   std::vector<double> corners;  ///< (m) ascending, force
-  /// Of the m + 1 pieces: F = F0 + dF c and delta = delta0 + ddelta c.
+  /// Lines of the m + 1 pieces: F = F0 + dF c and delta = delta0 + ddelta c.
   Eigen::VectorXd F0, dF, delta0, ddelta;
   Eigen::VectorXi sign;  ///< of c in each piece
 
@@ -64,7 +64,7 @@ class PiecewiseJoint {
   std::vector<Eigen::Index> shared_rims_;
 };
 
-/// Whether all discs have one direction and all laws are linear between corners.
+/// True if all discs have one direction and all laws are linear between corners.
 [[nodiscard]] bool is_piecewise_linear(const JointEquations& equations);
 
 }  // namespace fastjoint::stage3

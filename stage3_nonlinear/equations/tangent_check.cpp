@@ -16,7 +16,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-using Lu = Eigen::PartialPivLU<MatrixXd>;
 
 /// Planes take part that move by more than a share of the largest motion; a law that rises again behind a level piece,
 /// as after a slip, is no limit.
@@ -95,7 +94,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   TangentCheck check;
   MatrixXd J = tangent(system, state);
   const VectorXd scale = scale_columns(J);
-  const Lu lu(J);
+  const Eigen::PartialPivLU<MatrixXd> lu(J);
   if (!(least_stretch(lu, J) > singular_tangent)) {
     Mechanism found = mechanism(equations, state, J, scale);
     if (!found.open.empty() || !found.level.empty()) {

@@ -23,7 +23,7 @@ struct Mechanism {
   Eigen::VectorXd motion;           ///< (N) displacements, largest entry 1
 };
 
-/// What the tangent at a solution says of it.
+/// Findings of the tangent at a solution.
 struct TangentCheck {
   /// A motion without stiffness, if there is one. If none of its planes is level, some plate is free within its gaps
   /// and has no place of its own.
@@ -40,7 +40,7 @@ struct TangentCheck {
 
 [[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state);
 
-/// The same factor for the sides that bear under the forces F, (n a).
+/// Friction reserve of the sides that bear under the forces F, (n a).
 [[nodiscard]] std::optional<double> self_locking(const CondensedSystem& system, const Eigen::VectorXd& F);
 
 /// Planes that at the contact coordinates c, (n a), carry all that their laws allow, if nothing else holds the joint.

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/laws/cubic_law.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/laws/rising_root.hpp"
 
 namespace fastjoint::stage3 {
@@ -15,110 +14,139 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Cubic F = x (a0 + a1 x + a2 x^2), x = stretch / last.
+struct Cubic {
+  std::array<double, 3> a;
+
+  static Cubic through(const std::array<double, 3>& x, const std::array<double, 3>& F) {
+    // F / x is a parabola: Newton's divided differences give its coefficients.
+    const double g01 = (F[1] / x[1] - F[0] / x[0]) / (x[1] - x[0]);
+    const double g12 = (F[2] / x[2] - F[1] / x[1]) / (x[2] - x[1]);
+    const double g012 = (g12 - g01) / (x[2] - x[0]);
+    return {{F[0] / x[0] - g01 * x[0] + g012 * x[0] * x[1], g01 - g012 * (x[0] + x[1]), g012}};
+  }
+
+  [[nodiscard]] double force(double x) const { return x * (a[0] + x * (a[1] + x * a[2])); }
+  [[nodiscard]] double slope(double x) const { return a[0] + x * (2 * a[1] + x * 3 * a[2]); }
+
+  /// Place between 0 and `end` at which the slope, a parabola, is least: an end or the parabola's vertex.
+  [[nodiscard]] double least(double end) const {
+    double worst = end < infinity && slope(end) < slope(0) ? end : 0;
+    const double vertex = a[2] != 0 ? -a[1] / (3 * a[2]) : 0;
+    if (vertex > 0 && vertex < end && slope(vertex) < slope(worst)) worst = vertex;
+    return worst;
+  }
+
+  /// Place at which the force rises again after it has fallen; infinite if it never does.
+  [[nodiscard]] double second_rise() const {
+    const double root = a[1] * a[1] - 3 * a[0] * a[2];
+    return a[2] > 0 && root > 0 ? (std::sqrt(root) - a[1]) / (3 * a[2]) : infinity;
+  }
+};
+
+class CubicLaw final : public Law {
+ public:
+  CubicLaw(const std::array<double, 3>& delta, const std::array<double, 3>& F)
+      : last_(*std::max_element(delta.begin(), delta.end())),
+        x_{delta[0] / last_, delta[1] / last_, delta[2] / last_},
+        cubic_(Cubic::through(x_, F)) {
+    assert(x_[0] > 0 && x_[1] > 0 && x_[2] > 0 && x_[0] != x_[1] && x_[1] != x_[2] && x_[0] != x_[2]);
+    const bool rises_far_out = cubic_.a[2] > 0 || (cubic_.a[2] == 0 && cubic_.a[1] >= 0);
+    rises_ = rises_far_out && cubic_.slope(cubic_.least(infinity)) >= 0;
+    const double valley = cubic_.second_rise();
+    end_ = !rises_ && valley > 1 ? valley : infinity;
+  }
+
+  [[nodiscard]] Branch at(double c, double k, double clearance) const override {
+    const double s = c - k * clearance;
+    if (s < 0) return Branch::open(c, k);
+    if (!rises_) {
+      const double x = s / (k * last_);
+      const bool spent = x > end_ || cubic_.force(x) < 0;
+      return {.F = spent ? std::max(cubic_.force(std::min(x, end_)), 0.0) : cubic_.force(x),
+              .delta = c / k,
+              .dF = spent ? 0 : cubic_.slope(x) / (k * last_),
+              .ddelta = 1 / k,
+              .spent = spent};
+    }
+    const auto excess = [&](double x) {
+      return std::pair(cubic_.force(x) + k * last_ * x - s, cubic_.slope(x) + k * last_);
+    };
+    const double x = s > 0 ? rising_root(excess, 0, s / (k * last_)) : 0;
+    const double slope = cubic_.slope(x) / last_;
+    return {.F = cubic_.force(x), .delta = clearance + x * last_, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
+  }
+
+  /// Follows the secant to the last point.
+  [[nodiscard]] double coordinate(double F, double k, double clearance) const override {
+    const double delta = clearance + last_ * F / cubic_.force(1);
+    return rises_ ? F + k * delta : k * delta;
+  }
+
+  [[nodiscard]] bool rises() const override { return rises_; }
+
+  [[nodiscard]] double least_slope() const override {
+    if (rises_) return 0;
+    double spent = 1;  // from here on, about, or never
+    while (spent < end_ && cubic_.force(spent) > 0 && spent < 1e6) spent *= 2;
+    return std::min(0.0, cubic_.slope(cubic_.least(spent)) / last_);
+  }
+
+  [[nodiscard]] double last_delta(double clearance) const override { return clearance + last_; }
+
+  [[nodiscard]] std::vector<Parameter> parameters() const override {
+    return {{"F[0]", 0, 1}, {"F[1]", 0, 1}, {"F[2]", 0, 1}};
+  }
+
+  [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
+    const Branch on = at(c, k, clearance);
+    if (c < k * clearance || on.spent) return std::vector<Slope>(4, {0, 0});
+    const double x = (on.delta - clearance) / last_;
+    // At constant c = F + k delta part of what the force gains shortens delta.
+    const auto slope = [&](double gain) {
+      return rises_ ? Slope{k * gain * on.ddelta, -gain * on.ddelta} : Slope{gain, 0};
+    };
+    std::vector<Slope> result{slope(-cubic_.slope(x) / last_)};
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::array<double, 3> unit{};
+      unit[i] = 1;
+      result.push_back(slope(Cubic::through(x_, unit).force(x)));
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::vector<std::string> doubts() const override {
+    const double worst = cubic_.least(1);
+    if (cubic_.slope(worst) > 0) return {};
+    return {
+        fmt::format("the cubic does not rise everywhere up to its last delta {}: its slope at delta = {:.4g} is "
+                    "{:.4g}; the joint may have more than one solution",
+                    last_, worst * last_, cubic_.slope(worst) / last_)};
+  }
+
+ private:
+  double last_;              ///< largest of delta, length
+  std::array<double, 3> x_;  ///< delta / last
+  Cubic cubic_;
+  bool rises_;
+  double end_;  ///< stretch / last beyond the last point from which the fastener is spent, or infinite
+};
+
 }  // namespace
 
-CubicLaw::Cubic CubicLaw::through(const std::array<double, 3>& x, const std::array<double, 3>& F) {
-  // F / x is a parabola: Newton's divided differences give its coefficients.
-  const double g01 = (F[1] / x[1] - F[0] / x[0]) / (x[1] - x[0]);
-  const double g12 = (F[2] / x[2] - F[1] / x[1]) / (x[2] - x[1]);
-  const double g012 = (g12 - g01) / (x[2] - x[0]);
-  return {{F[0] / x[0] - g01 * x[0] + g012 * x[0] * x[1], g01 - g012 * (x[0] + x[1]), g012}};
+LawPointer cubic_law(const std::array<double, 3>& delta, const std::array<double, 3>& F) {
+  return std::make_shared<CubicLaw>(delta, F);
 }
 
-double CubicLaw::Cubic::least(double end) const {
-  // The slope is a parabola: it is least at an end or at the vertex.
-  double worst = end < infinity && slope(end) < slope(0) ? end : 0;
-  const double vertex = a[2] != 0 ? -a[1] / (3 * a[2]) : 0;
-  if (vertex > 0 && vertex < end && slope(vertex) < slope(worst)) worst = vertex;
-  return worst;
-}
-
-CubicLaw::CubicLaw(const std::array<double, 3>& delta, const std::array<double, 3>& F)
-    : last_(*std::max_element(delta.begin(), delta.end())),
-      x_{delta[0] / last_, delta[1] / last_, delta[2] / last_},
-      cubic_(through(x_, F)) {
-  assert(x_[0] > 0 && x_[1] > 0 && x_[2] > 0 && x_[0] != x_[1] && x_[1] != x_[2] && x_[0] != x_[2]);
-  const bool rises_far_out = cubic_.a[2] > 0 || (cubic_.a[2] == 0 && cubic_.a[1] >= 0);
-  rises_ = rises_far_out && cubic_.slope(cubic_.least(infinity)) >= 0;
-  const double valley = cubic_.second_rise();
-  end_ = !rises_ && valley > 1 ? valley : infinity;
-}
-
-double CubicLaw::Cubic::second_rise() const {
-  const double root = a[1] * a[1] - 3 * a[0] * a[2];
-  return a[2] > 0 && root > 0 ? (std::sqrt(root) - a[1]) / (3 * a[2]) : infinity;
-}
-
-double CubicLaw::stretch(double s, double k) const {
-  const auto excess = [&](double x) {
-    return std::pair(cubic_.force(x) + k * last_ * x - s, cubic_.slope(x) + k * last_);
-  };
-  return rising_root(excess, 0, s / (k * last_));
-}
-
-Branch CubicLaw::at(double c, double k, double clearance) const {
-  const double s = c - k * clearance;
-  if (s < 0) return Branch::open(c, k);
-  if (!rises_) {
-    const double x = s / (k * last_);
-    if (x > end_ || cubic_.force(x) < 0)
-      return {
-          .F = std::max(cubic_.force(std::min(x, end_)), 0.0), .delta = c / k, .dF = 0, .ddelta = 1 / k, .spent = true};
-    return {.F = cubic_.force(x), .delta = c / k, .dF = cubic_.slope(x) / (k * last_), .ddelta = 1 / k};
-  }
-  const double x = s > 0 ? stretch(s, k) : 0;
-  const double slope = cubic_.slope(x) / last_;
-  return {.F = cubic_.force(x), .delta = clearance + x * last_, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
-}
-
-double CubicLaw::coordinate(double F, double k, double clearance) const {
-  const double delta = clearance + last_ * F / cubic_.force(1);
-  return rises_ ? F + k * delta : k * delta;
-}
-
-double CubicLaw::least_slope() const {
-  if (rises_) return 0;
-  double spent = 1;  // from here on, about, or never
-  while (spent < end_ && cubic_.force(spent) > 0 && spent < 1e6) spent *= 2;
-  return std::min(0.0, cubic_.slope(cubic_.least(spent)) / last_);
-}
-
-std::vector<Parameter> CubicLaw::parameters() const { return {{"F[0]", 0, 1}, {"F[1]", 0, 1}, {"F[2]", 0, 1}}; }
-
-std::vector<Slope> CubicLaw::slopes(double c, double k, double clearance) const {
-  const Branch on = at(c, k, clearance);
-  if (c < k * clearance || on.spent) return std::vector<Slope>(4, {0, 0});
-  const double x = (on.delta - clearance) / last_;
-  // What the force gains where it is: at constant c = F + k delta part of it shortens delta.
-  const auto slope = [&](double gain) {
-    return rises_ ? Slope{k * gain * on.ddelta, -gain * on.ddelta} : Slope{gain, 0};
-  };
-  std::vector<Slope> result{slope(-cubic_.slope(x) / last_)};
-  for (std::size_t i = 0; i < 3; ++i) {
-    std::array<double, 3> unit{};
-    unit[i] = 1;
-    result.push_back(slope(through(x_, unit).force(x)));
-  }
-  return result;
-}
-
-std::vector<std::string> CubicLaw::doubts() const {
-  const double worst = cubic_.least(1);
-  if (cubic_.slope(worst) > 0) return {};
-  return {
-      fmt::format("the cubic does not rise everywhere up to its last delta {}: its slope at delta = {:.4g} is {:.4g}; "
-                  "the joint may have more than one solution",
-                  last_, worst * last_, cubic_.slope(worst) / last_)};
-}
-
-std::shared_ptr<const Law> read_cubic_law(const input::Value& law) {
+/// {"type": "cubic", "delta": [three], "F": [three]}
+LawPointer read_cubic_law(const input::Value& law) {
   law.only({"type", "delta", "F", "one_sided"});
   const auto deltas = law.at("delta");
   const auto delta = deltas.numbers(3, 3, input::positive);
   if (delta[0] == delta[1] || delta[1] == delta[2] || delta[0] == delta[2])
     deltas.not_allowed("three different displacements");
   const auto F = law.at("F").numbers(3, 3, input::positive);
-  return std::make_shared<CubicLaw>(std::array{delta[0], delta[1], delta[2]}, std::array{F[0], F[1], F[2]});
+  return cubic_law({delta[0], delta[1], delta[2]}, {F[0], F[1], F[2]});
 }
 
 }  // namespace fastjoint::stage3

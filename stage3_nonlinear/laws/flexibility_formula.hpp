@@ -7,7 +7,7 @@
 
 namespace fastjoint::stage3 {
 
-/// What only a formula with correlations for the row of fasteners asks for.
+/// Numbers that only a formula with correlations for the row of fasteners asks for.
 struct FastenerRows {
   std::array<double, 2> E_z;  ///< Young's modulus of the sheets through the thickness, force / length^2
   double d_head;              ///< diameter of the head, length
@@ -16,7 +16,7 @@ struct FastenerRows {
   double c_f;                 ///< factor of the kind of fastener
 };
 
-/// What a published formula knows of one fastener and the sheets that it joins, in any consistent units.
+/// Numbers of one fastener and the sheets that it joins, for published formulas, in any consistent units.
 ///
 /// In double shear sheet 1 is the one in the middle and sheet 2 one of the two equal straps around it.
 struct FastenerGeometry {
@@ -47,12 +47,12 @@ struct FlexibilityFormula {
   bool uses_rows = false;
 };
 
-/// All that the program knows; a new one is one function and one line in the table of the .cpp.
+/// All formulas that the program knows; a new one is one function and one line in the table of formula_law.cpp.
 [[nodiscard]] std::span<const FlexibilityFormula> flexibility_formulas();
 
 /// Sum of all terms, length / force.
 [[nodiscard]] double total_flexibility(const std::vector<FlexibilityTerm>& terms);
-/// Sum of those of the fastener, length / force.
+/// Sum of the terms of the fastener, length / force.
 [[nodiscard]] double fastener_flexibility(const std::vector<FlexibilityTerm>& terms);
 
 }  // namespace fastjoint::stage3

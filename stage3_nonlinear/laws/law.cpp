@@ -4,17 +4,14 @@
 #include <algorithm>
 #include <array>
 
-#include "stage3_nonlinear/laws/cubic_law.hpp"
-#include "stage3_nonlinear/laws/piecewise_linear_law.hpp"
-#include "stage3_nonlinear/laws/power_law.hpp"
-#include "stage3_nonlinear/laws/table_law.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
 struct Kind {
   const char* type;
-  std::shared_ptr<const Law> (*read)(const input::Value& law);
+  LawReader* read;
 };
 
 constexpr std::array kinds{
@@ -31,11 +28,9 @@ constexpr std::array kinds{
 
 std::shared_ptr<const Law> read_law(const input::Value& law) {
   std::vector<std::string> types;
-  types.reserve(kinds.size());
   for (const auto& kind : kinds) types.emplace_back(kind.type);
   const std::string type = law.at("type").choice(types);
-  const auto found = std::find(types.begin(), types.end(), type);
-  return kinds[found - types.begin()].read(law);
+  return kinds[std::find(types.begin(), types.end(), type) - types.begin()].read(law);
 }
 
 }  // namespace fastjoint::stage3

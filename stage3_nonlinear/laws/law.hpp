@@ -20,11 +20,11 @@ struct Branch {
   double ddelta;       ///< d delta / dc, length / force
   bool spent = false;  ///< past all that the fastener can carry: no place for a solution
 
-  /// Where nothing bears: all of c moves the discs.
+  /// Point at which nothing bears: all of c moves the discs.
   static Branch open(double c, double k) { return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k}; }
 };
 
-/// What a number of the law does to the point with the coordinate c, c and k being fixed.
+/// Change of the point with the coordinate c by a number of the law, c and k being fixed.
 struct Slope {
   double F;      ///< dF / d number
   double delta;  ///< d delta / d number
@@ -44,11 +44,11 @@ struct Source {
   double d = 0;                    ///< diameter, length
 };
 
-/// What a fastener answers to the relative displacement of its discs, delta >= 0, its clearance included.
+/// Force of a fastener against the relative displacement of its discs, delta >= 0, its clearance included.
 ///
 /// The curve is given by a contact coordinate c >= 0 in force units: c = F + k delta of a law that never falls,
-/// c = k delta of one that falls somewhere (docs/theory.md, section 8.2). A new law is one new file and one line in
-/// law.cpp.
+/// c = k delta of one that falls somewhere (docs/theory.md, section 8.2). docs/developing.md says what a new law
+/// takes.
 class Law {
  public:
   Law() = default;
@@ -63,12 +63,12 @@ class Law {
   [[nodiscard]] virtual double coordinate(double F, double k, double clearance) const = 0;
   /// Displacement up to which the rim does not bear, length.
   [[nodiscard]] virtual double gap(double clearance) const { return clearance; }
-  /// Whether the force never falls: then the coordinate is c = F + k delta.
+  /// True if the force never falls: then the coordinate is c = F + k delta.
   [[nodiscard]] virtual bool rises() const { return true; }
   /// Least dF/ddelta anywhere, force / length; 0 if the law rises.
   [[nodiscard]] virtual double least_slope() const { return 0; }
-  /// Coordinates c > 0 at which the slope jumps, ascending, if the law is linear between them.
-  [[nodiscard]] virtual std::optional<std::vector<double>> kinks(double /*k*/, double /*clearance*/) const {
+  /// Coordinates c > 0 of the corners, at which the slope jumps, ascending, if the law is linear between them.
+  [[nodiscard]] virtual std::optional<std::vector<double>> corners(double /*k*/, double /*clearance*/) const {
     return std::nullopt;
   }
   /// Displacement up to which the law was measured, length.
@@ -80,7 +80,9 @@ class Law {
   /// Derivatives of F and delta at fixed c and k: first by the clearance, then by each of parameters(), in their order.
   [[nodiscard]] virtual std::vector<Slope> slopes(double c, double k, double clearance) const = 0;
   [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
-  /// What the user should know of the parameters, one sentence each.
+  /// Path of the file that holds the law's points, if it has one of its own.
+  [[nodiscard]] virtual std::string file() const { return {}; }
+  /// Sentences that the user should know of the parameters.
   [[nodiscard]] virtual std::vector<std::string> doubts() const { return {}; }
 };
 

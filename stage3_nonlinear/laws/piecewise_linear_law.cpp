@@ -1,145 +1,166 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/laws/piecewise_linear_law.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <utility>
 
-#include "stage3_nonlinear/laws/read_flexibility.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::stage3 {
 
-PiecewiseLinearLaw::PiecewiseLinearLaw(Polyline curve, std::size_t first_moved,
-                                       std::vector<PolylineParameter> parameters, std::optional<Source> source)
-    : curve_(std::move(curve)),
-      first_moved_(first_moved),
-      parameters_(std::move(parameters)),
-      source_(std::move(source)) {
-  assert(first_moved_ < curve_.vertices.size());
-  assert(std::all_of(parameters_.begin(), parameters_.end(), [&](const PolylineParameter& each) {
-    return each.derivative.vertices.size() == curve_.vertices.size();
-  }));
-}
+namespace {
 
-Vertex PiecewiseLinearLaw::vertex(std::size_t i, double clearance) const {
-  const Vertex& v = curve_.vertices[i];
-  return {v.delta + (i >= first_moved_ ? clearance : 0), v.F};
-}
-
-PiecewiseLinearLaw::Piece PiecewiseLinearLaw::piece(double c, double k, double clearance) const {
-  double c0 = 0;
-  Vertex start{0, 0};
-  for (std::size_t i = 0; i < curve_.vertices.size(); ++i) {
-    const Vertex end = vertex(i, clearance);
-    const double c1 = end.F + k * end.delta;
-    if (c < c1)
-      return {i, c0, start.F, start.delta, (end.F - start.F) / (c1 - c0), (end.delta - start.delta) / (c1 - c0)};
-    c0 = c1;
-    start = end;
+class PiecewiseLinearLaw final : public Law {
+ public:
+  PiecewiseLinearLaw(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
+                     std::optional<Source> source)
+      : curve_(std::move(curve)),
+        first_moved_(first_moved),
+        parameters_(std::move(parameters)),
+        source_(std::move(source)) {
+    assert(first_moved_ < curve_.vertices.size());
+    assert(std::all_of(parameters_.begin(), parameters_.end(), [&](const PolylineParameter& each) {
+      return each.derivative.vertices.size() == curve_.vertices.size();
+    }));
   }
-  const double sum = curve_.last_slope + k;
-  return {curve_.vertices.size(), c0, start.F, start.delta, curve_.last_slope / sum, 1 / sum};
-}
 
-Branch PiecewiseLinearLaw::at(double c, double k, double clearance) const {
-  const Piece on = piece(c, k, clearance);
-  return {.F = on.F + on.dF * (c - on.c), .delta = on.delta + on.ddelta * (c - on.c), .dF = on.dF, .ddelta = on.ddelta};
-}
-
-double PiecewiseLinearLaw::coordinate(double F, double k, double clearance) const {
-  double c0 = 0, F0 = 0;
-  for (std::size_t i = 0; i < curve_.vertices.size(); ++i) {
-    const Vertex v = vertex(i, clearance);
-    const double c1 = v.F + k * v.delta;
-    if (F < v.F) return c0 + (F - F0) / (v.F - F0) * (c1 - c0);
-    c0 = c1;
-    F0 = v.F;
+  [[nodiscard]] Branch at(double c, double k, double clearance) const override {
+    const Piece on = piece(c, k, clearance);
+    return {
+        .F = on.F + on.dF * (c - on.c), .delta = on.delta + on.ddelta * (c - on.c), .dF = on.dF, .ddelta = on.ddelta};
   }
-  // A curve that ends level does not reach F: its last corner then.
-  return curve_.last_slope > 0 ? c0 + (F - F0) * (1 + k / curve_.last_slope) : c0;
-}
 
-double PiecewiseLinearLaw::gap(double clearance) const { return vertex(first_moved_, clearance).delta; }
-
-std::optional<std::vector<double>> PiecewiseLinearLaw::kinks(double k, double clearance) const {
-  std::vector<double> result;
-  for (std::size_t i = 0; i < curve_.vertices.size(); ++i) {
-    const Vertex v = vertex(i, clearance);
-    const double c = v.F + k * v.delta;
-    if (c > (result.empty() ? 0 : result.back())) result.push_back(c);
+  [[nodiscard]] double coordinate(double F, double k, double clearance) const override {
+    double c0 = 0, F0 = 0;
+    for (std::size_t i = 0; i < curve_.vertices.size(); ++i) {
+      const Vertex v = vertex(i, clearance);
+      const double c1 = v.F + k * v.delta;
+      if (F < v.F) return c0 + (F - F0) / (v.F - F0) * (c1 - c0);
+      c0 = c1;
+      F0 = v.F;
+    }
+    // A curve that ends level does not reach F: its last corner then.
+    return curve_.last_slope > 0 ? c0 + (F - F0) * (1 + k / curve_.last_slope) : c0;
   }
-  return result;
-}
 
-std::vector<Parameter> PiecewiseLinearLaw::parameters() const {
-  std::vector<Parameter> result;
-  result.reserve(parameters_.size());
-  for (const auto& each : parameters_) result.push_back(each.parameter);
-  return result;
-}
+  [[nodiscard]] double gap(double clearance) const override { return vertex(first_moved_, clearance).delta; }
 
-double PiecewiseLinearLaw::force_slope(const Piece& piece, double c, double k, double clearance,
-                                       const Polyline& derivative) const {
-  const Vertex none{0, 0};
-  const Vertex start = piece.end > 0 ? derivative.vertices[piece.end - 1] : none;
-  double rate_slope = 0;
-  if (piece.end == curve_.vertices.size()) {
-    const double sum = curve_.last_slope + k;
-    rate_slope = derivative.last_slope * k / (sum * sum);
-  } else {
-    const Vertex end = derivative.vertices[piece.end];
-    const Vertex v = vertex(piece.end, clearance);
-    const double length = v.F + k * v.delta - piece.c;
-    rate_slope = ((end.F - start.F) * (1 - piece.dF) - piece.dF * k * (end.delta - start.delta)) / length;
+  [[nodiscard]] std::optional<std::vector<double>> corners(double k, double clearance) const override {
+    std::vector<double> result;
+    for (std::size_t i = 0; i < curve_.vertices.size(); ++i) {
+      const Vertex v = vertex(i, clearance);
+      const double c = v.F + k * v.delta;
+      if (c > (result.empty() ? 0 : result.back())) result.push_back(c);
+    }
+    return result;
   }
-  return start.F - (start.F + k * start.delta) * piece.dF + (c - piece.c) * rate_slope;
-}
 
-std::vector<Slope> PiecewiseLinearLaw::slopes(double c, double k, double clearance) const {
-  const Piece on = piece(c, k, clearance);
-  Polyline moved{std::vector<Vertex>(curve_.vertices.size(), {0, 0}), 0};
-  for (std::size_t i = first_moved_; i < moved.vertices.size(); ++i) moved.vertices[i].delta = 1;
-  const auto slope = [&](const Polyline& derivative) {
-    const double F = force_slope(on, c, k, clearance, derivative);
-    return Slope{F, -F / k};
+  [[nodiscard]] std::vector<Parameter> parameters() const override {
+    std::vector<Parameter> result;
+    for (const auto& each : parameters_) result.push_back(each.parameter);
+    return result;
+  }
+
+  [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
+    const Piece on = piece(c, k, clearance);
+    Polyline moved{std::vector<Vertex>(curve_.vertices.size(), {0, 0}), 0};
+    for (std::size_t i = first_moved_; i < moved.vertices.size(); ++i) moved.vertices[i].delta = 1;
+    const auto slope = [&](const Polyline& derivative) {
+      const double F = force_slope(on, c, k, clearance, derivative);
+      return Slope{F, -F / k};
+    };
+    std::vector<Slope> result{slope(moved)};
+    for (const auto& each : parameters_) result.push_back(slope(each.derivative));
+    return result;
+  }
+
+  [[nodiscard]] std::optional<Source> source() const override { return source_; }
+
+ private:
+  /// Piece of the curve in terms of c, from its first point on.
+  struct Piece {
+    std::size_t end;  ///< vertex at its end; behind the last: number of vertices
+    double c, F, delta, dF, ddelta;
   };
-  std::vector<Slope> result{slope(moved)};
-  for (const auto& each : parameters_) result.push_back(slope(each.derivative));
-  return result;
+
+  [[nodiscard]] Vertex vertex(std::size_t i, double clearance) const {
+    const Vertex& v = curve_.vertices[i];
+    return {v.delta + (i >= first_moved_ ? clearance : 0), v.F};
+  }
+
+  [[nodiscard]] Piece piece(double c, double k, double clearance) const {
+    double c0 = 0;
+    Vertex start{0, 0};
+    for (std::size_t i = 0; i < curve_.vertices.size(); ++i) {
+      const Vertex end = vertex(i, clearance);
+      const double c1 = end.F + k * end.delta;
+      if (c < c1)
+        return {i, c0, start.F, start.delta, (end.F - start.F) / (c1 - c0), (end.delta - start.delta) / (c1 - c0)};
+      c0 = c1;
+      start = end;
+    }
+    const double sum = curve_.last_slope + k;
+    return {curve_.vertices.size(), c0, start.F, start.delta, curve_.last_slope / sum, 1 / sum};
+  }
+
+  /// Change of F at fixed c with a number that changes the curve by `derivative`.
+  [[nodiscard]] double force_slope(const Piece& piece, double c, double k, double clearance,
+                                   const Polyline& derivative) const {
+    const Vertex start = piece.end > 0 ? derivative.vertices[piece.end - 1] : Vertex{0, 0};
+    double rate_slope = 0;
+    if (piece.end == curve_.vertices.size()) {
+      const double sum = curve_.last_slope + k;
+      rate_slope = derivative.last_slope * k / (sum * sum);
+    } else {
+      const Vertex end = derivative.vertices[piece.end];
+      const Vertex v = vertex(piece.end, clearance);
+      const double length = v.F + k * v.delta - piece.c;
+      rate_slope = ((end.F - start.F) * (1 - piece.dF) - piece.dF * k * (end.delta - start.delta)) / length;
+    }
+    return start.F - (start.F + k * start.delta) * piece.dF + (c - piece.c) * rate_slope;
+  }
+
+  Polyline curve_;
+  std::size_t first_moved_;
+  std::vector<PolylineParameter> parameters_;
+  std::optional<Source> source_;
+};
+
+}  // namespace
+
+LawPointer piecewise_linear_law(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
+                                std::optional<Source> source) {
+  return std::make_shared<PiecewiseLinearLaw>(std::move(curve), first_moved, std::move(parameters), std::move(source));
 }
 
-std::shared_ptr<const Law> linear_law(double k, std::optional<Source> source) {
-  return std::make_shared<PiecewiseLinearLaw>(
-      Polyline{{{0, 0}}, k}, 0, std::vector<PolylineParameter>{{{"k", -1, 1}, {{{0, 0}}, 1}}}, std::move(source));
+LawPointer linear_law(double k, std::optional<Source> source) {
+  return piecewise_linear_law({{{0, 0}}, k}, 0, {{{"k", -1, 1}, {{{0, 0}}, 1}}}, std::move(source));
 }
 
-std::shared_ptr<const Law> read_formula_law(const input::Value& law) {
-  const Flexibility flexibility = read_flexibility(law);
-  const FastenerGeometry& g = flexibility.geometry;
-  return linear_law(flexibility.stiffness,
-                    Source{flexibility.provenance, flexibility.mode == FlexibilityMode::total, g.t, g.E, g.d});
-}
-
-std::shared_ptr<const Law> read_linear_law(const input::Value& law) {
+/// {"type": "linear", "k": force / length}
+LawPointer read_linear_law(const input::Value& law) {
   law.only({"type", "k", "one_sided"});
   return linear_law(law.at("k").number(input::positive));
 }
 
-std::shared_ptr<const Law> read_bilinear_law(const input::Value& law) {
+/// {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.
+LawPointer read_bilinear_law(const input::Value& law) {
   law.only({"type", "k", "F_yield", "k_yield", "one_sided"});
   const double k = law.at("k").number(input::positive);
   const double F = law.at("F_yield").number(input::positive);
   const double k_yield = law.at("k_yield").number(input::not_negative);
-  return std::make_shared<PiecewiseLinearLaw>(
-      Polyline{{{0, 0}, {F / k, F}}, k_yield}, 0,
-      std::vector<PolylineParameter>{{{"k", -1, 1}, {{{0, 0}, {-F / (k * k), 0}}, 0}},
-                                     {{"F_yield", 0, 1}, {{{0, 0}, {1 / k, 1}}, 0}},
-                                     {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}});
+  return piecewise_linear_law({{{0, 0}, {F / k, F}}, k_yield}, 0,
+                              {{{"k", -1, 1}, {{{0, 0}, {-F / (k * k), 0}}, 0}},
+                               {{"F_yield", 0, 1}, {{{0, 0}, {1 / k, 1}}, 0}},
+                               {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}});
 }
 
-std::shared_ptr<const Law> read_four_stage_law(const input::Value& law) {
+/// {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo, Figure 2.
+///
+/// Static friction sticks up to F_slip, the joint slips by "slip" and the fastener's clearance, bears elastically up to
+/// F_yield, yields beyond.
+LawPointer read_four_stage_law(const input::Value& law) {
   law.only({"type", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield", "one_sided"});
   const double k_stick = law.at("k_stick").number(input::positive);
   const double F_slip = law.at("F_slip").number(input::positive);
@@ -152,8 +173,8 @@ std::shared_ptr<const Law> read_four_stage_law(const input::Value& law) {
   const double stuck = F_slip / k_stick, slipped = stuck + slip;
   const double bearing = (F_yield - F_slip) / k_bearing;
   const double d_stick = -stuck / k_stick;
-  return std::make_shared<PiecewiseLinearLaw>(
-      Polyline{{{stuck, F_slip}, {slipped, F_slip}, {slipped + bearing, F_yield}}, k_yield}, 1,
+  return piecewise_linear_law(
+      {{{stuck, F_slip}, {slipped, F_slip}, {slipped + bearing, F_yield}}, k_yield}, 1,
       std::vector<PolylineParameter>{
           {{"k_stick", -1, 1}, {{{d_stick, 0}, {d_stick, 0}, {d_stick, 0}}, 0}},
           {{"F_slip", 0, 1}, {{{1 / k_stick, 1}, {1 / k_stick, 1}, {1 / k_stick - 1 / k_bearing, 0}}, 0}},

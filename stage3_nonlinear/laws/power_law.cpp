@@ -1,78 +1,96 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/laws/power_law.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 
+#include "stage3_nonlinear/laws/laws.hpp"
+
 namespace fastjoint::stage3 {
+namespace {
 
-PowerLaw::PowerLaw(double A, double n, double delta0) : A_(A), n_(n), delta0_(delta0) {
-  assert(A > 0 && n > 0 && n <= 1 && delta0 >= 0);
-}
-
-double PowerLaw::stretch(double F) const { return n_ == 1 ? F / A_ : std::pow(F / A_, 1 / n_); }
-
-double PowerLaw::force(double s, double k) const {
-  if (n_ == 1) return s * (A_ / (A_ + k));
-  // Convex and rising in F: from above Newton's method falls to the root and stays above it.
-  constexpr int most = 100;
-  double F = std::min(s, A_ * std::pow(s / k, n_));
-  for (int i = 0; i < most; ++i) {
-    const double x = k * stretch(F);
-    const double next = F - (F + x - s) / (1 + x / (n_ * F));
-    if (!(next < F)) break;
-    F = next;
+class PowerLaw final : public Law {
+ public:
+  PowerLaw(double A, double n, double delta0) : A_(A), n_(n), delta0_(delta0) {
+    assert(A > 0 && n > 0 && n <= 1 && delta0 >= 0);
   }
-  return F;
-}
 
-Branch PowerLaw::at(double c, double k, double clearance) const {
-  const double s = c - k * gap(clearance);
-  if (s < 0) return Branch::open(c, k);
-  if (s == 0 && n_ < 1) return {.F = 0, .delta = c / k, .dF = 1, .ddelta = 0};
-  const double F = force(s, k);
-  const double x = stretch(F);
-  const double dx = n_ == 1 ? 1 / A_ : x / (n_ * F);  // dx / dF
-  return {.F = F, .delta = gap(clearance) + x, .dF = 1 / (1 + k * dx), .ddelta = dx / (1 + k * dx)};
-}
+  [[nodiscard]] Branch at(double c, double k, double clearance) const override {
+    const double s = c - k * gap(clearance);
+    if (s < 0) return Branch::open(c, k);
+    if (s == 0 && n_ < 1) return {.F = 0, .delta = c / k, .dF = 1, .ddelta = 0};
+    const double F = force(s, k);
+    const double x = stretch(F);
+    const double dx = n_ == 1 ? 1 / A_ : x / (n_ * F);  // dx / dF
+    return {.F = F, .delta = gap(clearance) + x, .dF = 1 / (1 + k * dx), .ddelta = dx / (1 + k * dx)};
+  }
 
-double PowerLaw::coordinate(double F, double k, double clearance) const {
-  return F + k * (gap(clearance) + stretch(F));
-}
+  [[nodiscard]] double coordinate(double F, double k, double clearance) const override {
+    return F + k * (gap(clearance) + stretch(F));
+  }
 
-std::optional<std::vector<double>> PowerLaw::kinks(double k, double clearance) const {
-  if (n_ < 1) return std::nullopt;
-  const double c = k * gap(clearance);
-  return c > 0 ? std::vector{c} : std::vector<double>{};
-}
+  [[nodiscard]] double gap(double clearance) const override { return delta0_ + clearance; }
 
-std::vector<Parameter> PowerLaw::parameters() const { return {{"A", -n_, 1}, {"n", 0, 0}, {"delta0", 1, 0}}; }
+  [[nodiscard]] std::optional<std::vector<double>> corners(double k, double clearance) const override {
+    if (n_ < 1) return std::nullopt;
+    const double c = k * gap(clearance);
+    return c > 0 ? std::vector{c} : std::vector<double>{};
+  }
 
-std::vector<Slope> PowerLaw::slopes(double c, double k, double clearance) const {
-  const Branch on = at(c, k, clearance);
-  if (c < k * gap(clearance)) return std::vector<Slope>(4, {0, 0});
-  // delta(F) moves while c = F + k delta stays (docs/theory.md, section 10).
-  const auto slope = [&](double moves) { return Slope{-k * moves * on.dF, moves * on.dF}; };
-  const double x = stretch(on.F);
-  const double x_log = on.F > 0 ? x * std::log(on.F / A_) : 0;  // its limit at first contact
-  return {slope(1), slope(-x / (n_ * A_)), slope(-x_log / (n_ * n_)), slope(1)};
-}
+  [[nodiscard]] std::vector<Parameter> parameters() const override {
+    return {{"A", -n_, 1}, {"n", 0, 0}, {"delta0", 1, 0}};
+  }
 
-std::vector<std::string> PowerLaw::doubts() const {
-  constexpr double practical = 0.4;  // below (7) in the paper
-  if (n_ >= practical) return {};
-  return {fmt::format("n = {} is below the practical range {} to 1", n_, practical)};
-}
+  [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
+    const Branch on = at(c, k, clearance);
+    if (c < k * gap(clearance)) return std::vector<Slope>(4, {0, 0});
+    // delta(F) moves while c = F + k delta stays (docs/theory.md, section 10).
+    const auto slope = [&](double moves) { return Slope{-k * moves * on.dF, moves * on.dF}; };
+    const double x = stretch(on.F);
+    const double x_log = on.F > 0 ? x * std::log(on.F / A_) : 0;  // its limit at first contact
+    return {slope(1), slope(-x / (n_ * A_)), slope(-x_log / (n_ * n_)), slope(1)};
+  }
 
-std::shared_ptr<const Law> read_power_law(const input::Value& law) {
+  [[nodiscard]] std::vector<std::string> doubts() const override {
+    constexpr double practical = 0.4;  // below (7) in the paper
+    if (n_ >= practical) return {};
+    return {fmt::format("n = {} is below the practical range {} to 1", n_, practical)};
+  }
+
+ private:
+  /// (F / A)^(1/n)
+  [[nodiscard]] double stretch(double F) const { return n_ == 1 ? F / A_ : std::pow(F / A_, 1 / n_); }
+
+  /// Force where F + k (F / A)^(1/n) is s > 0.
+  [[nodiscard]] double force(double s, double k) const {
+    if (n_ == 1) return s * (A_ / (A_ + k));
+    // Convex and rising in F: from above Newton's method falls to the root and stays above it.
+    constexpr int most = 100;
+    double F = std::min(s, A_ * std::pow(s / k, n_));
+    for (int i = 0; i < most; ++i) {
+      const double x = k * stretch(F);
+      const double next = F - (F + x - s) / (1 + x / (n_ * F));
+      if (!(next < F)) break;
+      F = next;
+    }
+    return F;
+  }
+
+  double A_, n_, delta0_;
+};
+
+}  // namespace
+
+LawPointer power_law(double A, double n, double delta0) { return std::make_shared<PowerLaw>(A, n, delta0); }
+
+/// {"type": "power", "A": ..., "n": ..., "delta0": 0}; delta0 may be left out.
+LawPointer read_power_law(const input::Value& law) {
   law.only({"type", "A", "n", "delta0", "one_sided"});
   const double A = law.at("A").number(input::positive);
   const double n = law.at("n").number({.low = 0, .high = 1, .low_allowed = false});
   const auto delta0 = law.find("delta0");
-  return std::make_shared<PowerLaw>(A, n, delta0 ? delta0->number(input::not_negative) : 0.0);
+  return power_law(A, n, delta0 ? delta0->number(input::not_negative) : 0.0);
 }
 
 }  // namespace fastjoint::stage3

@@ -1,101 +1,186 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/laws/table_law.hpp"
-
 #include <fmt/format.h>
 #include <gsl/gsl_interp.h>
 
 #include <algorithm>
 #include <cassert>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <new>
+#include <optional>
+#include <string_view>
 #include <utility>
 
+#include "common/errors.hpp"
+#include "common/program/program.hpp"
+#include "common/program/text_file.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/laws/rising_root.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
-TestPoints points_of(const input::Value& law) {
+class TableLaw final : public Law {
+ public:
+  explicit TableLaw(const TestPoints& points, std::string file) : x_{0}, F_{0}, file_(std::move(file)) {
+    assert(points.size() >= 2);
+    for (const auto& [delta, F] : points) {
+      assert(delta > x_.back() && F >= F_.back());
+      x_.push_back(delta);
+      F_.push_back(F);
+    }
+    spline_.reset(gsl_interp_alloc(gsl_interp_steffen, x_.size()));
+    if (!spline_) throw std::bad_alloc();
+    gsl_interp_init(spline_.get(), x_.data(), F_.data(), x_.size());
+  }
+
+  [[nodiscard]] Branch at(double c, double k, double clearance) const override {
+    const double s = c - k * clearance;
+    if (s < 0) return Branch::open(c, k);
+    // Between the two points around s = F + k x.
+    std::size_t i = 0;
+    while (i + 1 < x_.size() && F_[i + 1] + k * x_[i + 1] < s) ++i;
+    const double low = x_[i], high = i + 1 < x_.size() ? x_[i + 1] : s / k;
+    const auto excess = [&](double x) {
+      const auto [F, slope] = force_and_slope(x);
+      return std::pair(F + k * x - s, slope + k);
+    };
+    const double x = s > 0 ? rising_root(excess, low, high) : 0;
+    const auto [F, slope] = force_and_slope(x);
+    return {.F = F, .delta = clearance + x, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
+  }
+
+  /// Follows chords: first guesses ask for no more.
+  [[nodiscard]] double coordinate(double F, double k, double clearance) const override {
+    std::size_t i = 0;
+    while (i + 2 < x_.size() && F_[i + 1] < F) ++i;
+    const double rise = F_[i + 1] - F_[i];
+    const double x = rise > 0 ? x_[i] + (F - F_[i]) / rise * (x_[i + 1] - x_[i]) : x_[i + 1];
+    return F + k * (clearance + x);
+  }
+
+  [[nodiscard]] double last_delta(double clearance) const override { return clearance + x_.back(); }
+
+  [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
+    const Branch on = at(c, k, clearance);
+    if (on.delta <= clearance) return {{0, 0}};
+    return {{-k * on.dF, on.dF}};  // of the curve moved along delta, at constant F + k delta
+  }
+
+  [[nodiscard]] std::string file() const override { return file_; }
+
+ private:
+  [[nodiscard]] std::array<double, 2> force_and_slope(double x) const {
+    const double inside = std::min(x, x_.back());
+    const double F = gsl_interp_eval(spline_.get(), x_.data(), F_.data(), inside, nullptr);
+    const double slope = gsl_interp_eval_deriv(spline_.get(), x_.data(), F_.data(), inside, nullptr);
+    return {F + slope * (x - inside), std::max(slope, 0.0)};  // rounding may make a level piece fall
+  }
+
+  struct Free {
+    void operator()(gsl_interp* interp) const noexcept { gsl_interp_free(interp); }
+  };
+  std::vector<double> x_, F_;  ///< points with (0, 0): stretch, length; force
+  std::unique_ptr<gsl_interp, Free> spline_;
+  std::string file_;
+};
+
+using Fields = std::vector<std::string_view>;
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write one
+constexpr const char* columns = "two columns, delta and F, parted by a comma, semicolon or tab";
+
+std::string_view trimmed(std::string_view text) {
+  constexpr const char* blank = " \t\r";
+  const auto first = text.find_first_not_of(blank);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+}
+
+Fields split(std::string_view line) {
+  const char separator = line.find(';') != line.npos ? ';' : line.find('\t') != line.npos ? '\t' : ',';
+  Fields fields;
+  while (true) {
+    const auto end = line.find(separator);
+    fields.push_back(trimmed(line.substr(0, end)));
+    if (end == line.npos) return fields;
+    line.remove_prefix(end + 1);
+  }
+}
+
+std::optional<double> number(std::string_view field) {
+  double value = 0;
+  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars knows no plus
+  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
+  return value;
+}
+
+/// Two names; a slip of the pen in the first point is none: it begins as a number does.
+bool is_header(const Fields& fields) {
+  return std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
+    return !field.empty() && !number(field) && std::string_view("0123456789+-.").find(field.front()) == field.npos;
+  });
+}
+
+double checked(std::string_view field, const std::string& place) {
+  const auto value = number(field);
+  if (!value || !std::isfinite(*value) || *value < 0)
+    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: a number >= 0 with a decimal point", place, field));
+  return *value;
+}
+
+/// Path of the file of points, empty if they stand in the law itself.
+std::string file_of(const input::Value& law) {
   const auto file = law.find("file");
-  if (file) {
+  return file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : "";
+}
+
+TestPoints points_of(const input::Value& law) {
+  if (const std::string file = file_of(law); !file.empty()) {
     law.only({"type", "file", "one_sided"});
-    return read_points((std::filesystem::path(law.file()).parent_path() / file->text()).string());
+    return read_points(file);
   }
   law.only({"type", "delta", "F", "one_sided"});
   constexpr std::size_t most = 100000;
   const auto delta = law.at("delta").numbers(2, most, input::not_negative);
   const auto F = law.at("F").numbers(delta.size(), delta.size(), input::not_negative);
   TestPoints points;
-  points.reserve(delta.size());
   for (std::size_t i = 0; i < delta.size(); ++i) points.push_back({delta[i], F[i]});
   return points;
 }
 
 }  // namespace
 
-struct TableLaw::Spline {
-  struct Free {
-    void operator()(gsl_interp* interp) const noexcept { gsl_interp_free(interp); }
-  };
-  std::unique_ptr<gsl_interp, Free> interp;
-};
-
-TableLaw::TableLaw(const TestPoints& points) : x_{0}, F_{0} {
-  assert(points.size() >= 2);
-  for (const auto& [delta, F] : points) {
-    assert(delta > x_.back() && F >= F_.back());
-    x_.push_back(delta);
-    F_.push_back(F);
+TestPoints read_points(const std::string& path) {
+  const std::string text = program::read_text_file(path);
+  std::string_view rest = text;
+  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
+  TestPoints points;
+  bool first = true;
+  for (int n_line = 1; !rest.empty(); ++n_line) {
+    const auto end = std::min(rest.find('\n'), rest.size());
+    const auto line = trimmed(rest.substr(0, std::min(end, rest.find('#'))));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (line.empty()) continue;
+    const std::string place = fmt::format("{}:{}", path, n_line);
+    const Fields fields = split(line);
+    if (fields.size() != 2)
+      throw InputError(
+          fmt::format("{}: {} in '{}'; allowed: {}", place, program::counted(fields.size(), "column"), line, columns));
+    if (!std::exchange(first, false) || !is_header(fields))
+      points.push_back({checked(fields[0], place), checked(fields[1], place)});
   }
-  spline_ = std::make_unique<Spline>();
-  spline_->interp.reset(gsl_interp_alloc(gsl_interp_steffen, x_.size()));
-  if (!spline_->interp) throw std::bad_alloc();
-  gsl_interp_init(spline_->interp.get(), x_.data(), F_.data(), x_.size());
+  if (points.empty()) throw InputError(fmt::format("{}: no points; allowed: {}", path, columns));
+  return points;
 }
 
-TableLaw::~TableLaw() = default;
+LawPointer table_law(const TestPoints& points) { return std::make_shared<TableLaw>(points, ""); }
 
-std::array<double, 2> TableLaw::force_and_slope(double x) const {
-  const double inside = std::min(x, x_.back());
-  const double F = gsl_interp_eval(spline_->interp.get(), x_.data(), F_.data(), inside, nullptr);
-  const double slope = gsl_interp_eval_deriv(spline_->interp.get(), x_.data(), F_.data(), inside, nullptr);
-  return {F + slope * (x - inside), std::max(slope, 0.0)};  // rounding may make a level piece fall
-}
-
-Branch TableLaw::at(double c, double k, double clearance) const {
-  const double s = c - k * clearance;
-  if (s < 0) return Branch::open(c, k);
-  // Between the two points around s = F + k x.
-  std::size_t i = 0;
-  while (i + 1 < x_.size() && F_[i + 1] + k * x_[i + 1] < s) ++i;
-  const double low = x_[i], high = i + 1 < x_.size() ? x_[i + 1] : s / k;
-  const auto excess = [&](double x) {
-    const auto [F, slope] = force_and_slope(x);
-    return std::pair(F + k * x - s, slope + k);
-  };
-  const double x = s > 0 ? rising_root(excess, low, high) : 0;
-  const auto [F, slope] = force_and_slope(x);
-  return {.F = F, .delta = clearance + x, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
-}
-
-double TableLaw::coordinate(double F, double k, double clearance) const {
-  // By chords: first guesses ask for no more.
-  std::size_t i = 0;
-  while (i + 2 < x_.size() && F_[i + 1] < F) ++i;
-  const double rise = F_[i + 1] - F_[i];
-  const double x = rise > 0 ? x_[i] + (F - F_[i]) / rise * (x_[i + 1] - x_[i]) : x_[i + 1];
-  return F + k * (clearance + x);
-}
-
-double TableLaw::last_delta(double clearance) const { return clearance + x_.back(); }
-
-std::vector<Slope> TableLaw::slopes(double c, double k, double clearance) const {
-  const Branch on = at(c, k, clearance);
-  if (on.delta <= clearance) return {{0, 0}};
-  return {{-k * on.dF, on.dF}};  // of the curve moved along delta, at constant F + k delta
-}
-
-std::shared_ptr<const Law> read_table_law(const input::Value& law) {
+/// {"type": "table", "file": CSV} or {"type": "table", "delta": [...], "F": [...]}: points of a test, without (0, 0) or
+/// with it.
+LawPointer read_table_law(const input::Value& law) {
   auto points = points_of(law);
   const auto place = law.find("file") ? law.at("file") : law;
   if (!points.empty() && points[0][0] == 0) {
@@ -113,7 +198,7 @@ std::shared_ptr<const Law> read_table_law(const input::Value& law) {
                  "forces that do not fall: smooth the data, or fit a law to it (scripts/fit_law)");
   }
   if (!(points.back()[1] > 0)) place.fail("no force at any point", "a force > 0");
-  return std::make_shared<TableLaw>(points);
+  return std::make_shared<TableLaw>(points, file_of(law));
 }
 
 }  // namespace fastjoint::stage3

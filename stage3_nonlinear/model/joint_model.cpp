@@ -18,13 +18,17 @@ using formats::PlateMatrices;
 
 std::optional<Eigen::Index> index_of(const std::vector<std::string>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) return std::nullopt;
-  return found - names.begin();
+  return found == names.end() ? std::nullopt : std::optional<Eigen::Index>(found - names.begin());
+}
+
+/// Plate of a name, which the scene has checked.
+std::size_t plate_of(const JointModel& model, const std::string& name) {
+  const auto is_named = [&](const PlateModel& plate) { return plate.name == name; };
+  return std::find_if(model.plates.begin(), model.plates.end(), is_named) - model.plates.begin();
 }
 
 std::vector<PlateMatrices> read_all(const JointScene& scene) {
   std::vector<PlateMatrices> all;
-  all.reserve(scene.plates.size());
   for (const auto& plate : scene.plates) {
     try {
       all.push_back(formats::read_plate_matrices(plate.file));
@@ -82,7 +86,6 @@ int chosen_degree(const JointScene& scene, const std::vector<PlateMatrices>& all
 std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateModel>& plates) {
   const auto names = [](const PlateModel& plate) {
     std::vector<std::string> result;
-    result.reserve(plate.axes.size());
     for (const int axis : plate.axes) result.push_back(fmt::format("\"{}\"", axis_names[axis]));
     return fmt::format("[{}]", fmt::join(result, ", "));
   };
@@ -119,12 +122,10 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
 /// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
 std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, std::size_t hole) {
   std::array<bool, 2> sides{};
-  for (std::size_t plane = 0; plane < fastener.law.size(); ++plane) {
-    if (plane != hole && plane + 1 != hole) continue;
-    const bool both = !scene.laws.at(fastener.law[plane]).one_sided;
+  for (std::size_t plane = hole > 0 ? hole - 1 : 0; plane < std::min(hole + 1, fastener.law.size()); ++plane) {
     const Side positive = plane == hole ? minus_side : plus_side;
     sides[positive] = true;
-    if (both) sides[1 - positive] = true;
+    if (!scene.laws.at(fastener.law[plane]).one_sided) sides[1 - positive] = true;
   }
   return sides;
 }
@@ -142,21 +143,21 @@ void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
 
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, std::size_t at) {
   const Reference& hole = fastener.between[at];
-  const auto is_named = [&](const PlateModel& plate) { return plate.name == hole.plate; };
-  const auto plate = std::find_if(model.plates.begin(), model.plates.end(), is_named);
-  const auto index = index_of(plate->holes, hole.name);
+  const std::size_t plate_at = plate_of(model, hole.plate);
+  const PlateModel& plate = model.plates[plate_at];
+  const auto index = index_of(plate.holes, hole.name);
   if (!index)
-    refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate->file),
-           fmt::format("{}", fmt::join(plate->holes, ", ")));
-  if (model.n_directions() > 1) check_rim_all_around(*plate, hole.name);
+    refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate.file),
+           fmt::format("{}", fmt::join(plate.holes, ", ")));
+  if (model.n_directions() > 1) check_rim_all_around(plate, hole.name);
   const double mu = fastener.friction[at];
-  HoleModel result{static_cast<std::size_t>(plate - model.plates.begin()), *index * model.n_directions(), mu, {}};
+  HoleModel result{plate_at, *index * model.n_directions(), mu, {}};
   if (mu == 0) return result;
   const auto sides = bearing_sides(scene, fastener, at);
   for (const int axis : model.axes) {
     auto& friction = result.friction.emplace_back();
     for (const Side side : {plus_side, minus_side})
-      if (sides[side]) friction[side] = friction_load(*plate, hole.name, mu, axis, side);
+      if (sides[side]) friction[side] = friction_load(plate, hole.name, mu, axis, side);
   }
   return result;
 }
@@ -180,14 +181,11 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
 
 void apply_load(JointModel& model, const LoadScene& load) {
   const Reference& name = load.external;
-  const auto is_named = [&](const PlateModel& candidate) { return candidate.name == name.plate; };
-  PlateModel& plate = *std::find_if(model.plates.begin(), model.plates.end(), is_named);
-  if (const auto rigid = index_of(plate.externals, name.name)) {
-    if (load.is_displacement) {
-      plate.external_displacement[*rigid] = load.value;
-    } else {
-      plate.external_force[*rigid] = load.value;
-    }
+  PlateModel& plate = model.plates[plate_of(model, name.plate)];
+  if (const auto rigid = index_of(plate.externals, name.name); rigid && load.is_displacement) {
+    plate.external_displacement[*rigid] = load.value;
+  } else if (rigid) {
+    plate.external_force[*rigid] = load.value;
   } else if (const auto traction = index_of(plate.tractions, name.name)) {
     if (load.is_displacement)
       refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
@@ -207,10 +205,10 @@ double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::si
   const auto& friction = fastener.holes[of].friction;
   if (friction.empty()) return 0;
   const auto& sides = friction[d];
-  const auto n = static_cast<double>(fastener.holes.size());
+  const double n = double(fastener.holes.size());
   if (fastener.holes.size() == 2) return sides[of == hole ? side : 1 - side].share() / n;
   const auto bears = std::count_if(sides.begin(), sides.end(), [](const auto& each) { return each.load.size() > 0; });
-  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / static_cast<double>(bears) / n;
+  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / double(bears) / n;
 }
 
 void balance(FastenerModel& fastener) {

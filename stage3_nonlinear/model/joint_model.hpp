@@ -24,15 +24,15 @@ struct FrictionLoad {
   [[nodiscard]] double share() const { return resultant / bearing; }
 };
 
-/// Side of a rim that bears: of a bearing force on the plate along + or - the axis.
+/// Side of a rim that bears, under a bearing force on the plate along + or - the axis.
 enum Side : std::size_t { plus_side, minus_side };
 
-/// Where a fastener holds a plate.
+/// Place at which a fastener holds a plate.
 struct HoleModel {
   std::size_t plate = 0;
   Eigen::Index disc = 0;  ///< first unknown of its disc among the plate's
   double mu = 0;          ///< coefficient of friction
-  /// By direction of the joint, then by Side: each component of the bearing force has its own friction case.
+  /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
   std::vector<std::array<FrictionLoad, 2>> friction;
 };
 
@@ -43,8 +43,8 @@ struct FastenerModel {
   bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
 };
 
-/// What friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears on
-/// `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
+/// Part that friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears
+/// on `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
 [[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d,
                                         Side side);
 
@@ -52,8 +52,8 @@ struct FastenerModel {
 /// shear plane, so that a fastener with unlike friction in its holes is in equilibrium (docs/theory.md, section 7.4).
 void balance(FastenerModel& fastener);
 
-/// Between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F and
-/// the first with -F.
+/// Plane between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F
+/// and the first with -F.
 struct ShearPlane {
   std::size_t fastener = 0;
   std::size_t first = 0;  ///< hole of the fastener; the second is the next
@@ -86,9 +86,9 @@ struct JointModel {
   [[nodiscard]] const HoleModel& second_hole(const ShearPlane& plane) const;
   /// "plate:hole"
   [[nodiscard]] std::string name(const HoleModel& hole) const;
-  /// For messages: fastener "1", and of one with several planes also the plates: fastener "1" between "a" and "b".
+  /// Name in messages: fastener "1", and of one with several planes also the plates: fastener "1" between "a" and "b".
   [[nodiscard]] std::string name(const ShearPlane& plane) const;
-  /// For tables: 1, and of one with several planes 1 (a-b).
+  /// Name in tables: 1, and of one with several planes 1 (a-b).
   [[nodiscard]] std::string short_name(const ShearPlane& plane) const;
 };
 

@@ -84,7 +84,8 @@ void check_not_negative(const std::string& file, const MatrixXd& S) {
                     file, least));
 }
 
-/// Over the largest entry; unknown if the file has no estimate, p is not its highest degree, or S is zero.
+/// Largest error over the largest entry; unknown if the file has no estimate, p is not its highest degree, or S is
+/// zero.
 std::optional<double> relative_error(const MatrixXd& error, const MatrixXd& S) {
   if (!error.allFinite() || S.isZero(0)) return std::nullopt;
   return error.cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
@@ -96,7 +97,7 @@ MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
   return A;
 }
 
-/// S or its error.
+/// Matrix S, or its error, of its parts.
 MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   MatrixXd A(dd.rows() + ee.rows(), dd.rows() + ee.rows());
   A << dd, ed.transpose(), ed, ee;

@@ -29,7 +29,7 @@ struct PlateModel {
   std::string matrices_digest, plate_digest;                 ///< of its MATRICES.h5, and of its PLATE.h5
   std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
   std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
-  std::vector<bool> on_springs;                              ///< (m / a) the sheet's own bearing is in S
+  std::vector<bool> on_springs;                              ///< (m / a) the plate's own bearing is in S
   Eigen::MatrixXd S;                                         ///< (m+e, m+e), force / length
   Eigen::MatrixXd R;                                         ///< (m+e, h), length^2
   Eigen::MatrixXd T;                                         ///< (m+e, q), dimensionless
@@ -50,7 +50,7 @@ struct PlateModel {
   /// m: unknowns of the discs.
   [[nodiscard]] Eigen::Index n_discs() const { return holes.size() * axes.size(); }
   [[nodiscard]] Eigen::Index n_externals() const { return externals.size(); }
-  /// Of a disc unknown.
+  /// Hole of a disc unknown.
   [[nodiscard]] const std::string& hole_of(Eigen::Index disc) const { return holes[disc / axes.size()]; }
   [[nodiscard]] int axis_of(Eigen::Index disc) const { return axes[disc % axes.size()]; }
   [[nodiscard]] Eigen::Index n_unknowns() const { return n_discs() + n_externals(); }

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/output/rim_history.hpp"
+#include "stage3_nonlinear/output/rim_quantities.hpp"
 #include "stage3_nonlinear/path/contact_event.hpp"
+#include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -16,7 +17,6 @@ namespace {
 using Eigen::Index;
 
 formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
-  const Index steps = states.size();
   formats::PlateHistory history;
   history.name = plate.name;
   history.matrices_digest = plate.matrices_digest;
@@ -29,19 +29,16 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.traction_id = plate.tractions;
   history.friction_hole = plate.friction_hole;
   history.friction_bearing = plate.friction_bearing;
-  history.D.resize(steps, plate.n_discs());
-  history.De.resize(steps, plate.n_externals());
-  history.Pe.resize(steps, plate.n_externals());
-  history.Lambda.resize(steps, plate.friction_unit_force.size());
-  history.traction.resize(steps, plate.traction_force.size());
-  for (Index step = 0; step < steps; ++step) {
-    const PlateState& state = states[step].plates[at];
-    history.D.row(step) = state.D.transpose();
-    history.De.row(step) = state.De.transpose();
-    history.Pe.row(step) = state.Pe.transpose();
-    history.Lambda.row(step) = state.Lambda.transpose();
-    history.traction.row(step) = state.traction.transpose();
-  }
+  const auto rows = [&](Eigen::VectorXd PlateState::*values, Index n) {
+    Eigen::MatrixXd result(std::ssize(states), n);
+    for (Index step = 0; step < result.rows(); ++step) result.row(step) = states[step].plates[at].*values;
+    return result;
+  };
+  history.D = rows(&PlateState::D, plate.n_discs());
+  history.De = rows(&PlateState::De, plate.n_externals());
+  history.Pe = rows(&PlateState::Pe, plate.n_externals());
+  history.Lambda = rows(&PlateState::Lambda, plate.friction_unit_force.size());
+  history.traction = rows(&PlateState::traction, plate.traction_force.size());
   history.rims = rim_history(plate, states, at);
   return history;
 }
@@ -64,18 +61,11 @@ std::string csv_heads(const JointModel& joint) {
   for (const auto& [vector, unit] : {std::pair("delta_", length), std::pair("F_", force)})
     for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
       heads.push_back(with_unit(std::string(vector) + joint.axis_name(d), unit));
-  for (const char* end : {"first", "second"}) add_rim_csv_heads(end, joint.units, heads);
+  for (const char* side : {"first", "second"})
+    for (const auto& head : rim_csv_heads(side, joint.units)) heads.push_back(head);
   heads.insert(heads.end(), {with_unit("F_error", force), "event"});
   std::transform(heads.begin(), heads.end(), heads.begin(), field);
   return fmt::format("{}\n", fmt::join(heads, ","));
-}
-
-std::string component_fields(const JointModel& joint, const formats::JointResult& result, Index step, Index plane) {
-  std::string text;
-  const Index a = joint.n_directions();
-  for (const auto* vectors : {&result.delta_vector, &result.F_vector})
-    for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(",{}", (*vectors)(step, plane * a + d));
-  return text;
 }
 
 }  // namespace
@@ -88,26 +78,24 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   formats::JointResult result;
   result.p = joint.p;
   result.complete = !path.failure;
-  result.load_factor.resize(steps);
   result.converged = Eigen::VectorXi::Ones(steps);
   result.iterations.resize(steps);
-  result.residual.resize(steps);
+  for (auto* list : {&result.load_factor, &result.residual}) list->resize(steps);
   for (auto* table : {&result.delta, &result.F, &result.transferred_first, &result.transferred_second})
     table->resize(steps, n);
   for (auto* table : {&result.delta_vector, &result.F_vector}) table->resize(steps, n * a);
   for (Index i = 0; i < steps; ++i) {
     const PathStep& step = path.steps[i];
-    const JointState& state = states[i];
     result.load_factor[i] = step.load_factor;
     result.iterations[i] = step.iterations;
     result.residual[i] = step.residual;
     result.event.push_back(event_text(joint, step.events));
-    result.delta_vector.row(i) = step.delta.transpose();
-    result.F_vector.row(i) = step.F.transpose();
-    result.delta.row(i) = amounts(step.delta, a).transpose();
-    result.F.row(i) = amounts(step.F, a).transpose();
-    result.transferred_first.row(i) = state.transferred_first.transpose();
-    result.transferred_second.row(i) = state.transferred_second.transpose();
+    result.delta_vector.row(i) = step.delta;
+    result.F_vector.row(i) = step.F;
+    result.delta.row(i) = amounts(step.delta, a);
+    result.F.row(i) = amounts(step.F, a);
+    result.transferred_first.row(i) = states[i].transferred_first;
+    result.transferred_second.row(i) = states[i].transferred_second;
   }
   for (const auto& plane : joint.planes) {
     result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
@@ -120,6 +108,31 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   return result;
 }
 
+formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
+                                                const LoadPath& path) {
+  const JointNumbers numbers = joint_numbers(joint, equations.system);
+  formats::SensitivityHistory history;
+  for (const auto& hole : numbers.friction) history.mu_hole.push_back(hole.name);
+  for (const auto& number : numbers.law) {
+    history.law_name.push_back(number.law);
+    history.law_number.push_back(number.parameter.name);
+    history.law_unit.push_back(unit(joint.units, -number.parameter.length, 1 - number.parameter.force));
+  }
+  history.force_external = numbers.loads.force;
+  history.displacement_external = numbers.loads.displacement;
+  history.load_factor.resize(std::ssize(path.steps), joint.n_planes());
+  for (const auto& step : path.steps) {
+    Sensitivity each = sensitivity(equations, numbers, step);
+    history.load_factor.row(std::ssize(history.clearance)) = each.load_factor.transpose();
+    history.clearance.push_back(std::move(each.clearance));
+    history.law.push_back(std::move(each.law));
+    history.mu.push_back(std::move(each.mu));
+    history.force.push_back(std::move(each.force));
+    history.displacement.push_back(std::move(each.displacement));
+  }
+  return history;
+}
+
 std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text = csv_heads(joint);
   for (Index i = 0; i < a.F.rows(); ++i) {
@@ -129,9 +142,14 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
                           a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j),
                           std::isfinite(share[j]) ? fmt::to_string(share[j]) : "", a.iterations[i], a.residual[i],
                           field(a.first_hole[j]), field(a.second_hole[j]));
-      text += component_fields(joint, a, i, j);
+      const Index directions = joint.n_directions();
+      for (const auto* vectors : {&a.delta_vector, &a.F_vector})
+        for (Index d = 0; directions > 1 && d < directions; ++d)
+          text += fmt::format(",{}", (*vectors)(i, j * directions + d));
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[j]), &joint.second_hole(joint.planes[j])})
-        text += rim_csv_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
+        text += fmt::format(",{}", fmt::join(rim_csv_fields(a.plates[hole->plate].rims,
+                                                            joint.plates[hole->plate].hole_of(hole->disc), i),
+                                             ","));
       text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "", field(a.event[i]));
     }
   }

@@ -13,6 +13,10 @@ namespace fastjoint::stage3 {
 [[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
                                                 const std::vector<JointState>& states);
 
+/// The derivatives of the bearing forces at every step of the path, as RESULT.h5 holds them.
+[[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
+                                                              const LoadPath& path);
+
 /// One line per increment and shear plane under a line of names; all digits, RFC 4180. What a plate's matrices do not
 /// tell, stresses and bypass loads, is left empty.
 [[nodiscard]] std::string csv(const JointModel& joint, const formats::JointResult& result);

@@ -49,7 +49,7 @@ std::vector<KnownPlane> known_planes(const JointModel& joint) {
   return result;
 }
 
-/// What most fasteners between two sheets have in common; zero of fewer than three.
+/// Offset that most fasteners between two plates have in common; zero of fewer than three.
 Vector2d common_offset(std::vector<Vector2d> offsets) {
   Vector2d median = Vector2d::Zero();
   const auto middle = offsets.begin() + std::ssize(offsets) / 2;
@@ -60,7 +60,7 @@ Vector2d common_offset(std::vector<Vector2d> offsets) {
   return median;
 }
 
-/// What a formula has other than the sheets, "t = 3, 3 instead of 1.6, 2"; empty if nothing.
+/// Numbers that a formula has other than the sheets, "t = 3, 3 instead of 1.6, 2"; empty if nothing.
 std::string unlike(const Source& formula, const KnownPlane& known, double clearance) {
   constexpr double same_t = 0.01, same_E = 0.2, same_d = 0.05;  // a hole is a little wider than its shank
   std::vector<std::string> parts;

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/output/rim_table.hpp"
+#include "stage3_nonlinear/output/rim_quantities.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -33,13 +33,13 @@ std::size_t name_width(const JointModel& joint) {
 /// A column head with its unit, "delta [in]".
 std::string head(const std::string& name, const std::string& unit) { return fmt::format("{} [{}]", name, unit); }
 
-/// Zero instead of rounding.
+/// Force, or zero instead of rounding.
 double rounded(double force, double largest) {
   constexpr double rounding = 1e-10;
   return std::abs(force) <= rounding * largest ? 0 : force;
 }
 
-/// What solved the increments.
+/// Name of what solved the increments.
 std::string method(const JointScene& scene, const LoadPath& path) {
   if (path.linear) return "linear";
   const auto is_exact = [](const PathStep& step) { return step.exact; };
@@ -72,34 +72,21 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
   return text;
 }
 
-/// Heads of the columns for the components of F, where there are two.
-std::string component_heads(const JointModel& joint, const std::string& force) {
-  std::string text;
-  for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
-    text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
-  return text;
-}
-
-std::string components(const JointModel& joint, const Eigen::VectorXd& F, Index plane, double largest) {
-  std::string text;
-  const Index a = joint.n_directions();
-  for (Index d = 0; a > 1 && d < a; ++d) text += fmt::format(" {:>14.6g}", rounded(F[plane * a + d], largest));
-  return text;
-}
-
 std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
-  const std::string length = unit(joint.units, 1, 0);
-  const std::string force = unit(joint.units, 0, 1);
-  std::string text = fmt::format("  {:<{}} {:>16} {:>16}{} {:>20}", "fastener", width, head("delta", length),
-                                 head("F", force), component_heads(joint, force), head("transferred", force));
-  text += fmt::format(" {:>9}\n", "share [%]");
+  const std::string length = unit(joint.units, 1, 0), force = unit(joint.units, 0, 1);
+  const Index a = joint.n_directions(), n_components = a > 1 ? a : 0;
+  std::string text = fmt::format("  {:<{}} {:>16} {:>16}", "fastener", width, head("delta", length), head("F", force));
+  for (Index d = 0; d < n_components; ++d)
+    text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
+  text += fmt::format(" {:>20} {:>9}\n", head("transferred", force), "share [%]");
   const Eigen::VectorXd share = shares(joint, state.transferred_first);
-  const Eigen::VectorXd delta = amounts(step.delta, joint.n_directions());
-  const Eigen::VectorXd F = amounts(step.F, joint.n_directions());
+  const Eigen::VectorXd delta = amounts(step.delta, a), F = amounts(step.F, a);
   for (Index j = 0; j < F.size(); ++j) {
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}{} {:>20.8g}", joint.short_name(joint.planes[j]), width, delta[j],
-                        F[j], components(joint, step.F, j, state.largest_force), state.transferred_first[j]);
-    text += std::isfinite(share[j]) ? fmt::format(" {:>9.3f}\n", share[j]) : fmt::format(" {:>9}\n", "-");
+    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}", joint.short_name(joint.planes[j]), width, delta[j], F[j]);
+    for (Index d = 0; d < n_components; ++d)
+      text += fmt::format(" {:>14.6g}", rounded(step.F[j * a + d], state.largest_force));
+    text += fmt::format(" {:>20.8g} {:>9}\n", state.transferred_first[j],
+                        std::isfinite(share[j]) ? fmt::format("{:.3f}", share[j]) : "-");
   }
   return text;
 }
@@ -111,33 +98,30 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
     for (const int axis : joint.axes) {
       const PlateState& plate = state.plates[i];
-      const std::string& name = joint.plates[i].name;
-      const char* along = axis_names[axis];
-      text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n",
-                          joint.n_directions() == 1 ? name : fmt::format("{} {}", name, along), width,
-                          rounded(plate.applied[axis], state.largest_force),
-                          rounded(plate.by_fasteners[axis], state.largest_force),
-                          rounded(plate.by_supports[axis], state.largest_force));
+      const auto shown = [&](const Eigen::Vector2d& sum) { return rounded(sum[axis], state.largest_force); };
+      const std::string along = joint.n_directions() == 1 ? "" : fmt::format(" {}", axis_names[axis]);
+      text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n", joint.plates[i].name + along, width,
+                          shown(plate.applied), shown(plate.by_fasteners), shown(plate.by_supports));
     }
   text += fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force, fastener by {:.1e}",
                       state.out_of_balance, state.fasteners_out_of_balance);
-  if (state.sheets_out_of_balance)
-    text += fmt::format(", sheet along axes without supports by {:.1e}", *state.sheets_out_of_balance);
+  if (state.plates_out_of_balance)
+    text += fmt::format(", sheet along axes without supports by {:.1e}", *state.plates_out_of_balance);
   return text + "\n";
 }
 
 /// The largest force of all increments with its error bar.
 std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen::MatrixXd& F_error) {
-  Index step = 0, plane = 0;
+  std::size_t step = 0;
+  Index plane = 0;
   double largest = 0;
   for (std::size_t i = 0; i < path.steps.size(); ++i) {
     const Eigen::VectorXd F = amounts(path.steps[i].F, joint.n_directions());
     Index at = 0;
-    if (const double here = F.cwiseAbs().maxCoeff(&at); here > std::abs(largest)) {
-      largest = F[at];
-      step = i;
-      plane = at;
-    }
+    if (!(F.cwiseAbs().maxCoeff(&at) > std::abs(largest))) continue;
+    largest = F[at];
+    step = i;
+    plane = at;
   }
   return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
                      largest, F_error(step, plane), unit(joint.units, 0, 1), joint.name(joint.planes[plane]), step + 1);

@@ -22,22 +22,28 @@ std::string increment_text(const LoadPath& path, const PathStep& step) {
   return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
 }
 
-/// Each plane with the first increment at which it happens.
+/// First step of which a statement is true, or null.
+template <class Is>
+const PathStep* first_step(const LoadPath& path, Is is) {
+  const auto found = std::find_if(path.steps.begin(), path.steps.end(), is);
+  return found == path.steps.end() ? nullptr : &*found;
+}
+
+/// Warns of each plane at the first increment at which it happens.
 void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
   WorstOfKind worst;
   for (std::size_t j = 0; j < joint.planes.size(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const double last = plane.law->last_delta(plane.clearance);
-    for (const auto& step : path.steps) {
-      const double delta = amounts(step.delta, joint.n_directions())[j];
-      const bool open = plane.one_sided && delta < 0;
-      if (open || std::abs(delta) <= last) continue;
-      worst.add(std::abs(delta) / last,
-                fmt::format("{}: {}: delta = {:.6g} at {} is beyond the last point "
-                            "{:.6g} of its law (gap included), which is extrapolated there",
-                            joint.file, joint.name(plane), delta, increment_text(path, step), last));
-      break;
-    }
+    const auto delta = [&](const PathStep& step) { return amounts(step.delta, joint.n_directions())[j]; };
+    const auto is_beyond = [&](const PathStep& step) {
+      return std::abs(delta(step)) > last && !(plane.one_sided && delta(step) < 0);
+    };
+    if (const PathStep* step = first_step(path, is_beyond))
+      worst.add(std::abs(delta(*step)) / last,
+                fmt::format("{}: delta = {:.6g} at {} is beyond the last point {:.6g} of its law (gap included), which "
+                            "is extrapolated there",
+                            joint.name(plane), delta(*step), increment_text(path, *step), last));
   }
   worst.say(result);
 }
@@ -49,7 +55,7 @@ std::string names(const JointModel& joint, const std::vector<Index>& planes) {
   return fmt::format("{}", fmt::join(result, ", "));
 }
 
-/// How each plate moves, by its discs: "plate \"b\" by up to 1 along x".
+/// Motion of each plate by its discs: "plate \"b\" by up to 1 along x".
 std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   std::vector<std::string> parts;
@@ -74,74 +80,66 @@ void warn_of_soft_plates(const JointModel& joint, std::vector<std::string>& resu
   for (const auto& plate : joint.plates)
     if (const double share = stiffness(plate) / stiffness(*stiffest); share > 0 && share < soft)
       result.push_back(
-          fmt::format("{}: plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the "
-                      "same units, and that its moduli and thickness are meant",
-                      joint.file, plate.name, share, stiffest->name));
+          fmt::format("plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the same units, and "
+                      "that its moduli and thickness are meant",
+                      plate.name, share, stiffest->name));
 }
 
-/// Once per law.
+/// Warns once for each law.
 void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& result) {
   std::set<std::string> said;
   for (const auto& plane : joint.planes) {
     const auto source = plane.law->source();
     if (!source || !source->bearing_of_sheet) continue;
-    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)}) {
-      const PlateModel& plate = joint.plates[hole->plate];
-      const bool twice = plate.on_springs[hole->disc / joint.n_directions()];
-      if (!twice || !said.insert(plane.law_name).second) continue;
-      result.push_back(fmt::format(
-          "{}: /laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole \"{}\" have "
-          "already: the joint comes out too soft; take \"fastener only\"",
-          joint.file, plane.law_name, joint.name(*hole)));
-    }
+    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
+      if (joint.plates[hole->plate].on_springs[hole->disc / joint.n_directions()] && said.insert(plane.law_name).second)
+        result.push_back(fmt::format(
+            "/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole \"{}\" have "
+            "already: the joint comes out too soft; take \"fastener only\"",
+            plane.law_name, joint.name(*hole)));
   }
 }
 
-void warn_mechanism(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
-  for (const bool limit : {false, true})
-    for (const auto& step : path.steps) {
-      if (!step.check.mechanism || step.check.at_limit_load() != limit) continue;
-      const Mechanism& mechanism = *step.check.mechanism;
-      const std::string free = motion_text(joint, mechanism.motion);
-      result.push_back(
-          limit ? fmt::format("{}: limit load reached at {}: the laws of {} allow no more force, and nothing else "
-                              "holds the joint; it moves on without more load, in proportion {}",
-                              joint.file, increment_text(path, step), names(joint, mechanism.level), free)
-                : fmt::format("{}: at {} the joint is a mechanism within the gaps of {}: the forces are right, the "
-                              "displacements are one of many; in proportion, it is free to move {}",
-                              joint.file, increment_text(path, step), names(joint, mechanism.open), free));
-      break;
-    }
+void warn_of_mechanisms(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+  const auto say = [&](bool limit, const char* text, std::vector<Index> Mechanism::*planes) {
+    const auto is = [&](const PathStep& step) { return step.check.mechanism && step.check.at_limit_load() == limit; };
+    if (const PathStep* step = first_step(path, is))
+      result.push_back(fmt::format(fmt::runtime(text), increment_text(path, *step),
+                                   names(joint, *step->check.mechanism.*planes),
+                                   motion_text(joint, step->check.mechanism->motion)));
+  };
+  say(false,
+      "at {} the joint is a mechanism within the gaps of {}: the forces are right, the displacements are one of many; "
+      "in proportion, it is free to move {}",
+      &Mechanism::open);
+  say(true,
+      "limit load reached at {}: the laws of {} allow no more force, and nothing else holds the joint; it moves on "
+      "without more load, in proportion {}",
+      &Mechanism::level);
 }
 
 void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                              std::vector<std::string>& result) {
   if (const auto planes = planes_that_may_snap(equations); !planes.empty() && !path.steps.empty()) {
-    const std::string found =
-        !path.left           ? "the one given is followed from no load"
-        : path.left->guessed ? fmt::format(
-                                   "at load factor {:.6g} it could not be followed from the load before, where the "
-                                   "joint may have reached its limit load, and the one given was found from a "
-                                   "first guess (\"initial\")",
-                                   path.left->load_factor)
-                             : fmt::format(
-                                   "it is followed from no load up to load factor {:.6g}, where it jumps: the "
-                                   "one given from there on is another",
-                                   path.left->load_factor);
+    const char* found =
+        !path.left ? "the one given is followed from no load"
+        : path.left->guessed
+            ? "at load factor {:.6g} it could not be followed from the load before, where the joint may have reached "
+              "its limit load, and the one given was found from a first guess (\"initial\")"
+            : "it is followed from no load up to load factor {:.6g}, where it jumps: the one given from there on is "
+              "another";
     result.push_back(
-        fmt::format("{}: the law of {} falls more steeply than the plates hold against: the solution may be one of "
+        fmt::format("the law of {} falls more steeply than the plates hold against: the solution may be one of "
                     "several; {}",
-                    joint.file, names(joint, planes), found));
+                    names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0)));
   }
-  for (const auto& step : path.steps)
-    if (step.check.unstable > 0 && !step.check.locking) {
-      result.push_back(fmt::format(
-          "{}: at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): "
-          "in reality it snaps through before; take a law that does not fall, or hold the joint by displacements",
-          joint.file, increment_text(path, step),
-          step.check.unstable == 1 ? "one way" : fmt::format("{} ways", step.check.unstable)));
-      break;
-    }
+  const auto snaps = [](const PathStep& step) { return step.check.unstable > 0 && !step.check.locking; };
+  if (const PathStep* step = first_step(path, snaps))
+    result.push_back(fmt::format(
+        "at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality it snaps "
+        "through before; take a law that does not fall, or hold the joint by displacements",
+        increment_text(path, *step),
+        step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable)));
 }
 
 /// @param factor At most 1.
@@ -152,23 +150,18 @@ std::string locking_text(double factor) {
       factor);
 }
 
-void warn_self_locking(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
-  for (const auto& step : path.steps) {
-    if (!step.check.locking) continue;
-    result.push_back(
-        fmt::format("{}: at {}, {}", joint.file, increment_text(path, step), locking_text(*step.check.locking)));
-    return;
-  }
+void warn_of_locking(const LoadPath& path, std::vector<std::string>& result) {
+  if (const PathStep* step = first_step(path, [](const PathStep& each) { return each.check.locking.has_value(); }))
+    result.push_back(fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking)));
 }
 
 /// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                        std::vector<std::string>& result) {
   constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
-  const ContactMarks marks(equations.contacts);
+  const ContactCorners corners(equations.contacts);
   Eigen::MatrixXd most = Eigen::MatrixXd::Zero(equations.n_directions(), equations.n_planes());
-  for (std::size_t i = 0; i < path.steps.size(); ++i) {
-    const PathStep& step = path.steps[i];
+  for (const PathStep& step : path.steps) {
     const Eigen::VectorXd all = coordinates(equations.contacts, step.F, step.delta);
     std::vector<Index> unloaded;
     for (Index j = 0; j < most.cols(); ++j) {
@@ -176,17 +169,16 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
       const double before = most.col(j).norm();
       const bool falls = c.norm() < less * before || most.col(j).dot(c) < turned * c.norm() * before;
       if (c.norm() > before) most.col(j) = c;
-      const auto passed = [&](const Mark& mark) { return mark.corner != Corner::contact && mark.at < before; };
+      const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
       const Contact& contact = equations.contacts[j];
-      const bool curved = !contact.law->kinks(contact.stiffness, contact.clearance);
-      if (falls && (curved || std::any_of(marks.of(j).begin(), marks.of(j).end(), passed))) unloaded.push_back(j);
+      const bool curved = !contact.law->corners(contact.stiffness, contact.clearance);
+      if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);
     }
     if (unloaded.empty()) continue;
     result.push_back(
-        fmt::format("{}: increment {} (load factor {:.6g}) unloads {} along its loading curve: laws have no memory, "
-                    "but real fasteners "
-                    "keep a permanent set, so that forces from this increment on differ from theirs",
-                    joint.file, i + 1, step.load_factor, names(joint, unloaded)));
+        fmt::format("{} unloads {} along its loading curve: laws have no memory, but real fasteners keep a permanent "
+                    "set, so that forces from this increment on differ from theirs",
+                    increment_text(path, step), names(joint, unloaded)));
     return;
   }
 }
@@ -198,10 +190,11 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   warn_of_soft_plates(joint, result);
   warn_of_bearing_twice(joint, result);
   warn_beyond_last_point(joint, path, result);
-  warn_mechanism(joint, path, result);
+  warn_of_mechanisms(joint, path, result);
   warn_of_other_solutions(joint, equations, path, result);
-  warn_self_locking(joint, path, result);
+  warn_of_locking(path, result);
   warn_of_unloading(joint, equations, path, result);
+  for (auto& each : result) each.insert(0, joint.file + ": ");
   return result;
 }
 

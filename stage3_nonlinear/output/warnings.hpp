@@ -10,24 +10,24 @@
 
 namespace fastjoint::stage3 {
 
-/// What the solution shows that the user should know, one sentence each: bearing of sheets counted twice, laws used
+/// Warnings that the solution gives cause for, one sentence each: bearing of sheets counted twice, laws used
 /// beyond their last point, a mechanism within the gaps, other solutions, self-locking.
 [[nodiscard]] std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations,
                                                 const LoadPath& path);
 
 /// Numbers that hardly any joint has, one sentence each: friction above 1, a gap or |delta| above a radius, centres of
-/// a fastener's holes apart (of three and more fasteners between two sheets: from the median, since sheets may be drawn
-/// in coordinates of their own), a formula for other sheets, F above d t E. What MATRICES.h5 does not tell of a hole is
-/// not compared.
+/// a fastener's holes apart (of three and more fasteners between two plates: from the median, since plates may be drawn
+/// in coordinates of their own), a formula for other sheets, F above d t E. Numbers that MATRICES.h5 does not tell of a
+/// hole are not compared.
 [[nodiscard]] std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint,
                                                            const LoadPath& path);
 
 /// One sentence for each kind of doubt about rims, naming the hole and the increment where it is largest.
 [[nodiscard]] std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states);
 
-/// Why the path ended, where, and what to check.
+/// Message that says why the path ended, where, and what to check.
 ///
-/// @param n_increments That were asked for.
+/// @param n_increments Number that was asked for.
 /// @param output       File that holds the increments before.
 [[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
                                           std::size_t n_increments, const std::string& output);

@@ -12,7 +12,7 @@ namespace fastjoint::stage3 {
 /// Collects warnings of one kind about several fasteners or holes and gives the worst, with the number of the others.
 class WorstOfKind {
  public:
-  /// @param amount How bad it is, > 0. @param text The warning, without a full stop.
+  /// @param amount Size of the doubt, > 0. @param text The warning, without a full stop.
   void add(double amount, std::string text) {
     ++count_;
     if (!(amount > worst_)) return;

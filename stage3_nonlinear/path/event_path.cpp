@@ -1,47 +1,262 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/path/event_path.hpp"
-
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
 #include "stage3_nonlinear/equations/linear_joint.hpp"
 #include "stage3_nonlinear/equations/piecewise_joint.hpp"
-#include "stage3_nonlinear/path/event_search.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
-/// Between the middles of neighbouring pieces, short ones left out: corners within rounding are one event.
-std::vector<EventPlace> events_of(const ExactPath& path, const ContactMarks& marks) {
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+using Eigen::VectorXi;
+
+constexpr double together = 1e-9;  // events whose load factors differ by less are one
+constexpr int most_halvings_in_doubt = 4;
+constexpr int most_halvings_for_certain = 30;
+
+/// Solved state; what its planes have passed is so just behind it if it begins an interval.
+struct Sample {
+  double load;
+  VectorXd c;
+  VectorXi passed;
+};
+
+/// Place at which something happens.
+struct EventPlace {
+  Place place;
+  int iterations = 0;
+  std::vector<ContactEvent> events = {};
+};
+
+/// Adds events behind those before; ones closer than `least` to the place before happen there.
+void add(std::vector<EventPlace>& to, const Place& place, int iterations, const std::vector<ContactEvent>& events,
+         double least = together) {
+  if (to.empty() || place.load_factor - to.back().place.load_factor > least) {
+    EventPlace& event = to.emplace_back();
+    event.place = place;
+    event.iterations = iterations;
+  }
+  to.back().events.insert(to.back().events.end(), events.begin(), events.end());
+}
+
+/// Result of a search.
+struct FoundEvents {
+  std::vector<EventPlace> events;  ///< ascending
+  std::optional<double> failed;    ///< a load factor that could not be reached; the events are those before it
+};
+
+/// Search of the load factors between first_load_factor and 1 for events, by states that a walk solves.
+class Search {
+ public:
+  Search(const JointEquations& equations, const ContactCorners& corners, Walk& walk)
+      : equations_(equations), corners_(corners), walk_(walk) {}
+
+  FoundEvents run() {
+    constexpr int intervals = 8;
+    const auto first = solved(first_load_factor);
+    if (!first) return std::move(found_);
+    Sample here = *first;
+    for (int i = 1; i <= intervals; ++i) {
+      const auto next = solved(double(i) / intervals);
+      if (!next || !between(here, *next, 0)) break;
+      walk_.put({next->load, next->c}, 0);
+      here = *next;
+    }
+    return std::move(found_);
+  }
+
+ private:
+  std::optional<Sample> solved(double load) {
+    if (walk_.reach(load)) return Sample{load, walk_.here().c, corners_.passed(walk_.here().c)};
+    found_.failed = load;
+    return std::nullopt;
+  }
+
+  /// Finds what happens between two states; false if a state between cannot be solved.
+  bool between(const Sample& a, const Sample& b, int depth) {
+    if (b.load - a.load <= together) return note_unresolved(a, b);
+    if (a.passed == b.passed) {
+      const bool doubtful = depth < most_halvings_in_doubt && points_beyond_a_corner(a, b);
+      return !doubtful || halve(a, b, depth);
+    }
+    if (const auto first = first_crossing(a, b)) {
+      const auto& [load, c, exact] = first->place;
+      if (!between(a, {load, c, a.passed}, depth + 1)) return false;
+      const Sample behind{load, c, passed_behind(a, b, c)};
+      add(found_.events, first->place, first->iterations, corners_.between(a.passed, behind.passed));
+      return between(behind, b, depth);
+    }
+    return depth < most_halvings_for_certain ? halve(a, b, depth) : note_unresolved(a, b);
+  }
+
+  bool halve(const Sample& a, const Sample& b, int depth) {
+    walk_.put({a.load, a.c}, 0);
+    const auto middle = solved(0.5 * (a.load + b.load));
+    return middle && between(a, *middle, depth + 1) && between(*middle, b, depth + 1);
+  }
+
+  /// Too close to be told apart: what differs happens at the end.
+  bool note_unresolved(const Sample& a, const Sample& b) {
+    if (a.passed != b.passed) add(found_.events, {b.load, b.c}, 0, corners_.between(a.passed, b.passed));
+    return true;
+  }
+
+  /// Coordinate of the corner that a plane passes first on its way between numbers of corners that it has passed,
+  /// signed where planes bear both ways.
+  [[nodiscard]] double next_corner(Index plane, int from, int to) const {
+    const bool up = to > from;
+    const int number = up ? (from >= 0 ? from + 1 : from) : (from > 0 ? from : from - 1);
+    return std::copysign(corners_.of(plane)[std::abs(number) - 1].at, number);
+  }
+
+  /// Solves for the load factor and all c with one plane on a corner.
+  [[nodiscard]] std::optional<EventPlace> crossing(const Sample& a, const Sample& b, Index plane, double corner) const {
+    const Index n_directions = equations_.n_directions();
+    const Index rows = equations_.n_unknowns();
+    const auto own = Eigen::seqN(plane * n_directions, n_directions);
+    const auto position = [&](const VectorXd& c) { return amounts(c(own), n_directions)[0]; };
+    double unit = 1;
+    RootProblem problem;
+    problem.residual = [&](const VectorXd& x) -> VectorXd {
+      VectorXd r(rows + 1);
+      r << root_problem(equations_, x[rows], unit).residual(x.head(rows)), position(x.head(rows)) - corner / unit;
+      return r;
+    };
+    problem.jacobian = [&](const VectorXd& x) -> MatrixXd {
+      MatrixXd J = MatrixXd::Zero(rows + 1, rows + 1);
+      J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], unit).jacobian(x.head(rows));
+      J.col(rows).head(rows) = -equations_.system.q / unit;
+      const VectorXd c = x(own);
+      J.row(rows)(own) = n_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
+      return J;
+    };
+    const double from = position(a.c), to = position(b.c);
+    const double share = from == to ? 0.5 : std::clamp((corner - from) / (to - from), 0.0, 1.0);
+    VectorXd c = (1 - share) * a.c + share * b.c;
+    if (!(c(own).norm() > 0)) return std::nullopt;
+    constexpr double tolerance = 1e-13, enough = 1e-11;
+    constexpr int most_iterations = 60;
+    double load = (1 - share) * a.load + share * b.load;
+    int iterations = 0;
+    for (const bool again : {false, true}) {  // relative to the full load, then if need be to its own
+      unit = force_scale(equations_.system, again ? load : 1);
+      VectorXd start(rows + 1);
+      start << c / unit, load;
+      const Root root = newton_root(problem, start, {again ? enough : tolerance, most_iterations});
+      if (!(root.residual.lpNorm<Eigen::Infinity>() <= enough)) {
+        if (again) break;
+        return std::nullopt;
+      }
+      c = unit * root.x.head(rows);
+      load = root.x[rows];
+      iterations += root.iterations;
+    }
+    // Exactly on it: then nothing bears yet.
+    if (n_directions == 1)
+      c[plane] = corner;
+    else
+      c(own) *= corner / position(c);
+    return EventPlace{{load, std::move(c)}, iterations};
+  }
+
+  /// First crossing of those between two states, if nothing else has happened before.
+  [[nodiscard]] std::optional<EventPlace> first_crossing(const Sample& a, const Sample& b) const {
+    std::vector<EventPlace> all;
+    for (Index j = 0; j < a.passed.size(); ++j) {
+      if (a.passed[j] == b.passed[j]) continue;
+      const double corner = next_corner(j, a.passed[j], b.passed[j]);
+      const auto found = crossing(a, b, j, corner);
+      const double at_start = is_on(a.c, j, corner) ? together : -together;
+      if (!found || found->place.load_factor < a.load + at_start || found->place.load_factor > b.load + together)
+        return std::nullopt;
+      all.push_back(*found);
+    }
+    const auto first = std::min_element(all.begin(), all.end(), [](const EventPlace& x, const EventPlace& y) {
+      return x.place.load_factor < y.place.load_factor;
+    });
+    if (first == all.end() || contact_state(equations_.contacts, first->place.c).spent) return std::nullopt;
+    const VectorXd& c = first->place.c;
+    const VectorXi here = corners_.passed(c);
+    for (Index j = 0; j < here.size(); ++j) {
+      const bool passes = a.passed[j] != b.passed[j] && is_on(c, j, next_corner(j, a.passed[j], b.passed[j]));
+      if (here[j] != a.passed[j] && !passes) return std::nullopt;
+    }
+    return *first;
+  }
+
+  [[nodiscard]] bool is_on(const VectorXd& c, Index plane, double corner) const {
+    const double x = amounts(c, equations_.n_directions())[plane];
+    return std::abs(x - corner) <= corners_.nearness(c, std::abs(corner));
+  }
+
+  /// Corners passed behind a crossing: all planes that are on the corner they pass have passed it.
+  [[nodiscard]] VectorXi passed_behind(const Sample& a, const Sample& b, const VectorXd& c) const {
+    VectorXi passed = a.passed;
+    for (Index j = 0; j < passed.size(); ++j)
+      if (passed[j] != b.passed[j] && is_on(c, j, next_corner(j, passed[j], b.passed[j])))
+        passed[j] += b.passed[j] > passed[j] ? 1 : -1;
+    return passed;
+  }
+
+  /// dc / d load factor.
+  [[nodiscard]] VectorXd rate(const Sample& at) const {
+    const double unit = force_scale(equations_.system, at.load);
+    const MatrixXd J = root_problem(equations_, at.load, unit).jacobian(at.c / unit);
+    return J.partialPivLu().solve(equations_.system.q);
+  }
+
+  /// Tells whether the cubics through positions and rates at both ends pass corners that both ends are on the same side
+  /// of.
+  [[nodiscard]] bool points_beyond_a_corner(const Sample& a, const Sample& b) const {
+    const double length = b.load - a.load;
+    const VectorXd rate_a = length * rate(a), rate_b = length * rate(b);
+    if (!rate_a.allFinite() || !rate_b.allFinite()) return false;
+    for (const double t : {0.1, 0.25, 0.5, 0.75, 0.9}) {
+      const double s = 1 - t;
+      const VectorXd c = s * s * (1 + 2 * t) * a.c + t * t * (1 + 2 * s) * b.c + s * t * (s * rate_a - t * rate_b);
+      const VectorXi passed = corners_.passed(c);
+      for (Index j = 0; j < passed.size(); ++j)
+        if (passed[j] != a.passed[j] && !is_on_a_corner(a.c, j) && !is_on_a_corner(b.c, j)) return true;
+    }
+    return false;
+  }
+
+  /// Tells whether a plane is on a corner, where its rate is that of one side only.
+  [[nodiscard]] bool is_on_a_corner(const VectorXd& c, Index plane) const {
+    const auto& own = corners_.of(plane);
+    return std::any_of(own.begin(), own.end(),
+                       [&](const Corner& corner) { return is_on(c, plane, corner.at) || is_on(c, plane, -corner.at); });
+  }
+
+  const JointEquations& equations_;
+  const ContactCorners& corners_;
+  Walk& walk_;
+  FoundEvents found_;
+};
+
+/// Events between the middles of neighbouring pieces, short ones left out: corners within rounding are one event.
+std::vector<EventPlace> events_of(const ExactPath& path, const ContactCorners& corners) {
   constexpr double shortest = 1e-10;
   std::vector<EventPlace> events;
-  std::optional<Eigen::VectorXi> before;
+  std::optional<VectorXi> before;
   double load = 0;
   for (const auto& piece : path.pieces) {
     if (piece.end - piece.begin <= shortest * path.reach()) continue;
-    const Eigen::VectorXi here = marks.stages(path.at(0.5 * (piece.begin + piece.end)));
-    if (before && here != *before) {
-      EventPlace& event = events.emplace_back();
-      event.place.load_factor = load;
-      event.place.c = path.at(load);
-      event.place.exact = true;
-      event.iterations = static_cast<int>(path.piece_of(load)) + 1;
-      event.events = marks.between(*before, here);
-    }
+    const VectorXi here = corners.passed(path.at(0.5 * (piece.begin + piece.end)));
+    if (before && here != *before)
+      add(events, {load, path.at(load), true}, int(path.piece_of(load)) + 1, corners.between(*before, here), 0);
     before = here;
     load = piece.end;
   }
   return events;
-}
-
-/// Those of the exact path if it reaches the full load, else what a search by `walk` finds.
-FoundEvents find_events(const JointEquations& equations, const std::vector<ExactPath>& exact, Walk& walk) {
-  const ContactMarks marks(equations.contacts);
-  if (!exact.empty() && exact[0].reach() >= 1) return {events_of(exact[0], marks), std::nullopt};
-  return search_events(equations, marks, walk);
 }
 
 }  // namespace
@@ -54,7 +269,10 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
   Walk walk(equations, options, exact);
-  const auto [events, failed] = find_events(equations, exact, walk);
+  const ContactCorners corners(equations.contacts);
+  const bool whole = !exact.empty() && exact[0].reach() >= 1;
+  const auto [events, failed] =
+      whole ? FoundEvents{events_of(exact[0], corners), {}} : Search(equations, corners, walk).run();
   if (failed) path.failure = walk.failure(events.size(), *failed);
   for (const auto& event : events) {
     walk.put(event.place, event.iterations);
@@ -65,12 +283,12 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   const bool ends_there = !failed && !events.empty() && events.back().place.load_factor >= at_end;
   path.n_increments = events.size() + (ends_there ? 0 : 1);
   if (failed || ends_there) return path;
-  if (walk.reach(1)) {
-    path.steps.push_back(walk.step());
-    path.left = walk.left();
-  } else {
+  if (!walk.reach(1)) {
     path.failure = walk.failure(events.size(), 1);
+    return path;
   }
+  path.steps.push_back(walk.step());
+  path.left = walk.left();
   return path;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <compare>
 #include <limits>
 #include <optional>
 
@@ -29,12 +30,11 @@ struct Line {
 };
 
 /// A place where cells meet: a corner of a plane's curve, or b = 0 at a shared rim. Planes come first.
-struct Switch {
+struct Border {
   std::size_t at;      ///< plane, or number of planes + number among the shared rims
   std::size_t corner;  ///< of the plane's curve
 
-  bool operator==(const Switch&) const = default;
-  bool operator<(const Switch& other) const { return at != other.at ? at < other.at : corner < other.corner; }
+  auto operator<=>(const Border&) const = default;
 };
 
 class Tracer {
@@ -46,7 +46,7 @@ class Tracer {
   }
 
   ExactPath trace() {
-    std::vector<Switch> tied = switches_near(c_, rounding);
+    std::vector<Border> tied = borders_near(c_, rounding);
     auto line = leave(tied, {});
     for (std::size_t steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
       const auto [end, reached] = next(*line);
@@ -55,7 +55,7 @@ class Tracer {
       const bool moved = advance(*line, stop);
       if (line->loads && stop >= target_) break;
       // Corners that follow each other within rounding are left together.
-      auto here = switches_near(c_, rounding);
+      auto here = borders_near(c_, rounding);
       if (!moved) here.insert(here.end(), tied.begin(), tied.end());
       here.insert(here.end(), reached.begin(), reached.end());
       std::sort(here.begin(), here.end());
@@ -73,12 +73,12 @@ class Tracer {
     return 20 * n;
   }
 
-  [[nodiscard]] bool is_plane(const Switch& s) const { return s.at < joint_.n_planes(); }
-  [[nodiscard]] Index rim(const Switch& s) const { return joint_.shared_rims()[s.at - joint_.n_planes()]; }
+  [[nodiscard]] bool is_plane(const Border& s) const { return s.at < joint_.n_planes(); }
+  [[nodiscard]] Index rim(const Border& s) const { return joint_.shared_rims()[s.at - joint_.n_planes()]; }
 
-  /// Corners at which c is, to a share of its largest entry.
-  [[nodiscard]] std::vector<Switch> switches_near(const VectorXd& c, double share) const {
-    std::vector<Switch> result;
+  /// Borders at which c is, to a share of its largest entry.
+  [[nodiscard]] std::vector<Border> borders_near(const VectorXd& c, double share) const {
+    std::vector<Border> result;
     const double near = share * c.cwiseAbs().maxCoeff();
     for (std::size_t j = 0; j < joint_.n_planes(); ++j)
       for (std::size_t i = 0; i < joint_.curve(j).corners.size(); ++i) {
@@ -91,27 +91,26 @@ class Tracer {
     return result;
   }
 
-  void flip(const Switch& s) {
-    if (is_plane(s)) {
+  void flip(const Border& s) {
+    if (!is_plane(s)) {
+      cell_.side[rim(s)] *= -1;
+    } else {
       auto& piece = cell_.piece[s.at];
       piece = piece == s.corner ? s.corner + 1 : s.corner;
       joint_.follow_signs(cell_);
-    } else {
-      auto& side = cell_.side[rim(s)];
-      side = -side;
     }
   }
 
-  /// Whether the line leaves the cell at a switch where it begins.
-  [[nodiscard]] bool contradicts(const Switch& s, const Line& line, double least_rate) const {
+  /// Tells whether the line leaves the cell at a border where it begins.
+  [[nodiscard]] bool contradicts(const Border& s, const Line& line, double least_rate) const {
     const double rate = is_plane(s) ? line.rate[s.at] : joint_.rim_rate(cell_, rim(s), line.rate);
     const bool above = is_plane(s) ? cell_.piece[s.at] > s.corner : cell_.side[rim(s)] > 0;
     return (above ? -rate : rate) > least_rate;
   }
 
-  /// The line on from here, and its cell, by least index from the cell beyond the switches reached; none if there is
+  /// The line on from here, and its cell, by least index from the cell beyond the borders reached; none if there is
   /// none, or two that both come here: the path turns.
-  std::optional<Line> leave(const std::vector<Switch>& tied, const std::vector<Switch>& reached) {
+  std::optional<Line> leave(const std::vector<Border>& tied, const std::vector<Border>& reached) {
     for (const auto& s : reached) flip(s);
     const std::size_t most_flips = 2 + 20 * tied.size();
     for (std::size_t flips = 0; flips < most_flips; ++flips) {
@@ -119,7 +118,7 @@ class Tracer {
       if (!line) return std::nullopt;
       const double least_rate = rounding * line->rate.cwiseAbs().maxCoeff();
       const auto wrong =
-          std::find_if(tied.begin(), tied.end(), [&](const Switch& s) { return contradicts(s, *line, least_rate); });
+          std::find_if(tied.begin(), tied.end(), [&](const Border& s) { return contradicts(s, *line, least_rate); });
       if (wrong == tied.end()) return line;
       flip(*wrong);
     }
@@ -134,8 +133,8 @@ class Tracer {
     return line_without_stiffness(J);
   }
 
-  /// Where some motion meets no stiffness: the shortest way that balances the load, or else that motion itself, in the
-  /// sense of the load.
+  /// Line where some motion meets no stiffness: the shortest way that balances the load, or else that motion itself, in
+  /// the sense of the load.
   [[nodiscard]] std::optional<Line> line_without_stiffness(const MatrixXd& J) const {
     constexpr double balanced = 1e-9;
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> shortest;
@@ -150,13 +149,13 @@ class Tracer {
     return Line{c_, motion, false};
   }
 
-  /// Parameter at which the line ends, and the switches there.
-  [[nodiscard]] std::pair<double, std::vector<Switch>> next(const Line& line) const {
+  /// Parameter at which the line ends, and the borders there.
+  [[nodiscard]] std::pair<double, std::vector<Border>> next(const Line& line) const {
     const double now = line.loads ? load_ : 0;
     const double least_rate = rounding * line.rate.cwiseAbs().maxCoeff();
     double end = infinity;
-    std::vector<Switch> reached;
-    const auto meet = [&](double t, const Switch& s) {
+    std::vector<Border> reached;
+    const auto meet = [&](double t, const Border& s) {
       if (t < end) {
         end = std::max(t, now);
         reached.assign(1, s);
@@ -180,7 +179,7 @@ class Tracer {
     return {end, reached};
   }
 
-  /// Goes along the line; whether that is further than rounding.
+  /// Goes along the line; true if that is further than rounding.
   bool advance(const Line& line, double t) {
     const double now = line.loads ? load_ : 0;
     const bool moved = t - now > rounding * t;

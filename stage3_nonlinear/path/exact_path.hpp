@@ -31,7 +31,7 @@ struct ExactPath {
 /// friction changes its side (docs/theory.md, section 8.6). Each piece is solved on its own, so that errors do not add
 /// up.
 ///
-/// A sheet that gaps leave free moves as little as the equations allow; a load that meets no stiffness moves it at
+/// A plate that gaps leave free moves as little as the equations allow; a load that meets no stiffness moves it at
 /// constant load until a fastener bears. The path ends before `target` where none does, or where friction makes it turn
 /// back.
 ///

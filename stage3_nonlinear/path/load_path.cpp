@@ -49,7 +49,7 @@ LoadPath walk_along(const JointEquations& equations, const std::vector<double>& 
                     const PathOptions& options, std::vector<ExactPath> exact) {
   LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
   Walk walk(equations, options, std::move(exact));
-  const ContactMarks marks(equations.contacts);
+  const ContactCorners corners(equations.contacts);
   for (std::size_t i = 0; i < load_factors.size(); ++i) {
     const VectorXd before = walk.here().c;
     if (!walk.reach(load_factors[i])) {
@@ -57,7 +57,7 @@ LoadPath walk_along(const JointEquations& equations, const std::vector<double>& 
       break;
     }
     path.steps.push_back(walk.step());
-    path.steps.back().events = marks.at(before, walk.here().c);
+    path.steps.back().events = corners.at(before, walk.here().c);
   }
   path.left = walk.left();
   return path;

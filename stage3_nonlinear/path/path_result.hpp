@@ -13,7 +13,7 @@
 
 namespace fastjoint::stage3 {
 
-/// How often a step that does not converge is halved before the path ends.
+/// Number of times that a step that does not converge is halved before the path ends.
 inline constexpr int max_halvings = 6;
 
 /// A converged increment.
@@ -27,7 +27,7 @@ struct PathStep {
   std::vector<ContactEvent> events = {};  ///< what happens exactly here
 };
 
-/// Where a path ended early.
+/// Place and reason of an early end of a path.
 struct PathFailure {
   std::size_t increment;  ///< 0-based
   double load_factor;     ///< that was asked for
@@ -37,7 +37,8 @@ struct PathFailure {
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
   std::vector<Eigen::Index> level;
   std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
-  /// What is out of balance in an increment that converged, where that is why, and by how much of the largest force.
+  /// Part that is out of balance in an increment that converged, if that ended the path, and by how much of the largest
+  /// force.
   std::string unbalanced = {};
   double out_of_balance = 0, allowed = 0;
 };

@@ -6,9 +6,8 @@
 #include <limits>
 #include <utility>
 
-#include "stage3_nonlinear/equations/first_guess.hpp"
-#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
-#include "stage3_nonlinear/solvers/newton_solver.hpp"
+#include "stage3_nonlinear/equations/linear_joint.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -53,11 +52,6 @@ bool Walk::reach(double target) {
   return true;
 }
 
-void Walk::put(Place place, int iterations) {
-  here_ = std::move(place);
-  iterations_ = iterations;
-}
-
 PathStep Walk::step() const {
   const auto state = contact_state(equations_.contacts, here_.c);
   const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor);
@@ -85,7 +79,7 @@ std::optional<double> Walk::locking(double load_factor) const {
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
 
-/// From the last state only.
+/// Uses the last state only.
 bool Walk::follow(double target, int halvings_left) {
   const Place start = here_;
   const bool whole = solve_from_here(target);
@@ -123,7 +117,16 @@ bool Walk::take_known(double target) {
     here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
     return true;
   }
-  return take_exact(target);
+  for (const auto& path : exact_) {
+    if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
+    const VectorXd c = path.at(target);
+    const auto state = contact_state(equations_.contacts, c);
+    if (!is_small(equations_.system.residual(state.F, state.delta, target).lpNorm<Eigen::Infinity>())) return false;
+    iterations_ += int(path.piece_of(target)) + 1;
+    here_ = {target, c, true};
+    return true;
+  }
+  return false;
 }
 
 bool Walk::solve_from_guesses(double target) {
@@ -147,20 +150,6 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
   return solved_by(solver_) || (solver_ != newton_root && solved_by(newton_root));
 }
 
-bool Walk::take_exact(double target) {
-  for (const auto& path : exact_) {
-    if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
-    const VectorXd c = path.at(target);
-    const auto state = contact_state(equations_.contacts, c);
-    const VectorXd r = equations_.system.residual(state.F, state.delta, target);
-    if (!is_small(r.lpNorm<Eigen::Infinity>())) return false;
-    iterations_ += static_cast<int>(path.piece_of(target)) + 1;
-    here_ = {target, c, true};
-    return true;
-  }
-  return false;
-}
-
 /// Friction of the turn before as a load: each turn then has a solution that damped Newton finds, and the turns
 /// converge where friction changes the forces by less than themselves.
 bool Walk::solve_by_turns(double target) {
@@ -176,10 +165,6 @@ bool Walk::solve_by_turns(double target) {
     if (take(run(problem, c, newton_root), target)) return true;
   }
   return false;
-}
-
-bool Walk::converged(const Root& root) const {
-  return root.converged || is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>());
 }
 
 Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction solver) {
@@ -202,7 +187,7 @@ bool Walk::take(const Root& root, double target) {
   return true;
 }
 
-/// Of all tries the one that came closest counts.
+/// Keeps the try that came closest.
 void Walk::note_failure(const Root& root) {
   if (converged(root)) return;  // past all that a law carries
   Index at = 0;

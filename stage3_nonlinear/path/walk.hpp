@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "stage3_nonlinear/path/exact_path.hpp"
@@ -11,14 +12,14 @@
 
 namespace fastjoint::stage3 {
 
-/// Where a walk along the load factors is.
+/// Place of a walk along the load factors.
 struct Place {
   double load_factor = 0;
   Eigen::VectorXd c;   ///< (n a) contact coordinates, force
   bool exact = false;  ///< on an exact path
 };
 
-/// One walk along the load factors: what has converged, and what it took.
+/// Walk along the load factors: what has converged, and what it took.
 class Walk {
  public:
   /// @param exact Paths to go by as far as they reach; where one ends, the solvers go on.
@@ -28,7 +29,7 @@ class Walk {
   bool reach(double target);
   [[nodiscard]] const Place& here() const { return here_; }
   /// Goes on from a solution found elsewhere by so many iterations.
-  void put(Place place, int iterations);
+  void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
 
   [[nodiscard]] PathStep step() const;
   [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const;
@@ -37,21 +38,23 @@ class Walk {
   [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
 
  private:
-  /// On the sides that bear at the last load factor, or would with rigid fasteners without friction: the lower level.
+  /// Lower friction reserve of the sides that bear at the last load factor and of those that would bear if the
+  /// fasteners were rigid and without friction.
   [[nodiscard]] std::optional<double> locking(double load_factor) const;
-  /// A residual within the tolerance, or within rounding, force.
+  /// True if a residual, force, is within the tolerance or within rounding.
   [[nodiscard]] bool is_small(double residual) const;
   bool follow(double target, int halvings_left);
   bool guess(double target, int halvings_left);
   bool solve_from_here(double target);
-  /// At no load, or on an exact path.
+  /// Goes to no load, or along an exact path.
   bool take_known(double target);
   bool solve_from_guesses(double target);
   bool solve_from(const std::vector<Eigen::VectorXd>& starts, double target);
-  bool take_exact(double target);
   bool solve_by_turns(double target);
   Root run(const RootProblem& problem, const Eigen::VectorXd& start, SolveFunction solver);
-  [[nodiscard]] bool converged(const Root& root) const;
+  [[nodiscard]] bool converged(const Root& root) const {
+    return root.converged || is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>());
+  }
   bool take(const Root& root, double target);
   void note_failure(const Root& root);
 

@@ -20,15 +20,14 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// u . S u + 2 u . T f - f . C f at every degree, (np).
 VectorXd energies(const PlateDegrees& degrees, const VectorXd& u, const VectorXd& f) {
   VectorXd values(degrees.p.size());
-  for (Index i = 0; i < values.size(); ++i) {
+  for (Index i = 0; i < values.size(); ++i)
     values[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
-  }
   return values;
 }
 
 bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
 
-/// What a plate adds to the errors of all forces, (n).
+/// Part of a plate in the errors of all forces, (n).
 /// @param w (n, m + e) change of each force per force on each unknown.
 VectorXd plate_errors(const PlateModel& plate, const MatrixXd& w, const PlateState& state) {
   VectorXd u(plate.n_unknowns());
@@ -49,14 +48,14 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& w, const PlateSta
   return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
 }
 
-/// Of one increment, (n).
+/// Errors of the forces of one increment, (n).
 VectorXd errors(const JointModel& joint, const JointEquations& equations, const PathStep& step,
                 const JointState& solution) {
   const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
   ContactState state = contact_state(equations.contacts, c);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
   Slopes slopes = implicit_slopes(equations.system, state, equations.system.D_delta.transpose());
-  slopes.no_column.clear();  // errors of S exert no net force on a floating sheet, so that these columns do not count
+  slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
   const MatrixXd w = of_amounts(slopes, state, c);
   VectorXd result = VectorXd::Zero(w.rows());
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {

@@ -13,11 +13,11 @@ namespace fastjoint::stage3 {
 /// Estimated errors of the n bearing forces (with two directions of their amounts) by those of the plates' matrices,
 /// shape (steps, n), force; none if those of a plate are not known.
 ///
-/// To first order an error of a plate's matrices acts as a load on its unknowns; implicit_slopes gives what that load
+/// An error of a plate's matrices acts, to first order, as a load on its unknowns; implicit_slopes gives what that load
 /// does to each force. The last change with p is extrapolated as the plate's energy is, and errors of several plates
 /// are added without sign (docs/theory.md, section 5.3).
 ///
-/// Of matrices of one degree, as from a laboratory, the file's own S_error counts, with the worst sign of every entry.
+/// The file's own S_error counts for matrices of one degree, as from a laboratory, with the worst sign of every entry.
 /// Errors of forces at a limit load are infinite.
 [[nodiscard]] std::optional<Eigen::MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations,
                                                           const LoadPath& path, const std::vector<JointState>& states);

@@ -2,7 +2,6 @@
 #include "stage3_nonlinear/results/joint_state.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -28,7 +27,7 @@ Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
   return bearing;
 }
 
-/// Null without friction.
+/// Friction case of a hole for a bearing force; null without friction.
 const FrictionLoad* friction_at(const HoleModel& hole, Index direction, double bearing) {
   if (hole.friction.empty()) return nullptr;
   return &hole.friction[direction][bearing < 0 ? minus_side : plus_side];
@@ -49,7 +48,7 @@ VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& 
   return amounts(result, a);
 }
 
-/// What acts on one plate and what its rows ask for, force.
+/// Forces that act on one plate and that its rows ask for.
 struct PlateForces {
   VectorXd asked;     ///< (m+e) S u + R Lambda + T f
   VectorXd discs;     ///< (m) by the fasteners' bearing
@@ -82,14 +81,6 @@ PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd
   return forces;
 }
 
-void add_sums(PlateState& state, const PlateModel& plate, const PlateForces& forces) {
-  for (Index i = 0; i < state.Pe.size(); ++i) state.applied[plate.external_axis[i]] += state.Pe[i];
-  for (Index i = 0; i < state.traction.size(); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
-  for (Index i = 0; i < plate.n_discs(); ++i)
-    state.by_fasteners[plate.axis_of(i)] += forces.discs[i] + forces.friction[i];
-  state.by_supports = -(state.applied + state.by_fasteners);
-}
-
 /// Fills in the plate and returns its worst row, force.
 double fill(PlateState& state, const PlateModel& plate, const PlateForces& forces, const VectorXd& u, double factor) {
   const Index m = plate.n_discs();
@@ -103,17 +94,17 @@ double fill(PlateState& state, const PlateModel& plate, const PlateForces& force
   state.rims = rim_states(plate, {amounts, forces.discs, forces.friction});
   double worst = (forces.asked.head(m) - forces.discs).cwiseAbs().maxCoeff();
   for (Index i = 0; i < state.Pe.size(); ++i) {
-    if (plate.external_displacement[i]) {
-      state.Pe[i] = forces.asked[m + i];
-    } else {
-      worst = std::max(worst, std::abs(forces.asked[m + i] - state.Pe[i]));
-    }
+    if (plate.external_displacement[i]) state.Pe[i] = forces.asked[m + i];
+    worst = std::max(worst, std::abs(forces.asked[m + i] - state.Pe[i]));
+    state.applied[plate.external_axis[i]] += state.Pe[i];
   }
-  add_sums(state, plate, forces);
+  for (Index i = 0; i < state.traction.size(); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
+  for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += forces.discs[i] + forces.friction[i];
+  state.by_supports = -(state.applied + state.by_fasteners);
   return worst;
 }
 
-/// What the holes of a fastener give it altogether, bearing and friction: worst component of all fasteners, force.
+/// Worst component of what the holes of a fastener give it altogether, bearing and friction, of all fasteners, force.
 double worst_fastener(const JointModel& joint, const std::vector<PlateForces>& plates) {
   double worst = 0;
   for (const auto& fastener : joint.fasteners) {
@@ -127,8 +118,8 @@ double worst_fastener(const JointModel& joint, const std::vector<PlateForces>& p
   return worst;
 }
 
-/// What the supports of a plate must give along axes along which it has none, since it moves as one without force:
-/// worst of them, force; none if there are no such axes.
+/// Worst force that the supports of a plate must give along axes along which it has none, since it moves as one without
+/// force; none if there are no such axes.
 std::optional<double> given_by_no_support(const PlateModel& plate, const PlateState& state) {
   constexpr double rounding = 1e-9;
   std::optional<double> worst;
@@ -142,20 +133,6 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
     worst = std::max(worst.value_or(0), std::abs(state.by_supports[axis]));
   }
   return worst;
-}
-
-/// Of a plane, in ascending order.
-std::array<std::size_t, 2> plates_of(const JointModel& joint, Index plane) {
-  const ShearPlane& at = joint.planes[plane];
-  const auto [lower, higher] = std::minmax(joint.first_hole(at).plate, joint.second_hole(at).plate);
-  return {lower, higher};
-}
-
-/// Forces of the planes with the sign that they have when the lower plate comes first; amounts have none.
-VectorXd from_lower_plate(const JointModel& joint, VectorXd forces) {
-  for (Index j = 0; j < forces.size() && joint.n_directions() == 1; ++j)
-    if (joint.first_hole(joint.planes[j]).plate != plates_of(joint, j)[0]) forces[j] = -forces[j];
-  return forces;
 }
 
 }  // namespace
@@ -174,15 +151,15 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
     forces.push_back(plate_forces(joint, i, u, step.load_factor, bearing));
     state.out_of_balance = std::max(state.out_of_balance, fill(state.plates[i], plate, forces[i], u, step.load_factor));
-    if (const auto sheet = given_by_no_support(plate, state.plates[i]))
-      state.sheets_out_of_balance = std::max(state.sheets_out_of_balance.value_or(0), *sheet);
+    if (const auto worst = given_by_no_support(plate, state.plates[i]))
+      state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), *worst);
     const double traction = std::abs(step.load_factor) * plate.traction_force.lpNorm<Eigen::Infinity>();
     state.largest_force = std::max({state.largest_force, state.plates[i].Pe.lpNorm<Eigen::Infinity>(), traction});
   }
   state.fasteners_out_of_balance = worst_fastener(joint, forces);
   if (!(state.largest_force > 0)) return state;
   for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;
-  if (state.sheets_out_of_balance) *state.sheets_out_of_balance /= state.largest_force;
+  if (state.plates_out_of_balance) *state.plates_out_of_balance /= state.largest_force;
   return state;
 }
 
@@ -194,7 +171,7 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
     JointState state = joint_state(joint, system, path.steps[i]);
     const auto [worst, what] =
         std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
-                  std::pair(state.sheets_out_of_balance.value_or(0), "a sheet")});
+                  std::pair(state.plates_out_of_balance.value_or(0), "a sheet")});
     if (!(worst <= allowed)) {
       const double reached = i > 0 ? path.steps[i - 1].load_factor : 0;
       path.failure = PathFailure{i, path.steps[i].load_factor, reached, 0, 0, {}, {}, what, worst, allowed};
@@ -208,12 +185,19 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
 
 VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   constexpr double rounding = 1e-9;
-  const VectorXd passed = from_lower_plate(joint, transferred);
+  VectorXd passed = transferred;  // with the sign that it has when the lower plate comes first; amounts have none
+  std::vector<std::pair<std::size_t, std::size_t>> plates;  // of each plane, ascending
+  for (Index j = 0; j < passed.size(); ++j) {
+    const std::size_t first = joint.first_hole(joint.planes[j]).plate,
+                      second = joint.second_hole(joint.planes[j]).plate;
+    plates.push_back(std::minmax(first, second));
+    if (joint.n_directions() == 1 && first > second) passed[j] = -passed[j];
+  }
   VectorXd result(passed.size());
   for (Index j = 0; j < result.size(); ++j) {
     double sum = 0, amount = 0;
     for (Index i = 0; i < result.size(); ++i) {
-      if (plates_of(joint, i) != plates_of(joint, j)) continue;
+      if (plates[i] != plates[j]) continue;
       sum += passed[i];
       amount += std::abs(passed[i]);
     }

@@ -27,15 +27,15 @@ struct PlateState {
 /// The whole joint at one increment, from the plates' own matrices.
 struct JointState {
   std::vector<PlateState> plates;
-  /// What each plane transfers, friction included, by the friction of its first and of its second hole, by amount where
+  /// Force that each plane transfers, friction included, by that of its first and of its second hole, by amount where
   /// the discs have two directions, (n), force; a fastener in balance transfers one and the same.
   Eigen::VectorXd transferred_first, transferred_second;
   double largest_force = 0;  ///< of externals, tractions and fasteners
   // Over the largest force:
   double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
   double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of a fastener give it
-  /// Worst sum of all forces on a sheet along an axis along which nothing supports it; none if there is none.
-  std::optional<double> sheets_out_of_balance;
+  /// Worst sum of all forces on a plate along an axis along which nothing supports it; none if there is none.
+  std::optional<double> plates_out_of_balance;
 };
 
 /// The states of all steps. A path whose forces do not balance, to 1e-8 of the largest or to what the solver's
@@ -45,8 +45,8 @@ struct JointState {
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 
-/// Per cent of the sum over all planes between the same two plates, whichever their fasteners name first, shape (n);
-/// NaN where the sum is nothing but rounding.
+/// Shares in per cent of the sum over all planes between the same two plates, whichever their fasteners name first,
+/// shape (n); NaN where the sum is nothing but rounding.
 [[nodiscard]] Eigen::VectorXd shares(const JointModel& joint, const Eigen::VectorXd& transferred);
 
 }  // namespace fastjoint::stage3

@@ -15,17 +15,13 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// The error where one degree alone says nothing.
+/// Error where one degree alone says nothing.
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 /// Half width of what is left out around a jump of friction, degrees: the point itself and its neighbours.
 constexpr double left_out = 7.5;
 
-/// Friction whose peak is below this share of the bearing stress is no jump to speak of: of a force almost along one
-/// axis the other's friction must not hide the peak beside the hole.
-constexpr double least_jump = 0.01;
-
-/// A maximum between points.
+/// Maximum between points.
 struct Peak {
   double value = 0, angle = 0;
   Index at = 0;  ///< nearest point
@@ -33,10 +29,11 @@ struct Peak {
 
 double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 
-/// The components of friction that jump to speak of, else 0.
+/// Components of friction whose peak is more than 1 % of the bearing stress, else 0: the friction of the other axis
+/// must not hide the peak beside the hole under a force almost along one axis.
 Eigen::Vector2d jumping(const Eigen::Vector2d& friction, const Eigen::Vector2d& bearing) {
   // The cosine distribution's peak stress over F / (d t) is twice its resultant over F.
-  const double negligible = least_jump / 2 * bearing.norm();
+  const double negligible = 0.01 / 2 * bearing.norm();
   return (friction.array().abs() > negligible).select(friction, 0);
 }
 
@@ -50,7 +47,6 @@ class Rim {
       const double jump = 90 * axis + (friction[axis] > 0 ? 0 : 180);
       return friction[axis] != 0 && std::abs(turn(angle - jump)) <= left_out;
     };
-    allowed_.reserve(angle_.size());
     for (const double angle : angle_) allowed_.push_back(!jumps(angle, 0) && !jumps(angle, 1));
   }
 
@@ -62,30 +58,27 @@ class Rim {
   [[nodiscard]] std::optional<Peak> peak(const VectorXd& value) const {
     std::optional<Peak> best;
     for (Index i = 0; i < angle_.size(); ++i)
-      if (allowed(i) && (!best || value[i] > best->value)) best = Peak{value[i], angle_[i], i};
+      if (allowed_[i] && (!best || value[i] > best->value)) best = Peak{value[i], angle_[i], i};
     if (!best) return best;
-    const Index before = neighbour(best->at, -1), after = neighbour(best->at, 1);
+    const Index n = angle_.size(), before = (best->at + n - 1) % n, after = (best->at + 1) % n;
     const double step = distance(best->at, after);
     const bool between = step > 0 && std::abs(distance(before, best->at) - step) < same_step * step;
-    if (between && allowed(before) && allowed(after)) refine(value[before], value[after], step, *best);
+    if (between && allowed_[before] && allowed_[after]) refine(value[before], value[after], step, *best);
     best->angle = turn(best->angle);
     return best;
   }
 
-  /// How much of all radial stress, by amount, is on the half that bears under a force.
+  /// Share of all radial stress, by amount, on the half that bears under a force.
   [[nodiscard]] double bearing_share(const VectorXd& sigma_rr, const Eigen::Vector2d& force) const {
-    double bearing = 0;
-    for (Index i = 0; i < angle_.size(); ++i) {
-      const double angle = angle_[i] * rim::degree;
-      if (force[0] * std::cos(angle) + force[1] * std::sin(angle) > 0) bearing += std::abs(sigma_rr[i]);
-    }
-    return bearing / sigma_rr.lpNorm<1>();
+    const Eigen::ArrayXd angle = angle_.array() * rim::degree;
+    const auto bears = force[0] * angle.cos() + force[1] * angle.sin() > 0;
+    return bears.select(sigma_rr.array().abs(), 0).sum() / sigma_rr.lpNorm<1>();
   }
 
-  /// Force on the rim along an axis by the pressure around a whole circle in equal steps, else NaN.
+  /// Force on the rim along an axis by the pressure around a whole circle in equal steps; NaN on part of a circle.
   /// @param area d t
   [[nodiscard]] double force(const VectorXd& sigma_rr, int axis, double area) const {
-    const auto n = static_cast<double>(angle_.size());
+    const double n = double(angle_.size());
     if (std::abs(distance(angle_.size() - 1, 0) - 360 / n) > same_step * 360) return std::nan("");
     const Eigen::ArrayXd off_axis = (angle_.array() - 90 * axis) * rim::degree;
     return -off_axis.cos().matrix().dot(sigma_rr) / n * std::numbers::pi * area;
@@ -96,17 +89,14 @@ class Rim {
     constexpr double around = 45;
     double largest = 0;
     for (Index i = 0; i < angle_.size(); ++i)
-      if (allowed(i) && std::abs(turn(angle_[i] - angle_[at])) <= around)
+      if (allowed_[i] && std::abs(turn(angle_[i] - angle_[at])) <= around)
         largest = std::max(largest, std::abs(change[i]));
     return largest;
   }
 
  private:
-  [[nodiscard]] bool allowed(Index i) const { return allowed_[i]; }
   static constexpr double same_step = 1e-6;
 
-  /// The next point counter-clockwise or before, around a closed rim.
-  [[nodiscard]] Index neighbour(Index i, Index by) const { return (i + by + angle_.size()) % angle_.size(); }
   /// Counter-clockwise, degrees; negative or 0 where that is not the shorter way.
   [[nodiscard]] double distance(Index from, Index to) const { return turn(angle_[to] - angle_[from]); }
   static void refine(double before, double after, double step, Peak& peak) {
@@ -133,30 +123,6 @@ void read_peak(const formats::PlateStresses& a, const Rim& rim, std::size_t leve
       level > 0 ? rim.change_around(peak->at, hoop - rim.stress(a.sigma_tt[level - 1], amounts)) : unknown;
 }
 
-/// Forces over the sections on the two sides of a hole along x.
-struct Sections {
-  std::optional<Index> plus, minus;
-};
-
-Sections sections_of(const formats::PlateStresses& a, const std::string& hole) {
-  Sections result;
-  for (std::size_t i = 0; i < a.section_hole.size(); ++i) {
-    if (a.section_hole[i] != hole) continue;
-    if (a.section_side[i] == "+x") result.plus = i;
-    if (a.section_side[i] == "-x") result.minus = i;
-  }
-  return result;
-}
-
-/// Tension is N_plus on the right and N_minus on the left; the fastener's force T along +x takes N_minus - N_plus. It
-/// bears on the side that it pushes to.
-double bypass(std::optional<double> N_plus, std::optional<double> N_minus, double T) {
-  const double right = N_plus.value_or(N_minus.value_or(0) - T);
-  const double left = N_minus.value_or(N_plus.value_or(0) + T);
-  if (T == 0) return (left + right) / 2;
-  return T > 0 ? right : left;
-}
-
 /// Forces over all sections of a plate.
 struct SectionForces {
   VectorXd force;                 ///< (s)
@@ -164,19 +130,26 @@ struct SectionForces {
 };
 
 /// @param T Force of the fastener along x, friction included. @param largest Force anywhere on the plate.
-void read_sections(const formats::PlateStresses& a, const std::string& hole, const SectionForces& forces, double T,
+void read_sections(const formats::PlateStresses& a, const std::string& hole, const SectionForces& sections, double T,
                    double largest, RimState& state) {
-  const Sections at = sections_of(a, hole);
-  if (!at.plus && !at.minus) return;
-  const auto passing = [&](const VectorXd& force) {
-    const auto N = [&](std::optional<Index> i) { return i ? std::optional(force[*i]) : std::nullopt; };
-    return bypass(N(at.plus), N(at.minus), T);
+  std::optional<Index> plus, minus;
+  for (std::size_t i = 0; i < a.section_hole.size(); ++i) {
+    if (a.section_hole[i] != hole) continue;
+    if (a.section_side[i] == "+x") plus = i;
+    if (a.section_side[i] == "-x") minus = i;
+  }
+  if (!plus && !minus) return;
+  // Tension is `right` on the side of +x and `left` on that of -x; T along +x takes left - right. It bears on the side
+  // that it pushes to.
+  const auto bypass = [&](const VectorXd& N) {
+    const double right = plus ? N[*plus] : N[*minus] - T;
+    const double left = minus ? N[*minus] : N[*plus] + T;
+    return T == 0 ? (left + right) / 2 : T > 0 ? right : left;
   };
-  state.bypass_load = passing(forces.force);
-  state.bypass_error = forces.below ? std::abs(passing(*forces.below) - state.bypass_load) : unknown;
-  const VectorXd& force = forces.force;
-  const bool plus = at.plus && (!at.minus || std::abs(force[*at.plus]) >= std::abs(force[*at.minus]));
-  const Index loaded = plus ? *at.plus : *at.minus;
+  const VectorXd& force = sections.force;
+  state.bypass_load = bypass(force);
+  state.bypass_error = sections.below ? std::abs(bypass(*sections.below) - state.bypass_load) : unknown;
+  const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
   state.in_tension = force[loaded] > 0;
@@ -214,7 +187,7 @@ std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& lo
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();
-    state.filled = static_cast<double>(touched) > (1 - hardly) * static_cast<double>(radial.size());
+    state.filled = double(touched) > (1 - hardly) * double(radial.size());
     if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
     if (const int across = 1 - plate.axes[0]; plate.axes.size() == 1 && hole < std::ssize(plate.holes))
       state.across = points.force(radial, across, a.bearing_area(i, across));

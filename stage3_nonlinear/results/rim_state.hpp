@@ -9,7 +9,7 @@
 
 namespace fastjoint::stage3 {
 
-/// What engineers read off one hole of a plate at one increment.
+/// Loads and stresses of one hole of a plate at one increment.
 struct RimState {
   double bearing_load = 0;    ///< along x on the plate, force
   double bearing_load_y = 0;  ///< along y, force
@@ -33,14 +33,14 @@ struct RimState {
   double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
 };
 
-/// How much a plate is loaded by each unit case of its stresses, and by its fasteners.
+/// Amounts of the unit cases of a plate's stresses, and the forces of its fasteners.
 struct PlateLoading {
   Eigen::VectorXd amounts;   ///< (e + m + h + q) in the order of formats::PlateStresses
   Eigen::VectorXd bearing;   ///< (m) bearing force along each disc's direction on its rim, force
   Eigen::VectorXd friction;  ///< (m) friction resultant along it, force
 };
 
-/// All holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
+/// States of all holes of a plate whose matrices hold stresses at the joint's degree, else none, by superposition.
 ///
 /// The error of the peak is the largest change of the hoop stress from the degree below within 45 degrees of it
 /// (tests/pipeline/peak_error_test.cpp). Points within 7.5 degrees of a jump of friction are no candidates for the peak

@@ -12,13 +12,14 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What all numbers do at fixed c, one column each: load factor, clearances, laws, mu, forces, displacements.
+/// Changes by all numbers at fixed c, one column each: load factor, clearances, laws, mu, forces, displacements.
 struct Changes {
   MatrixXd F;         ///< (n a, columns)
   MatrixXd residual;  ///< (n a, columns)
 };
 
-/// dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (n a, n + l).
+/// Derivatives dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (n a, n +
+/// l).
 std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const JointNumbers& numbers,
                                           const ContactState& state, const VectorXd& c) {
   const Index a = state.direction.rows(), n = state.direction.cols();
@@ -69,7 +70,7 @@ FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& syste
   return result;
 }
 
-/// (n a, f)
+/// Changes of the residual by each mu, (n a, f).
 MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
   const VectorXd b = system.E * F;
@@ -95,7 +96,38 @@ Changes changes(const JointEquations& equations, const JointNumbers& numbers, co
   return all;
 }
 
+/// Adds a load under its name.
+/// @param D_delta Rows of one plate, (m+e, n a).
+/// @param load    Forces on its unknowns, (m+e).
+void add(std::vector<std::string>& names, MatrixXd& q, const std::string& name, const MatrixXd& D_delta,
+         const VectorXd& load) {
+  names.push_back(name);
+  q.conservativeResize(Eigen::NoChange, q.cols() + 1);
+  q.rightCols(1) = without_rounding(D_delta.transpose() * load, load.cwiseAbs().maxCoeff());
+}
+
 }  // namespace
+
+UnitLoads unit_loads(const JointModel& joint, const CondensedSystem& system) {
+  const Index rows = system.q.size();
+  UnitLoads loads{{}, MatrixXd(rows, 0), {}, MatrixXd(rows, 0)};
+  for (std::size_t p = 0; p < joint.plates.size(); ++p) {
+    const PlateModel& plate = joint.plates[p];
+    const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
+    for (Index i = 0; i < plate.n_externals(); ++i) {
+      const std::string name = plate.name + ":" + plate.externals[i];
+      const Index unknown = plate.n_discs() + i;
+      if (plate.external_displacement[i]) {
+        add(loads.displacement, loads.q_displacement, name, D, -plate.S.col(unknown));
+      } else {
+        add(loads.force, loads.q_force, name, D, VectorXd::Unit(plate.n_unknowns(), unknown));
+      }
+    }
+    for (std::size_t i = 0; i < plate.tractions.size(); ++i)
+      add(loads.force, loads.q_force, plate.name + ":" + plate.tractions[i], D, -plate.T.col(i));
+  }
+  return loads;
+}
 
 JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
   JointNumbers numbers;

@@ -6,9 +6,20 @@
 #include <vector>
 
 #include "stage3_nonlinear/path/path_result.hpp"
-#include "stage3_nonlinear/results/unit_loads.hpp"
 
 namespace fastjoint::stage3 {
+
+/// Forces of rigid fasteners under each load alone: q of the condensed system is the sum of these, each times its load.
+struct UnitLoads {
+  std::vector<std::string> force;         ///< (u) "plate:external" without a given displacement, loaded or not
+  Eigen::MatrixXd q_force;                ///< (n a, u) per unit force, dimensionless
+  std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
+  Eigen::MatrixXd q_displacement;         ///< (n a, v) per unit displacement, force / length
+};
+
+/// Work of each load on the displacements D_delta, which by reciprocity is its q, without another solve
+/// (docs/theory.md, section 7.1).
+[[nodiscard]] UnitLoads unit_loads(const JointModel& joint, const CondensedSystem& system);
 
 /// A hole with friction and what its coefficient does to the rows of its fastener.
 struct FrictionHole {
@@ -27,7 +38,7 @@ struct LawNumber {
   Parameter parameter;
 };
 
-/// The input's numbers that bearing forces are differentiated by, besides the load factor and every plane's clearance.
+/// Numbers of the input that bearing forces are differentiated by, besides the load factor and every plane's clearance.
 struct JointNumbers {
   std::vector<FrictionHole> friction;      ///< (f)
   std::vector<LawNumber> law;              ///< (l) laws in the order of the planes
@@ -49,9 +60,9 @@ struct Sensitivity {
 };
 
 /// Derivatives at one step, by the implicit function theorem with one factorisation of the tangent for all numbers
-/// (docs/theory.md, section 10). Where F has a corner they are one-sided.
+/// (docs/theory.md, section 10). They are one-sided where F has a corner.
 ///
-/// Where gaps leave a sheet free (TangentCheck::mechanism), forces are differentiable by all numbers that leave it in
+/// Forces on a plate that gaps leave free (TangentCheck::mechanism) are differentiable by all numbers that leave it in
 /// balance; derivatives by a load that would set it moving, and those of forces at a limit load, are infinite.
 [[nodiscard]] Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers,
                                       const PathStep& step);

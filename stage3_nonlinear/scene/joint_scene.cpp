@@ -6,11 +6,12 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/input/value.hpp"
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/scene/scene_check.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -22,19 +23,24 @@ constexpr int most_iterations = 1000000;
 /// Rounding sets the lower end; a joint known to less than the upper end is not solved.
 constexpr input::Range tolerances{.low = 1e-14, .high = 1e-2};
 
-std::string where(const std::string& file, const Value& value) { return fmt::format("{}: {}", file, value.pointer()); }
+std::string where(const Value& value) { return fmt::format("{}: {}", value.file(), value.pointer()); }
 
 /// Splits at the first colon: the names of holes may hold colons, those of plates may not.
-Reference read_reference(const std::string& file, const Value& value, const char* kind) {
+Reference read_reference(const Value& value, const JointScene& scene, const char* kind) {
   const std::string text = value.text();
   const auto colon = text.find(':');
   if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
     value.not_allowed(fmt::format("\"plate:{}\"", kind));
-  return {text.substr(0, colon), text.substr(colon + 1), where(file, value)};
+  Reference result{text.substr(0, colon), text.substr(colon + 1), where(value)};
+  std::vector<std::string> names;
+  for (const auto& plate : scene.plates) names.push_back(plate.name);
+  if (std::find(names.begin(), names.end(), result.plate) == names.end())
+    value.fail(fmt::format("plate \"{}\" does not exist", result.plate), fmt::format("{}", fmt::join(names, ", ")));
+  return result;
 }
 
-std::vector<PlateScene> read_plates(const std::string& file, const Value& plates) {
-  const auto folder = std::filesystem::path(file).parent_path();
+std::vector<PlateScene> read_plates(const Value& plates) {
+  const auto folder = std::filesystem::path(plates.file()).parent_path();
   std::vector<PlateScene> result;
   for (const auto& [name, plate] : plates.members()) {
     if (name.find_first_of(":/") != std::string::npos || name == ".")
@@ -42,48 +48,43 @@ std::vector<PlateScene> read_plates(const std::string& file, const Value& plates
     if (plate.is_object()) plate.only({"file", "digest"});
     const Value path = plate.is_object() ? plate.at("file") : plate;
     const auto digest = plate.is_object() ? plate.find("digest") : std::nullopt;
-    result.push_back({name, (folder / path.text()).string(), where(file, plate), digest ? digest->text() : ""});
+    result.push_back({name, (folder / path.text()).string(), where(plate), digest ? digest->text() : ""});
   }
   if (result.size() < 2) plates.fail(program::counted(result.size(), "plate"), "at least 2");
   return result;
 }
 
-/// Doubts about the laws that fasteners have.
-void warn_of_laws(const Value& laws, JointScene& scene) {
-  const auto has = [](const FastenerScene& fastener, const std::string& name) {
-    return std::find(fastener.law.begin(), fastener.law.end(), name) != fastener.law.end();
-  };
-  for (const auto& [name, value] : laws.members())
-    if (std::any_of(scene.fasteners.begin(), scene.fasteners.end(), [&](const auto& each) { return has(each, name); }))
-      for (const auto& doubt : scene.laws.at(name).law->doubts())
-        scene.warnings.push_back(fmt::format("{}: {}", where(scene.file, value), doubt));
+std::map<std::string, LawScene> read_laws(const Value& laws) {
+  std::map<std::string, LawScene> result;
+  for (const auto& [name, value] : laws.members()) {
+    const auto one_sided = value.find("one_sided");
+    result.emplace(name, LawScene{read_law(value), one_sided && one_sided->boolean()});
+  }
+  if (result.empty()) laws.fail("no law", "at least one");
+  return result;
 }
 
-void read_laws(const Value& laws, JointScene& scene) {
-  for (const auto& [name, value] : laws.members()) {
-    LawScene law{read_law(value)};
-    if (const auto file = value.find("file"))
-      law.file = (std::filesystem::path(scene.file).parent_path() / file->text()).string();
-    if (const auto one_sided = value.find("one_sided")) law.one_sided = one_sided->boolean();
-    scene.laws.emplace(name, std::move(law));
-  }
-  if (scene.laws.empty()) laws.fail("no law", "at least one");
+/// Doubts about the laws that fasteners have.
+std::vector<std::string> law_doubts(const Value& laws, const JointScene& scene) {
+  std::set<std::string> used;
+  for (const auto& fastener : scene.fasteners) used.insert(fastener.law.begin(), fastener.law.end());
+  std::vector<std::string> doubts;
+  for (const auto& name : used)
+    for (const auto& doubt : scene.laws.at(name).law->doubts())
+      doubts.push_back(fmt::format("{}: {}", where(laws.at(name.c_str())), doubt));
+  return doubts;
 }
 
 /// A number for all holes, or {"plate": mu} where a plate left out has none.
 std::vector<double> read_friction(const Value& value, const std::vector<Reference>& between) {
   if (!value.is_object()) return std::vector<double>(between.size(), value.number(input::not_negative));
+  std::vector<std::string> plates;
+  for (const auto& hole : between) plates.push_back(hole.plate);
   std::vector<double> friction(between.size(), 0.0);
   for (const auto& [plate, mu] : value.members()) {
-    const auto is_named = [&name = plate](const Reference& hole) { return hole.plate == name; };
-    const auto hole = std::find_if(between.begin(), between.end(), is_named);
-    if (hole == between.end()) {
-      std::vector<std::string> plates;
-      plates.reserve(between.size());
-      for (const auto& each : between) plates.push_back(each.plate);
-      mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
-    }
-    friction[hole - between.begin()] = mu.number(input::not_negative);
+    const auto hole = std::find(plates.begin(), plates.end(), plate);
+    if (hole == plates.end()) mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
+    friction[hole - plates.begin()] = mu.number(input::not_negative);
   }
   return friction;
 }
@@ -100,13 +101,11 @@ auto for_each_plane(const Value& value, std::size_t n_planes, Read read) {
 FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction"});
   FastenerScene fastener;
-  fastener.where = where(scene.file, value);
+  fastener.where = where(value);
   fastener.id = value.at("id").text();
-  for (const auto& hole : value.at("between").items(2))
-    fastener.between.push_back(read_reference(scene.file, hole, "hole"));
+  for (const auto& hole : value.at("between").items(2)) fastener.between.push_back(read_reference(hole, scene, "hole"));
   const std::size_t n_planes = fastener.between.size() - 1;
   std::vector<std::string> laws;
-  laws.reserve(scene.laws.size());
   for (const auto& [name, law] : scene.laws) laws.push_back(name);
   fastener.law = for_each_plane(value.at("law"), n_planes, [&](const Value& law) { return law.choice(laws); });
   fastener.clearance.assign(n_planes, 0.0);
@@ -119,39 +118,55 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   return fastener;
 }
 
-LoadScene read_load(const std::string& file, const Value& value) {
-  value.only({"external", "force", "displacement"});
-  LoadScene load;
-  load.external = read_reference(file, value.at("external"), "external");
-  const auto force = value.find("force");
-  const auto displacement = value.find("displacement");
-  if (force && displacement) value.fail("both \"force\" and \"displacement\"", "exactly one of them");
-  if (force) {
-    load.value = force->number();
-  } else if (displacement) {
-    load.value = displacement->number();
-    load.is_displacement = true;
-  } else {
-    value.fail("neither \"force\" nor \"displacement\"", "exactly one of them");
+/// Reads all fasteners; ids stand once, and each hole has one fastener, which goes through each plate once.
+void read_fasteners(const Value& fasteners, JointScene& scene) {
+  std::set<std::string> ids, used, held;
+  for (const auto& value : fasteners.items(1)) {
+    const FastenerScene& fastener = scene.fasteners.emplace_back(read_fastener(value, scene));
+    if (!ids.insert(fastener.id).second)
+      value.at("id").fail(fmt::format("\"{}\" stands twice", fastener.id), "each id once");
+    std::set<std::string> plates;
+    for (const auto& hole : fastener.between) {
+      const std::string name = hole.plate + ":" + hole.name;
+      if (!used.insert(name).second)
+        refuse(hole.where, fmt::format("hole \"{}\" has a fastener already", name), "one fastener per hole");
+      if (!plates.insert(hole.plate).second)
+        value.at("between").fail(fmt::format("goes through plate \"{}\" twice", hole.plate),
+                                 "holes of different plates");
+    }
+    held.merge(plates);
   }
+  for (const auto& plate : scene.plates)
+    if (!held.contains(plate.name))
+      refuse(plate.where, "no fastener holds this plate", "plates that a fastener names in \"between\"");
+}
+
+LoadScene read_load(const Value& value, const JointScene& scene) {
+  value.only({"external", "force", "displacement"});
+  LoadScene load{.external = read_reference(value.at("external"), scene, "external")};
+  for (const auto& [before, amount, is_displacement] : scene.loads)
+    if (before.plate == load.external.plate && before.name == load.external.name)
+      refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
+             "one load per external boundary");
+  const auto force = value.find("force"), displacement = value.find("displacement");
+  if (!force == !displacement)
+    value.fail(force ? "both \"force\" and \"displacement\"" : "neither \"force\" nor \"displacement\"",
+               "exactly one of them");
+  load.is_displacement = displacement.has_value();
+  load.value = (force ? *force : *displacement).number();
   return load;
 }
 
-bool is_at_events(const Value& increments) {
-  if (increments.is_array() || increments.is_number()) return false;
-  if (!increments.is_string() || increments.text() != "events")
-    increments.not_allowed(
-        fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", most_increments));
-  return true;
-}
-
+/// "events" gives none.
 std::vector<double> read_increments(const Value& value) {
   std::vector<double> factors;
   if (value.is_array()) {
     for (const auto& item : value.items(1, most_increments)) factors.push_back(item.number());
-  } else {
+  } else if (value.is_number()) {
     const int n = value.integer(1, most_increments);
-    for (int i = 1; i <= n; ++i) factors.push_back(static_cast<double>(i) / n);
+    for (int i = 1; i <= n; ++i) factors.push_back(double(i) / n);
+  } else if (!value.is_string() || value.text() != "events") {
+    value.not_allowed(fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", most_increments));
   }
   return factors;
 }
@@ -169,7 +184,7 @@ InitialScene read_initial(const Value& value) {
 void check_exact_path(const JointScene& scene, const Value& method) {
   for (const auto& fastener : scene.fasteners)
     for (const auto& name : fastener.law)
-      if (!scene.laws.at(name).law->kinks(1, 0))
+      if (!scene.laws.at(name).law->corners(1, 0))
         method.fail(fmt::format("\"exact path\", but law \"{}\" of fastener \"{}\" is curved", name, fastener.id),
                     "another method, or linear, formula, bilinear and four stage laws and power laws with n = 1");
 }
@@ -204,18 +219,18 @@ JointScene read_joint_scene(const input::Document& document) {
   scene.file = document.file;
   if (const auto name = root.find("name")) scene.name = name->text();
   if (const auto units = root.find("units")) scene.units = read_units(*units);
-  scene.plates = read_plates(scene.file, root.at("plates"));
-  read_laws(root.at("laws"), scene);
-  for (const auto& item : root.at("fasteners").items(1)) scene.fasteners.push_back(read_fastener(item, scene));
-  warn_of_laws(root.at("laws"), scene);
-  for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(scene.file, item));
+  scene.plates = read_plates(root.at("plates"));
+  scene.laws = read_laws(root.at("laws"));
+  read_fasteners(root.at("fasteners"), scene);
+  scene.warnings = law_doubts(root.at("laws"), scene);
+  for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(item, scene));
   if (const auto increments = root.find("increments")) {
-    scene.at_events = is_at_events(*increments);
-    if (!scene.at_events) scene.load_factors = read_increments(*increments);
+    auto factors = read_increments(*increments);
+    scene.at_events = factors.empty();
+    if (!scene.at_events) scene.load_factors = std::move(factors);
   }
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver, scene);
-  check_scene(scene);
   return scene;
 }
 

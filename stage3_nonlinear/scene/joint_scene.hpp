@@ -13,7 +13,7 @@
 
 namespace fastjoint::stage3 {
 
-/// "plate:name" of the input, and where it stands there ("FILE: POINTER") for messages.
+/// Name "plate:name" of the input and its place there, "FILE: POINTER", for messages.
 struct Reference {
   std::string plate, name, where;
 };
@@ -28,7 +28,6 @@ struct PlateScene {
 struct LawScene {
   std::shared_ptr<const Law> law;
   bool one_sided = false;
-  std::string file{};  ///< path of its points if they stand in a file of their own
 };
 
 /// A fastener through h >= 2 holes in their order along its axis: h - 1 shear planes, each between neighbours.
@@ -63,7 +62,7 @@ enum class Method {
   exact_path,
 };
 
-/// What "method" in JOINT.json may say, in the order of Method from hybridsj on.
+/// Values of "method" in JOINT.json, in the order of Method from hybridsj on.
 inline const std::vector<std::string> method_names{"hybridsj", "damped newton", "exact path"};
 
 struct SolverScene {
@@ -72,7 +71,7 @@ struct SolverScene {
   int max_iterations = 200;  ///< of one try
 };
 
-/// Whether an exact path is taken where there is one.
+/// True if an exact path is taken where there is one.
 [[nodiscard]] inline bool may_be_exact(Method method) {
   return method == Method::fitting || method == Method::exact_path;
 }
@@ -86,13 +85,14 @@ struct JointScene {
   std::vector<FastenerScene> fasteners;
   std::vector<LoadScene> loads;
   std::vector<double> load_factors{1};  ///< one per increment
-  bool at_events = false;               ///< increments at every event instead (event_path.hpp)
+  bool at_events = false;               ///< increments at every event instead (follow_events)
   InitialScene initial;
   SolverScene solver;
   std::vector<std::string> warnings;  ///< one sentence each, with file and pointer
 };
 
-/// Reads types and ranges strictly, then checks what one file alone can tell (check_scene). Throws InputError.
+/// Reads types and ranges strictly and checks what one file alone can tell: plates that are named exist and are held,
+/// ids and loads stand once, each hole has one fastener, which goes through each plate once. Throws InputError.
 [[nodiscard]] JointScene read_joint_scene(const input::Document& document);
 
 /// Throws InputError "WHERE: FOUND; allowed: ALLOWED".

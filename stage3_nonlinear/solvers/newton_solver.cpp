@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/solvers/newton_solver.hpp"
-
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -8,12 +6,14 @@
 #include <optional>
 #include <utility>
 
+#include "stage3_nonlinear/solvers/root.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::VectorXd;
 
-/// A point on the way along a step.
+/// Point on the way along a step.
 struct Point {
   VectorXd x, residual;
 };
@@ -48,7 +48,7 @@ class Bracket {
  public:
   explicit Bracket(double before) : low_{0, before} {}
 
-  /// Whether the function is surely lower here than at 0: slopes only rise, so that it has fallen by at least
+  /// Tells whether the function is surely lower here than at 0: slopes only rise, so that it has fallen by at least
   /// -slope * length up to `low` and risen by at most slope (length - low) since.
   [[nodiscard]] bool falls_to(double length, double slope) const {
     return slope <= 0 || slope * (length - low_.length) <= -0.5 * low_.slope * low_.length;

@@ -13,7 +13,8 @@ using MatrixFunction = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>;
 struct RootProblem {
   VectorFunction residual;  ///< (n) -> (n)
   MatrixFunction jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
-  /// Of a residual: the gradient of a convex function of x that is least at the root, if there is one, (n) -> (n).
+  /// Gradient, as a function of the residual, of a convex function of x that is least at the root, if there is one,
+  /// (n) -> (n).
   VectorFunction descent;
 };
 
@@ -22,7 +23,7 @@ struct RootOptions {
   int max_iterations;
 };
 
-/// Where a solver ended; not to converge is a result, not an error.
+/// Place where a solver ended; not to converge is a result, not an error.
 struct Root {
   Eigen::VectorXd x, residual;  ///< (n); the residual is infinite if the functions have no value at the start
   bool converged = false;
@@ -31,5 +32,22 @@ struct Root {
 
 /// A way to solve n equations from a start, shape (n), n >= 1.
 using SolveFunction = Root (*)(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options);
+
+/// Makes GSL return errors from now on, instead of aborting; first GSL call of the program.
+void take_over_gsl_errors();
+
+/// GSL's hybridsj: Powell's hybrid method with scaled variables and derivatives, MINPACK's HYBRJ.
+///
+/// A step to where a value is not finite ends the search; what the functions throw comes out of here.
+[[nodiscard]] Root hybridsj_root(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options);
+
+/// Newton's method with damped steps: the guarantee behind the other solvers.
+///
+/// If problem.descent is given, a step ends where its convex function has almost stopped falling along the step, and
+/// the method converges from every start if that function is bounded below. Joints without friction whose laws never
+/// fall have such a function of the contact coordinate. docs/theory.md, section 8.4, derives it, proves convergence and
+/// says where rounding limits it. Otherwise steps are halved until the norm of the residual falls; convergence is then
+/// not certain.
+[[nodiscard]] Root newton_root(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options);
 
 }  // namespace fastjoint::stage3

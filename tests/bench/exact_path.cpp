@@ -9,7 +9,7 @@
 
 #include "stage3_nonlinear/path/exact_path.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace {

@@ -12,8 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
-#include "stage3_nonlinear/solvers/newton_solver.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/bench/gsl_methods.hpp"
 #include "tests/bench/stability_falling.hpp"
 #include "tests/bench/stability_trial.hpp"
@@ -26,7 +25,7 @@ using stage3::RootOptions;
 
 constexpr double tolerance = 1e-10, agreement = 1e-8;
 /// Joints at which damped Newton failed once: sheets that fly far through their gaps, forces next to nothing beside
-/// a kink, springs as weak as the trace of stiffness.
+/// a corner, springs as weak as the trace of stiffness.
 constexpr std::array<std::uint32_t, 12> hard_seeds{2239,  6481,  6799,   9040,   9423,   9669,
                                                    11773, 16060, 111403, 126010, 135656, 154916};
 

@@ -5,9 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "stage3_nonlinear/laws/cubic_law.hpp"
-#include "stage3_nonlinear/laws/piecewise_linear_law.hpp"
-#include "stage3_nonlinear/laws/power_law.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::bench {
 namespace {
@@ -15,7 +13,7 @@ namespace {
 using stage3::Polyline;
 
 Curve power(double A, double n) {
-  return {std::make_shared<stage3::PowerLaw>(A, n, 0), [A, n](double delta, double clearance) -> Force {
+  return {stage3::power_law(A, n, 0), [A, n](double delta, double clearance) -> Force {
             const double x = delta - clearance;
             if (x <= 0) return {0, 0};
             const double F = A * std::pow(x, n);
@@ -37,8 +35,7 @@ Curve polyline(const Polyline& line, std::size_t first_moved) {
     }
     return {F0 + line.last_slope * (delta - x0), line.last_slope};
   };
-  return {std::make_shared<stage3::PiecewiseLinearLaw>(line, first_moved, std::vector<stage3::PolylineParameter>{}),
-          std::move(at)};
+  return {stage3::piecewise_linear_law(line, first_moved, std::vector<stage3::PolylineParameter>{}), std::move(at)};
 }
 
 Curve bilinear(std::mt19937& random, const LawSize& size) {
@@ -62,7 +59,7 @@ Curve cubic(std::mt19937& random, const LawSize& size) {
   const double b = uniform(random, -0.98, 1) * std::sqrt(3 * a * c);
   const double unit = size.F / size.k, F0 = size.F;
   const auto F = [=](double x) { return F0 * x * (a + x * (b + x * c)); };
-  return {std::make_shared<stage3::CubicLaw>(std::array{unit, 2 * unit, 3 * unit}, std::array{F(1), F(2), F(3)}),
+  return {stage3::cubic_law(std::array{unit, 2 * unit, 3 * unit}, std::array{F(1), F(2), F(3)}),
           [=](double delta, double clearance) -> Force {
             const double x = (delta - clearance) / unit;
             if (x <= 0) return {0, 0};

@@ -8,8 +8,7 @@
 
 #include "stage3_nonlinear/equations/tangent_check.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/solvers/hybridsj_solver.hpp"
-#include "stage3_nonlinear/solvers/newton_solver.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/bench/stability_curves.hpp"
 
 namespace fastjoint::bench {

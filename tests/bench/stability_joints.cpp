@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "stage3_nonlinear/laws/cubic_law.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 #include "tests/bench/stability_curves.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
@@ -131,8 +131,8 @@ void load_from_solution(std::mt19937& random, RandomJoint& joint) {
     const double open = contact.stiffness * contact.law->gap(contact.clearance);
     here += here.normalized() * open;
     if (joint.family != Family::contact || chance(random, 0.3)) continue;
-    const auto kinks = contact.law->kinks(contact.stiffness, contact.clearance);
-    const double event = kinks && !kinks->empty() ? kinks->back() : open;
+    const auto corners = contact.law->corners(contact.stiffness, contact.clearance);
+    const double event = corners && !corners->empty() ? corners->back() : open;
     here = here.normalized() * (chance(random, 0.2) ? 0.5 * open : event);
   }
   if (a == 1 && chance(random, 0.3))
@@ -178,9 +178,9 @@ stage3::JointEquations random_falling_joint(std::uint32_t seed) {
   std::vector<Contact> contacts;
   for (int j = 0; j < n; ++j) {
     const double size = F * decades(random, 0.3, 3), unit = F / (k > 0 ? k : 1) * decades(random, 0.1, 10);
-    const auto law = std::make_shared<stage3::CubicLaw>(
-        std::array{unit, 2 * unit, 3 * unit},
-        std::array{size, size * uniform(random, 0.1, 2), size * uniform(random, 0.1, 3)});
+    const auto law =
+        stage3::cubic_law(std::array{unit, 2 * unit, 3 * unit},
+                          std::array{size, size * uniform(random, 0.1, 2), size * uniform(random, 0.1, 3)});
     contacts.push_back({law, chance(random, 0.5) ? 0 : unit * uniform(random, 0, 1), 1, chance(random, 0.2)});
   }
   return make_equations(std::move(system), std::move(contacts));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "stage3_nonlinear/equations/first_guess.hpp"
+#include "stage3_nonlinear/equations/linear_joint.hpp"
 
 namespace fastjoint::bench {
 namespace {

@@ -7,9 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "stage3_nonlinear/laws/cubic_law.hpp"
-#include "stage3_nonlinear/laws/piecewise_linear_law.hpp"
-#include "stage3_nonlinear/laws/power_law.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::test {
 
@@ -74,7 +72,7 @@ std::shared_ptr<const stage3::Law> random_law(std::mt19937& random, const Random
     // Rises for all delta: a cubic that turns down carries no more than its peak.
     const double F = decades(random, 30, 3000);
     const double d = decades(random, 0.003, 0.3);
-    return std::make_shared<stage3::CubicLaw>(std::array{d, 2 * d, 3 * d}, std::array{F, 1.6 * F, 2.4 * F});
+    return stage3::cubic_law(std::array{d, 2 * d, 3 * d}, std::array{F, 1.6 * F, 2.4 * F});
   }
   const double n = uniform(random, 0, 1) < 0.25 ? 1.0 : uniform(random, kind.least_n, 1.0);
   return power_law(decades(random, 100, 100000), n);
@@ -160,7 +158,7 @@ void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu) {
 std::shared_ptr<const stage3::Law> linear_law(double k) { return stage3::linear_law(k); }
 
 std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0) {
-  return std::make_shared<stage3::PowerLaw>(A, n, delta0);
+  return stage3::power_law(A, n, delta0);
 }
 
 stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {

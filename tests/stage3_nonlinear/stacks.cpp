@@ -66,6 +66,19 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
   return joint;
 }
 
+LoosePlates loose_plates(const stage3::JointModel& joint) {
+  const Index n = joint.n_unknowns();
+  LoosePlates result{MatrixXd::Zero(n, n), VectorXd(n)};
+  for (std::size_t plate = 0; plate < joint.plates.size(); ++plate) {
+    const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
+    result.S.block(at, at, m, m) = joint.plates[plate].S;
+    result.load.segment(at, m) = -joint.plates[plate].T;
+  }
+  return result;
+}
+
+double stiffness_of(const stage3::Law& law) { return law.at(1, 1, 0).F / law.at(1, 1, 0).delta; }
+
 stage3::PathStep solved(const stage3::JointModel& joint) {
   const auto path = stage3::follow(stage3::make_equations(joint), {1}, {.initial = {}, .solver = {.tolerance = 1e-13}});
   EXPECT_FALSE(path.failure);

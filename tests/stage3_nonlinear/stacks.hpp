@@ -27,6 +27,16 @@ void load_discs(stage3::JointModel& joint, std::size_t plate, const Eigen::Vecto
 /// through all, in a random order.
 [[nodiscard]] stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions);
 
+/// Stiffness and load of the plates of a joint without fasteners, in the joint's list of unknowns.
+struct LoosePlates {
+  Eigen::MatrixXd S;     ///< (N, N)
+  Eigen::VectorXd load;  ///< (N)
+};
+[[nodiscard]] LoosePlates loose_plates(const stage3::JointModel& joint);
+
+/// Stiffness of a law that is linear without gap.
+[[nodiscard]] double stiffness_of(const stage3::Law& law);
+
 /// The state at load factor 1, to a residual of 1e-13.
 [[nodiscard]] stage3::PathStep solved(const stage3::JointModel& joint);
 [[nodiscard]] stage3::JointState state_of(const stage3::JointModel& joint, const stage3::PathStep& step);

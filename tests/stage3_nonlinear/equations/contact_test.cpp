@@ -95,7 +95,7 @@ TEST(Contact, BlocksAreTheDerivativeInThePlane) {
     const MatrixXd dF = state.times(I, state.dF), ddelta = state.times(I, state.ddelta);
     for (Index j = 0; j < 6; ++j) {
       const Vector2d here = c.segment(j / 2 * 2, 2);
-      if (std::abs(here.norm() - 1) < 0.1) continue;  // the kink at contact
+      if (std::abs(here.norm() - 1) < 0.1) continue;  // the corner at contact
       constexpr double h = 1e-5;
       const auto above = contact_state(contacts, c + h * VectorXd::Unit(6, j));
       const auto below = contact_state(contacts, c - h * VectorXd::Unit(6, j));

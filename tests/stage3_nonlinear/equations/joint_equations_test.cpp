@@ -6,7 +6,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "stage3_nonlinear/equations/tangent_check.hpp"
-#include "stage3_nonlinear/laws/cubic_law.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -32,7 +32,7 @@ TEST(JointEquations, TangentIsTheDerivative) {
     const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
     const MatrixXd J = tangent(equations.system, contact_state(equations.contacts, c));
     for (Index j = 0; j < c.size(); ++j) {
-      // Far from a kink the functions are smooth: error of central differences ~ h^2 + eps / h, relative.
+      // Far from a corner the functions are smooth: error of central differences ~ h^2 + eps / h, relative.
       const double h = 1e-5 * std::abs(c[j]);
       const Contact& contact = equations.contacts[j];
       if (std::abs(std::abs(c[j]) - contact.stiffness * contact.law->gap(contact.clearance)) < 2e-2 * std::abs(c[j]))
@@ -80,7 +80,7 @@ TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
 
 /// A law that falls has no energy to descend on.
 TEST(JointEquations, MetricNeedsLawsThatRise) {
-  const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const auto falling = cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
   EXPECT_EQ(make_equations(test::joint_of(test::two_fastener_lap(), falling)).metric.size(), 0);
 }
 
@@ -112,7 +112,7 @@ TEST(JointEquations, TellsASheetThatNothingHolds) {
 TEST(JointEquations, TellsASolutionPastTheLargestLoad) {
   const test::Lap lap{test::spring_plate(1, 1, {{0, 1, 1000}, {0, test::ground, 0.5}}),
                       test::spring_plate(1, 0, {{0, test::ground, 1e6}}), 1};
-  const auto falling = std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const auto falling = cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
   const JointEquations equations = make_equations(test::joint_of(lap, falling));
   const auto unstable_at = [&](double delta) {
     const double c = equations.contacts[0].stiffness * delta;

@@ -115,20 +115,14 @@ TEST(Stack, OfThreeAndMoreLayersIsThatOfTheDisplacementMethod) {
   std::mt19937 random(11);
   for (int i = 0; i < 60; ++i) {
     const JointModel joint = test::random_stack(random, 2 + i % 5, 1 + i % 4, 1);
-    MatrixXd A = MatrixXd::Zero(joint.n_unknowns(), joint.n_unknowns());
-    VectorXd load(joint.n_unknowns());
-    for (std::size_t plate = 0; plate < joint.plates.size(); ++plate) {
-      const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
-      A.block(at, at, m, m) = joint.plates[plate].S;
-      load.segment(at, m) = -joint.plates[plate].T;
-    }
+    const auto [A, load] = test::loose_plates(joint);
     MatrixXd B = MatrixXd::Zero(joint.n_unknowns(), joint.n_planes());
     VectorXd K(joint.n_planes());
     for (Index j = 0; j < joint.n_planes(); ++j) {
       const ShearPlane& plane = joint.planes[j];
       for (const auto& [hole, sign] : {std::pair{joint.first_hole(plane), 1}, std::pair{joint.second_hole(plane), -1}})
         B(joint.offset(hole.plate) + hole.disc, j) = sign;
-      K[j] = plane.law->at(1, 1, 0).F / plane.law->at(1, 1, 0).delta;
+      K[j] = test::stiffness_of(*plane.law);
     }
     const VectorXd u = (A + B * K.asDiagonal() * B.transpose()).llt().solve(load);
     const VectorXd F = K.asDiagonal() * (B.transpose() * u);

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/laws/read_flexibility.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -151,16 +151,21 @@ std::string law(const std::string& formula, const std::string& more) {
          "}";
 }
 
-Flexibility read(const std::string& json) {
+LawPointer read(const std::string& json) {
   const auto document = input::parse("joint.json", json);
-  return read_flexibility(input::Value(document));
+  return read_formula_law(input::Value(document));
 }
 
-TEST(ReadFlexibility, GivesTheStiffness) {
+double stiffness(const LawPointer& law) {
+  const Branch on = law->at(1, 1, 0);
+  return on.F / on.delta;
+}
+
+TEST(FormulaLaw, GivesTheStiffness) {
   const auto whole = read(law("huth bolt", R"("mode": "total", "shear": "single", "E_f": 110000, "one_sided": true)"));
-  EXPECT_NEAR(whole.stiffness, 1 / 2.903227e-5, 0.01);
-  EXPECT_EQ(whole.mode, FlexibilityMode::total);
-  EXPECT_EQ(whole.provenance,
+  EXPECT_NEAR(stiffness(whole), 1 / 2.903227e-5, 0.01);
+  EXPECT_TRUE(whole->source()->bearing_of_sheet);
+  EXPECT_EQ(whole->source()->text,
             "huth bolt in single shear, total: H. Huth, LBF report FB-172, 1984, and ASTM STP 927, 1986; flexibility "
             "2.90323e-05, of which 7.15864e-06 of the fastener, in the units of the joint");
   // Shear and bending of the shank, and its bearing on both sheets.
@@ -168,17 +173,28 @@ TEST(ReadFlexibility, GivesTheStiffness) {
   const double shear = 4 * 5 / (9 * 110000 / 2.66 * std::numbers::pi * 25 / 4);
   const auto part =
       read(law("tate-rosenfeld", R"("mode": "fastener only", "shear": "single", "E_f": 110000, "nu_f": 0.33)"));
-  EXPECT_NEAR(1 / part.stiffness, bending + shear + (1 / 2.0 + 1 / 3.0) / 110000, 1e-17);
-  EXPECT_EQ(part.mode, FlexibilityMode::fastener_only);
-  EXPECT_THAT(part.provenance, HasSubstr("tate-rosenfeld in single shear, fastener only: M. B. Tate"));
+  EXPECT_NEAR(1 / stiffness(part), bending + shear + (1 / 2.0 + 1 / 3.0) / 110000, 1e-17);
+  EXPECT_FALSE(part->source()->bearing_of_sheet);
+  EXPECT_THAT(part->source()->text, HasSubstr("tate-rosenfeld in single shear, fastener only: M. B. Tate"));
 }
 
-TEST(ReadFlexibility, KnowsDoubleShear) {
+TEST(FormulaLaw, KnowsDoubleShear) {
   const auto one = read(law("huth rivet", R"("mode": "total", "shear": "single", "E_f": 110000)"));
   const auto two = read(law("huth rivet", R"("mode": "total", "shear": "double", "E_f": 110000)"));
   // Both planes of the fastener are half as flexible, and each of them is half as stiff as both.
-  EXPECT_NEAR(2 * two.stiffness / one.stiffness, 2 * (1 / 2.0 + 1 / 3.0) / (1 / 2.0 + 1 / 6.0), 1e-12);
-  EXPECT_THAT(two.provenance, HasSubstr("huth rivet in double shear, total"));
+  EXPECT_NEAR(2 * stiffness(two) / stiffness(one), 2 * (1 / 2.0 + 1 / 3.0) / (1 / 2.0 + 1 / 6.0), 1e-12);
+  EXPECT_THAT(two->source()->text, HasSubstr("huth rivet in double shear, total"));
+}
+
+TEST(FormulaLaw, IsASpringThatSaysWhereItComesFrom) {
+  const auto law = read(R"({"type": "formula", "formula": "huth bolt", "mode": "total", "shear": "single", "t": [2, 3],
+                            "E": [72000, 72000], "d": 5, "E_f": 110000})");
+  const Branch on = law->at(1000, 1e4, 0);
+  EXPECT_NEAR(on.delta / on.F, 2.903227e-5, 5e-12);
+  ASSERT_TRUE(law->source());
+  EXPECT_TRUE(law->source()->bearing_of_sheet);
+  EXPECT_THAT(law->source()->text, HasSubstr("huth bolt in single shear, total"));
+  EXPECT_FALSE(linear_law(1)->source());
 }
 
 struct Refusal {

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/path/event_path.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 
 #include <fmt/format.h>
@@ -8,8 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/laws/cubic_law.hpp"
-#include "stage3_nonlinear/path/event_search.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
@@ -22,8 +20,8 @@ using test::ground;
 using testing::ElementsAre;
 
 const PathOptions tight{{}, {.tolerance = 1e-12, .max_iterations = 500}};
-constexpr ContactEvent closes(Index plane) { return {plane, Corner::contact, false}; }
-constexpr ContactEvent opens(Index plane) { return {plane, Corner::contact, true}; }
+constexpr ContactEvent closes(Index plane) { return {plane, CornerKind::contact, false}; }
+constexpr ContactEvent opens(Index plane) { return {plane, CornerKind::contact, true}; }
 
 /// As in load_path_test.cpp: contact at P* = g / (1/K + f) = 40, whatever the law of the second fastener beyond its
 /// gap.
@@ -85,16 +83,16 @@ TEST(Events, OfOneFastenerAreToldApartThoughItsPlatesFloat) {
 TEST(Events, AreToldByName) {
   const auto joint =
       test::joint_of({test::chain(2, 1, 1000, {{1, 2, 1000}}), test::chain(2, 0, 1000, {}), 0}, test::linear_law(1));
-  const auto text = [&](Corner corner, bool back) {
+  const auto text = [&](CornerKind corner, bool back) {
     return event_text(joint, {{0, corner, back}}) + ", " + event_text(joint, {{0, corner, back}, {1, corner, back}});
   };
-  EXPECT_EQ(text(Corner::slip, false), "1 slips, 1, 2 slip");
-  EXPECT_EQ(text(Corner::slip, true), "1 sticks again, 1, 2 stick again");
-  EXPECT_EQ(text(Corner::contact, false), "1 closes, 1, 2 close");
-  EXPECT_EQ(text(Corner::contact, true), "1 opens, 1, 2 open");
-  EXPECT_EQ(text(Corner::yield, false), "1 yields, 1, 2 yield");
-  EXPECT_EQ(text(Corner::yield, true), "1 is elastic again, 1, 2 are elastic again");
-  EXPECT_EQ(event_text(joint, {{1, Corner::contact, true}, {0, Corner::yield, false}}), "1 yields; 2 opens");
+  EXPECT_EQ(text(CornerKind::slip, false), "1 slips, 1, 2 slip");
+  EXPECT_EQ(text(CornerKind::slip, true), "1 sticks again, 1, 2 stick again");
+  EXPECT_EQ(text(CornerKind::contact, false), "1 closes, 1, 2 close");
+  EXPECT_EQ(text(CornerKind::contact, true), "1 opens, 1, 2 open");
+  EXPECT_EQ(text(CornerKind::yield, false), "1 yields, 1, 2 yield");
+  EXPECT_EQ(text(CornerKind::yield, true), "1 is elastic again, 1, 2 are elastic again");
+  EXPECT_EQ(event_text(joint, {{1, CornerKind::contact, true}, {0, CornerKind::yield, false}}), "1 yields; 2 opens");
 }
 
 TEST(Events, EqualGapsCloseTogetherAndSmallerOnesBefore) {
@@ -151,7 +149,7 @@ TEST(Events, LostContactIsAnEventToo) {
 /// At each event the planes named are on a mark; between events no stage changes, by states solved in between.
 void expect_all_events(const JointEquations& equations, const LoadPath& path, bool floats, int samples, int joint) {
   ASSERT_FALSE(path.failure) << "joint " << joint;
-  const ContactMarks marks(equations.contacts);
+  const ContactCorners corners(equations.contacts);
   const double scale = force_scale(equations.system, {1});
   Walk walk(equations, tight);
   double begin = first_load_factor;
@@ -160,29 +158,29 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, bo
     bool one_is_exact = step.events.empty();
     for (const auto& event : step.events) {
       const Contact& contact = equations.contacts[event.plane];
-      one_is_exact |= event.corner != Corner::contact || step.check.mechanism;
-      if (event.corner != Corner::contact || step.check.mechanism) continue;
+      one_is_exact |= event.kind != CornerKind::contact || step.check.mechanism;
+      if (event.kind != CornerKind::contact || step.check.mechanism) continue;
       const double gap = contact.law->gap(contact.clearance);
       const double away = std::abs(std::abs(step.delta[event.plane]) - gap);
       one_is_exact |= away <= 1e-9 * gap + 1e-15;
       // Load factors that differ by 1e-9 are one event to the search, put where the first is: the others are not on
-      // their marks by what discs move over that much load.
+      // their corners by what discs move over that much load.
       const double joined = step.events.size() > 1 ? 1e-9 * step.delta.cwiseAbs().maxCoeff() / step.load_factor : 0;
       EXPECT_LE(away, 1e-9 * gap + joined + 1e-15) << "joint " << joint;
       // A sheet that floats jumps to its hold, to the resolution of the search.
-      const bool is_curved = !contact.law->kinks(1, 0);
+      const bool is_curved = !contact.law->corners(1, 0);
       const double most = !is_curved ? step.F.cwiseAbs().maxCoeff() : floats ? 1e-9 * scale : 0;
       EXPECT_LE(std::abs(step.F[event.plane]), most) << "joint " << joint;
     }
     EXPECT_TRUE(one_is_exact) << "joint " << joint;
-    std::optional<Eigen::VectorXi> stages;
+    std::optional<Eigen::VectorXi> passed;
     const double length = step.load_factor - begin;
     for (int k = 0; k < samples && length > 1e-6; ++k) {
       ASSERT_TRUE(walk.reach(begin + length * (k + 0.5) / samples));
       if (walk.step().check.mechanism) break;  // whether a sheet touches within its gaps is not determined
-      const Eigen::VectorXi here = marks.stages(walk.here().c);
-      EXPECT_EQ(here, stages.value_or(here)) << "joint " << joint << " before " << step.load_factor;
-      stages = here;
+      const Eigen::VectorXi here = corners.passed(walk.here().c);
+      EXPECT_EQ(here, passed.value_or(here)) << "joint " << joint << " before " << step.load_factor;
+      passed = here;
     }
     begin = step.load_factor;
   }
@@ -262,7 +260,7 @@ TEST(Events, GivenLoadFactorsThatHitOneSaySo) {
 TEST(Events, SearchEndsWhereTheJointDoes) {
   const auto lap =
       test::Lap{test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, ground, 1000}}), 4};
-  auto joint = test::joint_of(lap, std::make_shared<CubicLaw>(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4}));
+  auto joint = test::joint_of(lap, cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4}));
   const LoadPath path = follow_events(make_equations(joint), {});
   ASSERT_TRUE(path.failure) << "it carries 3.025 at most";
   EXPECT_EQ(path.failure->load_factor, 0.875);

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "common/input/json.hpp"
-#include "stage3_nonlinear/laws/cubic_law.hpp"
+#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
 
@@ -77,8 +77,7 @@ INSTANTIATE_TEST_SUITE_P(
     Each, Objectivity,
     testing::Values(LawCase{"linear", test::linear_law(40), 0}, LawCase{"linear_with_gap", test::linear_law(40), 0.02},
                     LawCase{"power", test::power_law(40, 0.5), 0.02}, LawCase{"bilinear", bilinear(), 0.01},
-                    LawCase{"cubic", std::make_shared<CubicLaw>(std::array{0.1, 0.2, 0.3}, std::array{5.0, 8.0, 12.0}),
-                            0.01}),
+                    LawCase{"cubic", cubic_law(std::array{0.1, 0.2, 0.3}, std::array{5.0, 8.0, 12.0}), 0.01}),
     [](const auto& test) { return test.param.name; });
 
 TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
@@ -86,13 +85,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
   std::mt19937 random(22);
   for (int i = 0; i < 30; ++i) {
     const JointModel joint = test::random_stack(random, 2 + i % 4, 1 + i % 3, 2);
-    MatrixXd A = MatrixXd::Zero(joint.n_unknowns(), joint.n_unknowns());
-    VectorXd load(joint.n_unknowns());
-    for (std::size_t plate = 0; plate < joint.plates.size(); ++plate) {
-      const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
-      A.block(at, at, m, m) = joint.plates[plate].S;
-      load.segment(at, m) = -joint.plates[plate].T;
-    }
+    const auto [A, load] = test::loose_plates(joint);
     const PathStep step = test::solved(joint);
     const VectorXd u = condense(joint).displacements(step.F, step.delta, 1);
     VectorXd balance = A * u - load;
@@ -100,7 +93,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
       const ShearPlane& plane = joint.planes[j];
       const HoleModel &a = joint.first_hole(plane), &b = joint.second_hole(plane);
       const Index first = joint.offset(a.plate) + a.disc, second = joint.offset(b.plate) + b.disc;
-      const double K = plane.law->at(1, 1, 0).F / plane.law->at(1, 1, 0).delta;
+      const double K = test::stiffness_of(*plane.law);
       const Vector2d F = K * (u.segment<2>(first) - u.segment<2>(second));
       balance.segment<2>(first) += F;
       balance.segment<2>(second) -= F;

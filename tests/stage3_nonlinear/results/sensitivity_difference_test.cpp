@@ -8,7 +8,7 @@
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
-#include "stage3_nonlinear/solvers/newton_solver.hpp"
+#include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/stage3_nonlinear/named_laws.hpp"
 
 namespace fastjoint::stage3 {
@@ -36,7 +36,7 @@ std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
   const VectorXd lengths = amounts(c, a), F = contact_state(equations.contacts, c).F;
   for (Index j = 0; j < lengths.size(); ++j) {
     const Contact& contact = equations.contacts[j];
-    const auto corners = contact.law->kinks(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
+    const auto corners = contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
     const auto is_ahead = [&](double corner) { return std::abs(lengths[j]) < corner; };
     result.push_back(std::count_if(corners.begin(), corners.end(), is_ahead));
     result.push_back(F.segment(j * a, a).isZero(0));
@@ -156,7 +156,7 @@ struct Tally {
 };
 
 /// Errors of the change of the forces over one step, by steps h, h/2, h/4 and by Richardson's extrapolation of the last
-/// two; nothing where there is a kink within h.
+/// two; nothing where there is a corner within h.
 std::optional<std::array<double, 4>> errors(const Differences& joint, const Number& number, double step) {
   std::array<VectorXd, 3> difference;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -173,7 +173,7 @@ void compare(const Differences& joint, const Number& number, const std::string& 
   auto found = errors(joint, number, step);
   for (int i = 0; i < 2 && !found; ++i) found = errors(joint, number, step *= 0.02);
   if (!found) {
-    ADD_FAILURE() << where << ", " << number.name << ": a kink next to the solution";
+    ADD_FAILURE() << where << ", " << number.name << ": a corner next to the solution";
     return;
   }
   const auto& error = *found;

@@ -58,8 +58,8 @@ TEST(TransferredLoad, OfOneBoltIsWhatIsAppliedWhateverTheFrictionOfItsHoles) {
         EXPECT_NEAR(step.delta[0], sign * F / K, 1e-12);
         EXPECT_LT(state.out_of_balance, 1e-13);
         EXPECT_LT(state.fasteners_out_of_balance, 1e-13);
-        ASSERT_TRUE(state.sheets_out_of_balance) << "a floats";
-        EXPECT_LT(*state.sheets_out_of_balance, 1e-13);
+        ASSERT_TRUE(state.plates_out_of_balance) << "a floats";
+        EXPECT_LT(*state.plates_out_of_balance, 1e-13);
         // Each hole's friction is that of its own bearing force, P less that friction.
         const Index side = sign > 0 ? 0 : 1;
         const FrictionLoad& b = joint.fasteners[0].holes[1].friction[0][side];

@@ -104,6 +104,12 @@ TEST(JointScene, WarnsOfDoubtfulLaws) {
               ElementsAre(HasSubstr("folder/joint.json: /laws/lin: n = 0.2 is below")));
 }
 
+TEST(JointScene, DoesNotWarnOfALawThatNoFastenerHas) {
+  EXPECT_THAT(
+      read({{"laws", R"({"lin": {"type": "linear", "k": 1}, "odd": {"type": "power", "A": 1, "n": 0.2}})"}}).warnings,
+      IsEmpty());
+}
+
 struct Refusal {
   Members members;
   const char* message;

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/laws/flexibility_formula.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+
+#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -107,11 +112,88 @@ double sum(const Terms& terms, bool all) {
   return flexibility;
 }
 
+const FlexibilityFormula& read_formula(const input::Value& law) {
+  std::vector<std::string> names;
+  for (const auto& formula : formulas) names.emplace_back(formula.name);
+  return formulas[std::find(names.begin(), names.end(), law.at("formula").choice(names)) - names.begin()];
+}
+
+int read_shear(const input::Value& law, const FlexibilityFormula& formula) {
+  const auto shear = law.at("shear");
+  if (shear.choice({"single", "double"}) == "single") return 1;
+  if (!formula.knows_double_shear)
+    shear.not_allowed(fmt::format("\"single\", the only shear of the formula \"{}\"", formula.name));
+  return 2;
+}
+
+double read_nu(const input::Value& law, const FlexibilityFormula& formula) {
+  constexpr double incompressible = 0.5;
+  const input::Range poisson{.low = 0, .high = incompressible};
+  if (formula.uses_nu_f) return law.at("nu_f").number(poisson);
+  if (const auto nu = law.find("nu_f"))
+    nu->fail("unknown key", fmt::format("no \"nu_f\", the formula \"{}\" does not use it", formula.name));
+  return 0;
+}
+
+std::array<double, 2> read_pair(const input::Value& law, const char* key) {
+  const auto values = law.at(key).numbers(2, 2, input::positive);
+  return {values[0], values[1]};
+}
+
+FastenerRows read_rows(const input::Value& law, const FlexibilityFormula& formula) {
+  constexpr int most_rows = 100;
+  if (formula.uses_rows)
+    return {.E_z = read_pair(law, "E_z"),
+            .d_head = law.at("d_head").number(input::positive),
+            .pitch = law.at("pitch").number(input::positive),
+            .row_pitch = law.at("row_pitch").number(input::positive),
+            .rows = double(law.at("rows").integer(1, most_rows)),
+            .c_f = law.at("c_f").number(input::positive)};
+  for (const char* key : {"E_z", "d_head", "pitch", "row_pitch", "rows", "c_f"})
+    if (const auto value = law.find(key))
+      value->fail("unknown key", fmt::format("no \"{}\", the formula \"{}\" does not use it", key, formula.name));
+  return {};
+}
+
 }  // namespace
 
 std::span<const FlexibilityFormula> flexibility_formulas() { return formulas; }
 
 double total_flexibility(const Terms& terms) { return sum(terms, true); }
 double fastener_flexibility(const Terms& terms) { return sum(terms, false); }
+
+/// Reads {"type": "formula", "formula": "huth bolt", "mode": "total" or "fastener only", "shear": "single" or "double",
+/// "t": [t1, t2], "E": [E1, E2], "d": d, "E_f": E_f}, and "nu_f" and FastenerRows where the formula uses them.
+///
+/// In mode "total" the law takes all terms, for sheets whose holes have springs that hardly give; in "fastener only"
+/// those that the bearing of the sheets does not make, because the springs around the holes have it.
+LawPointer read_formula_law(const input::Value& law) {
+  law.only({"type", "formula", "mode", "shear", "t", "E", "d", "E_f", "nu_f", "E_z", "d_head", "pitch", "row_pitch",
+            "rows", "c_f", "one_sided"});
+  const auto& formula = read_formula(law);
+  const std::string mode = law.at("mode").choice({"total", "fastener only"});
+  const int n_shear = read_shear(law, formula);
+  const FastenerGeometry geometry{.t = read_pair(law, "t"),
+                                  .E = read_pair(law, "E"),
+                                  .d = law.at("d").number(input::positive),
+                                  .E_f = law.at("E_f").number(input::positive),
+                                  .nu_f = read_nu(law, formula),
+                                  .n_shear = n_shear,
+                                  .rows = read_rows(law, formula)};
+  const auto terms = formula.terms(geometry);
+  const double total = total_flexibility(terms), fastener = fastener_flexibility(terms);
+  const bool whole = mode == "total";
+  return linear_law(
+      1 / (n_shear * (whole ? total : fastener)),
+      Source{.text = fmt::format(
+                 "{} in {} shear, {}: {}; flexibility {:.6g}, of which {:.6g} of the fastener{}, in the units of the "
+                 "joint",
+                 formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, total, fastener,
+                 n_shear == 1 ? "" : ", of both planes together; the law is that of one plane"),
+             .bearing_of_sheet = whole,
+             .t = geometry.t,
+             .E = geometry.E,
+             .d = geometry.d});
+}
 
 }  // namespace fastjoint::stage3
