@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/extract.hpp"
 
+#include "common/count.hpp"
 #include "common/linalg/condensed.hpp"
 #include "stage2_extract/matrices/friction_constants.hpp"
 #include "stage2_extract/matrices/load_reactions.hpp"
@@ -9,13 +10,12 @@
 namespace fastjoint::stage2 {
 namespace {
 
-/// None of what line springs hold, (m).
+/// Modulus of the springs of each disc, (m); 0 for what point springs hold.
 Eigen::VectorXd disc_modulus(const formats::PlateSolution& plate) {
-  Eigen::VectorXd modulus = Eigen::VectorXd::Zero(plate.disc_hole.size());
-  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i)
-    for (std::size_t hole = 0; hole < plate.hole_id.size(); ++hole)
-      if (plate.hole_id[hole] == plate.disc_hole[i]) modulus[i] = plate.hole_spring[hole].modulus;
-  return modulus;
+  return Eigen::VectorXd::NullaryExpr(count_of(plate.disc_hole), [&](Eigen::Index i) {
+    const int hole = index_of(plate.hole_id, plate.disc_hole[i]);
+    return hole < count_of(plate.hole_id) ? plate.hole_spring[hole].modulus : 0;
+  });
 }
 
 formats::PlateMatrices names(const formats::PlateSolution& plate, const std::string& generator) {

@@ -32,9 +32,7 @@ Rule piecewise(int p, const std::vector<double>& breaks) {
 SideRule side_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p, const std::vector<double>& breaks) {
   const Rule rule = piecewise(p, breaks);
   const Curve curve = edge_curve(mesh, edges, side.element, side.local_edge);
-  const auto [first, second] = natural_ends(side.local_edge);
-  SideRule result{{first, second}, integrated_legendre(p, rule.x).N, {}, {}, rule.w};
-  for (int k = 2; k <= p; ++k) result.modes.push_back(edge_mode(p, side.local_edge, k));
+  SideRule result{modes_on_edge(p, side.local_edge), integrated_legendre(p, rule.x).N, {}, {}, rule.w};
   result.x.resize(2, rule.x.size());
   result.normal.resize(2, rule.x.size());
   // Counter-clockwise, the outside is to the right; top and left run clockwise in their natural direction.

@@ -41,7 +41,7 @@ CongruentElements find_congruent(const Mesh& mesh, const Edges& edges) {
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const auto [found, is_new] = index.try_emplace(shape_of(mesh, edges, element), count_of(congruent.first));
     if (is_new) congruent.first.push_back(element);
-    congruent.shape.push_back(found->second);
+    congruent.class_of.push_back(found->second);
   }
   return congruent;
 }

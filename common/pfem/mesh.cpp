@@ -35,13 +35,12 @@ Edges find_edges(const Mesh& mesh) {
   edges.nodes.resize(2, index.size());
   for (const auto& [ends, edge] : index) edges.nodes.col(edge) << ends.first, ends.second;
   edges.arc.assign(index.size(), -1);
-  for (std::size_t i = 0; i < mesh.arcs.size(); ++i) {
+  for (int i = 0; i < count_of(mesh.arcs); ++i) {
     const auto found = index.find(sorted(mesh.arcs[i].a, mesh.arcs[i].b));
-    if (found == index.end()) {
-      edges.arc_without_edge.push_back(static_cast<int>(i));
-    } else {
-      edges.arc[found->second] = static_cast<int>(i);
-    }
+    if (found == index.end())
+      edges.arc_without_edge.push_back(i);
+    else
+      edges.arc[found->second] = i;
   }
   return edges;
 }

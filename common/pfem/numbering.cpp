@@ -26,6 +26,12 @@ std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, con
   return blocks;
 }
 
+ElementDofs dofs_of(const Eigen::Matrix2Xi& dofs, const Eigen::VectorXi& function, const Eigen::VectorXd& sign) {
+  ElementDofs result{Eigen::VectorXi(2 * function.size()), sign.replicate(2, 1)};
+  result.dof << dofs(0, function).transpose(), dofs(1, function).transpose();
+  return result;
+}
+
 }  // namespace
 
 Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p) {
@@ -50,6 +56,15 @@ Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, in
         numbering.function(m++, element) = block.first_interior + element * block.n_interior + i;
   }
   return numbering;
+}
+
+ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element) {
+  return dofs_of(dofs, numbering.function.col(element), numbering.sign.col(element));
+}
+
+ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element,
+                         const std::vector<int>& modes) {
+  return dofs_of(dofs, numbering.function.col(element)(modes), numbering.sign.col(element)(modes));
 }
 
 }  // namespace fastjoint::pfem

@@ -23,4 +23,22 @@ struct Numbering {
 /// elements' interior modes of that degree.
 [[nodiscard]] Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p);
 
+/// What becomes of a degree of freedom, u_x or u_y of a global function, stands in one number: i >= 0 is the free
+/// unknown i, -1 is zero, -2 - i is the controlled displacement i.
+inline constexpr int fixed_dof = -1;
+[[nodiscard]] constexpr int controlled_dof(int index) { return -2 - index; }
+[[nodiscard]] constexpr bool is_free(int dof) { return dof >= 0; }
+[[nodiscard]] constexpr bool is_controlled(int dof) { return dof < fixed_dof; }
+[[nodiscard]] constexpr int controlled_index(int dof) { return -2 - dof; }
+
+/// The degrees of freedom of n local modes of an element, first u_x of all, then u_y of all.
+struct ElementDofs {
+  Eigen::VectorXi dof;   ///< (2n) what becomes of each
+  Eigen::VectorXd sign;  ///< (2n) value of the global function per local mode, +1 or -1
+};
+/// @param dofs What becomes of u_x and u_y of each global function, shape (2, n_functions).
+[[nodiscard]] ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element);
+[[nodiscard]] ElementDofs element_dofs(const Numbering& numbering, const Eigen::Matrix2Xi& dofs, int element,
+                                       const std::vector<int>& modes);
+
 }  // namespace fastjoint::pfem

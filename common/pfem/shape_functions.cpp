@@ -23,6 +23,13 @@ std::vector<Mode> modes(Space space, int p) {
   return list;
 }
 
+std::vector<int> modes_on_edge(int p, int edge) {
+  const auto [first, second] = natural_ends(edge);
+  std::vector<int> list = {first, second};
+  for (int k = 2; k <= p; ++k) list.push_back(edge_mode(p, edge, k));
+  return list;
+}
+
 ShapeValues shape_values(Space space, int p, const Eigen::VectorXd& xi, const Eigen::VectorXd& eta) {
   const auto list = modes(space, p);
   const Eigen::Index n_modes = list.size();

@@ -26,6 +26,9 @@ inline constexpr int n_local_edges = 4;
 /// Local index of mode k = 2..p of an edge in modes(space, p) of either space.
 [[nodiscard]] constexpr int edge_mode(int p, int edge, int k) { return 4 + edge * (p - 1) + (k - 2); }
 
+/// Local modes that do not vanish on an edge: its two vertices in its natural direction, then its own of k = 2..p.
+[[nodiscard]] std::vector<int> modes_on_edge(int p, int edge);
+
 /// The two vertices of a local edge in its natural direction, that of growing xi or eta.
 struct EdgeEnds {
   int first, second;

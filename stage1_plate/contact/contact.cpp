@@ -18,8 +18,8 @@ constexpr double at_rest = 1e-6;  // radians
 Eigen::Vector2d disc_force(const PlateScene& scene, const Unknowns& unknowns, const Eigen::VectorXd& P, int hole) {
   Eigen::Vector2d force = Eigen::Vector2d::Zero();
   const int first = unknowns.disc_of_hole[hole];
-  for (std::size_t a = 0; a < scene.disc_directions.size(); ++a)
-    force += P[unknowns.controlled_of_disc(first + static_cast<int>(a))] * rim::axis(scene.disc_directions[a]);
+  for (int a = 0; a < unknowns.n_directions; ++a)
+    force += P[unknowns.controlled_of_disc(first + a)] * rim::axis(scene.disc_directions[a]);
   return force;
 }
 

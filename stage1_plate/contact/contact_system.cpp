@@ -8,7 +8,6 @@
 
 #include "common/errors.hpp"
 #include "common/rim/bearing.hpp"
-#include "stage1_plate/problem/loads.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 
 namespace fastjoint::stage1 {
@@ -42,10 +41,10 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
       whole_(Eigen::MatrixXd::Zero(rim_.size(), rim_.size())) {
   for (std::size_t i = 0; i < problem.unknowns.traction.size(); ++i)
     traction_[i] = scene.given_loads().external[problem.unknowns.traction[i]].value;
-  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+  for (int hole = 0; hole < count_of(scene.holes); ++hole) {
     const auto& spring = scene.holes[hole].spring;
     if (!spring || !spring->compression_only) continue;
-    holes_.push_back(static_cast<int>(hole));
+    holes_.push_back(hole);
     gaps_.emplace_back(scene, plate, problem, rim_, holes_.back());
     whole_ += gaps_.back().stiffness(spring->acts);
   }
@@ -109,9 +108,7 @@ Eigen::MatrixXd ContactSystem::friction_per_force() const {
     const double friction = loads_[controlled].friction;
     const int side = side_[controlled];
     if (friction == 0 || side == 0) continue;
-    const std::string& id = unknowns.disc_hole[disc];
-    const auto hole = std::find_if(scene_.holes.begin(), scene_.holes.end(), [&](const Hole& h) { return h.id == id; });
-    const auto& rim = plate_.rims[hole - scene_.holes.begin()];
+    const auto& rim = plate_.rims[index_of(scene_.holes, unknowns.disc_hole[disc], &Hole::id)];
     const Eigen::Vector2d e = rim::axis(unknowns.disc_direction[disc]);
     const double c = rim::bearing(plate_.mesh, plate_.edges, rim, side * e).unit_force;
     const int friction_case = 2 * disc + (side > 0 ? 0 : 1);

@@ -13,9 +13,8 @@
 namespace fastjoint::stage1 {
 namespace {
 
-int target(const PlateProblem& problem, const pfem::Side& side, int mode, int component) {
-  const int function = problem.numbering.function(mode, side.element);
-  return problem.unknowns.target[2 * function + component];
+int dof_of(const PlateProblem& problem, const pfem::Side& side, int mode, int component) {
+  return problem.unknowns.dofs(component, problem.numbering.function(mode, side.element));
 }
 
 /// Global shape function per local one.
@@ -50,10 +49,9 @@ double highest(const Function& f, double low, double high) {
 
 }  // namespace
 
-int RimUnknowns::place(int target) const {
-  if (target == Unknowns::fixed) return -1;
-  if (Unknowns::is_free(target)) return position[target];
-  return count_of(free) + Unknowns::controlled_index(target);
+int RimUnknowns::place(int dof) const {
+  if (dof == pfem::fixed_dof) return -1;
+  return pfem::is_free(dof) ? position[dof] : count_of(free) + pfem::controlled_index(dof);
 }
 
 RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
@@ -65,13 +63,12 @@ RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, c
     for (const auto& side : plate.rims[hole].sides)
       for (const int mode : pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p).modes)
         for (const int component : {0, 1})
-          if (const int to = target(problem, side, mode, component); Unknowns::is_free(to))
-            unknowns.position[to] = on_rim;
+          if (const int to = dof_of(problem, side, mode, component); pfem::is_free(to)) unknowns.position[to] = on_rim;
   }
-  for (std::size_t i = 0; i < unknowns.position.size(); ++i)
+  for (int i = 0; i < count_of(unknowns.position); ++i)
     if (unknowns.position[i] == on_rim) {
       unknowns.position[i] = count_of(unknowns.free);
-      unknowns.free.push_back(static_cast<int>(i));
+      unknowns.free.push_back(i);
     }
   return unknowns;
 }
@@ -88,14 +85,14 @@ class RimGap::Trace {
     for (int k = 0; k <= p_; ++k) {
       const int mode = k == 0 ? first : k == 1 ? second : pfem::edge_mode(p_, side.local_edge, k);
       for (const int component : {0, 1})
-        if (const int place = rim.unknowns_.place(target(rim.problem_, side, mode, component)); place >= 0)
+        if (const int place = rim.unknowns_.place(dof_of(rim.problem_, side, mode, component)); place >= 0)
           u_(component, k) = sign(rim.problem_, side, mode) * z[place];
     }
     const Unknowns& unknowns = rim.problem_.unknowns;
     const int first_disc = unknowns.disc_of_hole[rim.hole_];
-    for (std::size_t a = 0; a < rim.scene_.disc_directions.size(); ++a) {
-      const int controlled = unknowns.controlled_of_disc(first_disc + static_cast<int>(a));
-      disc_ += z[rim.unknowns_.place(Unknowns::controlled(controlled))] * rim::axis(rim.scene_.disc_directions[a]);
+    for (int a = 0; a < unknowns.n_directions; ++a) {
+      const int controlled = unknowns.controlled_of_disc(first_disc + a);
+      disc_ += z[rim.unknowns_.place(pfem::controlled_dof(controlled))] * rim::axis(rim.scene_.disc_directions[a]);
     }
   }
 
@@ -134,16 +131,16 @@ RimGap::SideGap RimGap::side_gap(const pfem::Side& side, const pfem::SideRule& r
   SideGap gap;
   for (std::size_t i = 0; i < rule.modes.size(); ++i)
     for (const int component : {0, 1}) {
-      const int place = unknowns_.place(target(problem_, side, rule.modes[i], component));
+      const int place = unknowns_.place(dof_of(problem_, side, rule.modes[i], component));
       if (place < 0) continue;
       const double s = sign(problem_, side, rule.modes[i]);
       gap.place.push_back(place);
       rows.emplace_back(s * rule.N.row(i).cwiseProduct(rule.normal.row(component)));
     }
   const int first_disc = problem_.unknowns.disc_of_hole[hole_];
-  for (std::size_t a = 0; a < scene_.disc_directions.size(); ++a) {
-    const int controlled = problem_.unknowns.controlled_of_disc(first_disc + static_cast<int>(a));
-    gap.place.push_back(unknowns_.place(Unknowns::controlled(controlled)));
+  for (int a = 0; a < problem_.unknowns.n_directions; ++a) {
+    const int controlled = problem_.unknowns.controlled_of_disc(first_disc + a);
+    gap.place.push_back(unknowns_.place(pfem::controlled_dof(controlled)));
     rows.emplace_back(-rim::axis(scene_.disc_directions[a]).transpose() * rule.normal);
   }
   gap.a.resize(rows.size(), n_points);

@@ -18,8 +18,8 @@ struct RimUnknowns {
   int n_controlled;
 
   [[nodiscard]] int size() const { return count_of(free) + n_controlled; }
-  /// Place of a coefficient's target in z, or -1 of a fixed one.
-  [[nodiscard]] int place(int target) const;
+  /// Index in z of a degree of freedom, or -1 for a fixed one.
+  [[nodiscard]] int place(int dof) const;
 };
 [[nodiscard]] RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate,
                                             const PlateProblem& problem);

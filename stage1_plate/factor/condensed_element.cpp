@@ -9,8 +9,8 @@ namespace fastjoint::stage1 {
 namespace {
 
 /// Adds what a rim brings to the lower triangle of M.
-/// @param row Of each coefficient of the element, -1 of those of higher degrees.
-void add_rim(const ElementKind::RimSide& rim, const std::vector<int>& row, Eigen::Index first_border,
+/// @param row Row of each degree of freedom of the element, -1 for those of higher degrees.
+void add_rim(const ElementClass::RimSide& rim, const std::vector<int>& row, Eigen::Index first_border,
              Eigen::MatrixXd& M) {
   const RimTerms& terms = rim.terms;
   const Eigen::Index n_modes = std::ssize(row) / 2;
@@ -30,23 +30,24 @@ void add_rim(const ElementKind::RimSide& rim, const std::vector<int>& row, Eigen
 
 }  // namespace
 
-CondensedElement condense(const ElementKind& kind, const Eigen::MatrixXd& K, const pfem::Numbering& numbering, int p) {
+CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K, const pfem::Numbering& numbering,
+                          int p) {
   CondensedElement element{{}, {}, 0, {}};
-  const int n_modes = count_of(kind.kept);
+  const int n_modes = count_of(elements.kept);
   for (int mode = 0; mode < n_modes; ++mode) {
-    if (numbering.function(mode, kind.first) >= numbering.n_functions[p]) continue;
-    auto& list = kind.kept[mode] ? element.outside : element.inside;
+    if (numbering.function(mode, elements.first) >= numbering.n_functions[p]) continue;
+    auto& list = elements.kept[mode] ? element.outside : element.inside;
     list.insert(list.end(), {mode, n_modes + mode});
   }
-  for (const auto& rim : kind.rims)
-    element.n_border = std::max(element.n_border, (rim.hole + 1) * 3 * static_cast<int>(rim.terms.coupling.cols()));
+  for (const auto& rim : elements.rims)
+    element.n_border = std::max(element.n_border, (rim.hole + 1) * 3 * rim.terms.coupling.cols());
   std::vector<int> order = element.inside, row(2 * n_modes, -1);
   order.insert(order.end(), element.outside.begin(), element.outside.end());
   const Eigen::Index n = order.size();
-  for (std::size_t i = 0; i < order.size(); ++i) row[order[i]] = static_cast<int>(i);
+  for (int i = 0; i < n; ++i) row[order[i]] = i;
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + element.n_border, n + element.n_border);
-  M.topLeftCorner(n, n) = kind.thickness * K(order, order);
-  for (const auto& rim : kind.rims) add_rim(rim, row, n, M);
+  M.topLeftCorner(n, n) = elements.thickness * K(order, order);
+  for (const auto& rim : elements.rims) add_rim(rim, row, n, M);
   element.matrix = {std::move(M), std::ssize(element.inside)};
   return element;
 }

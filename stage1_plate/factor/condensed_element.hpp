@@ -9,17 +9,17 @@
 
 namespace fastjoint::stage1 {
 
-/// A kind of elements at one degree, condensed onto the functions that it shares and onto its border: by hole the
+/// A class of elements at one degree, condensed onto the functions that it shares and onto its border: by hole the
 /// discs, then the friction cases. The border's rows are those of a bordered stiffness [K_ff K_fc -L; . K_cc -L_c], in
 /// which a friction case has an amplitude as a disc has a displacement.
 struct CondensedElement {
-  std::vector<int> inside, outside;  ///< coefficients: mode, or n_modes + mode for u_y, local signs
-  int n_border;
+  std::vector<int> inside, outside;  ///< degrees of freedom of the element: mode, or n_modes + mode for u_y
+  Eigen::Index n_border;
   linalg::Condensed matrix;
 };
 
-/// @param K Of the kind's shape at the highest degree, of unit thickness, (2 n_modes, 2 n_modes).
-[[nodiscard]] CondensedElement condense(const ElementKind& kind, const Eigen::MatrixXd& K,
+/// @param K Stiffness of the congruence class at the highest degree and unit thickness, (2 n_modes, 2 n_modes).
+[[nodiscard]] CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K,
                                         const pfem::Numbering& numbering, int p);
 
 }  // namespace fastjoint::stage1

@@ -8,7 +8,6 @@
 
 #include "common/count.hpp"
 #include "common/linalg/threads.hpp"
-#include "stage1_plate/factor/element_solution.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -18,7 +17,8 @@ class SkeletonAssembler {
  public:
   explicit SkeletonAssembler(Eigen::SparseMatrix<double>& A) : A_(A) {}
 
-  /// @param rows Of C's rows in the pattern, -1 to leave out; several may be one. @param C Its lower triangle counts.
+  /// @param rows Row of the pattern for each row of C, -1 to leave it out; several may be one. @param C Its lower
+  /// triangle counts.
   void add(const std::vector<int>& rows, const Eigen::VectorXd& sign, double scale,
            const Eigen::Ref<const Eigen::MatrixXd>& C) {
     order_.resize(rows.size());
@@ -46,6 +46,55 @@ class SkeletonAssembler {
   std::vector<int> order_;
 };
 
+/// One element while the plate is solved: loads inside it are eliminated before the skeleton is solved, displacements
+/// inside it follow from those of the skeleton.
+class ElementSolution {
+ public:
+  /// All must outlive this.
+  ElementSolution(const PlateProblem& problem, int element, const CondensedElement& condensed,
+                  const Skeleton::Rows& rows)
+      : dofs_(pfem::element_dofs(problem.numbering, problem.unknowns.dofs, element)),
+        scale_(problem.elements.scale[element]),
+        condensed_(condensed),
+        rows_(rows) {}
+
+  /// @param B Loads on the plate's unknowns, (n_p, k).
+  void eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B) {
+    inside_.resize(condensed_.inside.size(), B.cols());
+    for (Eigen::Index i = 0; i < inside_.rows(); ++i)
+      inside_.row(i) = dofs_.sign[condensed_.inside[i]] * B.row(dofs_.dof[condensed_.inside[i]]);
+    outside_.setZero(condensed_.matrix.n_outside(), B.cols());
+    if (inside_.isZero(0)) return;
+    condensed_.matrix.eliminate(inside_, outside_);
+    inside_ /= scale_;
+  }
+
+  /// Adds what they do to the loads on the skeleton.
+  void add_to(Eigen::MatrixXd& skeleton) const {
+    for (std::size_t i = 0; i < condensed_.outside.size(); ++i)
+      if (const int dof = dofs_.dof[condensed_.outside[i]]; pfem::is_free(dof))
+        skeleton.row(rows_.of_unknown[dof]) += dofs_.sign[condensed_.outside[i]] * outside_.row(i);
+  }
+
+  /// @param skeleton Displacements of the skeleton. @param X (n_p, k) gets those inside the element.
+  void restore(const Eigen::MatrixXd& skeleton, Eigen::Ref<Eigen::MatrixXd> X) {
+    outside_.setZero();
+    for (std::size_t i = 0; i < condensed_.outside.size(); ++i)
+      if (const int dof = dofs_.dof[condensed_.outside[i]]; pfem::is_free(dof))
+        outside_.row(i) = dofs_.sign[condensed_.outside[i]] * skeleton.row(rows_.of_unknown[dof]);
+    condensed_.matrix.restore(inside_, outside_);
+    for (Eigen::Index i = 0; i < inside_.rows(); ++i)
+      X.row(dofs_.dof[condensed_.inside[i]]) = dofs_.sign[condensed_.inside[i]] * inside_.row(i);
+  }
+
+ private:
+  pfem::ElementDofs dofs_;
+  double scale_;
+  const CondensedElement& condensed_;
+  const Skeleton::Rows& rows_;
+  Eigen::MatrixXd inside_, outside_;  ///< between eliminate and restore
+};
+
 double largest(const Eigen::SparseMatrix<double>& A) { return A.nonZeros() > 0 ? A.coeffs().abs().maxCoeff() : 0; }
 
 }  // namespace
@@ -55,37 +104,35 @@ Eigen::VectorXd shift(const PlateProblem& problem) {
 }
 
 PlateFactor::PlateFactor(const PlateProblem& problem, const Skeleton& skeleton, int p)
-    : problem_(problem), kinds_(problem.elements.kinds.size()), rows_(skeleton.rows(problem, p)) {
-  linalg::for_each_index(kinds_.size(), [&](std::size_t i) {
-    const ElementKind& kind = problem.elements.kinds[i];
-    kinds_[i] = condense(kind, problem.elements.stiffness[kind.shape], problem.numbering, p);
+    : problem_(problem), classes_(problem.elements.classes.size()), rows_(skeleton.rows(problem, p)) {
+  linalg::for_each_index(classes_.size(), [&](std::size_t i) {
+    const ElementClass& elements = problem.elements.classes[i];
+    classes_[i] = condense(elements, problem.elements.stiffness[elements.congruent], problem.numbering, p);
   });
   const Eigen::SparseMatrix<double> A = skeleton_stiffness(skeleton);
   diagonal_ = A.diagonal();
   factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_border);
 }
 
-const CondensedElement& PlateFactor::condensed(int element) const { return kinds_[problem_.elements.kind[element]]; }
+const CondensedElement& PlateFactor::condensed(int element) const {
+  return classes_[problem_.elements.class_of[element]];
+}
 
 Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skeleton) const {
   Eigen::SparseMatrix<double> A = skeleton.pattern(rows_);
   SkeletonAssembler assembler(A);
-  const auto& numbering = problem_.numbering;
-  const auto n_modes = numbering.function.rows();
-  for (Eigen::Index element = 0; element < numbering.function.cols(); ++element) {
-    const CondensedElement& K = condensed(static_cast<int>(element));
-    std::vector<int> rows;
+  for (int element = 0; element < count_of(problem_.elements.class_of); ++element) {
+    const CondensedElement& K = condensed(element);
+    const auto dofs = pfem::element_dofs(problem_.numbering, problem_.unknowns.dofs, element);
     Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
-    for (const int coefficient : K.outside) {
-      sign[rows.size()] = numbering.sign(coefficient % n_modes, element);
-      const auto place = Eigen::Index{2} * numbering.function(coefficient % n_modes, element) + coefficient / n_modes;
-      rows.push_back(rows_.of_target(problem_.unknowns.target[place]));
-    }
-    for (const int column : border_of(problem_, static_cast<int>(element))) rows.push_back(rows_.n_skeleton + column);
+    sign.head(K.outside.size()) = dofs.sign(K.outside);
+    std::vector<int> rows;
+    for (const int i : K.outside) rows.push_back(rows_.of_dof(dofs.dof[i]));
+    for (const int column : border_of(problem_, element)) rows.push_back(rows_.n_skeleton + column);
     assembler.add(rows, sign, problem_.elements.scale[element], K.matrix.outside());
   }
   for (const auto& tie : problem_.ties) {
-    const int plate = rows_.of_target(tie.target), disc = rows_.n_skeleton + tie.controlled;
+    const int plate = rows_.of_dof(tie.dof), disc = rows_.n_skeleton + tie.controlled;
     assembler.add(plate, plate, tie.stiffness);
     assembler.add(disc, disc, tie.stiffness);
     assembler.add(plate, disc, -tie.stiffness);
@@ -117,8 +164,8 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
     for (Eigen::Index i = 0; i < B.rows(); ++i)
       if (const int row = rows_.of_unknown[i]; row >= 0) skeleton.row(row) = B.row(i).segment(first, k);
     std::vector<ElementSolution> elements;
-    elements.reserve(problem_.elements.kind.size());
-    for (int element = 0; element < count_of(problem_.elements.kind); ++element)
+    elements.reserve(problem_.elements.class_of.size());
+    for (int element = 0; element < count_of(problem_.elements.class_of); ++element)
       elements.emplace_back(problem_, element, condensed(element), rows_);
     linalg::for_each_index(elements.size(), [&](std::size_t i) { elements[i].eliminate(B.middleCols(first, k)); });
     for (const auto& element : elements) element.add_to(skeleton);

@@ -11,7 +11,7 @@
 
 namespace fastjoint::stage1 {
 
-/// The plate's stiffness at one degree, factorised: elements are condensed onto their skeletons, each kind once; what
+/// The plate's stiffness at one degree, factorised: elements are condensed onto their skeletons, each class once; what
 /// is left of all is one sparse system, bordered by the controlled displacements and the friction cases. The problem
 /// must outlive this.
 class PlateFactor {
@@ -34,7 +34,7 @@ class PlateFactor {
   [[nodiscard]] Eigen::SparseMatrix<double> skeleton_stiffness(const Skeleton& skeleton) const;
 
   const PlateProblem& problem_;
-  std::vector<CondensedElement> kinds_;
+  std::vector<CondensedElement> classes_;
   Skeleton::Rows rows_;
   Eigen::VectorXd diagonal_;
   std::unique_ptr<linalg::Cholesky> factor_;

@@ -18,12 +18,12 @@ void sort_unique(std::vector<int>& list) {
 
 /// First functions of the vertices and edges on the skeleton of an element.
 std::vector<int> on_skeleton_of(const PlateProblem& problem, int element) {
-  const auto& kind = problem.elements.kinds[problem.elements.kind[element]];
+  const auto& kept = problem.elements.classes[problem.elements.class_of[element]].kept;
   const auto& numbering = problem.numbering;
-  std::vector<int> list = {numbering.function(0, element), numbering.function(1, element),
-                           numbering.function(2, element), numbering.function(3, element)};
+  const Eigen::Vector4i vertices = numbering.function.col(element).head<4>();
+  std::vector<int> list(vertices.begin(), vertices.end());
   for (int edge = 0; edge < pfem::n_local_edges && numbering.p > 1; ++edge)
-    if (const int mode = pfem::edge_mode(numbering.p, edge, 2); kind.kept[mode])
+    if (const int mode = pfem::edge_mode(numbering.p, edge, 2); kept[mode])
       list.push_back(numbering.function(mode, element));
   return list;
 }
@@ -33,9 +33,8 @@ std::vector<int> on_skeleton_of(const PlateProblem& problem, int element) {
 std::vector<int> border_beside(const PlateProblem& problem, int element, const std::vector<int>& on_skeleton) {
   std::vector<int> list = border_of(problem, element);
   for (const int function : on_skeleton)
-    for (int component = 0; component < 2; ++component)
-      if (const int to = problem.unknowns.target[2 * function + component]; Unknowns::is_controlled(to))
-        list.push_back(Unknowns::controlled_index(to));
+    for (const int dof : problem.unknowns.dofs.col(function))
+      if (pfem::is_controlled(dof)) list.push_back(pfem::controlled_index(dof));
   return list;
 }
 
@@ -54,20 +53,20 @@ std::vector<int> border_of(const PlateProblem& problem, int element) {
 
 Skeleton::Skeleton(const PlateProblem& problem) {
   std::vector<Blocks> cliques;
-  const auto n_elements = count_of(problem.elements.kind);
-  cliques.reserve(problem.elements.kind.size());
+  const auto n_elements = count_of(problem.elements.class_of);
+  cliques.reserve(n_elements);
   for (int element = 0; element < n_elements; ++element) cliques.push_back(on_skeleton_of(problem, element));
   order(cliques);
   const int first_border = count_of(function_);
   higher_.resize(function_.size() + problem.unknowns.n_controlled + problem.friction_hole.size());
-  for (std::size_t i = 0; i < cliques.size(); ++i) {
-    const auto border = border_beside(problem, static_cast<int>(i), cliques[i]);
+  for (int i = 0; i < n_elements; ++i) {
+    const auto border = border_beside(problem, i, cliques[i]);
     for (int& block : cliques[i]) block = position_[block];
     for (const int column : border) cliques[i].push_back(first_border + column);
     join(cliques[i]);
   }
   for (const auto& tie : problem.ties)
-    join({Unknowns::is_free(tie.target) ? position_[tie.vertex] : first_border + Unknowns::controlled_index(tie.target),
+    join({pfem::is_free(tie.dof) ? position_[tie.vertex] : first_border + pfem::controlled_index(tie.dof),
           first_border + tie.controlled});
   for (auto& list : higher_) sort_unique(list);
 }
@@ -106,9 +105,9 @@ void Skeleton::join(const Blocks& clique) {
       if (a < b) higher_[a].push_back(b);
 }
 
-int Skeleton::Rows::of_target(int target) const {
-  if (Unknowns::is_free(target)) return of_unknown[target];
-  return Unknowns::is_controlled(target) ? n_skeleton + Unknowns::controlled_index(target) : -1;
+int Skeleton::Rows::of_dof(int dof) const {
+  if (pfem::is_free(dof)) return of_unknown[dof];
+  return pfem::is_controlled(dof) ? n_skeleton + pfem::controlled_index(dof) : -1;
 }
 
 Skeleton::Rows Skeleton::rows(const PlateProblem& problem, int p) const {
@@ -117,9 +116,8 @@ Skeleton::Rows Skeleton::rows(const PlateProblem& problem, int p) const {
   rows.of_unknown.assign(problem.unknowns.n_free.back(), -1);
   int n = 0;
   const auto number = [&](int function) {
-    for (int component = 0; component < 2; ++component)
-      if (const int to = problem.unknowns.target[2 * function + component]; Unknowns::is_free(to))
-        rows.of_unknown[to] = n++;
+    for (const int dof : problem.unknowns.dofs.col(function))
+      if (pfem::is_free(dof)) rows.of_unknown[dof] = n++;
   };
   for (const int function : function_) {
     rows.first.push_back(n);
@@ -130,7 +128,7 @@ Skeleton::Rows Skeleton::rows(const PlateProblem& problem, int p) const {
     }
   }
   rows.n_skeleton = n;
-  rows.n_border = static_cast<int>(higher_.size() - function_.size());
+  rows.n_border = count_of(higher_) - count_of(function_);
   for (int i = 0; i <= rows.n_border; ++i) rows.first.push_back(n + i);
   return rows;
 }
@@ -139,7 +137,7 @@ Skeleton::Rows Skeleton::rows(const PlateProblem& problem, int p) const {
 Skeleton::Size Skeleton::size(const Rows& rows) const {
   std::vector<Blocks> joined = higher_;
   Size size{0, 0, 0};
-  const auto n_rows = [&](std::size_t block) { return static_cast<double>(rows.first[block + 1] - rows.first[block]); };
+  const auto n_rows = [&](std::size_t block) -> double { return rows.first[block + 1] - rows.first[block]; };
   const auto n_rows_of = [&](const Blocks& blocks) {
     double n = 0;
     for (const int block : blocks) n += n_rows(block);

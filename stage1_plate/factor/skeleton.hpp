@@ -25,8 +25,8 @@ class Skeleton {
     std::vector<int> first;       ///< (blocks + 1) of each block
     int n_skeleton, n_border;
 
-    /// Of a target (Unknowns), or -1 of a fixed one.
-    [[nodiscard]] int of_target(int target) const;
+    /// Row of a degree of freedom, or -1 for a fixed one.
+    [[nodiscard]] int of_dof(int dof) const;
   };
   /// @param problem That of the constructor, or one with the same unknowns.
   [[nodiscard]] Rows rows(const PlateProblem& problem, int p) const;

@@ -69,7 +69,7 @@ class Locator {
 
 std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid) {
   std::vector<HoleCell> cells;
-  for (std::size_t i = 0; i < scene.holes.size(); ++i) {
+  for (int i = 0; i < count_of(scene.holes); ++i) {
     const Locator locator(scene, i);
     const Interval x = locator.locate(grid.x, 0);
     const Interval y = locator.locate(grid.y, 1);
@@ -78,7 +78,7 @@ std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometr
         reject(scene, fmt::format("/holes/{}", i),
                fmt::format("holes \"{}\" and \"{}\" are in one cell", scene.holes[other.hole].id, scene.holes[i].id),
                "one hole in a cell; draw a cell line between them");
-    cells.push_back({static_cast<int>(i),
+    cells.push_back({i,
                      x.index,
                      y.index,
                      {x.center, y.center},

@@ -54,14 +54,14 @@ std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mes
   std::vector<int> nodes;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     const Eigen::Vector2d& at = scene.points[i].at;
-    Eigen::Index nearest = 0;
+    int nearest = 0;
     const double distance = (mesh.nodes.colwise() - at).colwise().norm().minCoeff(&nearest);
     if (distance > same * size)
       reject(scene, fmt::format("/points/{}/at", i),
              fmt::format("({:.9g}, {:.9g}) is not a vertex of the mesh", at.x(), at.y()),
              fmt::format("vertices of the mesh; the nearest is ({:.17g}, {:.17g})", mesh.nodes(0, nearest),
                          mesh.nodes(1, nearest)));
-    nodes.push_back(static_cast<int>(nearest));
+    nodes.push_back(nearest);
   }
   return nodes;
 }

@@ -8,42 +8,27 @@
 
 namespace fastjoint::stage1 {
 
-/// Rows of a column of loads, or of a disc, in terms of an element's coefficients.
-struct ElementVector {
-  std::vector<int> modes;   ///< (n) local modes
-  Eigen::Matrix2Xd values;  ///< (2, n) for u_x and u_y of each, local signs
-};
-
-/// Collects what couples free (f) and controlled (c) unknowns, and controlled ones with each other.
+/// Collects columns over the degrees of freedom: loads, or what couples each controlled displacement to all of them.
+/// Values over modes of an element are given with local signs, first those of u_x, then those of u_y.
 class Assembler {
  public:
-  Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns);
+  /// Both must outlive this.
+  Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns);
 
-  /// factor K over some modes of an element, shape (2n, 2n), first all of u_x, local signs. What it has between free
-  /// unknowns is left out.
+  void add(int dof, int column, double value);
+  void add(int element, const std::vector<int>& modes, const Eigen::VectorXd& values, int column);
+
+  /// Adds factor K over modes of an element, shape (2n, 2n); what it has between free unknowns is left out.
   void add_stiffness(int element, const std::vector<int>& modes, const Eigen::MatrixXd& K, double factor);
-  /// Stiffness between an element's coefficients and a controlled displacement.
-  void add_coupling(int element, const ElementVector& g, int controlled);
-  /// A spring between a coefficient of the plate, by its target, and a controlled displacement.
-  void add_spring(int target, int controlled, double stiffness);
-  void add_controlled(int i, int j, double value) { K_cc_(i, j) += value; }
+  /// Adds stiffness between a degree of freedom and a controlled displacement, or modes of an element and one.
+  void add_coupling(int dof, int controlled, double value);
+  void add_coupling(int element, const std::vector<int>& modes, const Eigen::VectorXd& values, int controlled);
+  /// Adds a spring between a degree of freedom and a controlled displacement.
+  void add_spring(int dof, int controlled, double stiffness);
 
-  [[nodiscard]] Eigen::SparseMatrix<double> K_fc() const;
-  [[nodiscard]] const Eigen::MatrixXd& K_cc() const { return K_cc_; }
-
- private:
-  const pfem::Numbering& numbering_;
-  const Unknowns& unknowns_;
-  std::vector<Eigen::Triplet<double>> fc_;
-  Eigen::MatrixXd K_cc_;
-};
-
-/// Collects columns of loads.
-class LoadAssembler {
- public:
-  LoadAssembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns);
-  void add(int element, const ElementVector& g, int column);
+  /// Rows of the free unknowns, (n_f, n_columns).
   [[nodiscard]] Eigen::SparseMatrix<double> free() const;
+  /// Rows of the controlled displacements, (nc, n_columns).
   [[nodiscard]] const Eigen::MatrixXd& controlled() const { return controlled_; }
 
  private:

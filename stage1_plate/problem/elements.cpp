@@ -18,18 +18,18 @@ struct HoleSide {
   pfem::Side side;
 };
 
-class KindFinder {
+class ElementClassifier {
  public:
-  KindFinder(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
-             const Unknowns& unknowns)
+  ElementClassifier(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
+                    const Unknowns& unknowns)
       : scene_(scene), plate_(plate), numbering_(numbering), unknowns_(unknowns), rims_(plate.mesh.n_elements()) {}
 
   PlateElements run() {
     const int n = plate_.mesh.n_elements();
     result_.congruent = pfem::find_congruent(plate_.mesh, plate_.edges);
     result_.scale.resize(n);
-    for (std::size_t hole = 0; hole < scene_.holes.size(); ++hole)
-      for (const auto& side : plate_.rims[hole].sides) rims_[side.element].push_back({static_cast<int>(hole), side});
+    for (int hole = 0; hole < count_of(scene_.holes); ++hole)
+      for (const auto& side : plate_.rims[hole].sides) rims_[side.element].push_back({hole, side});
     for (int element = 0; element < n; ++element) add(element);
     return std::move(result_);
   }
@@ -39,10 +39,10 @@ class KindFinder {
 
   void add(int element) {
     result_.holes.push_back(sprung_holes(element));
-    const auto [found, is_new] = index_.try_emplace(key(element), count_of(result_.kinds));
-    if (is_new) add_kind(element);
-    result_.kind.push_back(found->second);
-    result_.scale[element] = plate_.mesh.thickness[element] / result_.kinds[found->second].thickness;
+    const auto [found, is_new] = index_.try_emplace(key(element), count_of(result_.classes));
+    if (is_new) add_class(element);
+    result_.class_of.push_back(found->second);
+    result_.scale[element] = plate_.mesh.thickness[element] / result_.classes[found->second].thickness;
   }
 
   [[nodiscard]] std::vector<int> sprung_holes(int element) const {
@@ -60,18 +60,18 @@ class KindFinder {
         std::any_of(sides.begin(), sides.end(), [&](const HoleSide& at) { return at.side.local_edge == edge; });
     if (!on_rim || numbering_.p == 1) return true;
     const auto function = numbering_.function(pfem::edge_mode(numbering_.p, edge, 2), element);
-    return !Unknowns::is_free(unknowns_.target[2 * function]) || !Unknowns::is_free(unknowns_.target[2 * function + 1]);
+    return unknowns_.dofs.col(function).minCoeff() < 0;
   }
 
   /// Equal keys, equal matrices up to the thickness.
   [[nodiscard]] Key key(int element) const {
-    Key key{result_.congruent.shape[element]};
+    Key key{result_.congruent.class_of[element]};
     const auto bits = [&](double x) { key.push_back(std::bit_cast<std::int64_t>(x)); };
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) key.push_back(is_edge_kept(element, edge));
     for (const auto& [hole, side] : rims_[element]) {
       const auto& spring = scene_.holes[hole].spring;
       if (!spring) continue;
-      key.insert(key.end(), {index_of(hole, element), side.local_edge});
+      key.insert(key.end(), {index_of(result_.holes[element], hole), side.local_edge});
       bits(spring->modulus);
       bits(spring->link / plate_.mesh.thickness[element]);
       for (const auto& arc : spring->acts) {
@@ -82,22 +82,18 @@ class KindFinder {
     return key;
   }
 
-  [[nodiscard]] int index_of(int hole, int element) const {
-    const auto& holes = result_.holes[element];
-    return static_cast<int>(std::find(holes.begin(), holes.end(), hole) - holes.begin());
-  }
-
-  void add_kind(int element) {
-    ElementKind kind{element, result_.congruent.shape[element], plate_.mesh.thickness[element], {}, {}};
-    kind.kept.assign(numbering_.function.rows(), false);
-    for (int v = 0; v < 4; ++v) kind.kept[v] = true;
+  void add_class(int element) {
+    ElementClass added{element, result_.congruent.class_of[element], plate_.mesh.thickness[element], {}, {}};
+    added.kept.assign(numbering_.function.rows(), false);
+    std::fill_n(added.kept.begin(), 4, true);
     for (int edge = 0; edge < pfem::n_local_edges; ++edge)
       for (int k = 2; k <= numbering_.p; ++k)
-        kind.kept[pfem::edge_mode(numbering_.p, edge, k)] = is_edge_kept(element, edge);
+        added.kept[pfem::edge_mode(numbering_.p, edge, k)] = is_edge_kept(element, edge);
     for (const auto& [hole, side] : rims_[element])
       if (scene_.holes[hole].spring)
-        kind.rims.push_back({index_of(hole, element), rim_terms(scene_, plate_, hole, side, numbering_.p)});
-    result_.kinds.push_back(std::move(kind));
+        added.rims.push_back(
+            {index_of(result_.holes[element], hole), rim_terms(scene_, plate_, hole, side, numbering_.p)});
+    result_.classes.push_back(std::move(added));
   }
 
   const PlateScene& scene_;
@@ -111,9 +107,9 @@ class KindFinder {
 
 }  // namespace
 
-PlateElements find_kinds(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
-                         const Unknowns& unknowns) {
-  return KindFinder(scene, plate, numbering, unknowns).run();
+PlateElements classify_elements(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
+                                const Unknowns& unknowns) {
+  return ElementClassifier(scene, plate, numbering, unknowns).run();
 }
 
 }  // namespace fastjoint::stage1

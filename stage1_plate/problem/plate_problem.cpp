@@ -6,21 +6,79 @@
 #include <numeric>
 
 #include "stage1_plate/problem/assembler.hpp"
-#include "stage1_plate/problem/line_springs.hpp"
-#include "stage1_plate/problem/loads.hpp"
-#include "stage1_plate/problem/rim_couplings.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
 
-/// What elements at rigid externals add to K_fc and K_cc.
+std::vector<PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  std::vector<PointTie> ties;
+  for (int i = 0; i < count_of(scene.points); ++i)
+    for (int a = 0; a < unknowns.n_directions; ++a) {
+      const std::string& direction = scene.disc_directions[a];
+      const int dof = unknowns.dofs(direction == "x" ? 0 : 1, plate.point_nodes[i]);
+      if (dof == pfem::fixed_dof)
+        reject(scene, fmt::format("/points/{}/at", i),
+               fmt::format("a support holds the vertex along {}, so that the spring cannot load the plate", direction),
+               "vertices that are free to move along every one of \"disc_directions\"");
+      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(unknowns.disc_of_point[i] + a),
+                      scene.points[i].stiffness});
+    }
+  return ties;
+}
+
+/// Adds what elements at rigid externals contribute to K_fc and K_cc.
 void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assembler& assembler) {
   std::vector<int> modes(problem.numbering.function.rows());
   std::iota(modes.begin(), modes.end(), 0);
-  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
-    const std::size_t shape = problem.elements.congruent.shape[element];
-    assembler.add_stiffness(element, modes, problem.elements.stiffness[shape], plate.mesh.thickness[element]);
+  for (int element = 0; element < plate.mesh.n_elements(); ++element)
+    assembler.add_stiffness(element, modes, problem.elements.stiffness[problem.elements.congruent.class_of[element]],
+                            plate.mesh.thickness[element]);
+}
+
+/// Calls visit(hole, element, terms, scale) for every side of a sprung rim.
+template <class Visit>
+void for_each_rim_side(const PlateElements& elements, Visit visit) {
+  for (int element = 0; element < count_of(elements.class_of); ++element)
+    for (const auto& rim : elements.classes[elements.class_of[element]].rims)
+      visit(elements.holes[element][rim.hole], element, rim.terms, elements.scale[element]);
+}
+
+/// Adds the normal springs between every rim and its rigid disc, equation (6), as far as controlled displacements feel
+/// them: -int k t (u.n)(e.n) ds between plate and disc, int k t (e.n)(e'.n) ds of the disc, and what a rim that ends on
+/// a rigid external has of int k t (v.n)(u.n) ds; sums over nodes for links.
+void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler& assembler) {
+  const Unknowns& unknowns = problem.unknowns;
+  std::vector<double> stiffness(scene.holes.size(), 0);
+  for_each_rim_side(problem.elements, [&](int hole, int element, const RimTerms& terms, double scale) {
+    const int first = unknowns.controlled_of_disc(unknowns.disc_of_hole[hole]);
+    stiffness[hole] += terms.stiffness;
+    assembler.add_stiffness(element, terms.modes, terms.plate, scale);
+    for (int a = 0; a < unknowns.n_directions; ++a) {
+      assembler.add_coupling(element, terms.modes, scale * terms.coupling.col(a), first + a);
+      for (int b = 0; b < unknowns.n_directions; ++b)
+        assembler.add(pfem::controlled_dof(first + a), first + b, scale * terms.disc(a, b));
+    }
+  });
+  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+    const auto& spring = scene.holes[hole].spring;
+    if (spring && spring->has_arc && stiffness[hole] == 0)
+      reject(scene, fmt::format("/holes/{}/spring/arc", hole),
+             fmt::format("the rim of hole \"{}\" that the model has is nowhere in this arc", scene.holes[hole].id),
+             "an arc that covers a part of the rim, in degrees counter-clockwise from x");
   }
+}
+
+/// Sets L_f and L_c: unit friction cases of every disc of a hole, direction inner, bearing side + then -, tangential
+/// traction cos(theta) on the bearing half of the rim that drags the plate along the bearing direction.
+void add_friction_loads(PlateProblem& problem) {
+  Assembler loads(problem.numbering, problem.unknowns, count_of(problem.friction_hole));
+  for_each_rim_side(problem.elements, [&](int hole, int element, const RimTerms& terms, double scale) {
+    const int first = 2 * problem.unknowns.disc_of_hole[hole];  // discs of holes come before those of points
+    for (int i = 0; i < terms.friction.cols(); ++i)
+      loads.add(element, terms.modes, scale * terms.friction.col(i), first + i);
+  });
+  problem.L_f = loads.free();
+  problem.L_c = loads.controlled();
 }
 
 }  // namespace
@@ -29,7 +87,7 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
-  problem.elements = find_kinds(scene, plate, problem.numbering, problem.unknowns);
+  problem.elements = classify_elements(scene, plate, problem.numbering, problem.unknowns);
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (const auto& hole : scene.holes) {
     if (!hole.spring) continue;
@@ -45,12 +103,12 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   problem.elements.stiffness =
       pfem::integrate(problem.elements.congruent, plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
-  Assembler assembler(problem.numbering, problem.unknowns);
+  Assembler assembler(problem.numbering, problem.unknowns, problem.unknowns.n_controlled);
   if (problem.unknowns.n_externals() > 0) add_externals(plate, problem, assembler);
   add_springs(scene, problem, assembler);
-  for (const auto& tie : problem.ties) assembler.add_spring(tie.target, tie.controlled, tie.stiffness);
-  problem.K_fc = assembler.K_fc();
-  problem.K_cc = assembler.K_cc();
+  for (const auto& tie : problem.ties) assembler.add_spring(tie.dof, tie.controlled, tie.stiffness);
+  problem.K_fc = assembler.free();
+  problem.K_cc = assembler.controlled();
   add_friction_loads(problem);
   add_traction_loads(scene, plate, problem);
 }

@@ -88,10 +88,10 @@ class Ties {
       const std::size_t part = part_of(node);
       const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
       for (int component = 0; component < 2; ++component) {
-        const int target = unknowns.target[2 * node + component];
-        if (Unknowns::is_free(target)) continue;
+        const int dof = unknowns.dofs(component, node);
+        if (pfem::is_free(dof)) continue;
         ties_.push_back({part, u.row(component), {}});
-        if (target != Unknowns::fixed) ties_.back().b = {{Unknowns::controlled_index(target), 1}};
+        if (pfem::is_controlled(dof)) ties_.back().b = {{pfem::controlled_index(dof), 1}};
       }
     }
   }
@@ -106,8 +106,8 @@ class Ties {
           if (weight[q] == 0) continue;
           const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();
           ties_.push_back({part, along * parts_[part].motion(rule.x.col(q)), {}});
-          for (std::size_t a = 0; a < scene.disc_directions.size(); ++a)
-            ties_.back().b.emplace_back(unknowns.controlled_of_disc(unknowns.disc_of_hole[hole] + static_cast<int>(a)),
+          for (int a = 0; a < unknowns.n_directions; ++a)
+            ties_.back().b.emplace_back(unknowns.controlled_of_disc(unknowns.disc_of_hole[hole] + a),
                                         along * rim::axis(scene.disc_directions[a]));
         }
       }
@@ -119,10 +119,10 @@ class Ties {
       const int node = plate.point_nodes[i];
       const std::size_t part = part_of(node);
       const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
-      for (std::size_t a = 0; a < scene.disc_directions.size(); ++a)
+      for (int a = 0; a < unknowns.n_directions; ++a)
         ties_.push_back({part,
                          rim::axis(scene.disc_directions[a]).transpose() * u,
-                         {{unknowns.controlled_of_disc(unknowns.disc_of_point[i] + static_cast<int>(a)), 1}}});
+                         {{unknowns.controlled_of_disc(unknowns.disc_of_point[i] + a), 1}}});
     }
   }
 

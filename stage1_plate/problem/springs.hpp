@@ -19,4 +19,19 @@ struct SideSprings {
 /// @param p Degree of the plate's space. Arcs are integrated exactly: pieces end where they do.
 [[nodiscard]] SideSprings side_springs(const Spring& spring, const PlateMesh& plate, const pfem::Side& side, int p);
 
+/// What the springs of one side of a sprung hole's rim and the unit friction cases there add, over the coefficients
+/// of the side's modes: first all of u_x, then all of u_y, local signs. a disc directions, n modes.
+struct RimTerms {
+  std::vector<int> modes;    ///< (n) local modes of the element
+  Eigen::MatrixXd plate;     ///< (2n, 2n) int k t (v.n)(u.n) ds, force / length
+  Eigen::MatrixXd coupling;  ///< (2n, a) -int k t (v.n)(e.n) ds, force / length
+  Eigen::MatrixXd disc;      ///< (a, a) int k t (e.n)(e'.n) ds, force / length
+  Eigen::MatrixXd friction;  ///< (2n, 2a) loads of unit friction, direction outer, bearing side + then -, length^2
+  double stiffness;          ///< sum of the springs, force / length; 0 if none acts on the side
+};
+
+/// @param hole Index of a sprung hole of the scene. @param p Degree of the plate's space.
+[[nodiscard]] RimTerms rim_terms(const PlateScene& scene, const PlateMesh& plate, std::size_t hole,
+                                 const pfem::Side& side, int p);
+
 }  // namespace fastjoint::stage1

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -13,108 +12,77 @@ constexpr int undecided = 0;
 
 int component_of(const std::string& direction) { return direction == "x" ? 0 : 1; }
 
-/// Coefficients of one displacement component that do not vanish on a side: two vertices, then the edge's modes.
-std::vector<std::size_t> side_coefficients(const pfem::Numbering& numbering, const pfem::Side& side, int component) {
-  std::vector<std::size_t> result;
-  const auto add = [&](int mode) { result.push_back(2 * numbering.function(mode, side.element) + component); };
-  const auto [first, second] = pfem::natural_ends(side.local_edge);
-  add(first);
-  add(second);
-  for (int k = 2; k <= numbering.p; ++k) add(pfem::edge_mode(numbering.p, side.local_edge, k));
-  return result;
+/// Global functions that do not vanish on a side: two vertices, then the edge's modes.
+std::vector<int> functions_on(const pfem::Numbering& numbering, const pfem::Side& side) {
+  std::vector<int> list = pfem::modes_on_edge(numbering.p, side.local_edge);
+  for (int& mode : list) mode = numbering.function(mode, side.element);
+  return list;
 }
 
-class Classifier {
- public:
-  Classifier(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering)
-      : scene_(scene), plate_(plate), numbering_(numbering) {
-    result_.target.assign(2 * numbering.n_functions.back(), undecided);
-  }
+[[noreturn]] void conflict(const PlateScene& scene, const PlateMesh& plate, const External& external, int function) {
+  const std::string where =
+      function < plate.mesh.n_nodes()
+          ? fmt::format("at ({:g}, {:g})", plate.mesh.nodes(0, function), plate.mesh.nodes(1, function))
+          : std::string("along an edge");
+  reject(scene, "/external",
+         fmt::format("external \"{}\" moves the plate in {} {}, where a support or another external holds it",
+                     external.id, external.direction, where),
+         "one support or rigid external for each displacement");
+}
 
-  Unknowns run() {
-    for (const auto& support : scene_.supports) fix(support);
-    for (std::size_t i = 0; i < scene_.externals.size(); ++i) {
-      auto& list = scene_.externals[i].kind == ExternalKind::rigid ? result_.rigid : result_.traction;
-      list.push_back(static_cast<int>(i));
+/// The vertices of its sides move with an external; their edge modes, which would bend it, are zero.
+void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering, int index,
+             Unknowns& unknowns) {
+  const External& external = scene.externals[unknowns.rigid[index]];
+  for (const auto& side : plate.sets.at(external.on))
+    for (const int function : functions_on(numbering, side)) {
+      int& dof = unknowns.dofs(component_of(external.direction), function);
+      const int wanted = function < plate.mesh.n_nodes() ? pfem::controlled_dof(index) : pfem::fixed_dof;
+      if (dof != undecided && dof != wanted) conflict(scene, plate, external, function);
+      dof = wanted;
     }
-    for (int i = 0; i < result_.n_externals(); ++i) control(i);
-    add_discs();
-    number_free();
-    return std::move(result_);
+}
+
+void add_discs(const PlateScene& scene, Unknowns& unknowns) {
+  for (const auto& disc : list_discs(scene)) {
+    unknowns.disc_hole.push_back(disc.id);
+    unknowns.disc_direction.push_back(disc.direction);
   }
-
- private:
-  const std::vector<pfem::Side>& sides(const std::string& name) const { return plate_.sets.at(name); }
-
-  void fix(const Support& support) {
-    for (const auto& direction : support.fix)
-      for (const auto& side : sides(support.on))
-        for (const auto coefficient : side_coefficients(numbering_, side, component_of(direction)))
-          result_.target[coefficient] = Unknowns::fixed;
+  unknowns.n_directions = count_of(scene.disc_directions);
+  int disc = 0;
+  for (const auto& hole : scene.holes) {
+    unknowns.disc_of_hole.push_back(hole.spring ? disc : -1);
+    if (hole.spring) disc += unknowns.n_directions;
   }
+  for (int i = 0; i < count_of(scene.points); ++i) unknowns.disc_of_point.push_back(disc + i * unknowns.n_directions);
+  unknowns.n_controlled = unknowns.n_externals() + unknowns.n_discs();
+}
 
-  /// The side's vertices move with the external; its edge modes, which would bend it, are zero.
-  void control(int index) {
-    const External& external = scene_.externals[result_.rigid[index]];
-    for (const auto& side : sides(external.on)) {
-      const auto list = side_coefficients(numbering_, side, component_of(external.direction));
-      for (std::size_t i = 0; i < list.size(); ++i) {
-        int& target = result_.target[list[i]];
-        const int wanted = i < 2 ? Unknowns::controlled(index) : Unknowns::fixed;
-        if (target != undecided && target != wanted) conflict(external, list[i]);
-        target = wanted;
-      }
-    }
+void number_free(const pfem::Numbering& numbering, Unknowns& unknowns) {
+  int n_free = 0, i = 0;
+  for (const int n_functions : numbering.n_functions) {
+    for (; i < 2 * n_functions; ++i)
+      if (int& dof = unknowns.dofs(i % 2, i / 2); dof == undecided) dof = n_free++;
+    unknowns.n_free.push_back(n_free);
   }
-
-  [[noreturn]] void conflict(const External& external, std::size_t coefficient) const {
-    const auto function = static_cast<int>(coefficient / 2);
-    const std::string where =
-        function < plate_.mesh.n_nodes()
-            ? fmt::format("at ({:g}, {:g})", plate_.mesh.nodes(0, function), plate_.mesh.nodes(1, function))
-            : std::string("along an edge");
-    reject(scene_, "/external",
-           fmt::format("external \"{}\" moves the plate in {} {}, where a support or another external holds it",
-                       external.id, external.direction, where),
-           "one support or rigid external for each displacement");
-  }
-
-  void add_discs() {
-    for (const auto& disc : list_discs(scene_)) {
-      result_.disc_hole.push_back(disc.id);
-      result_.disc_direction.push_back(disc.direction);
-    }
-    const auto n_directions = count_of(scene_.disc_directions);
-    result_.n_directions = n_directions;
-    int disc = 0;
-    for (const auto& hole : scene_.holes) {
-      result_.disc_of_hole.push_back(hole.spring ? disc : -1);
-      if (hole.spring) disc += n_directions;
-    }
-    for (std::size_t i = 0; i < scene_.points.size(); ++i, disc += n_directions) result_.disc_of_point.push_back(disc);
-    result_.n_controlled = result_.n_externals() + result_.n_discs();
-  }
-
-  void number_free() {
-    int n_free = 0;
-    int coefficient = 0;
-    for (const int n_functions : numbering_.n_functions) {
-      for (; coefficient < 2 * n_functions; ++coefficient)
-        if (result_.target[coefficient] == undecided) result_.target[coefficient] = n_free++;
-      result_.n_free.push_back(n_free);
-    }
-  }
-
-  const PlateScene& scene_;
-  const PlateMesh& plate_;
-  const pfem::Numbering& numbering_;
-  Unknowns result_;
-};
+}
 
 }  // namespace
 
 Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
-  return Classifier(scene, plate, numbering).run();
+  Unknowns unknowns;
+  unknowns.dofs.setConstant(2, numbering.n_functions.back(), undecided);
+  for (const auto& support : scene.supports)
+    for (const auto& direction : support.fix)
+      for (const auto& side : plate.sets.at(support.on))
+        for (const int function : functions_on(numbering, side))
+          unknowns.dofs(component_of(direction), function) = pfem::fixed_dof;
+  for (int i = 0; i < count_of(scene.externals); ++i)
+    (scene.externals[i].kind == ExternalKind::rigid ? unknowns.rigid : unknowns.traction).push_back(i);
+  for (int i = 0; i < unknowns.n_externals(); ++i) control(scene, plate, numbering, i, unknowns);
+  add_discs(scene, unknowns);
+  number_free(numbering, unknowns);
+  return unknowns;
 }
 
 }  // namespace fastjoint::stage1

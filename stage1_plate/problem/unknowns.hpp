@@ -10,25 +10,20 @@
 
 namespace fastjoint::stage1 {
 
-/// What becomes of each coefficient (global function x component): a free unknown, zero, or a controlled displacement.
+/// The degrees of freedom of a plate (pfem/numbering.hpp says how one is written), and who moves those that are
+/// controlled.
 ///
 /// The nc = e + m controlled displacements are the rigid externals, then the discs in the order of list_discs. The
 /// free unknowns keep the order of the functions, so those of degree <= k come first.
 struct Unknowns {
-  std::vector<int> target;  ///< (2 n_functions), at 2 function + component: see below
+  Eigen::Matrix2Xi dofs;    ///< (2, n_functions) what becomes of u_x and u_y of each global function
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_controlled = 0;
-  int n_directions = 0;                                ///< of the discs
+  int n_directions = 0;                                ///< number of directions of each disc
   std::vector<int> rigid, traction;                    ///< indices into PlateScene::externals
   std::vector<std::string> disc_hole, disc_direction;  ///< (m)
   std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
   std::vector<int> disc_of_point;                      ///< (points) first disc of the point spring
-
-  static constexpr int fixed = -1;
-  [[nodiscard]] static constexpr int controlled(int index) { return -2 - index; }
-  [[nodiscard]] static constexpr bool is_free(int target) { return target >= 0; }
-  [[nodiscard]] static constexpr bool is_controlled(int target) { return target < fixed; }
-  [[nodiscard]] static constexpr int controlled_index(int target) { return -2 - target; }
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals() + disc; }
   [[nodiscard]] int n_externals() const { return count_of(rigid); }

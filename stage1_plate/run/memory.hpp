@@ -10,21 +10,21 @@ namespace fastjoint::stage1 {
 
 /// Bytes that a run takes at its highest degree, known before anything is integrated.
 struct MemoryNeed {
-  double shapes;   ///< matrices of the different elements
-  double factor;   ///< the skeleton's stiffness and its factor
-  double fields;   ///< of the unit cases, and the file that they go into
-  double contact;  ///< what the search for contact takes before them, 0 without
+  double elements;  ///< matrices of the classes of elements
+  double factor;    ///< the skeleton's stiffness and its factor
+  double fields;    ///< of the unit cases, and the file that they go into
+  double contact;   ///< what the search for contact takes before them, 0 without
   double program;
 
   [[nodiscard]] double total() const {
     constexpr double gaps = 1.15;  // what the allocator cannot use between them, and what integrating takes
-    return gaps * (shapes + factor + std::max(fields, contact)) + program;
+    return gaps * (elements + factor + std::max(fields, contact)) + program;
   }
 };
 /// @param problem As number_unknowns has made it. @param p Degrees to be solved, ascending. @param n_rim Unknowns of
 /// the rims on which contact is looked for, 0 without.
 [[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const Skeleton& skeleton, const Eigen::VectorXi& p,
-                                     Wanted wanted, std::size_t n_rim = 0);
+                                     Wanted wanted, int n_rim = 0);
 
 /// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
 void require_memory(const std::string& file, int p, const MemoryNeed& need);

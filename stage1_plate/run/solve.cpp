@@ -59,7 +59,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   std::sort(a.supported.begin(), a.supported.end());
   a.supported.erase(std::unique(a.supported.begin(), a.supported.end()), a.supported.end());
   const Unknowns& unknowns = problem.unknowns;
-  a.unknown = Eigen::Map<const Eigen::Matrix2Xi>(unknowns.target.data(), 2, std::ssize(unknowns.target) / 2);
+  a.unknown = unknowns.dofs;
   a.space = problem.numbering.space;
   a.p = degrees(scene);
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[p]; });

@@ -17,7 +17,7 @@ SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& gene
   PlateProblem problem = number_unknowns(scene, plate);
   check_held(scene, plate, problem.unknowns);
   const Skeleton skeleton(problem);  // of vertices and edges, whatever arcs contact finds
-  const std::size_t n_rim = scene.loads ? find_rim_unknowns(scene, plate, problem).free.size() : 0;
+  const int n_rim = scene.loads ? count_of(find_rim_unknowns(scene, plate, problem).free) : 0;
   const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), wanted, n_rim);
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");

@@ -13,9 +13,7 @@ using input::Value;
 
 /// Reads the name of a material as its index.
 auto index_among(const Materials& materials) {
-  return [&names = materials.name](const Value& value) {
-    return static_cast<int>(std::find(names.begin(), names.end(), value.choice(names)) - names.begin());
-  };
+  return [&names = materials.name](const Value& value) { return index_of(names, value.choice(names)); };
 }
 
 /// The only material there is may go unnamed.

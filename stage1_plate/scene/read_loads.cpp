@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -52,7 +54,7 @@ class LoadReader {
     std::vector<std::string> ids;
     ids.reserve(scene_.externals.size());
     for (const auto& external : scene_.externals) ids.push_back(external.id);
-    const auto i = index(ids, id.choice(ids));
+    const auto i = index_of(ids, id.choice(ids));
     const Load load = read_amount(item);
     if (!load.is_force && scene_.externals[i].kind != ExternalKind::rigid)
       item.at("displacement")
@@ -66,27 +68,23 @@ class LoadReader {
     std::vector<std::string> ids;
     for (const auto& disc : discs_)
       if (ids.empty() || ids.back() != disc.id) ids.push_back(disc.id);
-    const auto first = index(ids, id.choice(ids)) * scene_.disc_directions.size();
+    const auto first = index_of(ids, id.choice(ids)) * count_of(scene_.disc_directions);
     const auto direction = item.find("direction");
     if (!direction && scene_.disc_directions.size() > 1)
       item.fail("key \"direction\" is missing", "one of \"disc_directions\", of which there are two");
-    const auto i = first + (direction ? index(scene_.disc_directions, direction->choice(scene_.disc_directions)) : 0);
+    const auto i =
+        first + (direction ? index_of(scene_.disc_directions, direction->choice(scene_.disc_directions)) : 0);
     Load load = read_amount(item);
     if (const auto friction = item.find("friction")) {
       load.friction = friction->number(input::not_negative);
-      const auto is_hole = [&](const Hole& hole) { return hole.id == discs_[i].id; };
-      if (std::none_of(scene_.holes.begin(), scene_.holes.end(), is_hole))
+      if (index_of(scene_.holes, discs_[i].id, &Hole::id) == count_of(scene_.holes))
         friction->fail(fmt::format("\"{}\" is a point, which has no rim", discs_[i].id), "friction at discs of holes");
     }
     take_once(disc_given_, i, id);
     loads_.disc[i] = load;
   }
 
-  static std::size_t index(const std::vector<std::string>& names, const std::string& name) {
-    return std::find(names.begin(), names.end(), name) - names.begin();
-  }
-
-  static void take_once(std::vector<bool>& given, std::size_t i, const Value& id) {
+  static void take_once(std::vector<bool>& given, int i, const Value& id) {
     if (given[i]) id.fail("loaded twice", "one load for each external, and for each disc and direction");
     given[i] = true;
   }

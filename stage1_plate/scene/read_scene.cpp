@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/input/value.hpp"
 #include "stage1_plate/scene/read_geometry.hpp"
@@ -99,8 +99,7 @@ std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes
   std::vector<std::string> names;
   for (const auto& hole : holes) names.push_back(hole.id);
   std::string name = value.choice(names);
-  const auto hole = std::find_if(holes.begin(), holes.end(), [&](const Hole& h) { return h.id == name; });
-  if (hole->spring)
+  if (holes[index_of(holes, name, &Hole::id)].spring)
     value.fail(fmt::format("hole \"{}\" has springs, which transmit its load", name), "a hole without \"spring\"");
   return name;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 #include "common/count.hpp"
@@ -19,7 +18,7 @@ int read_hole(const Value& value, const PlateScene& scene) {
   std::vector<std::string> ids;
   for (const auto& hole : scene.holes) ids.push_back(hole.id);
   if (ids.empty()) value.fail("the plate has no holes", "sections beside holes");
-  return static_cast<int>(std::distance(ids.begin(), std::find(ids.begin(), ids.end(), value.choice(ids))));
+  return index_of(ids, value.choice(ids));
 }
 
 std::string read_side(const Value& value, const PlateScene& scene) {

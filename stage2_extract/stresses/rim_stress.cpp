@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "common/count.hpp"
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
@@ -26,12 +27,8 @@ struct Frame {
 Frame frame_at(double angle) { return {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}}; }
 
 Trace trace(const UnitFields& fields, const OnSide& at, const Frame& frame, double radius) {
-  const int edge = at.side.local_edge;
-  const auto [first, second] = pfem::natural_ends(edge);
-  std::vector<int> modes = {first, second};
-  for (int k = 2; k <= fields.p(); ++k) modes.push_back(pfem::edge_mode(fields.p(), edge, k));
   const auto shape = pfem::integrated_legendre(fields.p(), Eigen::VectorXd::Constant(1, at.s));
-  const Eigen::MatrixXd C = fields.coefficients(at.side.element, modes);
+  const Eigen::MatrixXd C = fields.coefficients(at.side.element, pfem::modes_on_edge(fields.p(), at.side.local_edge));
   const auto n = shape.N.rows();
   const auto along = [&](const Eigen::Vector2d& e, const Eigen::MatrixXd& values) -> Eigen::RowVectorXd {
     return values.col(0).transpose() * (e.x() * C.topRows(n) + e.y() * C.bottomRows(n));
@@ -92,7 +89,7 @@ Eigen::MatrixXd rim_stress(const UnitFields& fields, std::size_t hole, const Rim
     sigma.row(0) = radial_stress(fields, hole, point.angle, frame.n, side.u_n);
     sigma.row(2) = shear_stress(fields, hole, frame);
     sigma.row(1) = (side.eps_tt - compliance(1, 0) * sigma.row(0) - compliance(1, 2) * sigma.row(2)) / compliance(1, 1);
-    mean += sigma / static_cast<double>(point.on.size());
+    mean += sigma / count_of(point.on);
   }
   return mean;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/stresses/section_force.hpp"
 
+#include "common/count.hpp"
 #include "common/pfem/gauss.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
@@ -43,7 +44,7 @@ Eigen::RowVectorXd section_force(const UnitFields& fields, const rim::Section& s
   Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(fields.n_cases());
   for (const auto& side : section.sides) {
     const auto sides = both_sides(fields.edges(), side);
-    for (const auto& one : sides) force += side_force(fields, one, component) / static_cast<double>(sides.size());
+    for (const auto& one : sides) force += side_force(fields, one, component) / count_of(sides);
   }
   return force;
 }

@@ -33,7 +33,7 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
     a.rim_center.row(i) = plate.hole_rim[i].center.transpose();
     a.rim_radius[i] = plate.hole_rim[i].radius;
     const auto& sides = plate.hole_rim[i].sides;
-    const auto n = static_cast<double>(sides.size());
+    const int n = count_of(sides);
     for (const auto& side : sides) {
       const auto& D = plate.elasticity[plate.mesh.material[side.element]];
       a.rim_thickness[i] += plate.mesh.thickness[side.element] / n;
@@ -105,10 +105,10 @@ formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, con
 
 double stress_bytes(const formats::PlateSolution& plate) {
   constexpr double components = 3;
-  const auto rows = static_cast<double>(plate.hole_rim.size()) * n_points_per_turn;
+  const double rows = count_of(plate.hole_rim) * n_points_per_turn;
   const auto& cases = plate.cases.back();
   const auto n_cases = cases.E_c.rows() + cases.E_h.rows() + cases.V.cols();
-  return sizeof(double) * components * rows * static_cast<double>(n_cases * plate.stress_p.size());
+  return components * rows * sizeof(double) * double(n_cases * plate.stress_p.size());
 }
 
 }  // namespace fastjoint::stage2

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "common/errors.hpp"
 
 namespace fastjoint::stage2 {
@@ -29,26 +27,22 @@ const Eigen::Matrix3d& UnitFields::elasticity(int element) const {
   return plate_.elasticity[plate_.mesh.material[element]];
 }
 
-Eigen::MatrixXd UnitFields::coefficients(int element, const std::vector<int>& modes) const {
-  const Eigen::Index n = modes.size();
-  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(2 * n, n_cases());
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const int mode = modes[i];
-    const int function = numbering_.function(mode, element);
-    for (Eigen::Index component = 0; component < 2; ++component) {
-      const int unknown = plate_.unknown(component, function);
-      const auto row = component * n + i;
-      if (unknown >= 0 && unknown < X_.rows()) C.row(row) = numbering_.sign(mode, element) * X_.row(unknown);
-      if (unknown < -1) C(row, -2 - unknown) = numbering_.sign(mode, element);
-    }
+Eigen::MatrixXd UnitFields::coefficients(const pfem::ElementDofs& dofs) const {
+  Eigen::MatrixXd C = Eigen::MatrixXd::Zero(dofs.dof.size(), n_cases());
+  for (Eigen::Index i = 0; i < C.rows(); ++i) {
+    const int dof = dofs.dof[i];
+    if (pfem::is_free(dof) && dof < X_.rows()) C.row(i) = dofs.sign[i] * X_.row(dof);
+    if (pfem::is_controlled(dof)) C(i, pfem::controlled_index(dof)) = dofs.sign[i];
   }
   return C;
 }
 
+Eigen::MatrixXd UnitFields::coefficients(int element, const std::vector<int>& modes) const {
+  return coefficients(pfem::element_dofs(numbering_, plate_.unknown, element, modes));
+}
+
 Eigen::MatrixXd UnitFields::coefficients(int element) const {
-  std::vector<int> modes(numbering_.function.rows());
-  std::iota(modes.begin(), modes.end(), 0);
-  return coefficients(element, modes);
+  return coefficients(pfem::element_dofs(numbering_, plate_.unknown, element));
 }
 
 }  // namespace fastjoint::stage2

@@ -27,10 +27,12 @@ class UnitFields {
 
   /// Coefficients of some local modes of an element, local signs, shape (2 n_modes, n_cases): first those of u_x.
   [[nodiscard]] Eigen::MatrixXd coefficients(int element, const std::vector<int>& modes) const;
-  /// Of all its modes.
+  /// The same for all its modes.
   [[nodiscard]] Eigen::MatrixXd coefficients(int element) const;
 
  private:
+  [[nodiscard]] Eigen::MatrixXd coefficients(const pfem::ElementDofs& dofs) const;
+
   const formats::PlateSolution& plate_;
   pfem::Edges edges_;
   pfem::Numbering numbering_;

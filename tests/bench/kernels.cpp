@@ -59,8 +59,8 @@ void condense(State& state) {
   const auto& elements = plate.problem.elements;
   const int p = static_cast<int>(state.range(0));
   for (auto _ : state)
-    for (const auto& kind : elements.kinds)
-      DoNotOptimize(stage1::condense(kind, elements.stiffness[kind.shape], plate.problem.numbering, p));
+    for (const auto& each : elements.classes)
+      DoNotOptimize(stage1::condense(each, elements.stiffness[each.congruent], plate.problem.numbering, p));
 }
 BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 

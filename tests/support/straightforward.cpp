@@ -4,7 +4,7 @@
 #include <Eigen/CholmodSupport>
 
 #include "common/pfem/element_stiffness.hpp"
-#include "stage1_plate/problem/rim_terms.hpp"
+#include "stage1_plate/problem/springs.hpp"
 
 namespace fastjoint::test {
 
@@ -15,16 +15,11 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
   const auto& numbering = problem.numbering;
   std::vector<Eigen::Triplet<double>> entries;
   const auto add = [&](int element, const std::vector<int>& modes, const Eigen::MatrixXd& K) {
-    const Eigen::Index n = modes.size();
-    const auto mode = [&](Eigen::Index i) { return modes[i % n]; };
-    const auto target = [&](Eigen::Index i) {
-      return problem.unknowns.target[2 * numbering.function(mode(i), element) + (i < n ? 0 : 1)];
-    };
-    for (Eigen::Index i = 0; i < 2 * n; ++i)
-      for (Eigen::Index j = 0; j < 2 * n; ++j)
-        if (stage1::Unknowns::is_free(target(i)) && stage1::Unknowns::is_free(target(j)))
-          entries.emplace_back(target(i), target(j),
-                               numbering.sign(mode(i), element) * numbering.sign(mode(j), element) * K(i, j));
+    const auto [dof, sign] = pfem::element_dofs(numbering, problem.unknowns.dofs, element, modes);
+    for (Eigen::Index i = 0; i < dof.size(); ++i)
+      for (Eigen::Index j = 0; j < dof.size(); ++j)
+        if (pfem::is_free(dof[i]) && pfem::is_free(dof[j]))
+          entries.emplace_back(dof[i], dof[j], sign[i] * sign[j] * K(i, j));
   };
   const pfem::ElementStiffness stiffness(numbering.space, numbering.p);
   std::vector<int> all(numbering.function.rows());
@@ -41,7 +36,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
     }
   }
   for (const auto& tie : problem.ties)
-    if (stage1::Unknowns::is_free(tie.target)) entries.emplace_back(tie.target, tie.target, tie.stiffness);
+    if (pfem::is_free(tie.dof)) entries.emplace_back(tie.dof, tie.dof, tie.stiffness);
   const int n = problem.unknowns.n_free.back();
   Sparse K(n, n);
   K.setFromTriplets(entries.begin(), entries.end());

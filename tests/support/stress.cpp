@@ -8,17 +8,12 @@
 namespace fastjoint::test {
 
 Eigen::Matrix2Xd coefficients(const Plate& plate, const Eigen::VectorXd& free, const Eigen::VectorXd& controlled) {
-  const auto& target = plate.problem.unknowns.target;
-  Eigen::Matrix2Xd u = Eigen::Matrix2Xd::Zero(2, std::ssize(target) / 2);
-  for (std::size_t i = 0; i < target.size(); ++i) {
-    double& at = u(i % 2, i / 2);
-    if (stage1::Unknowns::is_free(target[i])) {
-      at = target[i] < free.size() ? free[target[i]] : 0;
-    } else if (target[i] != stage1::Unknowns::fixed) {
-      at = controlled[stage1::Unknowns::controlled_index(target[i])];
-    }
-  }
-  return u;
+  const auto& dofs = plate.problem.unknowns.dofs;
+  return Eigen::Matrix2Xd::NullaryExpr(2, dofs.cols(), [&](Eigen::Index component, Eigen::Index function) {
+    const int dof = dofs(component, function);
+    if (pfem::is_controlled(dof)) return controlled[pfem::controlled_index(dof)];
+    return pfem::is_free(dof) && dof < free.size() ? free[dof] : 0;
+  });
 }
 
 Eigen::Vector3d stress_at(const Plate& plate, const Eigen::Matrix2Xd& u, int element, double xi, double eta) {

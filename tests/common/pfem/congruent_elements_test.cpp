@@ -42,7 +42,7 @@ double difference(const Mesh& mesh, const CongruentElements& congruent, const Ed
   double worst = 0;
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const MatrixXd K = each(ElementMap(mesh, edges, element), soft_and_stiff[mesh.material[element]], 1);
-    const std::size_t shape = congruent.shape[element];
+    const std::size_t shape = congruent.class_of[element];
     worst = std::max(worst, (by_shape[shape] - K).norm() / K.norm());
   }
   return worst;

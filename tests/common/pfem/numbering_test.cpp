@@ -84,5 +84,32 @@ TEST_P(NumberingIn, FunctionsAreContinuousAcrossEdges) {
 
 INSTANTIATE_TEST_SUITE_P(Spaces, NumberingIn, test::both_spaces(), test::space_tested);
 
+/// Every kind of degree of freedom, and the sign of an odd edge mode, reach the element as the numbering has them.
+TEST(Numbering, GivesTheDegreesOfFreedomOfAnElement) {
+  const Mesh mesh = test::curved_mesh();
+  const Edges edges = find_edges(mesh);
+  const Numbering numbering = number_by_degree(mesh, edges, Space::trunk, 5);
+  Eigen::Matrix2Xi dofs(2, numbering.n_functions.back());
+  for (int i = 0; i < dofs.size(); ++i)
+    dofs(i % 2, i / 2) = i % 3 == 0 ? i : i % 3 == 1 ? fixed_dof : controlled_dof(i);
+  for (int element = 0; element < mesh.n_elements(); ++element) {
+    const auto all = element_dofs(numbering, dofs, element);
+    const auto n = numbering.function.rows();
+    for (Eigen::Index i = 0; i < 2 * n; ++i) {
+      const int function = numbering.function(i % n, element), at = 2 * function + (i < n ? 0 : 1);
+      EXPECT_EQ(is_free(all.dof[i]), at % 3 == 0);
+      EXPECT_EQ(is_controlled(all.dof[i]), at % 3 == 2);
+      if (at % 3 != 1) EXPECT_EQ(is_free(all.dof[i]) ? all.dof[i] : controlled_index(all.dof[i]), at);
+      EXPECT_EQ(all.sign[i], numbering.sign(i % n, element));
+    }
+    const std::vector<int> modes = modes_on_edge(5, 2);
+    const auto some = element_dofs(numbering, dofs, element, modes);
+    for (int i = 0; i < 12; ++i) {
+      EXPECT_EQ(some.dof[i], all.dof[modes[i % 6] + (i < 6 ? 0 : n)]);
+      EXPECT_EQ(some.sign[i], all.sign[modes[i % 6]]);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace fastjoint::pfem

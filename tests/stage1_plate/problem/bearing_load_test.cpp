@@ -5,7 +5,7 @@
 
 #include "common/errors.hpp"
 #include "common/rim/bearing.hpp"
-#include "stage1_plate/problem/loads.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -27,7 +27,7 @@ double resultant(const test::Plate& plate, int column, int component) {
   const Eigen::VectorXd load = plate.problem.T_f.col(column);
   double sum = 0;
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node)
-    if (const int to = plate.problem.unknowns.target[2 * node + component]; to >= 0) sum += load[to];
+    if (const int dof = plate.problem.unknowns.dofs(component, node); pfem::is_free(dof)) sum += load[dof];
   return sum;
 }
 

@@ -45,15 +45,14 @@ void for_outer_points(const test::Plate& plate,
 
 /// Loads of the exact tractions on the free unknowns.
 Eigen::VectorXd exact_load(const test::Plate& plate, const test::SpringInclusion& exact) {
-  stage1::LoadAssembler loads(plate.problem.numbering, plate.problem.unknowns, 1);
+  stage1::Assembler loads(plate.problem.numbering, plate.problem.unknowns, 1);
   for (const char* name : {"right", "top"})
     for (const auto& side : plate.mesh.sets.at(name)) {
       const auto rule = pfem::side_rule(plate.mesh.mesh, plate.mesh.edges, side, plate.problem.numbering.p);
-      stage1::ElementVector g{rule.modes, Eigen::Matrix2Xd::Zero(2, rule.N.rows())};
+      Eigen::MatrixX2d g = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
       for (Eigen::Index q = 0; q < rule.ds.size(); ++q)
-        g.values +=
-            thickness * rule.ds[q] * exact.stress(rule.x.col(q)) * rule.normal.col(q) * rule.N.col(q).transpose();
-      loads.add(side.element, g, 0);
+        g += thickness * rule.ds[q] * rule.N.col(q) * (exact.stress(rule.x.col(q)) * rule.normal.col(q)).transpose();
+      loads.add(side.element, rule.modes, g.reshaped(), 0);
     }
   return Eigen::MatrixXd(loads.free()).col(0);
 }

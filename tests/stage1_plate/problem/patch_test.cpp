@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
 
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/gauss.hpp"
@@ -69,29 +70,30 @@ Eigen::VectorXd load(const test::Plate& plate, const Wave& wave) {
   const auto& [scene, mesh, problem] = plate;
   const int p = problem.numbering.p;
   const Eigen::Matrix3d& D = scene.elasticity[0];
-  stage1::LoadAssembler loads(problem.numbering, problem.unknowns, 1);
+  stage1::Assembler loads(problem.numbering, problem.unknowns, 1);
   const auto rule = pfem::gauss(p + 3);
   const auto n = rule.x.size();
   const Eigen::VectorXd xi = rule.x.replicate(n, 1), eta = rule.x.transpose().replicate(n, 1).reshaped();
   const Eigen::VectorXd w = (rule.w * rule.w.transpose()).reshaped();
   const Eigen::MatrixXd N = pfem::shape_values(problem.numbering.space, p, xi, eta).N;
+  std::vector<int> modes(N.rows());
+  std::iota(modes.begin(), modes.end(), 0);
   for (int element = 0; element < mesh.mesh.n_elements(); ++element) {
     const double thickness = mesh.mesh.thickness[element];
     const pfem::ElementMap map(mesh.mesh, mesh.edges, element);
-    stage1::ElementVector g{{}, Eigen::Matrix2Xd::Zero(2, N.rows())};
+    Eigen::MatrixX2d g = Eigen::MatrixX2d::Zero(N.rows(), 2);
     for (Eigen::Index q = 0; q < w.size(); ++q)
-      g.values += thickness * w[q] * map.jacobian(xi[q], eta[q]).determinant() *
-                  body_force(D, wave, map.point(xi[q], eta[q])) * N.col(q).transpose();
-    for (int mode = 0; mode < N.rows(); ++mode) g.modes.push_back(mode);
-    loads.add(element, g, 0);
+      g += thickness * w[q] * map.jacobian(xi[q], eta[q]).determinant() * N.col(q) *
+           body_force(D, wave, map.point(xi[q], eta[q])).transpose();
+    loads.add(element, modes, g.reshaped(), 0);
     for (int edge = 0; edge < 4; ++edge) {
       if (mesh.edges.n_elements[mesh.edges.of_element(edge, element)] == 2) continue;
       const auto side = pfem::side_rule(mesh.mesh, mesh.edges, {element, edge}, p);
-      stage1::ElementVector t{side.modes, Eigen::Matrix2Xd::Zero(2, side.N.rows())};
+      Eigen::MatrixX2d t = Eigen::MatrixX2d::Zero(side.N.rows(), 2);
       for (Eigen::Index q = 0; q < side.ds.size(); ++q)
-        t.values += thickness * side.ds[q] * stress(D, wave.a * wave.slope(side.x.col(q)).transpose()) *
-                    side.normal.col(q) * side.N.col(q).transpose();
-      loads.add(element, t, 0);
+        t += thickness * side.ds[q] * side.N.col(q) *
+             (stress(D, wave.a * wave.slope(side.x.col(q)).transpose()) * side.normal.col(q)).transpose();
+      loads.add(element, side.modes, t.reshaped(), 0);
     }
   }
   return Eigen::MatrixXd(loads.free()).col(0);

@@ -30,8 +30,8 @@ Eigen::VectorXd translation(const test::Plate& plate, int component) {
   const auto& unknowns = plate.problem.unknowns;
   Eigen::VectorXd u = Eigen::VectorXd::Zero(unknowns.n_free.back() + unknowns.n_controlled);
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node) {
-    const int target = unknowns.target[2 * node + component];
-    if (stage1::Unknowns::is_free(target)) u[target] = 1;
+    const int dof = unknowns.dofs(component, node);
+    if (pfem::is_free(dof)) u[dof] = 1;
   }
   for (int i = 0; i < unknowns.n_externals(); ++i)
     u[unknowns.n_free.back() + i] = plate.scene.externals[unknowns.rigid[i]].direction == (component == 0 ? "x" : "y");
