@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <iostream>
 #include <optional>
 
@@ -9,8 +10,7 @@
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage1_plate/run/accuracy.hpp"
-#include "stage1_plate/run/solved_plate.hpp"
-#include "stage1_plate/scene/degree_range.hpp"
+#include "stage1_plate/run/solve.hpp"
 
 namespace {
 
@@ -29,8 +29,23 @@ const program::Command command = {
      {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
      {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
 
-/// Says what is to be doubted: links (section 3 of the paper: what they do converges slowly or not at all), a thickness
-/// or a disk's modulus far from the sheet's other numbers.
+/// The worst of several warnings of one kind, and their number.
+struct WorstOfKind {
+  double amount = 0;
+  int count = 0;
+  std::string text;
+
+  void add(double by, std::string words) {
+    ++count;
+    if (by > amount) std::tie(amount, text) = std::pair(by, std::move(words));
+  }
+  [[nodiscard]] std::string worst() const {
+    return count > 1 ? fmt::format("{} ({} more likewise, this is the worst)", text, count - 1) : text;
+  }
+};
+
+/// Warns of what is to be doubted: links (section 3 of the paper: what they do converges slowly or not at all), a
+/// thickness or a disc's modulus far from the sheet's other numbers.
 void warn(const stage1::SolvedPlate& plate) {
   constexpr double foil = 1e-4, apart = 300;  // GPa beside MPa are 1000
   const auto& [scene, mesh] = std::tie(plate.scene, plate.solution.mesh);
@@ -40,25 +55,29 @@ void warn(const stage1::SolvedPlate& plate) {
   const double width = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).minCoeff();
   const double thinnest = mesh.thickness.minCoeff(), thickest = mesh.thickness.maxCoeff();
   bool has_links = !scene.points.empty();
-  std::string thin, stiff;
-  if (thickest > width) thin = fmt::format("the thickness {:g} is above the width {:g} of the sheet", thickest, width);
+  WorstOfKind thin, stiff;
+  if (thickest > width)
+    thin.add(thickest / width, fmt::format("the thickness {:g} is above the width {:g} of the sheet", thickest, width));
   for (std::size_t i = 0; i < scene.holes.size(); ++i) {
     const auto& hole = scene.holes[i];
     if (thinnest < foil * hole.radius)
-      thin = fmt::format("the thickness {:g} is below {:g} of the radius {:g} of hole \"{}\"", thinnest, foil,
-                         hole.radius, hole.id);
+      thin.add(hole.radius / thinnest, fmt::format("the thickness {:g} is below {:g} of the radius {:g} of hole \"{}\"",
+                                                   thinnest, foil, hole.radius, hole.id));
     if (!hole.spring) continue;
     has_links |= hole.spring->link > 0;
-    for (const auto& D : scene.elasticity) {
-      const double E = D.inverse().diagonal().head<2>().cwiseInverse().maxCoeff(), disk = hole.spring->disk_E;
-      if (disk > 0 && (disk > apart * E || disk < E / apart))
-        stiff = fmt::format("/holes/{}/spring/disk/E: {:g} is {:.3g} times the modulus {:g} of the sheet", i, disk,
-                            disk / E, E);
-    }
+    const double disc = hole.spring->disk_E;
+    double E = disc;  // of the material of the sheet that is farthest from the disc's
+    const auto ratio = [&](double modulus) { return std::max(disc / modulus, modulus / disc); };
+    for (const auto& D : scene.elasticity)
+      if (const double other = D.inverse().diagonal().head<2>().cwiseInverse().maxCoeff(); ratio(other) > ratio(E))
+        E = other;
+    if (disc > 0 && ratio(E) > apart)
+      stiff.add(ratio(E), fmt::format("/holes/{}/spring/disk/E: {:g} is {:.3g} times the modulus {:g} of the sheet", i,
+                                      disc, disc / E, E));
   }
   if (has_links) say("points and links concentrate their load at nodes: the results depend on the mesh");
-  if (!thin.empty()) say(fmt::format("/geometry: {}: one of them may be in another unit of length", thin));
-  if (!stiff.empty()) say(stiff + ": one of them may be in another unit of stress");
+  if (thin.count > 0) say(fmt::format("/geometry: {}: one of them may be in another unit of length", thin.worst()));
+  if (stiff.count > 0) say(stiff.worst() + ": one of them may be in another unit of stress");
 }
 
 /// The model that reaches the accuracy asked for, if one is.
@@ -67,11 +86,15 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
   const double accuracy = arguments.number("--accuracy", least, most, 0);
   if (accuracy == 0) return std::nullopt;
   auto chosen = stage1::meet_accuracy(scene, accuracy);
+  const std::string option = arguments.text("--p");
+  const std::string bound = option.empty() ? "\"p\" of the scene" : "--p " + option;
   if (!chosen.is_reached())
     std::cerr << fmt::format(
-        "{}: warning: {}: {}; that is the best with these cells: finer ones, above all at ends of clamped "
-        "edges and of steps in thickness, come closer\n",
-        command.name, scene.file, stage1::to_text(chosen));
+        "{}: warning: {}: {}; {}\n", command.name, scene.file, stage1::to_text(chosen),
+        scene.p_high < stage1::highest_p
+            ? fmt::format("that is the best that {} allows: degrees up to {} come closer", bound, stage1::highest_p)
+            : "that is the best with these cells: finer ones, above all at ends of clamped edges "
+              "and of steps in thickness, come closer");
   return chosen;
 }
 

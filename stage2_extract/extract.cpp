@@ -4,7 +4,6 @@
 #include "common/count.hpp"
 #include "common/linalg/condensed.hpp"
 #include "stage2_extract/matrices/friction_constants.hpp"
-#include "stage2_extract/matrices/load_reactions.hpp"
 #include "stage2_extract/stresses/stresses.hpp"
 
 namespace fastjoint::stage2 {
@@ -41,9 +40,11 @@ formats::PlateMatrices names(const formats::PlateSolution& plate, const std::str
   return a;
 }
 
-/// All linear matrices of externals and discs at one degree.
+/// Forces that must act on externals and discs at one degree (docs/theory.md, section 4).
 struct Level {
-  Eigen::MatrixXd S, R, T;  ///< (nc, nc), (nc, h), (nc, q)
+  Eigen::MatrixXd S;  ///< (nc, nc) forces per unit displacement of each
+  Eigen::MatrixXd R;  ///< (nc, h) forces under unit friction cases; by reciprocity no case is solved for it
+  Eigen::MatrixXd T;  ///< (nc, q) forces under a unit total force on each traction boundary
 };
 
 /// Takes from forces on externals and discs, (nc, columns), what they sum to along a free translation beside `known`.
@@ -77,7 +78,7 @@ void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
   }
 }
 
-/// What stage 1 found of the scene's own loads, for readers of MATRICES.h5.
+/// Copies what stage 1 found about the scene's own loads, for readers of MATRICES.h5.
 void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
   for (const auto& contact : plate.contacts) {
     a.contacts.push_back(
@@ -100,11 +101,12 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   matrices::CondensedLevels levels;
   auto& S = levels.S;
   std::vector<Level> solved;
-  for (std::size_t level = 0; level < plate.cases.size(); ++level) {
-    S.push_back(linalg::condensed_stiffness(plate.cases[level].E_c, plate.shift, plate.K_cc));
-    levels.R.push_back(friction_reactions(plate, level));
-    solved.push_back({S.back(), levels.R.back(), traction_reactions(plate, level)});
-    a.C_t.push_back(traction_compliance(plate, level));
+  for (const auto& each : plate.cases) {
+    const auto n_p = each.V.rows();
+    S.push_back(linalg::condensed_stiffness(each.E_c, plate.shift, plate.K_cc));
+    levels.R.push_back(linalg::product_transposed(each.E_c, each.E_h));
+    solved.push_back({S.back(), levels.R.back(), plate.K_fc.topRows(n_p).transpose() * each.V - plate.T_c});
+    a.C_t.push_back(plate.T_f.topRows(n_p).transpose() * each.V);
   }
   store(solved, a);
   levels.C = a.C_t;

@@ -69,13 +69,12 @@ void require_memory(const std::string& file, double need) {
                           "a file of a lower p or fewer holes, or of stage1_plate --loads-only");
 }
 
-/// What the matrices take beside the plate's fields: stresses and condensed matrices stand in memory and in the file
+/// Bytes of the matrices beside the plate's fields: stresses and condensed matrices stand in memory and in the file
 /// that is written, which HDF5 enlarges by copying it.
 double extraction_need(const formats::PlateSolution& plate, double file_size) {
   constexpr double copies = 4;
   double fields = 0;
-  for (const auto& each : plate.cases)
-    fields += 8.0 * static_cast<double>(each.U.size() + each.V.size() + each.W.size());
+  for (const auto& each : plate.cases) fields += 8.0 * double(each.U.size() + each.V.size() + each.W.size());
   return fields + copies * (std::max(file_size - fields, 0.0) + stage2::stress_bytes(plate));
 }
 
@@ -84,7 +83,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   const auto request = field_request(arguments);
   constexpr double of_reading = 3;  // the file's image, and its fields as they are filled
   std::error_code none;
-  const auto size = static_cast<double>(std::filesystem::file_size(arguments.input, none));
+  const auto size = double(std::filesystem::file_size(arguments.input, none));
   if (!none) require_memory(arguments.input, of_reading * size);
   const auto plate = formats::read_plate_solution(arguments.input);
   if (!arguments.flag("--field")) require_memory(arguments.input, extraction_need(plate, size));

@@ -21,7 +21,7 @@ STAGES = {
         "matrices": ["formats", "linalg", "pfem", "rim", ""],
         "stresses": ["formats", "pfem", "rim", ""],
         "field": ["formats", "h5", "pfem", "program", ""],
-        "": ["formats", "linalg", "matrices", "program", "rim"],
+        "": ["formats", "linalg", "matrices", "program", "rim", ""],
     },
     "stage3_nonlinear": {
         "laws": ["input", "program", ""],

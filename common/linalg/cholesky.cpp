@@ -144,8 +144,7 @@ Eigen::MatrixXd Cholesky::border(Eigen::Index k) const {
   Eigen::MatrixXd L = Eigen::MatrixXd::Zero(impl_->n_border, k);
   impl_->for_each_supernode([&](const Impl::Supernode& s) {
     for (auto j = std::max<Eigen::Index>(s.first, first); j < std::min<Eigen::Index>(s.last, first + k); ++j)
-      for (int i = static_cast<int>(j) - s.first; i < s.ld; ++i)
-        L(s.row[i] - first, j - first) = s.value[i + (j - s.first) * s.ld];
+      for (auto i = j - s.first; i < s.ld; ++i) L(s.row[i] - first, j - first) = s.value[i + (j - s.first) * s.ld];
   });
   return L;
 }

@@ -14,7 +14,7 @@ namespace fastjoint::linalg {
 class Cholesky {
  public:
   /// @param lower Lower triangle of the matrix, compressed, shape (n, n).
-  /// @param n_border How many of its last rows and columns are the border.
+  /// @param n_border Number of its last rows and columns that are the border.
   /// Throws NumericalError if the matrix is not positive definite, and if it, without its border, is singular to
   /// working precision.
   explicit Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_border = 0);

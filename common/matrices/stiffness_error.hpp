@@ -30,7 +30,7 @@ namespace fastjoint::matrices {
 [[nodiscard]] Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p,
                                               double fastest);
 
-/// The same for one falling sequence.
+/// Estimated error of the last value of one falling sequence.
 [[nodiscard]] double extrapolated_error(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest = 5);
 
 /// The largest s for sheets of these materials: 3 if one of them couples stretching and shear, else 5.

@@ -17,7 +17,7 @@ struct SideRule {
   Eigen::VectorXd ds;       ///< (n_points) weights, length
 };
 
-/// @param breaks Coordinates in (-1, 1) along the side's natural direction where the integrand jumps or kinks:
+/// @param breaks Coordinates in (-1, 1) along the side's natural direction where the integrand or its slope jumps:
 ///               each piece is integrated on its own. Ascending.
 [[nodiscard]] SideRule side_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p,
                                  const std::vector<double>& breaks = {});

@@ -15,7 +15,7 @@ class Curve {
   [[nodiscard]] Eigen::Vector2d point(double s) const;
   [[nodiscard]] Eigen::Vector2d derivative(double s) const;
   [[nodiscard]] bool is_arc() const { return is_arc_; }
-  /// Of an arc: angle at s = -1, and its signed increase up to s = 1, in (-pi, pi].
+  /// Angle of an arc at s = -1, and its signed increase up to s = 1, in (-pi, pi].
   [[nodiscard]] double start_angle() const { return start_; }
   [[nodiscard]] double sweep() const { return sweep_; }
 

@@ -9,18 +9,6 @@
 #include "common/linalg/condensed.hpp"
 
 namespace fastjoint::pfem {
-namespace {
-
-/// Legendre polynomials P_0 ... P_{n-1} at points, shape (n, n_points).
-Eigen::MatrixXd legendre(int n, const Eigen::VectorXd& x) {
-  Eigen::MatrixXd P = Eigen::MatrixXd::Ones(n, x.size());
-  if (n > 1) P.row(1) = x.transpose();
-  for (int k = 2; k < n; ++k)
-    P.row(k) = ((2 * k - 1) * x.transpose().cwiseProduct(P.row(k - 1)) - (k - 1) * P.row(k - 2)) / k;
-  return P;
-}
-
-}  // namespace
 
 GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
   constexpr int n = highest_geometric_degree + 1;
@@ -28,7 +16,7 @@ GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
   if (!map.is_curved() && (map.point(-1, -1) + map.point(1, 1) - map.point(1, -1) - map.point(-1, 1)).isZero(0))
     return {0, 0};
   static const Rule rule = gauss(n);
-  static const Eigen::MatrixXd P = legendre(n, rule.x) * rule.w.asDiagonal();  // coefficients from values
+  static const Eigen::MatrixXd P = legendre(n - 1, rule.x) * rule.w.asDiagonal();  // coefficients from values
   Eigen::MatrixXd values(n, 3 * n);
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j) {

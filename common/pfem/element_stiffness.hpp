@@ -6,7 +6,7 @@
 #include <mutex>
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
@@ -36,7 +36,7 @@ class ElementStiffness {
     ShapeValues shape;
   };
   [[nodiscard]] Table make_table(int n_points, const Box& box) const;
-  /// That of all of [-1, 1]^2, made when first asked for, from any thread.
+  /// The table of all of [-1, 1]^2, made when first asked for, from any thread.
   [[nodiscard]] const Table& table(int n_points) const;
 
   Space space_;

@@ -5,6 +5,17 @@
 
 namespace fastjoint::pfem {
 
+/// Points and weights of a quadrature on [-1, 1], each of shape (n).
+struct Rule {
+  Eigen::VectorXd x, w;
+};
+
+/// Gauss-Legendre rule of n points, exact for polynomials of degree 2 n - 1; n >= 1.
+[[nodiscard]] Rule gauss(int n);
+
+/// Legendre polynomials P_0 ... P_p at points x, shape (p + 1, n_points).
+[[nodiscard]] Eigen::MatrixXd legendre(int p, const Eigen::VectorXd& x);
+
 /// Values and derivatives of functions at points, each of shape (n_functions, n_points).
 struct Values {
   Eigen::MatrixXd N, dN;

@@ -8,20 +8,13 @@
 namespace fastjoint::pfem {
 namespace {
 
-/// Compliance between the normal stresses and strains along the material axes.
-Eigen::Matrix3d normal_compliance(const OrthotropicConstants& c) {
+/// Compliance between the normal stresses and strains along the material axes of those that the analysis knows.
+Eigen::MatrixXd compliance(const OrthotropicConstants& c, Analysis analysis) {
   Eigen::Matrix3d s;
   s << 1 / c.E1, -c.nu12 / c.E1, -c.nu13 / c.E1,  //
       -c.nu12 / c.E1, 1 / c.E2, -c.nu23 / c.E2,   //
       -c.nu13 / c.E1, -c.nu23 / c.E2, 1 / c.E3;
-  return s;
-}
-
-/// Compliance block whose inverse relates the in-plane normal stresses to strains.
-Eigen::MatrixXd compliance(const OrthotropicConstants& constants, Analysis analysis) {
-  const Eigen::Matrix3d s = normal_compliance(constants);
-  if (analysis == Analysis::plane_strain) return s;
-  return s.topLeftCorner<2, 2>();
+  return analysis == Analysis::plane_strain ? Eigen::MatrixXd(s) : s.topLeftCorner(2, 2);
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ enum class Space {
   product,  ///< i, j <= p: what a polynomial of degree p in each coordinate needs
 };
 
-/// What inputs and files call them, in their order.
+/// Names of the spaces in inputs and files, in their order.
 inline const std::vector<std::string> space_names = {"trunk", "product"};
 
 [[nodiscard]] inline const std::string& name_of(Space space) { return space_names[static_cast<std::size_t>(space)]; }

@@ -11,7 +11,7 @@ namespace fastjoint::rim {
 inline constexpr double full_turn = 2 * std::numbers::pi;
 inline constexpr double degree = full_turn / 360;  ///< radians
 
-/// The same direction from `low` to a full turn above it, radians.
+/// The angle of the same direction that lies from `low` to a full turn above it, radians.
 [[nodiscard]] inline double wrapped(double angle, double low) {
   return angle - full_turn * std::floor((angle - low) / full_turn);
 }

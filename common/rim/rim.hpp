@@ -26,7 +26,7 @@ struct Rim {
 [[nodiscard]] double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
 
 /// Quadrature on one side of a rim. Pieces end where a rim is cut by a line through its centre along x or y: there the
-/// tractions of bearing along +-x and +-y jump, kink or end; and where `ranges` end.
+/// tractions of bearing along +-x and +-y, or their slopes, jump; and where `ranges` end.
 [[nodiscard]] pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,
                                       const std::vector<AngleRange>& ranges = {});
 

@@ -81,7 +81,7 @@ class ContactSearch {
   }
 
   void finish(std::size_t i) {
-    HoleContact& contact = result_[i];
+    RimContact& contact = result_[i];
     const RimGap& gap = system_.gap(i);
     contact.arcs = arcs_[i];
     if (contact.arcs.empty()) return;
@@ -107,7 +107,7 @@ class ContactSearch {
   const PlateScene& scene_;
   const PlateProblem& problem_;
   ContactSystem system_;
-  std::vector<HoleContact> result_;
+  std::vector<RimContact> result_;
   std::vector<Arcs> arcs_;
   ContactSystem::State state_;
   bool at_rest_ = false;

@@ -6,7 +6,7 @@
 namespace fastjoint::stage1 {
 
 /// Where the springs of one hole push under the scene's loads.
-struct HoleContact {
+struct RimContact {
   int hole;               ///< index into PlateScene::holes
   Arcs arcs;              ///< where they push
   int iterations;         ///< until the ends of the arcs stood still
@@ -19,7 +19,7 @@ struct HoleContact {
 
 /// Unilateral contact under the scene's loads, and the loads as amounts of the unit cases.
 struct ContactState {
-  std::vector<HoleContact> holes;
+  std::vector<RimContact> holes;
   Eigen::VectorXd displacement;  ///< (nc) of externals, then discs
   Eigen::VectorXd force;         ///< (nc) on them from outside; of a disc, what its springs transmit
   Eigen::VectorXd friction;      ///< (h) amplitudes, stress

@@ -25,8 +25,8 @@ class PlateFactor {
   /// Plate unknowns under loads on them, controlled displacements held, shape (n_p, k).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
 
-  /// What rounding of the plate's stiffness may change of the energy of a field, u: times the machine's precision, the
-  /// sum of the squares of its unknowns on skeletons, each with its diagonal entry.
+  /// Change of the energy of a field u that rounding of the plate's stiffness may make: times the machine's precision,
+  /// the sum of the squares of its unknowns on skeletons, each with its diagonal entry.
   [[nodiscard]] double rounding(const Eigen::VectorXd& u) const;
 
  private:

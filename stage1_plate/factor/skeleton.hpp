@@ -28,7 +28,7 @@ class Skeleton {
     /// Row of a degree of freedom, or -1 for a fixed one.
     [[nodiscard]] int of_dof(int dof) const;
   };
-  /// @param problem That of the constructor, or one with the same unknowns.
+  /// @param problem The problem of the constructor, or one with the same unknowns.
   [[nodiscard]] Rows rows(const PlateProblem& problem, int p) const;
   /// Entries of the bordered skeleton stiffness, of its factor and of the factor's largest front.
   struct Size {

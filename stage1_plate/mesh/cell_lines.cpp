@@ -8,7 +8,7 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// What a hole asks of the sides across one axis of its cell: a node at `center`.
+/// The node at `center` that a hole wants on the sides across one axis of its cell.
 struct Wish {
   double center, radius;
 };

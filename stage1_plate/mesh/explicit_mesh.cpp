@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/explicit_mesh.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "stage1_plate/mesh/named_edges.hpp"
-
 namespace fastjoint::stage1 {
 namespace {
-
-pfem::Mesh to_mesh(const MeshGeometry& geometry) {
-  pfem::Mesh mesh;
-  const Eigen::Index n = geometry.quads.size();
-  mesh.nodes.resize(2, geometry.nodes.size());
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = geometry.nodes[i];
-  mesh.quads.resize(4, n);
-  for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = geometry.quads[i];
-  for (const auto& arc : geometry.arcs) mesh.arcs.push_back({arc.a, arc.b, arc.center});
-  mesh.thickness = Eigen::Map<const Eigen::VectorXd>(geometry.thickness.data(), n);
-  mesh.material = Eigen::Map<const Eigen::VectorXi>(geometry.material.data(), n);
-  return mesh;
-}
 
 void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
   std::vector<bool> used(mesh.n_nodes(), false);
@@ -65,8 +50,8 @@ void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
              "at most 2");
 }
 
-/// Place of a point on an edge, 0 to 1 from its first to its last node, and how far off the edge it lies over its
-/// length.
+/// Coordinate of a point along an edge, 0 to 1 from its first to its last node, and how far off the edge it lies over
+/// its length.
 std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge,
                                    const Eigen::Vector2d& point) {
   const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge)), b = mesh.nodes.col(edges.nodes(1, edge));
@@ -114,6 +99,19 @@ void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const 
 }
 
 }  // namespace
+
+pfem::Mesh to_mesh(const MeshGeometry& geometry) {
+  pfem::Mesh mesh;
+  const Eigen::Index n = geometry.quads.size();
+  mesh.nodes.resize(2, geometry.nodes.size());
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = geometry.nodes[i];
+  mesh.quads.resize(4, n);
+  for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = geometry.quads[i];
+  mesh.arcs = geometry.arcs;
+  mesh.thickness = Eigen::Map<const Eigen::VectorXd>(geometry.thickness.data(), n);
+  mesh.material = Eigen::Map<const Eigen::VectorXi>(geometry.material.data(), n);
+  return mesh;
+}
 
 PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
   PlateMesh plate;

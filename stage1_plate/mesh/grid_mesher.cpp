@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/grid_mesher.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,42 +18,24 @@ using Point = Eigen::Vector2d;
 class Builder {
  public:
   int shared_node(const Point& at) {
-    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, count_of(nodes_));
-    if (is_new) nodes_.push_back(at);
-    return found->second;
+    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, count_of(lists_.nodes));
+    return is_new ? own_node(at) : found->second;
   }
   int own_node(const Point& at) {
-    nodes_.push_back(at);
-    return count_of(nodes_) - 1;
+    lists_.nodes.push_back(at);
+    return count_of(lists_.nodes) - 1;
   }
   void quad(const Eigen::Vector4i& nodes, double thickness, int material) {
-    quads_.push_back(nodes);
-    thickness_.push_back(thickness);
-    material_.push_back(material);
+    lists_.quads.push_back(nodes);
+    lists_.thickness.push_back(thickness);
+    lists_.material.push_back(material);
   }
-  int n_elements() const { return count_of(quads_); }
-  void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
-
-  pfem::Mesh mesh() const {
-    pfem::Mesh mesh;
-    const Eigen::Index n = quads_.size();
-    mesh.nodes.resize(2, nodes_.size());
-    for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = nodes_[i];
-    mesh.quads.resize(4, n);
-    for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = quads_[i];
-    mesh.arcs = arcs_;
-    mesh.thickness = Eigen::Map<const Eigen::VectorXd>(thickness_.data(), n);
-    mesh.material = Eigen::Map<const Eigen::VectorXi>(material_.data(), n);
-    return mesh;
-  }
+  void arc(int a, int b, const Point& center) { lists_.arcs.push_back({a, b, center}); }
+  [[nodiscard]] const MeshGeometry& lists() const { return lists_; }
 
  private:
   std::map<std::pair<double, double>, int> index_;
-  std::vector<Point> nodes_;
-  std::vector<Eigen::Vector4i> quads_;
-  std::vector<double> thickness_;
-  std::vector<int> material_;
-  std::vector<pfem::Arc> arcs_;
+  MeshGeometry lists_;
 };
 
 /// A cell of the grid with the nodes that its sides have.
@@ -92,38 +74,15 @@ void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell)
 }
 
 /// Points of one side in counter-clockwise order, without its last.
-std::vector<Point> side_points(const CellLines& lines, const Cell& cell, CellSide side) {
-  auto inner = lines.nodes(cell.column, cell.row, side);
-  if (side == top || side == left) std::reverse(inner.begin(), inner.end());
+std::vector<Point> side_points(const CellLines& lines, const Cell& cell, int side) {
+  auto at = lines.nodes(cell.column, cell.row, static_cast<CellSide>(side));
+  const bool along_x = side == bottom || side == top, backwards = side == top || side == left;
+  if (backwards) std::reverse(at.begin(), at.end());
+  const double start = along_x ? (backwards ? cell.x_high : cell.x_low) : (backwards ? cell.y_high : cell.y_low);
+  const double line = along_x ? (side == top ? cell.y_high : cell.y_low) : (side == right ? cell.x_high : cell.x_low);
+  at.insert(at.begin(), start);
   std::vector<Point> points;
-  switch (side) {
-    case bottom:
-      points = {{cell.x_low, cell.y_low}};
-      break;
-    case right:
-      points = {{cell.x_high, cell.y_low}};
-      break;
-    case top:
-      points = {{cell.x_high, cell.y_high}};
-      break;
-    case left:
-      points = {{cell.x_low, cell.y_high}};
-      break;
-  }
-  for (const double at : inner) switch (side) {
-      case bottom:
-        points.emplace_back(at, cell.y_low);
-        break;
-      case right:
-        points.emplace_back(cell.x_high, at);
-        break;
-      case top:
-        points.emplace_back(at, cell.y_high);
-        break;
-      case left:
-        points.emplace_back(cell.x_low, at);
-        break;
-    }
+  for (const double t : at) points.push_back(along_x ? Point(t, line) : Point(line, t));
   return points;
 }
 
@@ -138,11 +97,11 @@ std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleC
   for (int i = 0; i < n_cell_sides; ++i) {
     const int side = (first + i) % n_cell_sides;
     if (hole.cuts[side]) continue;
-    const auto next = side_points(lines, cell, static_cast<CellSide>(side));
+    const auto next = side_points(lines, cell, side);
     points.insert(points.end(), next.begin(), next.end());
     last = side;
   }
-  points.push_back(side_points(lines, cell, static_cast<CellSide>((last + 1) % n_cell_sides)).front());
+  points.push_back(side_points(lines, cell, (last + 1) % n_cell_sides).front());
   return points;
 }
 
@@ -244,13 +203,13 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
       if (hole == holes.end()) {
         mesh_plain_cell(builder, lines, cell);
       } else {
-        const int first = builder.n_elements();
+        const int first = count_of(builder.lists().quads);
         mesh_hole_cell(builder, lines, cell, *hole, scene.holes[hole->hole]);
-        with_hole.push_back({&*hole, cell, first, builder.n_elements()});
+        with_hole.push_back({&*hole, cell, first, count_of(builder.lists().quads)});
       }
     }
   PlateMesh plate;
-  plate.mesh = builder.mesh();
+  plate.mesh = to_mesh(builder.lists());
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);

@@ -10,7 +10,7 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Where a centre lies between the cell lines of one axis.
+/// The interval between cell lines of one axis in which a centre lies.
 struct Interval {
   int index;
   double center;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/named_edges.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <fmt/format.h>
 
@@ -36,7 +36,7 @@ pfem::Side find_border_side(const PlateScene& scene, const PlateMesh& plate, con
   return sides.front();
 }
 
-/// Where a section must lie: coordinate `axis` constant, on the side `sign` of the hole.
+/// The line on which a section must lie: coordinate `axis` constant, on the side `sign` of the hole.
 struct Cut {
   const Hole& hole;
   char direction;
@@ -51,7 +51,7 @@ Cut cut_of(const PlateScene& scene, const MeshSection& section) {
 
 /// The forces over a section are integrals of one normal stress: all of it must face one way, on one line, with the
 /// whole hole on one side.
-/// @param line Where the first edge of the section is.
+/// @param line Coordinate `axis` of the first edge of the section.
 void check_cut(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer, const Cut& cut,
                const NodePair& edge, const pfem::Side& side, double line) {
   constexpr double tolerance = 1e-9;      // of the edge's length

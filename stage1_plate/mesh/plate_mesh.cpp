@@ -8,8 +8,6 @@
 
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/element_stiffness.hpp"
-#include "stage1_plate/mesh/explicit_mesh.hpp"
-#include "stage1_plate/mesh/grid_mesher.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

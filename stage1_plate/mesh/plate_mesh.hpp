@@ -24,4 +24,23 @@ struct PlateMesh {
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.
 [[nodiscard]] PlateMesh make_mesh(const PlateScene& scene);
 
+/// Quadrilaterals for a grid of cells with holes, without rims: a cell with a hole becomes a fan of ring elements from
+/// the hole's arcs to the cell's outline (and extra rings, graded towards the hole), any other cell rectangles.
+/// The mesh is conforming; the sets "left", "right", "bottom", "top" are the sides on the border.
+[[nodiscard]] PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid);
+
+/// Takes the user's mesh as it is, without rims. Throws InputError if it is not conforming: an edge of more than two
+/// elements, a node that hangs on an edge, an arc that no element has, a node that nothing uses, or if an edge that it
+/// names will not do (name_edges).
+[[nodiscard]] PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry);
+
+/// Finds the edges that an explicit mesh names: its sets on the border, and its sections, whose sides are those of the
+/// elements between the cut and the hole (on a border, of the only element there is). Throws InputError if no element
+/// has such an edge, an edge of a set is inside the plate, or the edges of a section are not straight, not on one line
+/// across the section's direction, or not beyond the rim on that side of the hole.
+void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh& plate);
+
+/// The lists of nodes, elements and arcs as a mesh.
+[[nodiscard]] pfem::Mesh to_mesh(const MeshGeometry& geometry);
+
 }  // namespace fastjoint::stage1

@@ -11,7 +11,7 @@ namespace fastjoint::stage1 {
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 /// Whether nothing can move as a rigid body while the scene's loads act: externals and discs of given force follow.
-/// @param scene With loads, and springs on the parts of the rims that bear.
+/// @param scene A scene that has loads, with springs on the parts of the rims that bear.
 [[nodiscard]] bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

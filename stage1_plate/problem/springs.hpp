@@ -19,8 +19,8 @@ struct SideSprings {
 /// @param p Degree of the plate's space. Arcs are integrated exactly: pieces end where they do.
 [[nodiscard]] SideSprings side_springs(const Spring& spring, const PlateMesh& plate, const pfem::Side& side, int p);
 
-/// What the springs of one side of a sprung hole's rim and the unit friction cases there add, over the coefficients
-/// of the side's modes: first all of u_x, then all of u_y, local signs. a disc directions, n modes.
+/// Stiffness of the springs on one side of a sprung hole's rim, and loads of the unit friction cases there, over the
+/// coefficients of the side's modes: first all of u_x, then all of u_y, local signs. a disc directions, n modes.
 struct RimTerms {
   std::vector<int> modes;    ///< (n) local modes of the element
   Eigen::MatrixXd plate;     ///< (2n, 2n) int k t (v.n)(u.n) ds, force / length

@@ -4,16 +4,18 @@
 #include <algorithm>
 
 #include "stage1_plate/factor/skeleton.hpp"
-#include "stage1_plate/run/solve.hpp"
 
 namespace fastjoint::stage1 {
+
+/// What stage 2 is to extract from the plate.
+enum class Wanted { loads_and_stresses, loads };
 
 /// Bytes that a run takes at its highest degree, known before anything is integrated.
 struct MemoryNeed {
   double elements;  ///< matrices of the classes of elements
   double factor;    ///< the skeleton's stiffness and its factor
-  double fields;    ///< of the unit cases, and the file that they go into
-  double contact;   ///< what the search for contact takes before them, 0 without
+  double fields;    ///< fields of the unit cases, and the file that they go into
+  double contact;   ///< fields in the search for contact, which ends before these are solved; 0 without one
   double program;
 
   [[nodiscard]] double total() const {
@@ -21,8 +23,8 @@ struct MemoryNeed {
     return gaps * (elements + factor + std::max(fields, contact)) + program;
   }
 };
-/// @param problem As number_unknowns has made it. @param p Degrees to be solved, ascending. @param n_rim Unknowns of
-/// the rims on which contact is looked for, 0 without.
+/// @param problem Result of number_unknowns. @param p Degrees to be solved, ascending. @param n_rim Number of unknowns
+/// on the rims on which contact is looked for, 0 without.
 [[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const Skeleton& skeleton, const Eigen::VectorXi& p,
                                      Wanted wanted, int n_rim = 0);
 

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/run/solve.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 
+#include "common/count.hpp"
+#include "common/program/memory.hpp"
+#include "common/program/program.hpp"
 #include "stage1_plate/factor/plate_factor.hpp"
+#include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/problem/springs.hpp"
-#include "stage1_plate/scene/degree_range.hpp"
 
 namespace fastjoint::stage1 {
 
@@ -27,7 +33,7 @@ formats::PlateCases solve_degree(const PlateProblem& problem, const PlateFactor&
 
 /// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
 Eigen::VectorXd amounts(Eigen::Index n_cases) {
-  const auto n = static_cast<double>(n_cases);
+  const auto n = double(n_cases);
   return n_cases > 0 ? Eigen::VectorXd(Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n) : Eigen::VectorXd();
 }
 
@@ -38,6 +44,15 @@ formats::Probe probe(const PlateProblem& problem, const PlateFactor& K) {
   const Eigen::MatrixXd X = K.solve(B);
   return {displacement, friction, X.col(0), X.col(1),
           K.rounding(X.col(0)) / std::max(displacement.squaredNorm(), 1e-300)};
+}
+
+std::string arcs_text(const RimContact& contact) {
+  if (contact.arcs.empty()) return "no contact";
+  std::vector<std::string> arcs;
+  for (const auto& arc : contact.arcs)
+    arcs.push_back(fmt::format("{:.2f}..{:.2f}", arc.from / rim::degree, arc.to / rim::degree));
+  const std::string all = fmt::format("contact {} degrees", fmt::join(arcs, ", "));
+  return contact.half_angle > 0 ? fmt::format("{} (half-angle {:.2f})", all, contact.half_angle / rim::degree) : all;
 }
 
 }  // namespace
@@ -111,6 +126,58 @@ void solve_cases(const PlateProblem& problem, const Skeleton& skeleton, formats:
     a.cases.push_back(solve_degree(problem, K, a.ndof[i], has_fields(a, a.p[i])));
     if (i + 1 == a.p.size()) a.probe = probe(problem, K);
   }
+}
+
+SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& generator, program::Timings& timings) {
+  timings.phase("mesh");
+  const PlateMesh plate = make_mesh(scene);
+  PlateProblem problem = number_unknowns(scene, plate);
+  check_held(scene, plate, problem.unknowns);
+  const Skeleton skeleton(problem);  // of vertices and edges, whatever arcs contact finds
+  const int n_rim = scene.loads ? count_of(find_rim_unknowns(scene, plate, problem).free) : 0;
+  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), wanted, n_rim);
+  require_memory(scene.file, scene.p_high, need);
+  timings.phase("integrate");
+  integrate(scene, plate, problem);
+  std::optional<ContactState> contact;
+  if (scene.loads) {
+    timings.phase("factorise");
+    contact = find_contact(scene, plate, problem);
+    timings.phase("integrate");
+    scene = with_arcs(std::move(scene), *contact);
+    problem = assemble(scene, plate);
+    check_held(scene, plate, problem.unknowns);
+  }
+  auto solution = to_solution(scene, plate, problem, generator, wanted);
+  if (contact) add_contact(*contact, solution);
+  solve_cases(problem, skeleton, solution, timings);
+  for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
+  return {std::move(scene), std::move(contact), need, std::move(solution)};
+}
+
+std::string contact_summary(const PlateScene& scene, const ContactState& state) {
+  std::string text;
+  for (const auto& contact : state.holes) {
+    text += fmt::format("  hole {}: {}, {}", scene.holes[contact.hole].id, arcs_text(contact),
+                        program::counted(contact.iterations, "iteration"));
+    if (!contact.arcs.empty())
+      text += fmt::format(", peak pressure {:.6g} at {:.2f} degrees", contact.peak_pressure,
+                          contact.peak_angle / rim::degree);
+    text += "\n";
+  }
+  return text;
+}
+
+std::string summary(const SolvedPlate& plate, const std::string& file) {
+  using program::counted;
+  const auto& a = plate.solution;
+  std::string text = fmt::format("{}: {}, {}, {}, {}, {}; the run needs about {}\n", file,
+                                 counted(a.mesh.n_elements(), "element"), counted(a.mesh.n_nodes(), "node"),
+                                 counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
+                                 counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
+  return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;
 }
 
 }  // namespace fastjoint::stage1

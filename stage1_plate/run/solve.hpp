@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "common/formats/plate_solution.hpp"
 #include "common/program/timings.hpp"
 #include "stage1_plate/contact/contact.hpp"
-#include "stage1_plate/factor/skeleton.hpp"
-#include "stage1_plate/problem/plate_problem.hpp"
+#include "stage1_plate/run/memory.hpp"
 
 namespace fastjoint::stage1 {
 
-/// What stage 2 is to make of the plate.
-enum class Wanted { loads_and_stresses, loads };
-
-/// What stage 2 needs of the scene, the mesh and the problem, without the cases.
+/// The scene, the mesh and the problem as stage 2 needs them, without the cases.
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
                                                  const PlateProblem& problem, const std::string& generator,
                                                  Wanted wanted);
@@ -24,5 +23,24 @@ void add_contact(const ContactState& state, formats::PlateSolution& solution);
 /// wanted, elsewhere those of tractions only, and at the highest degree the probe. Phases: factorise, solve.
 void solve_cases(const PlateProblem& problem, const Skeleton& skeleton, formats::PlateSolution& solution,
                  program::Timings& timings);
+
+/// A scene and what became of it.
+struct SolvedPlate {
+  PlateScene scene;  ///< with springs on the arcs that contact has found
+  std::optional<ContactState> contact;
+  MemoryNeed need;
+  formats::PlateSolution solution;
+};
+
+/// Mesh, matrices, contact if the scene has loads, unit cases. Phases: mesh, integrate, factorise, solve.
+/// Throws InputError for a scene that does not fit together or into memory, NumericalError for one that moves.
+[[nodiscard]] SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& generator,
+                                      program::Timings& timings);
+
+/// Where the springs of each hole with contact push, how soon that was found, the largest pressure: a line for each.
+[[nodiscard]] std::string contact_summary(const PlateScene& scene, const ContactState& state);
+
+/// Size, degrees and contacts, for people. @param file Where it has been written.
+[[nodiscard]] std::string summary(const SolvedPlate& plate, const std::string& file);
 
 }  // namespace fastjoint::stage1

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/scene/read_loads.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
 
 #include <fmt/format.h>
 

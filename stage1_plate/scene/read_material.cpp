@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/scene/read_material.hpp"
-
-#include "common/rim/angles.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
 
 #include "common/pfem/material.hpp"
+#include "common/rim/angles.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -7,13 +7,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/input/value.hpp"
-#include "stage1_plate/scene/read_geometry.hpp"
-#include "stage1_plate/scene/read_loads.hpp"
-#include "stage1_plate/scene/read_material.hpp"
-#include "stage1_plate/scene/read_sections.hpp"
-#include "stage1_plate/scene/read_spring.hpp"
-#include "stage1_plate/scene/scene.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/scene/read_sections.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,6 @@
 #include <set>
 
 #include "common/count.hpp"
-#include "stage1_plate/scene/read_geometry.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

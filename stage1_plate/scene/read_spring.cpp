@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/scene/read_spring.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
 
-#include "stage1_plate/scene/read_material.hpp"
 #include "stage1_plate/scene/spring_law.hpp"
 
 namespace fastjoint::stage1 {

@@ -36,15 +36,11 @@ struct MeshSection {
   std::vector<std::pair<int, int>> edges;
 };
 
-/// A mesh that the user made.
+/// A mesh as lists, the user's or a mesher's, and what the user names in it.
 struct MeshGeometry {
-  struct Arc {
-    int a, b;
-    Eigen::Vector2d center;
-  };
   std::vector<Eigen::Vector2d> nodes;  ///< length
   std::vector<Eigen::Vector4i> quads;  ///< nodes, counter-clockwise
-  std::vector<Arc> arcs;
+  std::vector<pfem::Arc> arcs;
   std::vector<double> thickness;  ///< (quads), length
   std::vector<int> material;      ///< (quads)
   std::vector<EdgeSet> edges;
@@ -54,7 +50,7 @@ struct MeshGeometry {
 /// Springs between the rim of a hole and a rigid disc in it: distributed, or links at the nodes of the rim.
 struct Spring {
   double modulus = 0;  ///< force / length^3; 0 with links
-  double disk_E = 0;   ///< Young's modulus of the disk that the modulus is of, stress; 0 without one
+  double disk_E = 0;   ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
   double link = 0;     ///< force / length at each node, half of it for either side that ends there; 0 without links
   std::vector<rim::AngleRange> acts = {{-rim::full_turn / 2, rim::full_turn / 2}};  ///< the sprung part of the rim
   bool has_arc = false;           ///< whether the scene says which part
@@ -101,7 +97,7 @@ struct Disc {
   std::string id, direction;
 };
 
-/// What acts on an external or a disc: its force, or its displacement, is given.
+/// A load on an external or a disc: its force, or its displacement, is given.
 struct Load {
   bool is_force;
   double value;         ///< force or length; of a disc, the force that its springs transmit
@@ -110,8 +106,8 @@ struct Load {
 
 /// The loads under which springs push but do not pull.
 struct SceneLoads {
-  std::vector<Load> external;  ///< of each of PlateScene::externals
-  std::vector<Load> disc;      ///< of each of list_discs
+  std::vector<Load> external;  ///< load of each of PlateScene::externals
+  std::vector<Load> disc;      ///< load of each of list_discs
 };
 
 /// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
@@ -139,6 +135,13 @@ struct PlateScene {
 };
 
 inline constexpr int highest_p = 8;
+
+/// Replaces the scene's degrees by the option's: "8" is that degree alone, "4..8" a range, "" leaves the scene's.
+/// Throws InputError for anything else or outside 1..8.
+void set_degrees(PlateScene& scene, const std::string& option);
+
+/// Degrees at which the scene is solved, ascending.
+[[nodiscard]] Eigen::VectorXi degrees(const PlateScene& scene);
 
 /// Reads PLATE.json strictly. Throws InputError with the file, the JSON pointer, what was found and what is allowed.
 [[nodiscard]] PlateScene read_scene(const input::Document& document);

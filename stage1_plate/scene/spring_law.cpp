@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/scene/spring_law.hpp"
 
-#include <algorithm>
 #include <stdexcept>
+
+#include "common/count.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
 
-/// Equation (29): a disk under uniform pressure in plane stress, u_r = (1 - nu) p r / E.
+/// Modulus for a disc in plane stress under uniform pressure, u_r = (1 - nu) p r / E: equation (29).
 double plane_stress(double E, double nu, double d) { return 2 / (1 - nu) * E / d; }
 
-/// The same in plane strain, u_r = (1 + nu) (1 - 2 nu) p r / E.
+/// Modulus for a disc in plane strain under uniform pressure, u_r = (1 + nu) (1 - 2 nu) p r / E.
 double plane_strain(double E, double nu, double d) { return 2 * E / ((1 - 2 * nu) * (1 + nu) * d); }
 
-/// A disk in plane stress under the pressure p cos 2 theta without shear: u_r = (3 + nu)/3 p r / E cos 2 theta.
+/// Modulus for a disc in plane stress under the pressure p cos 2 theta without shear: u_r = (3 + nu)/3 p r / E cos 2
+/// theta.
 double second_harmonic(double E, double nu, double d) { return 6 * E / ((3 + nu) * d); }
 
 }  // namespace
@@ -26,10 +28,9 @@ const std::vector<SpringLaw>& spring_laws() {
 }
 
 const SpringLaw& find_spring_law(const std::string& name) {
-  const auto& laws = spring_laws();
-  const auto found = std::find_if(laws.begin(), laws.end(), [&](const SpringLaw& law) { return law.name == name; });
-  if (found == laws.end()) throw std::logic_error("no spring law has this name: " + name);
-  return *found;
+  const int found = index_of(spring_laws(), name, &SpringLaw::name);
+  if (found == count_of(spring_laws())) throw std::logic_error("no spring law has this name: " + name);
+  return spring_laws()[found];
 }
 
 }  // namespace fastjoint::stage1

@@ -6,10 +6,10 @@
 
 namespace fastjoint::stage1 {
 
-/// How the modulus of distributed springs follows from the elastic disk that they stand for.
+/// A law by which the modulus of distributed springs follows from the elastic disc that they stand for.
 struct SpringLaw {
   std::string name;
-  /// @param E, nu Of the disk; @param d its diameter. @return force / length^3.
+  /// @param E, nu Constants of the disc. @param d Its diameter. @return Modulus, force / length^3.
   double (*modulus)(double E, double nu, double d);
   bool incompressible_allowed;  ///< whether nu = 0.5 has a finite modulus
 };

@@ -23,7 +23,8 @@ struct Field {
 
 /// The unit fields superposed.
 /// @param p Degree of the level that the fields are at.
-/// @param amounts Of every case, shape (nc + h + q); those of friction must be 0 where its fields are not solved.
+/// @param amounts Amount of every case, shape (nc + h + q); those of friction must be 0 where its fields are not
+/// solved.
 [[nodiscard]] Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts);
 
 /// Von Mises stress at points, taken as if sigma_z = 0, shape (n_points). In plane strain the elasticity alone does not

@@ -9,8 +9,6 @@
 #include <iterator>
 
 #include "common/errors.hpp"
-#include "stage2_extract/field/case_sum.hpp"
-#include "stage2_extract/field/read_joint_state.hpp"
 
 namespace fastjoint::stage2 {
 namespace {

@@ -18,7 +18,7 @@ struct FieldState {
   int increment = 0;        ///< of the joint, from 1 on
 };
 
-/// What the user asks for, as given: "" and 0 where the choice is the program's.
+/// The user's options of a field as given: "" and 0 where the choice is the program's.
 struct FieldRequest {
   std::string spec = {};
   std::string plate = {};
@@ -51,6 +51,23 @@ template <class Plate>
 /// @param file Name of the plate's file, for messages.
 /// Throws InputError if the request fits neither plate nor joint, FileError for a bad RESULT.h5.
 [[nodiscard]] FieldState field_state(const formats::PlateSolution& plate, const std::string& file,
+                                     const FieldRequest& request);
+
+/// Whether the text starts as a case does: "external:", "disc:", "friction:" or "traction:".
+[[nodiscard]] bool starts_as_case(const std::string& spec);
+
+/// The words of a message for what a spec may be, besides "loads".
+[[nodiscard]] std::string case_sum_allowed(const formats::PlateSolution& plate);
+
+/// Cases with commas between them, each with "=AMOUNT" or of amount 1: "external:P=0.01,disc:1:x". Ids may hold commas,
+/// colons and equals signs: where one case's name begins another's, the longer one is meant.
+/// Throws InputError that lists the plate's cases.
+[[nodiscard]] FieldState case_sum(const formats::PlateSolution& plate, const std::string& spec);
+
+/// The state of the plate in a solved joint, the RESULT.h5 that the request's spec names. The sheet is that which the
+/// request names, else the only one whose cases have the plate's names; the increment that of the request, else the
+/// last. Throws InputError, FileError.
+[[nodiscard]] FieldState joint_state(const formats::PlateSolution& plate, const std::string& file,
                                      const FieldRequest& request);
 
 /// Index into the plate's degrees of the one to look at: the request's, else the state's, else the highest.

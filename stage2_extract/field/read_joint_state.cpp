@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/field/read_joint_state.hpp"
+#include "stage2_extract/field/field_state.hpp"
 
 #include <fmt/format.h>
 

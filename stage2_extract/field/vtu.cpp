@@ -47,7 +47,7 @@ void add_strings(Text& text, const char* name, const std::vector<std::string>& v
   std::string bytes;
   for (const auto& value : values) bytes += value + '\0';
   text.add("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n", name, bytes.size());
-  for (const char c : bytes) text.add("{} ", static_cast<int>(static_cast<unsigned char>(c)));
+  for (const char c : bytes) text.add("{} ", int{static_cast<unsigned char>(c)});
   text.add("</DataArray>\n");
 }
 

@@ -40,7 +40,7 @@ std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& 
   return ratio(largest(solved - S * probe.displacement), scale_of(plate, S));
 }
 
-/// What friction and tractions do to externals and discs, by the probe's fields, against R and T.
+/// Forces of friction and tractions on externals and discs, by the probe's fields, against R and T.
 std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrices& matrices) {
   const auto& probe = plate.probe;
   if (plate.K_cc.size() == 0 || plate.L_c.cols() + plate.T_c.cols() == 0) return std::nullopt;

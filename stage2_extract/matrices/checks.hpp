@@ -24,7 +24,8 @@ struct FreeTranslation {
 [[nodiscard]] std::vector<FreeTranslation> free_translations(const formats::PlateSolution& plate,
                                                              const Eigen::VectorXd& resultant);
 
-/// What must hold whatever the mesh, at the highest p; each relative to the largest entry of what it compares.
+/// Errors of identities that hold whatever the mesh, at the highest p; each relative to the largest entry of what it
+/// compares.
 struct Checks {
   std::optional<double> energy;  ///< forces under a mixture of unit displacements, by S against by its own solution
   std::optional<double> reciprocity;          ///< the same of friction and tractions, by R and T

@@ -2,7 +2,7 @@
 #include "stage2_extract/stresses/section_force.hpp"
 
 #include "common/count.hpp"
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
 #include "common/rim/bearing.hpp"

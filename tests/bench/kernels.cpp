@@ -4,7 +4,7 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "common/pfem/element_stiffness.hpp"
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/rim/rim.hpp"

@@ -11,7 +11,7 @@
 #include "common/program/program.hpp"
 #include "common/program/text_file.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
-#include "stage1_plate/scene/degree_range.hpp"
+#include "stage1_plate/scene/scene.hpp"
 #include "tests/support/straightforward.hpp"
 
 namespace {

@@ -111,8 +111,14 @@ TEST(UsageOfOptions, Accuracy) {
   EXPECT_EQ(missed.status, 0);
   EXPECT_THAT(missed.err,
               AllOf(HasSubstr("warning: center.json: accuracy 1e-09: product space, p = 4"), HasSubstr(", of R about "),
-                    HasSubstr(", not reached; that is the best with these cells")));
+                    HasSubstr(", not reached; that is the best that --p 1..4 allows: degrees up to 8 come closer")));
   EXPECT_THAT(test::stage2(folder, "b.h5 -o b.m.h5").out, HasSubstr("p = 1..4"));
+  folder.write("low.json", "{\"p\": [1, 3]," + test::example("center.json").substr(1));
+  EXPECT_THAT(test::stage1(folder, "low.json -o l.h5 --accuracy 1e-9").err, HasSubstr("p = 3: error of S about "));
+  EXPECT_THAT(test::stage1(folder, "low.json -o l.h5 --accuracy 1e-9").err,
+              HasSubstr("that is the best that \"p\" of the scene allows: degrees up to 8 come closer"));
+  EXPECT_THAT(test::stage1(folder, "low.json -o l.h5 --accuracy 1e-10 --p 1..8").err,
+              AllOf(HasSubstr("p = 8: "), HasSubstr("not reached; that is the best with these cells: finer ones")));
   const auto alone = test::stage1(folder, "center.json -o c.h5 --accuracy 1e-3 --p 8");
   EXPECT_EQ(alone.status, 2);
   EXPECT_THAT(alone.err, HasSubstr("degree 8 alone does not show its error"));

@@ -4,7 +4,6 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "common/pfem/gauss.hpp"
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"

@@ -2,7 +2,7 @@
 #include "tests/support/stress.hpp"
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "common/pfem/strain.hpp"
 
 namespace fastjoint::test {

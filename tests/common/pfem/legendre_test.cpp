@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/pfem/gauss.hpp"
-
 namespace fastjoint::pfem {
 namespace {
 

@@ -10,7 +10,6 @@
 
 #include "common/errors.hpp"
 #include "stage1_plate/contact/contact_system.hpp"
-#include "stage1_plate/run/contact_summary.hpp"
 #include "stage1_plate/run/solve.hpp"
 #include "tests/support/plates.hpp"
 

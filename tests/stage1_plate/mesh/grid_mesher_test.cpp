@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/grid_mesher.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -10,7 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
@@ -154,8 +154,8 @@ TEST(GridMesher, HolesThatDoNotFitAreNamed) {
               HasSubstr("/holes/1: holes \"a\" and \"b\" are in one cell; allowed: one hole in a cell"));
 }
 
-/// Where the method fails: a hole that comes close to a cell line. The mesh stays valid, and S good, until the ligament
-/// is about a thousandth of the radius; there the elements fold and the user is told to move the line.
+/// The method has its limit at a hole that comes close to a cell line. The mesh stays valid, and S good, until the
+/// ligament is about a thousandth of the radius; there the elements fold and the user is told to move the line.
 TEST(GridMesher, CloseToACellLineItWorksUntilItSaysSo) {
   const auto S = [](double line) {
     return test::extract(test::grid_scene({0, line, 4}, {-1, 1}, {{"a", 1, 0.1, 0.25}},

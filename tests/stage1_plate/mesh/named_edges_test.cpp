@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Sections that an explicit mesh names; its sets of edges: explicit_mesh_test.cpp.
-#include "stage1_plate/mesh/named_edges.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

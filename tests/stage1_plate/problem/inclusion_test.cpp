@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 #include "stage1_plate/scene/spring_law.hpp"

@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/gauss.hpp"
+#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"
@@ -143,7 +143,7 @@ TEST_P(Patch, TheTrunkSpaceHasPolynomialsOfItsDegreeOnParallelograms) {
   EXPECT_LT(error(test::make_plate(four_quads(pfem::Space::trunk, p, false)), wave_of(p)), 1e-11);
 }
 
-/// In those of another quadrilateral it has degree p in each, and the trunk space holds only degree p/2 there.
+/// The displacement has degree p in each coordinate of any other quadrilateral, where the trunk space holds only p/2.
 TEST_P(Patch, TheTrunkSpaceHasPolynomialsOfHalfItsDegreeOnAnyQuadrilaterals) {
   const int p = GetParam(), most = std::max(1, p / 2);
   const auto plate = test::make_plate(four_quads(pfem::Space::trunk, p, true));

@@ -87,7 +87,7 @@ TEST(Springs, LinksAreOneForEachNodeOfTheRim) {
   EXPECT_EQ(spring.acts.size(), 1U);
 }
 
-/// Of the nodes at 0, 45 and 90 degrees, the first has half a link from the side inside the arc, the last none.
+/// The nodes are at 0, 45 and 90 degrees: the first has half a link from the side inside the arc, the last none.
 TEST(Springs, LinksOutsideTheArcAreNone) {
   const auto plate = test::make_plate(scene(R"("links": 100, "arc": [0, 80])"));
   Eigen::Matrix2d expected = 50 * Eigen::Vector2d::UnitX() * Eigen::RowVector2d::UnitX();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/scene/degree_range.hpp"
+#include "stage1_plate/scene/scene.hpp"
 
 #include <gmock/gmock.h>
 

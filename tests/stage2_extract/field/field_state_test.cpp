@@ -7,7 +7,6 @@
 
 #include "common/errors.hpp"
 #include "common/formats/joint_result.hpp"
-#include "stage2_extract/field/case_sum.hpp"
 #include "stage2_extract/field/field_file.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/plates.hpp"
@@ -49,7 +48,7 @@ TEST(CaseSum, AmountsByName) {
   EXPECT_EQ(amounts(sheet(), "disc:0,0:x,disc:1:x"), vector({0, 1, 1, 0, 0, 0}));
 }
 
-/// Where one name begins another's, the longer one is meant.
+/// If one name begins another's, the longer one is meant.
 TEST(CaseSum, IdsMayHoldTheSigns) {
   auto plate = sheet();
   plate.external_id = {"a"};

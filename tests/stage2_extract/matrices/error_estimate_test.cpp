@@ -36,7 +36,8 @@ TEST(ErrorEstimate, IsExactForAnAlgebraicSequence) {
     }
 }
 
-/// As if a singular point of exponent 1 had taken over at the last degree, with differences that fall as p^-8 at most.
+/// The error is estimated as if a singular point of exponent 1 had taken over at the last degree, with differences that
+/// fall as p^-8 at most.
 TEST(ErrorEstimate, TrustsNoRateBeyondFiveNorDifferencesBeyondEight) {
   const VectorXd five = algebraic(5);
   const double more = (five[7] - 7) / (five[6] - five[7]);

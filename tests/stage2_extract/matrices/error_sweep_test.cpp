@@ -31,7 +31,7 @@ CondensedLevels levels(const std::string& json) {
   return result;
 }
 
-/// Of levels from degree 1 on.
+/// The levels of degrees low to high, of levels from degree 1 on.
 CondensedLevels between(const CondensedLevels& all, int low, int high) {
   const auto some = [&](const std::vector<MatrixXd>& A) {
     return std::vector<MatrixXd>(A.begin() + low - 1, A.begin() + high);
@@ -72,7 +72,8 @@ std::string text(const test::GridSheet& sheet, int angle, int rings, const std::
   return json.replace(json.find(aluminium), aluminium.size(), ply + std::to_string(angle) + "}");
 }
 
-/// In both spaces, with up to two rings: all degrees up to each from 3 on, the last three and the last four of them.
+/// The estimates are tried in both spaces, with up to two rings: all degrees up to each from 3 on, the last three and
+/// the last four of them.
 Ratios ratios(const std::vector<Sheet>& sheets) {
   Ratios result;
   for (const auto& [coarse, fine, angle] : sheets) {

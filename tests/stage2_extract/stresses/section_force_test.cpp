@@ -113,7 +113,7 @@ TEST(SectionForce, OnTheBorderIsThatOfTheExternal) {
   EXPECT_NEAR(a.stresses.section_force.back()(0, 0), a.S_ee.back()(0, 0), 2e-3 * a.S_ee.back()(0, 0));
 }
 
-/// On a line of symmetry through the hole there is no section on that side.
+/// A side on a line of symmetry through the hole has no section.
 TEST(SectionForce, NoneWhereTheCutIsTheBorderThroughTheHole) {
   const auto s =
       test::extract(test::grid_scene({0, 1}, {0, 0.5}, {{"q", 0, 0, 0.1}},
