@@ -158,15 +158,15 @@ double PlateFactor::rounding(const Eigen::VectorXd& u) const {
 Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
   constexpr Eigen::Index block = 64;  // right-hand sides at a time: what an element has of them fits into the cache
   Eigen::MatrixXd X(B.rows(), B.cols());
+  std::vector<ElementSolution> elements;
+  elements.reserve(problem_.elements.class_of.size());
+  for (int element = 0; element < count_of(problem_.elements.class_of); ++element)
+    elements.emplace_back(problem_, element, condensed(element), rows_);
   for (Eigen::Index first = 0; first < B.cols(); first += block) {
     const auto k = std::min(block, B.cols() - first);
     Eigen::MatrixXd skeleton = Eigen::MatrixXd::Zero(rows_.n_skeleton, k);
     for (Eigen::Index i = 0; i < B.rows(); ++i)
       if (const int row = rows_.of_unknown[i]; row >= 0) skeleton.row(row) = B.row(i).segment(first, k);
-    std::vector<ElementSolution> elements;
-    elements.reserve(problem_.elements.class_of.size());
-    for (int element = 0; element < count_of(problem_.elements.class_of); ++element)
-      elements.emplace_back(problem_, element, condensed(element), rows_);
     linalg::for_each_index(elements.size(), [&](std::size_t i) { elements[i].eliminate(B.middleCols(first, k)); });
     for (const auto& element : elements) element.add_to(skeleton);
     skeleton = factor_->solve(skeleton);
