@@ -66,4 +66,4 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
 
 }  // namespace
 
-int main(int argc, char** argv) { return program::run(command, argc, argv, run); }
+int main(int argc, char** argv) { program::run(command, argc, argv, run); }
