@@ -7,11 +7,14 @@ import shutil
 import subprocess
 import sys
 import tempfile
+from importlib.machinery import SourceFileLoader
+from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 import h5py
 import numpy as np
 
+sys.dont_write_bytecode = True
 ROOT = Path(__file__).resolve().parents[2]
 STEP = 1e-4  # of each number: truncation about its square, rounding 1e-12 / STEP
 
@@ -93,6 +96,68 @@ def check_lap_joint():
     expect(by["force"][:, :, 0], scene, add_force, 4000)
     assert by["displacement"].shape == (4, 4, 0)
     assert np.allclose(by["load_factor"] * factors[:, None], by["force"][:, :, 0] * 4000, rtol=1e-9)
+    scene["fasteners"][0]["friction"] = 0.1
+    scene["fasteners"][2]["friction"] = {"upper": 0.2}
+    check_bars(scene, {"load", "clearances", "friction", "rivet: A", "rivet: n"})
+
+
+def load_draw_loads():
+    loader = SourceFileLoader("draw_loads", str(ROOT / "scripts/draw_loads"))
+    module = module_from_spec(spec_from_loader(loader.name, loader))
+    loader.exec_module(module)
+    return module
+
+
+def times(number, by):
+    if isinstance(number, list):
+        return [times(each, by) for each in number]
+    return {plate: mu * by for plate, mu in number.items()} if isinstance(number, dict) else number * by
+
+
+def scale(changed, name, by):
+    """Multiplies what a bar of scripts/draw_loads names."""
+    if name == "load":
+        changed["loads"][0]["force"] *= by
+    elif name in ("clearances", "friction"):
+        for fastener in changed["fasteners"]:
+            key = name.removesuffix("s")
+            fastener[key] = times(fastener.get(key, 0), by)
+    else:
+        law, number = name.split(": ")
+        key, _, index = number.removesuffix("]").partition("[")
+        if index:
+            changed["laws"][law][key][int(index)] *= by
+        else:
+            changed["laws"][law][key] *= by
+
+
+def check_bars(scene, names):
+    """1 % more of a number, here a hundredth of that, changes F as much as runs of a changed input say."""
+    draw_loads = load_draw_loads()
+    sensitivities(scene)
+    result = draw_loads.Result("joint.h5")
+    for plane in range(result.F.shape[1]):
+        bars = dict(draw_loads.changes(result, plane))
+        assert set(bars) == names, bars
+        for name, bar in bars.items():
+            slope = difference(scene, lambda changed, h: scale(changed, name, 1 + h), STEP)[-1, plane] / result.F[-1, plane]
+            assert abs(bar - slope) < 1e-6 * max(map(abs, bars.values())), (plane, name, bar, slope)
+    return result
+
+
+def check_bars_of_a_stack():
+    """Two shear planes of one fastener with laws and clearances of their own."""
+    for name, left, right in (("a", "free", "external:P=600"), ("b", "ground=100", "free"), ("c", "ground=300", "free")):
+        run(ROOT / "scripts/chain_matrices", "-o", f"{name}.h5", "--segments", 500, "--left", left, "--right", right)
+    scene = {"format": "joint", "version": 1, "plates": {plate: f"{plate}.h5" for plate in "abc"},
+             "laws": {"curved": {"type": "power", "A": 300, "n": 0.7},
+                      "cubic": {"type": "cubic", "delta": [0.5, 1, 2], "F": [90, 160, 250]}},
+             "fasteners": [{"id": "first one", "between": ["b:1", "a:1", "c:1"], "law": ["curved", "cubic"],
+                            "clearance": [0.01, 0.03]},
+                           {"id": "2", "between": ["b:2", "a:2"], "law": "curved", "clearance": 0.02}],
+             "loads": [{"external": "a:P", "force": 200}], "solver": {"tolerance": 1e-13}}
+    result = check_bars(scene, {"load", "clearances", "curved: A", "curved: n", "cubic: F[0]", "cubic: F[1]", "cubic: F[2]"})
+    assert result.names == ["first one b:1-a:1", "first one a:1-c:1", "2"], result.names
 
 
 def check_linear_chains():
@@ -122,7 +187,7 @@ def check_linear_chains():
 def main(bin_folder):
     os.environ["PATH"] = str(Path(bin_folder).resolve()) + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as work:
-        for check in (check_lap_joint, check_linear_chains):
+        for check in (check_lap_joint, check_bars_of_a_stack, check_linear_chains):
             folder = Path(work) / check.__name__
             folder.mkdir()
             os.chdir(folder)
