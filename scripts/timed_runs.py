@@ -39,10 +39,11 @@ def timed(program, source, target, *more):
     return json.loads(times.read_text())
 
 
-def solve_sheet(scene, p):
+def solve_sheet(scene, p, stresses=False):
     """Both stages of a sheet beside its file PLATE.json, at the degrees p ("8" or "1..8"): MATRICES.h5, records."""
+    options = [] if stresses else ["--loads-only"]
     plate, matrices = scene.with_suffix(".h5"), scene.with_suffix(".matrices.h5")
-    return matrices, [timed("stage1_plate", scene, plate, "--p", p, "--loads-only"),
+    return matrices, [timed("stage1_plate", scene, plate, "--p", p, *options),
                       timed("stage2_extract", plate, matrices)]
 
 
