@@ -91,8 +91,8 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
   if (!chosen.is_reached())
     std::cerr << fmt::format(
         "{}: warning: {}: {}; {}\n", command.name, scene.file, stage1::to_text(chosen),
-        scene.p_high < stage1::highest_p
-            ? fmt::format("that is the best that {} allows: degrees up to {} come closer", bound, stage1::highest_p)
+        scene.p_high < pfem::highest_p
+            ? fmt::format("that is the best that {} allows: degrees up to {} come closer", bound, pfem::highest_p)
             : "that is the best with these cells: finer ones, above all at ends of clamped edges "
               "and of steps in thickness, come closer");
   return chosen;

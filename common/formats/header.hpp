@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -12,8 +11,8 @@
 
 namespace fastjoint::formats {
 
-/// The unit that a dataset must have in a file with these labels; "", any unit, in a file without labels.
-[[nodiscard]] std::string expected_unit(const Units& units, int length_power, int force_power);
+// Every format is one function template `datasets(file, a)`, which an h5::Writer and an h5::Reader go through line by
+// line: each line has the name of a dataset, its place in memory, shape, unit and meaning, and what a reader allows.
 
 /// What every file says of itself.
 struct Header {
@@ -24,22 +23,19 @@ struct Header {
   std::string digest{};  ///< of the file that this was read from; empty if that carries none
 };
 
-void write_header(h5::Writer& file, const Header& header);
-[[nodiscard]] Header read_header(const h5::Reader& file);
+/// @tparam File An h5::Writer and a const Header, or an h5::Reader and a Header. Units are then compared only if the
+/// file labels its own.
+template <class File, class AnyHeader>
+void header(File& file, AnyHeader& a);
 
-/// Throws FileError if one of the words of a dataset is none of those allowed.
-void check_words(const h5::Reader& file, const char* dataset, const std::vector<std::string>& words,
-                 const std::vector<std::string>& allowed);
+/// The root attribute `space`, without which a file stays as it is. Throws FileError for a word that names no space.
+template <class File, class AnySpace>
+void space(File& file, AnySpace& a);
+
 /// Names of the sides of a hole.
 inline const std::vector<std::string> side_names = {"+x", "-x", "+y", "-y"};
 
-/// Whether each number is above the one before.
-[[nodiscard]] bool ascends(const Eigen::VectorXi& list);
-/// Throws FileError unless a dataset holds at least one degree, each above the one before, from 1 to `highest`.
-void check_degrees(const h5::Reader& file, const char* dataset, const Eigen::VectorXi& p, int highest);
-
-/// The root attribute `space`: the trunk space in a file without it. Throws FileError for a word that names no space.
-void write_space(h5::Writer& file, pfem::Space space);
-[[nodiscard]] pfem::Space read_space(const h5::Reader& file);
+/// Degrees from 1 to `highest`, each above the one before.
+[[nodiscard]] h5::Allowed degrees(int highest);
 
 }  // namespace fastjoint::formats

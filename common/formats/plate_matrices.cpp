@@ -3,170 +3,146 @@
 
 #include <fmt/format.h>
 
-#include <limits>
+#include <algorithm>
 
 #include "common/errors.hpp"
 
 namespace fastjoint::formats {
 namespace {
 
+using h5::any;
+using h5::Column;
+using h5::or_else;
+
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
 constexpr int minor = 4;
 
-/// A stack that is missing altogether is one of zero-width matrices.
-std::vector<Eigen::MatrixXd> stack_if_any(const h5::Reader& file, const char* dataset, Eigen::Index n,
-                                          Eigen::Index rows, Eigen::Index cols, const std::string& unit) {
-  if (!file.has(dataset) && rows * cols == 0) return std::vector<Eigen::MatrixXd>(n, Eigen::MatrixXd::Zero(rows, cols));
-  return file.stack(dataset, n, rows, cols, unit);
+template <class File, class Matrices>
+void name_datasets(File& file, Matrices& a) {
+  file("p", a.p, {h5::some}, "1", "polynomial degree", degrees(highest_degree));
+  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at that degree", or_else(0));
+  file("disc/hole", a.disc_hole, {any}, "1", "hole of each disc unknown");
+  file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each disc unknown, x or y");
+  file("disc/modulus", a.disc_modulus, {a.n_discs()}, unit(a.header.units, -3, 1),
+       "modulus of the springs between disc and sheet, 0 where there are none", or_else(0));
+  file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
+  file("external/direction", a.external_direction, {a.n_externals()}, "1", "their directions, x or y", or_else("x"));
+  file("traction/id", a.traction_id, {any}, "1", "external boundaries under uniform traction", or_else(""));
+  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "their directions, x or y", or_else("x"));
+  file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
+  file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
+       "side of the rim that bears: +x, -x, +y or -y", h5::one_of(side_names));
 }
 
-Eigen::MatrixXd error_if_any(const h5::Reader& file, const char* dataset, Eigen::Index rows, Eigen::Index cols,
-                             const std::string& unit) {
-  if (file.has(dataset)) {
-    Eigen::MatrixXd error = file.matrix(dataset, rows, cols, unit, h5::Infinite::allowed);
-    if ((error.array() < 0).any())
-      throw FileError(fmt::format("{}:{}: holds {}; allowed: numbers >= 0", file.path(), dataset, error.minCoeff()));
-    return error;
-  }
-  return Eigen::MatrixXd::Constant(rows, cols, std::numeric_limits<double>::infinity());
+template <class File, class Matrices>
+void matrix_datasets(File& file, Matrices& a) {
+  const Units& units = a.header.units;
+  const std::string area = unit(units, 2, 0), stiffness = unit(units, -1, 1);
+  const auto np = a.p.size(), e = a.n_externals(), m = a.n_discs(), h = a.n_friction_cases(), q = a.n_tractions();
+  const h5::Allowed error = h5::not_negative.or_else(h5::infinite);
+  file("friction/unit_force", a.friction_unit_force, {h}, area, "bearing force per unit peak contact stress");
+  file("friction/resultant", a.friction_resultant, {h}, area,
+       "resultant along the direction of a unit friction case, signed");
+  file("S_ee", a.S_ee, {np, e, e}, stiffness, "force on external i per displacement of external j");
+  file("S_ed", a.S_ed, {np, e, m}, stiffness, "force on external i per displacement of disc j");
+  file("S_dd", a.S_dd, {np, m, m}, stiffness, "force on disc i per displacement of disc j");
+  file("S_ee_error", a.S_ee_error, {e, e}, stiffness, "estimated absolute error of S_ee at the highest p", error);
+  file("S_ed_error", a.S_ed_error, {e, m}, stiffness, "estimated absolute error of S_ed at the highest p", error);
+  file("S_dd_error", a.S_dd_error, {m, m}, stiffness, "estimated absolute error of S_dd at the highest p", error);
+  file("R_ef", a.R_ef, {np, e, h}, area, "force that holds external i per unit friction case j");
+  file("R_df", a.R_df, {np, m, h}, area, "force that holds disc i per unit friction case j");
+  file("T_d", a.T_d, {np, m, q}, "1", "force that holds disc i per unit total force on traction boundary j");
+  file("T_e", a.T_e, {np, e, q}, "1", "force that holds external i per unit total force on traction boundary j");
+  file("C_t", a.C_t, {np, q, q}, unit(units, 1, -1),
+       "mean displacement of traction boundary i per unit total force on j, all else held");
 }
 
-std::vector<std::string> strings_if_any(const h5::Reader& file, const char* dataset) {
-  return file.has(dataset) ? file.strings(dataset, h5::any) : std::vector<std::string>{};
+template <class File, class Stresses>
+void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Units& units) {
+  const std::string length = unit(units, 1, 0), area = unit(units, 2, 0), per_case = "per unit of the case";
+  file("stress/p", a.p, {any}, "1", "degrees of the stresses and section forces", degrees(highest_degree).or_else(0));
+  file("rim/hole", a.rim_hole, {any}, "1", "holes, open ones included", or_else(""));
+  const Eigen::Index l = a.p.size(), r = a.rim_hole.size();
+  if (File::reads && l == 0 && r == 0) return;
+  file("rim/center", a.rim_center, {r, 2}, length, "x and y of each hole's centre");
+  file("rim/radius", a.rim_radius, {r}, length, "radius of each hole");
+  file("rim/thickness", a.rim_thickness, {r}, length, "mean thickness of the sheet at the rim", or_else(0));
+  file("rim/modulus", a.rim_modulus, {r, 2}, unit(units, -2, 1), "mean modulus in tension there along x, along y",
+       or_else(0));
+  file("rim/bearing_area", a.bearing_area, {r, 2}, area, "projected area of the rim that bears along x, along y",
+       h5::positive);
+  file("rim/start", a.rim_start, {r + 1}, "1", "first point of each rim, and the number of points");
+  file("rim/angle", a.angle, {any}, "deg", "place of each point on its rim, counter-clockwise from x");
+  const Eigen::Index k = a.angle.size(), n_cases = l > 0 ? all_cases : 0;
+  file("rim/sigma_rr", a.sigma_rr, {l, k, n_cases}, per_case, "radial stress at each point in each unit case");
+  file("rim/sigma_tt", a.sigma_tt, {l, k, n_cases}, per_case, "hoop stress");
+  file("rim/sigma_rt", a.sigma_rt, {l, k, n_cases}, per_case, "shear stress");
+  file("section/hole", a.section_hole, {any}, "1", "hole that each section lies beside", or_else(""));
+  const Eigen::Index s = a.section_hole.size();
+  file("section/side", a.section_side, {s}, "1", "on which side of it", h5::one_of(side_names));
+  file("section/gross_area", a.gross_area, {s}, area, "area of the section");
+  file("section/net_area", a.net_area, {s}, area, "that area less the hole's");
+  file("section/force", a.section_force, {l, s, n_cases}, per_case,
+       "normal force over the section in each unit case, tension positive");
 }
 
-std::vector<std::string> directions(const h5::Reader& file, const char* dataset, Eigen::Index n) {
-  return file.has(dataset) ? file.strings(dataset, n) : std::vector<std::string>(n, "x");
-}
-
-void write_names(h5::Writer& file, const PlateMatrices& a) {
-  file.write("p", a.p, {"1", "polynomial degree"});
-  file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
-  file.write("disc/hole", a.disc_hole, {"1", "hole of each disc unknown"});
-  file.write("disc/direction", a.disc_direction, {"1", "direction of each disc unknown, x or y"});
-  file.write("disc/modulus", a.disc_modulus,
-             {unit(a.header.units, -3, 1), "modulus of the springs between disc and sheet, 0 where there are none"});
-  file.write("external/id", a.external_id, {"1", "external boundaries that move as one"});
-  file.write("external/direction", a.external_direction, {"1", "their directions, x or y"});
-  file.write("traction/id", a.traction_id, {"1", "external boundaries under uniform traction"});
-  file.write("traction/direction", a.traction_direction, {"1", "their directions, x or y"});
-  file.write("friction/hole", a.friction_hole, {"1", "hole of each friction case"});
-  file.write("friction/bearing", a.friction_bearing, {"1", "side of the rim that bears: +x, -x, +y or -y"});
-}
-
-void write_stiffness(h5::Writer& file, const PlateMatrices& a, const std::string& stiffness) {
-  const auto e = a.n_externals();
-  const auto m = a.n_discs();
-  file.write("S_ee", a.S_ee, e, e, {stiffness, "force on external i per displacement of external j"});
-  file.write("S_ed", a.S_ed, e, m, {stiffness, "force on external i per displacement of disc j"});
-  file.write("S_dd", a.S_dd, m, m, {stiffness, "force on disc i per displacement of disc j"});
-  file.write("S_ee_error", a.S_ee_error, {stiffness, "estimated absolute error of S_ee at the highest p"});
-  file.write("S_ed_error", a.S_ed_error, {stiffness, "estimated absolute error of S_ed at the highest p"});
-  file.write("S_dd_error", a.S_dd_error, {stiffness, "estimated absolute error of S_dd at the highest p"});
-}
-
+/// What no stage behind the second one needs.
 void write_contacts(h5::Writer& file, const PlateMatrices& a) {
   const Units& units = a.header.units;
-  const Eigen::Index n = a.contacts.size();
-  std::vector<std::string> hole, arc_hole;
-  Eigen::VectorXi iterations(n);
-  Eigen::VectorXd pressure(n), angle(n);
-  std::vector<double> arcs;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const HoleContact& contact = a.contacts[i];
-    hole.push_back(contact.hole);
-    iterations[i] = contact.iterations;
-    pressure[i] = contact.peak_pressure;
-    angle[i] = contact.peak_angle;
-    for (const auto& [from, to] : contact.arcs) {
-      arc_hole.push_back(contact.hole);
-      arcs.insert(arcs.end(), {from, to});
-    }
+  const auto& contacts = a.contacts;
+  std::vector<std::string> arc_hole;
+  std::vector<std::array<double, 2>> arcs;
+  for (const auto& contact : contacts) {
+    arc_hole.insert(arc_hole.end(), contact.arcs.size(), contact.hole);
+    arcs.insert(arcs.end(), contact.arcs.begin(), contact.arcs.end());
   }
-  const Eigen::MatrixXd arc = Eigen::Map<const Eigen::Matrix2Xd>(arcs.data(), 2, arc_hole.size()).transpose();
-  file.write("contact/hole", hole, {"1", "holes whose springs push but do not pull, under the loads of the input"});
-  file.write("contact/iterations", iterations, {"1", "until the ends of the arcs in contact stood still"});
-  file.write("contact/peak_pressure", pressure, {unit(units, -2, 1), "largest pressure on the rim"});
-  file.write("contact/peak_angle", angle, {"deg", "where, counter-clockwise from x"});
-  file.write("contact/arc_hole", arc_hole, {"1", "hole of each arc in contact"});
-  file.write("contact/arc", arc, {"deg", "where it starts and ends, counter-clockwise from x"});
-  file.write("loads/displacement", a.load_displacement,
-             {unit(units, 1, 0), "displacement of each external, then disc, under the loads of the input"});
-  file.write("loads/friction", a.load_friction, {unit(units, -2, 1), "peak stress of each friction case under them"});
-  file.write("loads/traction", a.load_traction, {unit(units, 0, 1), "force of each traction under them"});
+  file("contact/hole", Column{contacts, &HoleContact::hole}, {any}, "1",
+       "holes whose springs push but do not pull, under the loads of the input");
+  file("contact/iterations", Column{contacts, &HoleContact::iterations}, {any}, "1",
+       "until the ends of the arcs in contact stood still");
+  file("contact/peak_pressure", Column{contacts, &HoleContact::peak_pressure}, {any}, unit(units, -2, 1),
+       "largest pressure on the rim");
+  file("contact/peak_angle", Column{contacts, &HoleContact::peak_angle}, {any}, "deg",
+       "where, counter-clockwise from x");
+  file("contact/arc_hole", arc_hole, {any}, "1", "hole of each arc in contact");
+  file("contact/arc", arcs, {any, 2}, "deg", "where it starts and ends, counter-clockwise from x");
+  file("loads/displacement", a.load_displacement, {any, a.n_externals() + a.n_discs()}, unit(units, 1, 0),
+       "displacement of each external, then disc, under the loads of the input");
+  file("loads/friction", a.load_friction, {any, a.n_friction_cases()}, unit(units, -2, 1),
+       "peak stress of each friction case under them");
+  file("loads/traction", a.load_traction, {any, a.n_tractions()}, unit(units, 0, 1),
+       "force of each traction under them");
+}
+
+template <class File, class Matrices>
+void datasets(File& file, Matrices& a) {
+  header(file, a.header);
+  space(file, a.space);
+  file.attribute("plate_digest", a.plate_digest);
+  name_datasets(file, a);
+  matrix_datasets(file, a);
+  stress_datasets(file, a.stresses, a.n_cases(), a.header.units);
+  if constexpr (!File::reads) write_contacts(file, a);
 }
 
 }  // namespace
 
 std::string write(const std::string& path, const PlateMatrices& a) {
-  const Units& units = a.header.units;
-  const std::string area = unit(units, 2, 0);
-  const auto e = a.n_externals();
-  const auto m = a.n_discs();
-  const auto h = a.n_friction_cases();
-  const auto q = a.n_tractions();
   h5::Writer file(path, format, major, minor);
-  write_header(file, a.header);
-  write_space(file, a.space);
-  file.attribute("plate_digest", a.plate_digest);
-  write_names(file, a);
-  file.write("friction/unit_force", a.friction_unit_force, {area, "bearing force per unit peak contact stress"});
-  file.write("friction/resultant", a.friction_resultant,
-             {area, "resultant along the direction of a unit friction case, signed"});
-  write_stiffness(file, a, unit(units, -1, 1));
-  file.write("R_ef", a.R_ef, e, h, {area, "force that holds external i per unit friction case j"});
-  file.write("R_df", a.R_df, m, h, {area, "force that holds disc i per unit friction case j"});
-  file.write("T_d", a.T_d, m, q, {"1", "force that holds disc i per unit total force on traction boundary j"});
-  file.write("T_e", a.T_e, e, q, {"1", "force that holds external i per unit total force on traction boundary j"});
-  file.write("C_t", a.C_t, q, q,
-             {unit(units, 1, -1), "mean displacement of traction boundary i per unit total force on j, all else held"});
-  write_stresses(file, a.stresses, units);
-  write_contacts(file, a);
+  datasets(file, a);
   return file.commit();
 }
 
 PlateMatrices read_plate_matrices(const std::string& path) {
-  const h5::Reader file(path, format, major);
+  h5::Reader file(path, format, major);
   PlateMatrices a;
-  a.header = read_header(file);
-  a.space = read_space(file);
-  a.plate_digest = file.attribute("plate_digest", "");
-  a.p = file.integers("p", h5::any);
-  check_degrees(file, "p", a.p, highest_degree);
-  const auto np = a.p.size();
-  a.ndof = file.has("ndof") ? file.integers("ndof", np) : Eigen::VectorXi::Zero(np);
-  a.disc_hole = file.strings("disc/hole", h5::any);
-  const auto m = a.n_discs();
-  a.disc_direction = file.strings("disc/direction", m);
-  a.disc_modulus = Eigen::VectorXd::Zero(m);
-  if (file.has("disc/modulus")) a.disc_modulus = file.vector("disc/modulus", m, expected_unit(a.header.units, -3, 1));
-  a.external_id = strings_if_any(file, "external/id");
-  a.traction_id = strings_if_any(file, "traction/id");
-  a.friction_hole = strings_if_any(file, "friction/hole");
-  const auto e = a.n_externals();
-  const auto q = a.n_tractions();
-  const auto h = a.n_friction_cases();
-  a.external_direction = directions(file, "external/direction", e);
-  a.traction_direction = directions(file, "traction/direction", q);
-  if (h > 0) a.friction_bearing = file.strings("friction/bearing", h);
-  check_words(file, "friction/bearing", a.friction_bearing, side_names);
-  const std::string area = expected_unit(a.header.units, 2, 0);
-  a.friction_unit_force = h > 0 ? file.vector("friction/unit_force", h, area) : Eigen::VectorXd();
-  a.friction_resultant = h > 0 ? file.vector("friction/resultant", h, area) : Eigen::VectorXd();
-  const std::string stiffness = expected_unit(a.header.units, -1, 1);
-  a.S_ee = stack_if_any(file, "S_ee", np, e, e, stiffness);
-  a.S_ed = stack_if_any(file, "S_ed", np, e, m, stiffness);
-  a.S_dd = file.stack("S_dd", np, m, m, stiffness);
-  a.S_ee_error = error_if_any(file, "S_ee_error", e, e, stiffness);
-  a.S_ed_error = error_if_any(file, "S_ed_error", e, m, stiffness);
-  a.S_dd_error = error_if_any(file, "S_dd_error", m, m, stiffness);
-  a.R_ef = stack_if_any(file, "R_ef", np, e, h, area);
-  a.R_df = stack_if_any(file, "R_df", np, m, h, area);
-  a.T_d = stack_if_any(file, "T_d", np, m, q, expected_unit(a.header.units, 0, 0));
-  a.T_e = stack_if_any(file, "T_e", np, e, q, expected_unit(a.header.units, 0, 0));
-  a.C_t = stack_if_any(file, "C_t", np, q, q, expected_unit(a.header.units, 1, -1));
-  a.stresses = read_stresses(file, a.n_cases(), a.header.units);
+  datasets(file, a);
+  const Eigen::VectorXi& start = a.stresses.rim_start;
+  if (start[0] != 0 || start[start.size() - 1] != a.stresses.angle.size() ||
+      !std::is_sorted(start.begin(), start.end()))
+    throw FileError(
+        fmt::format("{}:rim/start: does not rise from 0 to the {} points of rim/angle", path, a.stresses.angle.size()));
   return a;
 }
 

@@ -11,6 +11,9 @@
 
 namespace fastjoint::formats {
 
+/// Highest degree of matrices: they may come from elsewhere than stage 2.
+inline constexpr int highest_degree = 99;
+
 /// A hole whose springs push but do not pull: where they do, under the loads of PLATE.json.
 struct HoleContact {
   std::string hole;

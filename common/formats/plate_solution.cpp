@@ -2,240 +2,255 @@
 #include "common/formats/plate_solution.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/formats/plate_solution_geometry.hpp"
 
 namespace fastjoint::formats {
 namespace {
 
+using Eigen::Index;
+using h5::any;
+using h5::Column;
+
 constexpr const char* format = "plate-solution";
 constexpr int major = 3;
 constexpr int minor = 1;
+const h5::Allowed axis = h5::one_of({"x", "y"});
 
-using Sparse = Eigen::SparseMatrix<double>;
-
-void write_sparse(h5::Writer& file, const std::string& group, const Sparse& A, const h5::Meta& meta) {
-  const auto nnz = A.nonZeros();
-  file.write(group + "/start", Eigen::VectorXi(Eigen::Map<const Eigen::VectorXi>(A.outerIndexPtr(), A.cols() + 1)),
-             {"1", "where each column starts in row and value"});
-  file.write(group + "/row", Eigen::VectorXi(Eigen::Map<const Eigen::VectorXi>(A.innerIndexPtr(), nnz)),
-             {"1", "row of each entry, ascending within a column"});
-  file.write(group + "/value", Eigen::VectorXd(Eigen::Map<const Eigen::VectorXd>(A.valuePtr(), nnz)), meta);
+template <class File, class Mesh>
+void mesh_datasets(File& file, Mesh& a, const std::string& length) {
+  file("mesh/nodes", a.nodes.transpose(), {any, 2}, length, "x and y of each node");
+  const h5::Allowed node = h5::index_into(a.n_nodes());
+  file("mesh/quads", a.quads.transpose(), {any, 4}, "1", "nodes of each element, counter-clockwise", node);
+  file("mesh/arc_nodes", Column{a.arcs, [](auto& arc) { return std::tie(arc.a, arc.b); }}, {any, 2}, "1",
+       "ends of each edge that is an arc", node);
+  file("mesh/arc_center", Column{a.arcs, &pfem::Arc::center}, {std::ssize(a.arcs), 2}, length, "centre of each arc");
+  file("mesh/thickness", a.thickness, {a.n_elements()}, length, "thickness of each element");
+  file("mesh/material", a.material, {a.n_elements()}, "1", "material of each element, index into elasticity");
 }
 
-Sparse read_sparse(const h5::Reader& file, const std::string& group, Eigen::Index rows, Eigen::Index cols,
-                   const std::string& unit) {
-  const Eigen::VectorXi start = file.integers(group + "/start", cols + 1);
-  const Eigen::VectorXi row = file.integers(group + "/row", h5::any);
-  const Eigen::VectorXd value = file.vector(group + "/value", row.size(), unit);
-  const bool steps_up = start[0] == 0 && start[cols] == row.size() && std::is_sorted(start.begin(), start.end());
-  bool fits = row.size() == 0 || (row.minCoeff() >= 0 && row.maxCoeff() < rows);
-  for (Eigen::Index j = 0; steps_up && fits && j < cols; ++j)
-    fits = ascends(row.segment(start[j], start[j + 1] - start[j]));
-  if (!steps_up || !fits)
-    throw FileError(fmt::format("{}:{}: is not a sparse matrix of {} x {}", file.path(), group, rows, cols));
-  return Eigen::Map<const Sparse>(rows, cols, row.size(), start.data(), row.data(), value.data());
+/// Item of a list that belongs to another item.
+template <class Item>
+struct Owned {
+  int owner;
+  Item item;
+};
+
+/// The lists that are members of `owners`, as one.
+template <class Owners, class Owner, class Item>
+std::vector<Owned<Item>> joined(const Owners& owners, std::vector<Item> Owner::*list) {
+  std::vector<Owned<Item>> result;
+  for (std::size_t i = 0; i < owners.size(); ++i)
+    for (const Item& item : owners[i].*list) result.push_back({static_cast<int>(i), item});
+  return result;
 }
 
-void write_names(h5::Writer& file, const PlateSolution& a) {
-  file.write("supported", a.supported, {"1", "directions in which a support holds the plate"});
-  file.write("p", a.p, {"1", "polynomial degree"});
-  file.write("ndof", a.ndof, {"1", "free plate unknowns at that degree"});
-  file.write("stress_p", a.stress_p, {"1", "degrees whose stresses are to be extracted"});
-  file.write("external/id", a.external_id, {"1", "external boundaries that move as one"});
-  file.write("external/direction", a.external_direction, {"1", "their directions"});
-  file.write("traction/id", a.traction_id, {"1", "external boundaries under uniform traction"});
-  file.write("traction/direction", a.traction_direction, {"1", "their directions"});
-  file.write("traction/hole", a.traction_hole, {"1", "hole under cosine pressure, empty for an edge"});
-  file.write("disc/hole", a.disc_hole, {"1", "hole of each disc unknown"});
-  file.write("disc/direction", a.disc_direction, {"1", "direction of each disc unknown"});
-  file.write("friction/hole", a.friction_hole, {"1", "hole of each friction case"});
-  file.write("friction/bearing", a.friction_bearing, {"1", "side of the rim that bears"});
+/// One dataset of all sides of elements of holes or sections: owner, element, local edge.
+template <class File, class Owners, class Owner>
+void side_dataset(File& file, const char* name, Owners& owners, std::vector<pfem::Side> Owner::*sides, int n_elements,
+                  const char* meaning) {
+  auto rows = joined(owners, sides);
+  const auto numbers = [](auto& row) { return std::tie(row.owner, row.item.element, row.item.local_edge); };
+  file(name, Column{rows, numbers}, {any, 3}, "1", meaning);
+  if constexpr (File::reads)
+    for (const auto& [owner, side] : rows) {
+      constexpr int n_edges = 4;
+      if (std::min({owner, side.element, side.local_edge}) < 0 || owner >= std::ssize(owners) ||
+          side.element >= n_elements || side.local_edge >= n_edges)
+        throw FileError(fmt::format("{}:{}: names side {} of element {} for item {}, which do not all exist",
+                                    file.path(), name, side.local_edge, side.element, owner));
+      (owners[owner].*sides).push_back(side);
+    }
 }
 
-/// The unknowns of each degree are the first of those of any higher one.
-void check_levels(const h5::Reader& file, const PlateSolution& a) {
-  constexpr int highest = 8;
-  check_degrees(file, "p", a.p, highest);
-  if (!std::is_sorted(a.ndof.begin(), a.ndof.end()) || a.ndof[0] < 0)
-    throw FileError(
-        fmt::format("{}:ndof: is {}, expected numbers that do not fall", file.path(), fmt::join(a.ndof, ", ")));
-  if (a.stress_p.size() > 0) check_degrees(file, "stress_p", a.stress_p, highest);
+template <class File, class Solution>
+void hole_datasets(File& file, Solution& a, const std::string& length) {
+  file("hole/id", a.hole_id, {any}, "1", "holes in the order of the input");
+  const Index n = a.hole_id.size();
+  file("hole/center", Column{a.hole_rim, &rim::Rim::center}, {n, 2}, length, "x and y of each hole's centre");
+  file("hole/radius", Column{a.hole_rim, &rim::Rim::radius}, {n}, length, "radius of each hole");
+  side_dataset(file, "hole/rim", a.hole_rim, &rim::Rim::sides, a.mesh.n_elements(),
+               "sides of elements on rims: hole, element, local edge (0 bottom, then counter-clockwise)");
+  file("hole/modulus", Column{a.hole_spring, &rim::HoleSpring::modulus}, {n}, unit(a.header.units, -3, 1),
+       "modulus of the distributed springs, 0 if none");
+  auto arcs = joined(a.hole_spring, &rim::HoleSpring::acts);
+  using Arc = Owned<rim::AngleRange>;
+  file("hole/sprung", Column{arcs, &Arc::owner}, {any}, "1", "hole of each arc on which springs act",
+       h5::index_into(n));
+  file("hole/arc", Column{arcs, [](auto& arc) { return std::tie(arc.item.from, arc.item.to); }}, {std::ssize(arcs), 2},
+       "rad", "where it starts and ends, counter-clockwise");
+  if constexpr (File::reads)
+    for (const auto& [hole, range] : arcs) a.hole_spring[hole].acts.push_back(range);
+}
+
+template <class File, class Solution>
+void geometry_datasets(File& file, Solution& a) {
+  const std::string length = unit(a.header.units, 1, 0);
+  mesh_datasets(file, a.mesh, length);
+  file("elasticity", a.elasticity, {any, 3, 3}, unit(a.header.units, -2, 1),
+       "stress (x, y, xy) per strain (x, y, engineering xy) of each material");
+  file("unknown", a.unknown.transpose(), {h5::some, 2}, "1",
+       "of u_x and u_y of each function: >= 0 plate unknown, -1 zero, -2 - i displacement i");
+  hole_datasets(file, a, length);
+  file("section/hole", Column{a.sections, &rim::Section::hole}, {any}, "1",
+       "index in hole/id of the hole that each section lies beside", h5::index_into(std::ssize(a.hole_id)));
+  file("section/side", Column{a.sections, &rim::Section::side}, {std::ssize(a.sections)}, "1",
+       "on which side of it: +x, -x, +y or -y", h5::one_of(side_names));
+  side_dataset(file, "section/sides", a.sections, &rim::Section::sides, a.mesh.n_elements(),
+               "sides of elements: section, element, local edge");
+}
+
+template <class File, class Solution>
+void name_datasets(File& file, Solution& a) {
+  file("supported", a.supported, {any}, "1", "directions in which a support holds the plate");
+  file("p", a.p, {h5::some}, "1", "polynomial degree", degrees(pfem::highest_p));
+  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at that degree",
+       {.text = "numbers that do not fall", .low = 0, .step = 0});
+  file("stress_p", a.stress_p, {any}, "1", "degrees whose stresses are to be extracted", degrees(pfem::highest_p));
+  file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
+  file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "their directions", axis);
+  file("traction/id", a.traction_id, {any}, "1", "external boundaries under uniform traction");
+  const Index q = a.traction_id.size();
+  file("traction/direction", a.traction_direction, {q}, "1", "their directions", axis);
+  file("traction/hole", a.traction_hole, {q}, "1", "hole under cosine pressure, empty for an edge");
+  file("disc/hole", a.disc_hole, {any}, "1", "hole of each disc unknown");
+  file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc unknown", axis);
+  file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
+  file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1", "side of the rim that bears",
+       h5::one_of(side_names));
+}
+
+/// A group of three datasets.
+template <class File, class Sparse>
+void sparse_datasets(File& file, const std::string& group, Sparse& A, Index rows, Index cols, const std::string& unit,
+                     const char* meaning) {
+  Eigen::VectorXi start, row;
+  Eigen::VectorXd value;
+  if constexpr (!File::reads) {
+    start = Eigen::Map<const Eigen::VectorXi>(A.outerIndexPtr(), cols + 1);
+    row = Eigen::Map<const Eigen::VectorXi>(A.innerIndexPtr(), A.nonZeros());
+    value = Eigen::Map<const Eigen::VectorXd>(A.valuePtr(), A.nonZeros());
+  }
+  file(group + "/start", start, {cols + 1}, "1", "where each column starts in row and value");
+  file(group + "/row", row, {any}, "1", "row of each entry, ascending within a column");
+  file(group + "/value", value, {row.size()}, unit, meaning);
+  if constexpr (File::reads) {
+    bool fits = start[0] == 0 && start[cols] == row.size() && std::is_sorted(start.begin(), start.end()) &&
+                (row.size() == 0 || (row.minCoeff() >= 0 && row.maxCoeff() < rows));
+    for (Index j = 0; fits && j < cols; ++j)
+      fits = std::adjacent_find(&row[0] + start[j], &row[0] + start[j + 1], std::greater_equal<>()) ==
+             &row[0] + start[j + 1];
+    if (!fits) throw FileError(fmt::format("{}:{}: is not a sparse matrix of {} x {}", file.path(), group, rows, cols));
+    A = Eigen::Map<const Sparse>(rows, cols, row.size(), start.data(), row.data(), value.data());
+  }
+}
+
+template <class File, class Solution>
+void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
+  const std::string length = unit(a.header.units, 1, 0), stress = unit(a.header.units, -2, 1);
+  file("contact/hole", Column{a.contacts, &Contact::hole}, {any}, "1",
+       "index in hole/id of each hole whose springs push but do not pull", h5::index_into(std::ssize(a.hole_id)));
+  const Index n = a.contacts.size();
+  file("contact/iterations", Column{a.contacts, &Contact::iterations}, {n}, "1",
+       "until the ends of its sprung arcs stood still under the loads");
+  file("contact/peak_pressure", Column{a.contacts, &Contact::peak_pressure}, {n}, stress,
+       "largest pressure on its rim under the loads");
+  file("contact/peak_angle", Column{a.contacts, &Contact::peak_angle}, {n}, "rad", "where, counter-clockwise from x");
+  file("loads/displacement", a.load_displacement, {any, nc}, length,
+       "displacement of each external, then disc, under the loads of the input");
+  const Index l = a.load_displacement.rows();
+  file("loads/friction", a.load_friction, {l, h}, stress, "peak stress of each friction case under them");
+  file("loads/traction", a.load_traction, {l, q}, unit(a.header.units, 0, 1), "force of each traction under them");
+}
+
+/// Of one degree of n unknowns. The fields of all cases are there where stresses are wanted, else none of externals,
+/// discs and friction.
+template <class File, class Cases>
+void case_datasets(File& file, const std::string& group, Cases& a, bool stressed, Index n, Index nc, Index h, Index q,
+                   const Units& units) {
+  file(group + "E_c", a.E_c, {nc, nc}, unit(units, -0.5, 0.5),
+       "unit fields of externals and discs in a basis orthonormal in energy");
+  file(group + "E_h", a.E_h, {h, nc}, unit(units, 2.5, -0.5), "the same of unit friction cases");
+  file(group + "U", a.U.transpose(), {stressed ? nc : 0, n}, "1",
+       "plate unknowns per unit displacement of an external or disc");
+  file(group + "V", a.V.transpose(), {q, n}, unit(units, 1, -1),
+       "plate unknowns per unit force on a traction boundary");
+  file(group + "W", a.W.transpose(), {stressed ? h : 0, n}, unit(units, 1, 0),
+       "plate unknowns under each unit friction case");
+}
+
+template <class File, class Solution>
+void datasets(File& file, Solution& a) {
+  header(file, a.header);
+  const Units& units = a.header.units;
+  const std::string length = unit(units, 1, 0), area = unit(units, 2, 0), stiffness = unit(units, -1, 1);
+  space(file, a.space);
+  geometry_datasets(file, a);
+  name_datasets(file, a);
+  const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
+  const Index h = a.friction_hole.size(), q = a.traction_id.size();
+  sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness, "couples plate unknowns to externals and discs");
+  file("K_cc", a.K_cc, {nc, nc}, stiffness, "stiffness among externals and discs with the plate held");
+  sparse_datasets(file, "L_f", a.L_f, n, h, area, "loads of the unit friction cases on the plate unknowns");
+  file("L_c", a.L_c, {nc, h}, area, "loads of the unit friction cases on externals and discs");
+  sparse_datasets(file, "T_f", a.T_f, n, q, "1", "loads of a unit total force on each traction boundary");
+  file("T_c", a.T_c, {nc, q}, "1", "the same on externals and discs");
+  file("shift", a.shift, {nc}, stiffness, "what E_c E_c^T has more than S on its diagonal");
+  load_datasets(file, a, nc, h, q);
+  if constexpr (File::reads) a.cases.resize(a.p.size());
+  for (std::size_t i = 0; i < a.cases.size(); ++i) {
+    const bool stressed = std::find(a.stress_p.begin(), a.stress_p.end(), a.p[i]) != a.stress_p.end();
+    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], stressed, a.ndof[i], nc, h, q, units);
+  }
+  file("probe/displacement", a.probe.displacement, {nc}, length, "amounts of externals, then discs, in the field u");
+  file("probe/friction", a.probe.friction, {h}, unit(units, -2, 1), "amounts of friction cases in the field w");
+  file("probe/u", a.probe.u, {n}, length, "plate unknowns of the highest degree under these displacements");
+  file("probe/w", a.probe.w, {n}, length, "plate unknowns of the highest degree under these friction cases");
+  file("probe/rounding", a.probe.rounding, {1}, stiffness, "what rounding may change of S, estimated by the field u",
+       h5::or_else(0));
+}
+
+/// Where the rim of a hole runs follows from the mesh as well.
+void check_rims(const h5::Reader& file, const PlateSolution& a) {
+  const auto edges = pfem::find_edges(a.mesh);
+  for (std::size_t hole = 0; hole < a.hole_rim.size(); ++hole) {
+    const rim::Rim& rim = a.hole_rim[hole];
+    if (!(rim.sides == rim::find_rim(a.mesh, edges, rim.center, rim.radius).sides))
+      throw FileError(fmt::format(
+          "{}:hole/rim: the sides of hole \"{}\" are not those arcs of the mesh that have its centre and its radius {}",
+          file.path(), a.hole_id[hole], rim.radius));
+  }
+}
+
+/// What datasets say of others that stand before them.
+void check(const h5::Reader& file, const PlateSolution& a) {
+  check_rims(file, a);
+  file.check("mesh/material", a.mesh.material, h5::index_into(std::ssize(a.elasticity)));
+  file.check("unknown", a.unknown, h5::integers(-1 - a.K_cc.rows(), a.ndof[a.ndof.size() - 1] - 1));
+  h5::Allowed hole{.text = "names in hole/id", .words = a.hole_id};
+  file.check("friction/hole", a.friction_hole, hole);
+  hole.words->emplace_back();  // of an edge
+  file.check("traction/hole", a.traction_hole, hole);
   for (const int p : a.stress_p)
     if (std::find(a.p.begin(), a.p.end(), p) == a.p.end())
       throw FileError(fmt::format("{}:stress_p: {} is not in p", file.path(), p));
 }
 
-void read_names(const h5::Reader& file, PlateSolution& a) {
-  a.supported = file.strings("supported", h5::any);
-  a.p = file.integers("p", h5::any);
-  a.ndof = file.integers("ndof", a.p.size());
-  a.stress_p = file.integers("stress_p", h5::any);
-  a.external_id = file.strings("external/id", h5::any);
-  a.external_direction = file.strings("external/direction", count_of(a.external_id));
-  a.traction_id = file.strings("traction/id", h5::any);
-  a.traction_direction = file.strings("traction/direction", count_of(a.traction_id));
-  a.traction_hole = file.strings("traction/hole", count_of(a.traction_id));
-  a.disc_hole = file.strings("disc/hole", h5::any);
-  a.disc_direction = file.strings("disc/direction", count_of(a.disc_hole));
-  a.friction_hole = file.strings("friction/hole", h5::any);
-  a.friction_bearing = file.strings("friction/bearing", count_of(a.friction_hole));
-  const auto check_hole = [&](const char* dataset, const std::string& hole) {
-    if (std::find(a.hole_id.begin(), a.hole_id.end(), hole) == a.hole_id.end())
-      throw FileError(fmt::format("{}:{}: \"{}\" is not in hole/id", file.path(), dataset, hole));
-  };
-  for (const auto& hole : a.friction_hole) check_hole("friction/hole", hole);
-  for (const auto& hole : a.traction_hole)
-    if (!hole.empty()) check_hole("traction/hole", hole);
-  for (const auto& section : a.sections) check_words(file, "section/side", {section.side}, side_names);
-  const std::vector<std::string> axes = {"x", "y"};
-  check_words(file, "external/direction", a.external_direction, axes);
-  check_words(file, "traction/direction", a.traction_direction, axes);
-  check_words(file, "disc/direction", a.disc_direction, axes);
-  check_words(file, "friction/bearing", a.friction_bearing, side_names);
-  check_levels(file, a);
-}
-
-void write_loads(h5::Writer& file, const PlateSolution& a) {
-  const Units& units = a.header.units;
-  const Eigen::Index n = a.contacts.size();
-  Eigen::VectorXi hole(n), iterations(n);
-  Eigen::VectorXd pressure(n), angle(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Contact& contact = a.contacts[i];
-    hole[i] = contact.hole;
-    iterations[i] = contact.iterations;
-    pressure[i] = contact.peak_pressure;
-    angle[i] = contact.peak_angle;
-  }
-  file.write("contact/hole", hole, {"1", "index in hole/id of each hole whose springs push but do not pull"});
-  file.write("contact/iterations", iterations, {"1", "until the ends of its sprung arcs stood still under the loads"});
-  file.write("contact/peak_pressure", pressure, {unit(units, -2, 1), "largest pressure on its rim under the loads"});
-  file.write("contact/peak_angle", angle, {"rad", "where, counter-clockwise from x"});
-  file.write("loads/displacement", a.load_displacement,
-             {unit(units, 1, 0), "displacement of each external, then disc, under the loads of the input"});
-  file.write("loads/friction", a.load_friction, {unit(units, -2, 1), "peak stress of each friction case under them"});
-  file.write("loads/traction", a.load_traction, {unit(units, 0, 1), "force of each traction under them"});
-}
-
-void read_loads(const h5::Reader& file, PlateSolution& a) {
-  const Units& units = a.header.units;
-  const Eigen::VectorXi hole = file.integers("contact/hole", h5::any);
-  const auto n = hole.size();
-  const Eigen::VectorXi iterations = file.integers("contact/iterations", n);
-  const Eigen::VectorXd pressure = file.vector("contact/peak_pressure", n, unit(units, -2, 1));
-  const Eigen::VectorXd angle = file.vector("contact/peak_angle", n, "rad");
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (hole[i] < 0 || hole[i] >= count_of(a.hole_id))
-      throw FileError(fmt::format("{}:contact/hole: {} is not a hole", file.path(), hole[i]));
-    a.contacts.push_back({hole[i], iterations[i], pressure[i], angle[i]});
-  }
-  a.load_displacement = file.matrix("loads/displacement", h5::any, a.K_cc.rows(), unit(units, 1, 0));
-  const auto l = a.load_displacement.rows();
-  a.load_friction = file.matrix("loads/friction", l, a.L_c.cols(), unit(units, -2, 1));
-  a.load_traction = file.matrix("loads/traction", l, a.T_c.cols(), unit(units, 0, 1));
-}
-
-std::string case_group(int p) { return fmt::format("p{}/", p); }
-
-void write_cases(h5::Writer& file, const Units& units, const std::string& group, const PlateCases& cases) {
-  file.write(group + "E_c", cases.E_c,
-             {unit(units, -0.5, 0.5), "unit fields of externals and discs in a basis orthonormal in energy"});
-  file.write(group + "E_h", cases.E_h, {unit(units, 2.5, -0.5), "the same of unit friction cases"});
-  file.write_transposed(group + "U", cases.U, {"1", "plate unknowns per unit displacement of an external or disc"});
-  file.write_transposed(group + "V", cases.V,
-                        {unit(units, 1, -1), "plate unknowns per unit force on a traction boundary"});
-  file.write_transposed(group + "W", cases.W, {unit(units, 1, 0), "plate unknowns under each unit friction case"});
-}
-
-/// The fields of all cases are there where stresses are wanted, else none of externals, discs and friction.
-void check_fields(const h5::Reader& file, const PlateSolution& a, int p, const PlateCases& cases) {
-  const bool wanted = std::find(a.stress_p.begin(), a.stress_p.end(), p) != a.stress_p.end();
-  const auto check = [&](const char* name, Eigen::Index stored, Eigen::Index all) {
-    if (const auto expected = wanted ? all : 0; stored != expected)
-      throw FileError(fmt::format("{}:{}{}: holds {} fields, expected {}, since stress_p has {}p = {}", file.path(),
-                                  case_group(p), name, stored, expected, wanted ? "" : "no ", p));
-  };
-  check("U", cases.U.cols(), a.K_cc.rows());
-  check("W", cases.W.cols(), a.L_c.cols());
-}
-
-PlateCases read_cases(const h5::Reader& file, const PlateSolution& a, Eigen::Index level) {
-  const Units& units = a.header.units;
-  const auto nc = a.K_cc.rows();
-  const std::string group = case_group(a.p[level]);
-  PlateCases cases{file.matrix(group + "E_c", nc, nc, unit(units, -0.5, 0.5)),
-                   file.matrix(group + "E_h", a.L_c.cols(), nc, unit(units, 2.5, -0.5)),
-                   file.transposed(group + "U", h5::any, a.ndof[level], "1"),
-                   file.transposed(group + "V", a.T_c.cols(), a.ndof[level], unit(units, 1, -1)),
-                   file.transposed(group + "W", h5::any, a.ndof[level], unit(units, 1, 0))};
-  check_fields(file, a, a.p[level], cases);
-  return cases;
-}
-
 }  // namespace
 
 void write(const std::string& path, const PlateSolution& a) {
-  const Units& units = a.header.units;
-  const std::string length = unit(units, 1, 0);
-  const std::string stiffness = unit(units, -1, 1);
-  const std::string area = unit(units, 2, 0);
   h5::Writer file(path, format, major, minor);
-  write_header(file, a.header);
-  write_space(file, a.space);
-  write_geometry(file, a);
-  write_names(file, a);
-  write_sparse(file, "K_fc", a.K_fc, {stiffness, "couples plate unknowns to externals and discs"});
-  file.write("K_cc", a.K_cc, {stiffness, "stiffness among externals and discs with the plate held"});
-  write_sparse(file, "L_f", a.L_f, {area, "loads of the unit friction cases on the plate unknowns"});
-  file.write("L_c", a.L_c, {area, "loads of the unit friction cases on externals and discs"});
-  write_sparse(file, "T_f", a.T_f, {"1", "loads of a unit total force on each traction boundary"});
-  file.write("T_c", a.T_c, {"1", "the same on externals and discs"});
-  file.write("shift", a.shift, {stiffness, "what E_c E_c^T has more than S on its diagonal"});
-  write_loads(file, a);
-  for (Eigen::Index i = 0; i < a.p.size(); ++i) write_cases(file, units, case_group(a.p[i]), a.cases[i]);
-  file.write("probe/displacement", a.probe.displacement, {length, "amounts of externals, then discs, in the field u"});
-  file.write("probe/friction", a.probe.friction, {unit(units, -2, 1), "amounts of friction cases in the field w"});
-  file.write("probe/u", a.probe.u, {length, "plate unknowns of the highest degree under these displacements"});
-  file.write("probe/w", a.probe.w, {length, "plate unknowns of the highest degree under these friction cases"});
-  file.write("probe/rounding", Eigen::VectorXd(Eigen::VectorXd::Constant(1, a.probe.rounding)),
-             {stiffness, "what rounding may change of S, estimated by the field u"});
+  datasets(file, a);
   file.commit();
 }
 
 PlateSolution read_plate_solution(const std::string& path) {
-  const h5::Reader file(path, format, major);
+  h5::Reader file(path, format, major);
   PlateSolution a;
-  a.header = read_header(file);
-  a.space = read_space(file);
-  const Units& units = a.header.units;
-  const std::string length = unit(units, 1, 0);
-  read_geometry(file, a);
-  read_names(file, a);
-  const auto n = a.ndof[a.p.size() - 1];
-  const Eigen::Index nc = a.external_id.size() + a.disc_hole.size();
-  const Eigen::Index h = a.friction_hole.size();
-  const Eigen::Index q = a.traction_id.size();
-  const int least = -1 - static_cast<int>(nc);
-  if (a.unknown.size() == 0 || a.unknown.maxCoeff() >= n || a.unknown.minCoeff() < least)
-    throw FileError(fmt::format("{}:unknown: an index is outside {}..{}", path, least, n - 1));
-  a.K_fc = read_sparse(file, "K_fc", n, nc, unit(units, -1, 1));
-  a.K_cc = file.matrix("K_cc", nc, nc, unit(units, -1, 1));
-  a.L_f = read_sparse(file, "L_f", n, h, unit(units, 2, 0));
-  a.L_c = file.matrix("L_c", nc, h, unit(units, 2, 0));
-  a.T_f = read_sparse(file, "T_f", n, q, "1");
-  a.T_c = file.matrix("T_c", nc, q, "1");
-  a.shift = file.vector("shift", nc, unit(units, -1, 1));
-  read_loads(file, a);
-  for (Eigen::Index i = 0; i < a.p.size(); ++i) a.cases.push_back(read_cases(file, a, i));
-  a.probe = {file.vector("probe/displacement", nc, length), file.vector("probe/friction", h, unit(units, -2, 1)),
-             file.vector("probe/u", n, length), file.vector("probe/w", n, length),
-             file.has("probe/rounding") ? file.vector("probe/rounding", 1, unit(units, -1, 1))[0] : 0};
+  datasets(file, a);
+  check(file, a);
   return a;
 }
 

@@ -5,14 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/formats/header.hpp"
-#include "common/h5/reader.hpp"
-#include "common/h5/writer.hpp"
-
 namespace fastjoint::formats {
-
-/// Matrices may come from elsewhere than stage 2.
-inline constexpr int highest_degree = 99;
 
 /// Stresses of one sheet per unit case, at l degrees (schemas/plate-matrices.md). A sheet from elsewhere has none: l =
 /// 0.
@@ -27,17 +20,13 @@ struct PlateStresses {
   Eigen::VectorXd rim_thickness;      ///< (r) mean thickness of the sheet there, length; 0 where the file does not say
   Eigen::MatrixXd rim_modulus;        ///< (r, 2) mean modulus in tension along x, along y, stress; 0 likewise
   Eigen::MatrixXd bearing_area;       ///< (r, 2) d t of a whole hole, for bearing along x and along y, length^2
-  Eigen::VectorXi rim_start;          ///< (r + 1) first point of each rim
-  Eigen::VectorXd angle;              ///< (k) of each point, degrees counter-clockwise from x
+  /// (r + 1) first point of each rim
+  Eigen::VectorXi rim_start = Eigen::VectorXi::Zero(1);
+  Eigen::VectorXd angle;                                      ///< (k) of each point, degrees counter-clockwise from x
   std::vector<Eigen::MatrixXd> sigma_rr, sigma_tt, sigma_rt;  ///< l x (k, n_cases)
   std::vector<std::string> section_hole, section_side;        ///< (s)
   Eigen::VectorXd gross_area, net_area;                       ///< (s) length^2
   std::vector<Eigen::MatrixXd> section_force;                 ///< l x (s, n_cases), tension positive
 };
-
-void write_stresses(h5::Writer& file, const PlateStresses& stresses, const Units& units);
-
-/// @param n_cases e + m + h + q.
-[[nodiscard]] PlateStresses read_stresses(const h5::Reader& file, Eigen::Index n_cases, const Units& units);
 
 }  // namespace fastjoint::formats

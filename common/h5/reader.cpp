@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
@@ -19,9 +20,6 @@ namespace fastjoint::h5 {
 namespace {
 
 namespace fs = std::filesystem;
-using Shape = std::vector<Eigen::Index>;
-using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using RowMajorXi = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// Reads a string attribute of either kind (variable or fixed length; h5py writes both).
 std::string read_text_attribute(hid_t owner, const char* name) {
@@ -46,7 +44,7 @@ bool has_attribute(hid_t owner, const char* name) { return H5Aexists(owner, name
 
 std::string shape_text(const Shape& shape) {
   std::vector<std::string> extents;
-  for (const auto e : shape) extents.push_back(e == any ? "any" : std::to_string(e));
+  for (const auto e : shape) extents.push_back(e == any ? "any" : e == some ? "at least 1" : std::to_string(e));
   return fmt::format("({})", fmt::join(extents, ", "));
 }
 
@@ -59,6 +57,7 @@ std::size_t count(const Shape& shape) {
 struct Reader::Impl {
   std::string path, digest;
   File file;
+  bool compare_units = true;
 
   [[noreturn]] void fail(const std::string& dataset, const std::string& what) const {
     throw FileError(fmt::format("{}:{}: {}", path, dataset, what));
@@ -77,68 +76,38 @@ struct Reader::Impl {
     H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
     Shape found(extents.begin(), extents.end());
     bool fits = found.size() == expected.size();
-    for (std::size_t i = 0; fits && i < found.size(); ++i) fits = expected[i] == any || found[i] == expected[i];
+    for (std::size_t i = 0; fits && i < found.size(); ++i)
+      fits = expected[i] == any || found[i] == expected[i] || (expected[i] == some && found[i] > 0);
     if (!fits) fail(name, fmt::format("shape is {}, expected {}", shape_text(found), shape_text(expected)));
     return found;
   }
 
-  void check_class(const Dataset& set, const std::string& name, H5T_class_t expected, const char* word) const {
-    const Type type(H5Dget_type(set.get()));
-    if (H5Tget_class(type.get()) != expected) fail(name, fmt::format("type is not {}", word));
-  }
-
   void check_unit(const Dataset& set, const std::string& name, const std::string& expected) const {
-    if (expected.empty() || !has_attribute(set.get(), "unit")) return;
+    if (!compare_units || !has_attribute(set.get(), "unit")) return;
     const std::string found = read_text_attribute(set.get(), "unit");
     if (found != expected) fail(name, fmt::format("unit is '{}', expected '{}'", found, expected));
   }
 
-  template <class Scalar>
-  Shape read(const std::string& name, const Shape& expected, H5T_class_t cls, hid_t memory_type,
-             std::vector<Scalar>& values) const {
-    const auto set = open(name);
-    check_class(set, name, cls, cls == H5T_FLOAT ? "floating point" : "integer");
-    Shape found = shape(set, name, expected);
-    values.resize(count(found));
-    if (!values.empty() && H5Dread(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+  void read(const Dataset& set, const std::string& name, hid_t memory_type, void* into) const {
+    if (H5Dread(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0)
       fail(name, fmt::format("cannot be read: {}", last_error()));
-    return found;
   }
 
-  Shape doubles(const std::string& name, const Shape& expected, const std::string& unit, std::vector<double>& values,
-                Infinite infinite = Infinite::refused) const {
-    Shape found = read(name, expected, H5T_FLOAT, H5T_NATIVE_DOUBLE, values);
-    check_unit(open(name), name, unit);
-    for (const double v : values) {
-      if (std::isnan(v)) fail(name, "holds a NaN");
-      if (std::isinf(v) && infinite == Infinite::refused) fail(name, "holds an infinite number, expected finite ones");
-    }
-    return found;
-  }
-
-  std::vector<std::string> texts(const std::string& name, const Shape& expected) const {
-    const auto set = open(name);
-    check_class(set, name, H5T_STRING, "string");
-    const std::size_t n = count(shape(set, name, expected));
-    const Type type(H5Dget_type(set.get()));
-    std::vector<std::string> result;
-    if (n == 0) return result;
-    if (H5Tis_variable_str(type.get()) > 0) {
-      std::vector<char*> chars(n, nullptr);
-      if (H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, static_cast<void*>(chars.data())) < 0)
-        fail(name, fmt::format("cannot be read: {}", last_error()));
-      for (char* c : chars) {
-        result.emplace_back(c == nullptr ? "" : c);
-        H5free_memory(c);
+  /// Texts of either kind.
+  void read_texts(const Dataset& set, const std::string& name, hid_t type, std::vector<std::string>& texts) const {
+    if (H5Tis_variable_str(type) > 0) {
+      std::vector<char*> chars(texts.size(), nullptr);
+      read(set, name, type, static_cast<void*>(chars.data()));
+      for (std::size_t i = 0; i < texts.size(); ++i) {
+        texts[i] = chars[i] == nullptr ? "" : chars[i];
+        H5free_memory(chars[i]);
       }
     } else {
-      const std::size_t width = H5Tget_size(type.get());
-      std::string block(n * width, '\0');
-      if (H5Dread(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, block.data()) < 0)
-        fail(name, fmt::format("cannot be read: {}", last_error()));
-      for (std::size_t i = 0; i < n; ++i) result.emplace_back(block.substr(i * width, width).c_str());
+      const std::size_t width = H5Tget_size(type);
+      std::string block(texts.size() * width, '\0');
+      read(set, name, type, block.data());
+      for (std::size_t i = 0; i < texts.size(); ++i) texts[i] = block.substr(i * width, width).c_str();
     }
-    return result;
   }
 };
 
@@ -153,7 +122,7 @@ void check_readable(const std::string& path) {
 }
 
 void check_version(const Reader& reader, hid_t file, const std::string& format, int major) {
-  const std::string found = reader.attribute("format", "");
+  const std::string found = reader.text_attribute("format", "");
   if (found != format)
     throw FileError(
         found.empty()
@@ -193,6 +162,8 @@ const std::string& Reader::path() const { return impl_->path; }
 
 const std::string& Reader::digest() const { return impl_->digest; }
 
+void Reader::compare_units(bool compare) { impl_->compare_units = compare; }
+
 bool Reader::has(const std::string& dataset) const {
   for (auto end = dataset.find('/');; end = dataset.find('/', end + 1)) {
     if (H5Lexists(impl_->file.get(), dataset.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
@@ -200,7 +171,7 @@ bool Reader::has(const std::string& dataset) const {
   }
 }
 
-std::string Reader::attribute(const std::string& name, const std::string& otherwise) const {
+std::string Reader::text_attribute(const std::string& name, const std::string& otherwise) const {
   return has_attribute(impl_->file.get(), name.c_str()) ? read_text_attribute(impl_->file.get(), name.c_str())
                                                         : otherwise;
 }
@@ -215,52 +186,64 @@ int Reader::integer_attribute(const std::string& name) const {
   return value;
 }
 
-Eigen::VectorXd Reader::vector(const std::string& dataset, Eigen::Index n, const std::string& unit) const {
-  std::vector<double> values;
-  impl_->doubles(dataset, {n}, unit, values);
-  return Eigen::Map<Eigen::VectorXd>(values.data(), values.size());
+template <class Scalar>
+Shape Reader::get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
+                  std::vector<Scalar>& entries) const {
+  constexpr bool is_text = std::is_same_v<Scalar, std::string>, is_integer = std::is_same_v<Scalar, int>;
+  std::optional<Scalar> stand_in;
+  if constexpr (is_text)
+    stand_in = allowed.word;
+  else
+    stand_in = allowed.number;
+  if (std::find(expected.begin(), expected.end(), 0) != expected.end()) stand_in = Scalar();
+  if (stand_in && !has(name)) {
+    Shape shape = expected;
+    for (auto& extent : shape) extent = std::max<Eigen::Index>(extent, 0);
+    entries.assign(count(shape), *stand_in);
+    return shape;
+  }
+  const auto set = impl_->open(name);
+  const Type type(H5Dget_type(set.get()));
+  if (H5Tget_class(type.get()) != (is_text ? H5T_STRING : is_integer ? H5T_INTEGER : H5T_FLOAT))
+    impl_->fail(name, fmt::format("type is not {}", is_text ? "string" : is_integer ? "integer" : "floating point"));
+  Shape found = impl_->shape(set, name, expected);
+  impl_->check_unit(set, name, unit);
+  entries.resize(count(found));
+  if (entries.empty()) return found;
+  if constexpr (is_text)
+    impl_->read_texts(set, name, type.get(), entries);
+  else
+    impl_->read(set, name, is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, entries.data());
+  check_entries(name, entries, allowed);
+  return found;
 }
 
-Eigen::MatrixXd Reader::matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols,
-                               const std::string& unit, Infinite infinite) const {
-  std::vector<double> values;
-  const Shape shape = impl_->doubles(dataset, {rows, cols}, unit, values, infinite);
-  return Eigen::Map<RowMajorXd>(values.data(), shape[0], shape[1]);
+template <class Scalar>
+void Reader::check_entries(const std::string& name, const std::vector<Scalar>& entries, const Allowed& allowed) const {
+  const auto refuse = [&](const std::string& what) {
+    impl_->fail(name, fmt::format("holds {}, expected {}", what, allowed.text));
+  };
+  if constexpr (std::is_same_v<Scalar, std::string>) {
+    for (const auto& text : entries)
+      if (allowed.words && std::find(allowed.words->begin(), allowed.words->end(), text) == allowed.words->end())
+        refuse(fmt::format("\"{}\"", text));
+  } else {
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      if (!(entries[i] >= allowed.low && entries[i] <= allowed.high)) refuse(fmt::format("{}", entries[i]));
+      if (i > 0 && entries[i] < entries[i - 1] + allowed.step)
+        refuse(fmt::format("{}, {}", entries[i - 1], entries[i]));
+    }
+  }
 }
 
-std::vector<Eigen::MatrixXd> Reader::stack(const std::string& dataset, Eigen::Index n, Eigen::Index rows,
-                                           Eigen::Index cols, const std::string& unit, Infinite infinite) const {
-  std::vector<double> values;
-  const Shape shape = impl_->doubles(dataset, {n, rows, cols}, unit, values, infinite);
-  std::vector<Eigen::MatrixXd> result;
-  for (Eigen::Index i = 0; i < shape[0]; ++i)
-    result.emplace_back(Eigen::Map<RowMajorXd>(values.data() + i * shape[1] * shape[2], shape[1], shape[2]));
-  return result;
-}
-
-Eigen::MatrixXd Reader::transposed(const std::string& dataset, Eigen::Index cols, Eigen::Index rows,
-                                   const std::string& unit) const {
-  std::vector<double> values;
-  const Shape shape = impl_->doubles(dataset, {cols, rows}, unit, values);
-  return Eigen::Map<Eigen::MatrixXd>(values.data(), shape[1], shape[0]);
-}
-
-Eigen::VectorXi Reader::integers(const std::string& dataset, Eigen::Index n) const {
-  std::vector<int> values;
-  impl_->read(dataset, {n}, H5T_INTEGER, H5T_NATIVE_INT, values);
-  return Eigen::Map<Eigen::VectorXi>(values.data(), values.size());
-}
-
-Eigen::MatrixXi Reader::integer_matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols) const {
-  std::vector<int> values;
-  const Shape shape = impl_->read(dataset, {rows, cols}, H5T_INTEGER, H5T_NATIVE_INT, values);
-  return Eigen::Map<RowMajorXi>(values.data(), shape[0], shape[1]);
-}
-
-std::vector<std::string> Reader::strings(const std::string& dataset, Eigen::Index n) const {
-  return impl_->texts(dataset, {n});
-}
-
-std::string Reader::text(const std::string& dataset) const { return impl_->texts(dataset, {}).at(0); }
+template Shape Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
+                           std::vector<double>&) const;
+template Shape Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
+                           std::vector<int>&) const;
+template Shape Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
+                           std::vector<std::string>&) const;
+template void Reader::check_entries(const std::string&, const std::vector<double>&, const Allowed&) const;
+template void Reader::check_entries(const std::string&, const std::vector<int>&, const Allowed&) const;
+template void Reader::check_entries(const std::string&, const std::vector<std::string>&, const Allowed&) const;
 
 }  // namespace fastjoint::h5

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "common/h5/allowed.hpp"
+#include "common/h5/entries.hpp"
 
 namespace fastjoint::h5 {
 
-/// Any extent will do.
-inline constexpr Eigen::Index any = -1;
-
-/// Whether a dataset may hold infinite numbers; a NaN never stands in a file.
-enum class Infinite { refused, allowed };
-
 /// An HDF5 file opened for reading, whose seal, kind and major version are checked before anything else.
 ///
-/// Every read checks type class, rank, shape and unit and throws FileError with the file, the dataset, what was found
-/// and what was expected. A dataset without `unit` is taken as it is (a laboratory's matrices need none),
-/// and so is any where "" is expected.
+/// Every read checks type class, shape, unit and entries and throws FileError with the file, the dataset, what was
+/// found and what was expected. A dataset without an attribute `unit` is taken as it is (a laboratory's need none), and
+/// one that would have no entries may be left out.
 class Reader {
  public:
+  static constexpr bool reads = true;
+
   Reader(std::string path, const std::string& format, int major);
   ~Reader();
   Reader(const Reader&) = delete;
@@ -29,28 +29,54 @@ class Reader {
   [[nodiscard]] const std::string& path() const;
   /// Digest that the file carries; empty if it has none.
   [[nodiscard]] const std::string& digest() const;
+  /// Whether units are compared: they are unless told otherwise.
+  void compare_units(bool compare);
   [[nodiscard]] bool has(const std::string& dataset) const;
-  /// Root attribute, or `otherwise` if the file has none of that name.
-  [[nodiscard]] std::string attribute(const std::string& name, const std::string& otherwise) const;
-  [[nodiscard]] int integer_attribute(const std::string& name) const;
+  /// The same, and then makes a value for what is there.
+  template <class T>
+  [[nodiscard]] bool has(const std::string& dataset, std::optional<T>& value) const {
+    if (has(dataset)) value.emplace();
+    return value.has_value();
+  }
 
-  [[nodiscard]] Eigen::VectorXd vector(const std::string& dataset, Eigen::Index n, const std::string& unit) const;
-  [[nodiscard]] Eigen::MatrixXd matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols,
-                                       const std::string& unit, Infinite infinite = Infinite::refused) const;
-  /// Shape (n, rows, cols) as n matrices.
-  [[nodiscard]] std::vector<Eigen::MatrixXd> stack(const std::string& dataset, Eigen::Index n, Eigen::Index rows,
-                                                   Eigen::Index cols, const std::string& unit,
-                                                   Infinite infinite = Infinite::refused) const;
-  /// Inverse of Writer::write_transposed: a dataset of shape (cols, rows) as a matrix of (rows, cols).
-  [[nodiscard]] Eigen::MatrixXd transposed(const std::string& dataset, Eigen::Index cols, Eigen::Index rows,
-                                           const std::string& unit) const;
-  [[nodiscard]] Eigen::VectorXi integers(const std::string& dataset, Eigen::Index n) const;
-  [[nodiscard]] Eigen::MatrixXi integer_matrix(const std::string& dataset, Eigen::Index rows, Eigen::Index cols) const;
-  [[nodiscard]] std::vector<std::string> strings(const std::string& dataset, Eigen::Index n) const;
-  [[nodiscard]] std::string text(const std::string& dataset) const;
+  /// Root attribute; `otherwise` if the file has none of that name.
+  [[nodiscard]] std::string text_attribute(const std::string& name, const std::string& otherwise) const;
+  [[nodiscard]] int integer_attribute(const std::string& name) const;
+  /// Root attribute; a text that the file does not have stays as it is.
+  template <class T>
+  void attribute(const std::string& name, T& value) const {
+    if constexpr (std::same_as<T, std::string>)
+      value = text_attribute(name, value);
+    else
+      value = integer_attribute(name);
+  }
+
+  /// Reads one dataset, and sizes the value for it.
+  template <class T>
+  void operator()(const std::string& name, T&& value, const Shape& expected, const std::string& unit,
+                  const std::string& /*meaning*/, const Allowed& allowed = {}) const {
+    std::vector<EntryOf<T>> entries;
+    resize(value, get(name, expected, unit, allowed, entries));
+    auto next = entries.begin();
+    for_each_entry(value, [&](auto& entry) { entry = std::move(*next++); });
+  }
+  /// Checks entries of a dataset by what only later ones say.
+  template <class T>
+  void check(const std::string& name, const T& value, const Allowed& allowed) const {
+    std::vector<EntryOf<T>> entries;
+    for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
+    check_entries(name, entries, allowed);
+  }
 
  private:
   struct Impl;
+  // Of double, int and std::string.
+  template <class Scalar>
+  Shape get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
+            std::vector<Scalar>& entries) const;
+  template <class Scalar>
+  void check_entries(const std::string& name, const std::vector<Scalar>& entries, const Allowed& allowed) const;
+
   std::unique_ptr<Impl> impl_;
 };
 

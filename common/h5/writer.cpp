@@ -2,6 +2,11 @@
 #include "common/h5/writer.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <functional>
+#include <numeric>
+#include <stdexcept>
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
@@ -10,16 +15,6 @@
 #include "common/h5/whole_file.hpp"
 
 namespace fastjoint::h5 {
-namespace {
-
-using Shape = std::vector<hsize_t>;
-using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-using RowMajorXi = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-hsize_t extent(Eigen::Index n) { return static_cast<hsize_t>(n); }
-
-}  // namespace
-
 struct Writer::Impl {
   std::string path;
   File file;
@@ -59,31 +54,19 @@ struct Writer::Impl {
     if (!attribute || H5Awrite(attribute.get(), H5T_NATIVE_INT, values.data()) < 0) fail("attribute " + name);
   }
 
-  void dataset(const std::string& name, const Space& space, hid_t file_type, hid_t memory_type, const void* data,
-               const Meta& meta) const {
+  void dataset(const std::string& name, const Shape& shape, hid_t file_type, hid_t memory_type, const void* data,
+               const std::string& unit, const std::string& meaning) const {
     make_groups(name);
+    const std::vector<hsize_t> extents(shape.begin(), shape.end());
+    const Space space(H5Screate_simple(count_of(extents), extents.data(), nullptr));
     const auto list = properties(H5P_DATASET_CREATE);
     const Dataset set(
         H5Dcreate2(file.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT, list.get(), H5P_DEFAULT));
     if (!set) fail(name);
     const bool empty = H5Sget_simple_extent_npoints(space.get()) == 0;
     if (!empty && H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(name);
-    text_attribute(set.get(), "unit", meta.unit);
-    text_attribute(set.get(), "description", meta.description);
-  }
-
-  void doubles(const std::string& name, const Shape& shape, const double* data, const Meta& meta) const {
-    std::size_t n = 1;
-    for (const auto e : shape) n *= e;
-    const Eigen::Map<const Eigen::ArrayXd> values(data, n);
-    if (values.isNaN().any()) throw NumericalError(fmt::format("{}: {} would hold a NaN", path, name));
-    const Space space(H5Screate_simple(count_of(shape), shape.data(), nullptr));
-    dataset(name, space, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data, meta);
-  }
-
-  void integers(const std::string& name, const Shape& shape, const int* data, const Meta& meta) const {
-    const Space space(H5Screate_simple(count_of(shape), shape.data(), nullptr));
-    dataset(name, space, H5T_STD_I32LE, H5T_NATIVE_INT, data, meta);
+    text_attribute(set.get(), "unit", unit);
+    text_attribute(set.get(), "description", meaning);
   }
 };
 
@@ -108,52 +91,33 @@ void Writer::attribute(const std::string& name, const std::string& text) {
 
 void Writer::attribute(const std::string& name, int value) { impl_->integer_attribute(name, {value}, true); }
 
-void Writer::write(const std::string& dataset, const Eigen::VectorXd& v, const Meta& meta) {
-  impl_->doubles(dataset, {extent(v.size())}, v.data(), meta);
-}
-
-void Writer::write(const std::string& dataset, const Eigen::MatrixXd& A, const Meta& meta) {
-  const RowMajorXd rows = A;
-  impl_->doubles(dataset, {extent(A.rows()), extent(A.cols())}, rows.data(), meta);
-}
-
-void Writer::write_transposed(const std::string& dataset, const Eigen::MatrixXd& A, const Meta& meta) {
-  impl_->doubles(dataset, {extent(A.cols()), extent(A.rows())}, A.data(), meta);
-}
-
-void Writer::write(const std::string& dataset, const Eigen::VectorXi& v, const Meta& meta) {
-  impl_->integers(dataset, {extent(v.size())}, v.data(), meta);
-}
-
-void Writer::write(const std::string& dataset, const Eigen::MatrixXi& A, const Meta& meta) {
-  const RowMajorXi rows = A;
-  impl_->integers(dataset, {extent(A.rows()), extent(A.cols())}, rows.data(), meta);
-}
-
-void Writer::write(const std::string& dataset, const std::vector<Eigen::MatrixXd>& stack, Eigen::Index rows,
-                   Eigen::Index cols, const Meta& meta) {
-  RowMajorXd flat(stack.size(), rows * cols);
-  for (Eigen::Index i = 0; i < flat.rows(); ++i) {
-    const RowMajorXd A = stack[i];
-    flat.row(i) = A.reshaped<Eigen::RowMajor>().transpose();
+template <class Scalar>
+void Writer::put(const std::string& name, const Shape& shape, std::span<const Scalar> entries, const std::string& unit,
+                 const std::string& meaning) {
+  const auto n = std::accumulate(shape.begin(), shape.end(), Eigen::Index{1}, std::multiplies<>());
+  if (n != std::ssize(entries))
+    throw std::logic_error(fmt::format("{}:{}: {} entries do not make the shape ({})", impl_->path, name,
+                                       entries.size(), fmt::join(shape, ", ")));
+  if constexpr (std::is_same_v<Scalar, std::string>) {
+    std::vector<const char*> chars;
+    for (const auto& text : entries) chars.push_back(text.c_str());
+    const auto type = utf8_string();
+    impl_->dataset(name, shape, type.get(), type.get(), chars.data(), unit, meaning);
+  } else if constexpr (std::is_same_v<Scalar, int>) {
+    impl_->dataset(name, shape, H5T_STD_I32LE, H5T_NATIVE_INT, entries.data(), unit, meaning);
+  } else {
+    if (Eigen::Map<const Eigen::ArrayXd>(entries.data(), n).isNaN().any())
+      throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
+    impl_->dataset(name, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, entries.data(), unit, meaning);
   }
-  impl_->doubles(dataset, {stack.size(), extent(rows), extent(cols)}, flat.data(), meta);
 }
 
-void Writer::write(const std::string& dataset, const std::vector<std::string>& strings, const Meta& meta) {
-  std::vector<const char*> chars;
-  chars.reserve(strings.size());
-  for (const auto& s : strings) chars.push_back(s.c_str());
-  const hsize_t n = strings.size();
-  const auto type = utf8_string();
-  impl_->dataset(dataset, Space(H5Screate_simple(1, &n, nullptr)), type.get(), type.get(), chars.data(), meta);
-}
-
-void Writer::write(const std::string& dataset, const std::string& text, const Meta& meta) {
-  const char* chars = text.c_str();
-  const auto type = utf8_string();
-  impl_->dataset(dataset, Space(H5Screate(H5S_SCALAR)), type.get(), type.get(), &chars, meta);
-}
+template void Writer::put(const std::string&, const Shape&, std::span<const double>, const std::string&,
+                          const std::string&);
+template void Writer::put(const std::string&, const Shape&, std::span<const int>, const std::string&,
+                          const std::string&);
+template void Writer::put(const std::string&, const Shape&, std::span<const std::string>, const std::string&,
+                          const std::string&);
 
 std::string Writer::commit() {
   if (H5Fflush(impl_->file.get(), H5F_SCOPE_GLOBAL) < 0) impl_->fail("file");

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/Core>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-namespace fastjoint::h5 {
+#include "common/h5/allowed.hpp"
+#include "common/h5/entries.hpp"
 
-/// What every dataset says of itself.
-struct Meta {
-  std::string unit;         ///< "1" if dimensionless
-  std::string description;  ///< one sentence
-};
+namespace fastjoint::h5 {
 
 /// An HDF5 file that is built in memory and appears whole or not at all (commit).
 ///
+/// Writer and Reader are called alike, so that one function template names the datasets of a format for both.
 /// Groups on the way to a dataset are made as needed. Equal calls give equal bytes. Arrays are row-major in
 /// the file: a matrix A is stored with shape (rows, cols). Throws NumericalError for a NaN, FileError for the rest.
 class Writer {
  public:
+  static constexpr bool reads = false;
+
   Writer(std::string path, const std::string& format, int major, int minor);
   ~Writer();
   Writer(const Writer&) = delete;
@@ -28,23 +29,40 @@ class Writer {
   void attribute(const std::string& name, const std::string& text);
   void attribute(const std::string& name, int value);
 
-  void write(const std::string& dataset, const Eigen::VectorXd& v, const Meta& meta);
-  void write(const std::string& dataset, const Eigen::MatrixXd& A, const Meta& meta);
-  void write(const std::string& dataset, const Eigen::VectorXi& v, const Meta& meta);
-  void write(const std::string& dataset, const Eigen::MatrixXi& A, const Meta& meta);
-  void write(const std::string& dataset, const std::vector<std::string>& strings, const Meta& meta);
-  void write(const std::string& dataset, const std::string& text, const Meta& meta);
-  /// Stack of matrices of one shape (rows, cols), shape (n, rows, cols) in the file; n may be 0.
-  void write(const std::string& dataset, const std::vector<Eigen::MatrixXd>& stack, Eigen::Index rows,
-             Eigen::Index cols, const Meta& meta);
-  /// A^T without copying it: Eigen's columns are the file's rows, shape (cols, rows).
-  void write_transposed(const std::string& dataset, const Eigen::MatrixXd& A, const Meta& meta);
+  /// Writes one dataset.
+  ///
+  /// @param shape Its extents; `any` and `some` stand for the first extent of the value.
+  /// @param unit "1" if dimensionless.
+  /// @param meaning One sentence.
+  template <class T>
+  void operator()(const std::string& name, const T& value, Shape shape, const std::string& unit,
+                  const std::string& meaning, const Allowed& /*of a reader*/ = {}) {
+    using Scalar = EntryOf<T>;
+    if (!shape.empty() && shape[0] < 0) shape[0] = first_extent(value);
+    if constexpr (RowMajor<T>) {  // no copy of what may be large
+      put(name, shape, std::span<const Scalar>(value.data(), value.size()), unit, meaning);
+    } else {
+      std::vector<Scalar> entries;
+      for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
+      put(name, shape, std::span<const Scalar>(entries), unit, meaning);
+    }
+  }
+  /// Whether the file has what `value` is.
+  template <class T>
+  [[nodiscard]] bool has(const std::string& /*name*/, const std::optional<T>& value) const {
+    return value.has_value();
+  }
 
   /// Flushes, puts the file at its path and returns its digest.
   std::string commit();
 
  private:
   struct Impl;
+  // Of double, int and std::string.
+  template <class Scalar>
+  void put(const std::string& name, const Shape& shape, std::span<const Scalar> entries, const std::string& unit,
+           const std::string& meaning);
+
   std::unique_ptr<Impl> impl_;
 };
 

@@ -7,6 +7,9 @@
 
 namespace fastjoint::pfem {
 
+/// Highest polynomial degree of an element.
+inline constexpr int highest_p = 8;
+
 /// Which functions phi_i(xi) phi_j(eta), i, j >= 2, an element of degree p has inside, beside those of its vertices and
 /// edges. Szabo & Babuska 1991, section 6.2.
 enum class Space {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 namespace fastjoint::program {
 namespace {
@@ -46,14 +47,12 @@ std::string Timings::line() const {
 }
 
 std::string Timings::json(const std::string& program, const std::string& version) const {
-  std::vector<std::string> phases, unknowns;
-  for (const auto& [name, time] : phases_) phases.push_back(fmt::format(R"("{}": {})", name, seconds(time)));
-  for (const auto& [p, n] : unknowns_) unknowns.push_back(fmt::format(R"("{}": {})", p, n));
-  std::string text = fmt::format(
-      R"({{"program": "{}", "version": "{}", "threads": {}, "seconds": {{{}}}, "total": {}, "peak_memory_bytes": {})",
-      program, version, threads_, fmt::join(phases, ", "), seconds(total_), peak_memory());
-  if (!unknowns.empty()) text += fmt::format(R"(, "unknowns": {{{}}})", fmt::join(unknowns, ", "));
-  return text + "}\n";
+  nlohmann::ordered_json text = {{"program", program}, {"version", version}, {"threads", threads_}};
+  for (const auto& [name, time] : phases_) text["seconds"][name] = seconds(time);
+  text["total"] = seconds(total_);
+  text["peak_memory_bytes"] = peak_memory();
+  for (const auto& [p, n] : unknowns_) text["unknowns"][std::to_string(p)] = n;
+  return text.dump() + "\n";
 }
 
 long peak_memory() {

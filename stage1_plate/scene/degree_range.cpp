@@ -24,9 +24,9 @@ void set_degrees(PlateScene& scene, const std::string& option) {
   const auto dots = option.find("..");
   const int low = degree(std::string_view(option).substr(0, dots));
   const int high = dots == std::string::npos ? low : degree(std::string_view(option).substr(dots + 2));
-  if (low < 1 || high < low || high > highest_p)
+  if (low < 1 || high < low || high > pfem::highest_p)
     throw InputError(fmt::format("--p: '{}' is not allowed; allowed: a degree from 1 to {}, or a range such as 1..{}",
-                                 option, highest_p, highest_p));
+                                 option, pfem::highest_p, pfem::highest_p));
   scene.p_low = low;
   scene.p_high = high;
 }

@@ -120,8 +120,8 @@ void read_p(const Value& root, PlateScene& scene) {
   const auto p = root.find("p");
   if (!p) return;
   const auto range = p->is_array() ? p->items(2, 2) : std::vector{*p, *p};
-  scene.p_low = range[0].integer(1, highest_p);
-  scene.p_high = range[1].integer(scene.p_low, highest_p);
+  scene.p_low = range[0].integer(1, pfem::highest_p);
+  scene.p_high = range[1].integer(scene.p_low, pfem::highest_p);
 }
 
 std::vector<std::string> edge_names(const PlateScene& scene) {

@@ -125,7 +125,7 @@ struct PlateScene {
   std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
   pfem::Space space = pfem::Space::trunk;
   bool has_space = false;  ///< whether the scene says which
-  int p_low = 1, p_high = 8;
+  int p_low = 1, p_high = pfem::highest_p;
 
   /// The loads of a scene that has them.
   [[nodiscard]] const SceneLoads& given_loads() const {
@@ -133,8 +133,6 @@ struct PlateScene {
     return *loads;
   }
 };
-
-inline constexpr int highest_p = 8;
 
 /// Replaces the scene's degrees by the option's: "8" is that degree alone, "4..8" a range, "" leaves the scene's.
 /// Throws InputError for anything else or outside 1..8.

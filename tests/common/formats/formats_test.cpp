@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
 
 #include "common/errors.hpp"
@@ -13,8 +14,10 @@
 namespace fastjoint::formats {
 namespace {
 
+using h5::any;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
+using Names = std::vector<std::string>;
 
 TEST(Units, AreWrittenAsEngineersDo) {
   const Units units{"in", "lbf"};
@@ -30,60 +33,23 @@ TEST(Units, AreWrittenAsEngineersDo) {
   EXPECT_EQ(unit({"in", "lbf"}, -0.7, 1), "lbf/in^0.7");
 }
 
-TEST(Space, IsTheTrunkSpaceInAFileWithoutIt) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("plate.h5");
-  const auto read = [&](const char* space) {
-    h5::Writer file(path, "plate-solution", 2, 0);
-    if (space != nullptr) file.attribute("space", space);
-    file.commit();
-    return read_space(h5::Reader(path, "plate-solution", 2));
-  };
-  EXPECT_EQ(read(nullptr), pfem::Space::trunk);
-  EXPECT_EQ(read("trunk"), pfem::Space::trunk);
-  EXPECT_EQ(read("product"), pfem::Space::product);
-  EXPECT_THAT([&] { (void)read("serendipity"); },
-              ThrowsMessage<FileError>(
-                  HasSubstr("plate.h5: attribute 'space' is 'serendipity', expected one of trunk, product")));
-}
-
-/// Matrices as a laboratory would write them: only what must be there.
-TEST(PlateMatrices, HandMadeFilesMayLeaveOutWhatTheyDoNotHave) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("lab.h5");
-  h5::Writer file(path, "plate-matrices", 1, 0);
-  file.write("p", Eigen::VectorXi(Eigen::VectorXi::Constant(1, 1)), {"1", ""});
-  file.write("disc/hole", std::vector<std::string>{"a", "b"}, {"1", ""});
-  file.write("disc/direction", std::vector<std::string>{"x", "x"}, {"1", ""});
-  file.write("S_dd", {Eigen::MatrixXd::Identity(2, 2)}, 2, 2, {"force/length", ""});
-  file.commit();
-  const PlateMatrices a = read_plate_matrices(path);
-  EXPECT_EQ(a.n_discs(), 2);
-  EXPECT_EQ(a.n_externals() + a.n_friction_cases() + a.n_tractions(), 0);
-  EXPECT_EQ(a.S_dd.at(0), Eigen::MatrixXd::Identity(2, 2));
-  EXPECT_EQ(a.R_df.at(0).rows(), 2);
-  EXPECT_TRUE(std::isinf(a.S_dd_error(0, 0)));
-}
-
-/// What the length of one dataset says of another, and what degrees there are, hold in a hand-made file too.
+/// MATRICES.h5 as a laboratory would write it: only what must be there, and what a test adds.
 class HandMade : public testing::Test {
  protected:
-  void write(const std::vector<int>& p, bool with_bearing = true, const std::string& side = "-x") const {
-    const Eigen::Index n = p.size();
+  using Add = std::function<void(h5::Writer&)>;
+  void write(
+      const Add& add = [](auto&) {}, const std::vector<int>& p = {1}, const char* unit = "") const {
     h5::Writer file(path_, "plate-matrices", 1, 0);
-    file.write("p", Eigen::VectorXi(Eigen::Map<const Eigen::VectorXi>(p.data(), n)), {"1", ""});
-    file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
-    file.write("S_dd", std::vector<Eigen::MatrixXd>(p.size(), Eigen::MatrixXd::Identity(1, 1)), 1, 1, {"1", ""});
-    file.write("disc/direction", std::vector<std::string>{"x"}, {"1", ""});
-    file.write("friction/hole", std::vector<std::string>{"a", "a"}, {"1", ""});
-    if (with_bearing) file.write("friction/bearing", std::vector<std::string>{"+x", side}, {"1", ""});
-    for (const char* each : {"friction/unit_force", "friction/resultant"})
-      file.write(each, Eigen::VectorXd(Eigen::VectorXd::Ones(2)), {"1", ""});
-    file.write("R_df", std::vector<Eigen::MatrixXd>(p.size(), Eigen::MatrixXd::Zero(1, 2)), 1, 2, {"1", ""});
+    file("p", p, {any}, "1", "");
+    file("disc/hole", Names{"a", "b"}, {any}, "1", "");
+    file("disc/direction", Names{"x", "x"}, {any}, "1", "");
+    file("S_dd", std::vector<Eigen::Matrix2d>(p.size(), Eigen::Matrix2d::Identity()), {any, 2, 2}, unit, "");
+    add(file);
     file.commit();
   }
+  [[nodiscard]] PlateMatrices read() const { return read_plate_matrices(path_); }
   void refused(const std::string& message) const {
-    EXPECT_THAT([&] { (void)read_plate_matrices(path_); }, ThrowsMessage<FileError>(HasSubstr(message)));
+    EXPECT_THAT([&] { (void)read(); }, ThrowsMessage<FileError>(HasSubstr("lab.h5" + message)));
   }
 
  private:
@@ -91,96 +57,132 @@ class HandMade : public testing::Test {
   std::string path_ = folder_.path("lab.h5");
 };
 
+TEST_F(HandMade, FilesMayLeaveOutWhatTheyDoNotHave) {
+  write();
+  const PlateMatrices a = read();
+  EXPECT_EQ(a.n_discs(), 2);
+  EXPECT_EQ(a.n_externals() + a.n_friction_cases() + a.n_tractions(), 0);
+  EXPECT_EQ(a.S_dd.at(0), Eigen::MatrixXd::Identity(2, 2));
+  EXPECT_EQ(a.R_df.at(0).rows(), 2);
+  EXPECT_EQ(a.disc_modulus, Eigen::VectorXd::Zero(2));
+  EXPECT_EQ(a.ndof, Eigen::VectorXi::Zero(1));
+  EXPECT_TRUE(std::isinf(a.S_dd_error(0, 0)));
+  EXPECT_EQ(a.stresses.p.size() + a.stresses.section_hole.size(), 0);
+}
+
+TEST_F(HandMade, AnExternalNeedsItsStiffness) {
+  const auto external = [](h5::Writer& file) { file("external/id", Names{"P"}, {any}, "", ""); };
+  write(external);
+  refused(":S_ee: dataset is missing");
+  write([&](h5::Writer& file) {
+    external(file);
+    file("S_ee", Eigen::Matrix<double, 1, 1>(3), {1, 1, 1}, "", "");
+    file("S_ed", Eigen::Vector2d(0, -1), {1, 1, 2}, "", "");
+  });
+  EXPECT_EQ(read().external_direction, Names{"x"});
+  EXPECT_EQ(read().S_ed.at(0), Eigen::RowVector2d(0, -1));
+}
+
 TEST_F(HandMade, EveryFrictionCaseHasASide) {
-  write({1}, false);
-  refused("lab.h5:friction/bearing: dataset is missing");
-  write({1}, true, "x");
-  refused("lab.h5:friction/bearing: holds \"x\", expected one of +x, -x, +y, -y");
+  const auto write_with = [&](const Names& bearing) {
+    write([&](h5::Writer& file) {
+      file("friction/hole", Names{"a", "a"}, {any}, "", "");
+      if (!bearing.empty()) file("friction/bearing", bearing, {any}, "", "");
+    });
+  };
+  write_with({});
+  refused(":friction/bearing: dataset is missing");
+  write_with({"+x", "x"});
+  refused(":friction/bearing: holds \"x\", expected one of +x, -x, +y, -y");
+  write_with({"+x", "-x"});
+  refused(":friction/unit_force: dataset is missing");
 }
 
 TEST_F(HandMade, DegreesAscend) {
-  write({2, 1});
-  refused("lab.h5:p: is 2, 1, expected ascending degrees from 1 to 99");
-  write({2, 2});
-  refused("lab.h5:p: is 2, 2, expected");
-  write({-1, 2});
-  refused("lab.h5:p: is -1, 2, expected");
-  write({});
-  refused("lab.h5:p: holds no degree");
+  const auto write_p = [&](const std::vector<int>& p) { write([](auto&) {}, p); };
+  write_p({2, 1});
+  refused(":p: holds 2, 1, expected ascending degrees from 1 to 99");
+  write_p({2, 2});
+  refused(":p: holds 2, 2, expected");
+  write_p({-1, 2});
+  refused(":p: holds -1, expected");
+  write_p({99, 100});
+  refused(":p: holds 100, expected");
+  write_p({});
+  refused(":p: shape is (0), expected (at least 1)");
 }
 
-TEST(PlateMatrices, UnitsAreComparedWhereTheFileHasLabels) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("lab.h5");
+TEST_F(HandMade, ErrorsAreNotNegative) {
+  const auto write_error = [&](double error) {
+    write([&](h5::Writer& file) { file("S_dd_error", Eigen::Matrix2d::Constant(error).eval(), {2, 2}, "", ""); });
+  };
+  write_error(-1);
+  refused(":S_dd_error: holds -1, expected numbers >= 0");
+  write_error(std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::isinf(read().S_dd_error(1, 0)));
+}
+
+TEST_F(HandMade, UnitsAreComparedWhereTheFileHasLabels) {
   const auto write_with = [&](const std::string& labels) {
-    h5::Writer file(path, "plate-matrices", 1, 0);
-    file.attribute("units", labels);
-    file.write("p", Eigen::VectorXi(Eigen::VectorXi::Constant(1, 1)), {"1", ""});
-    file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
-    file.write("disc/direction", std::vector<std::string>{"x"}, {"1", ""});
-    file.write("S_dd", {Eigen::MatrixXd::Identity(1, 1)}, 1, 1, {"N/m", ""});
-    file.commit();
+    write([&](h5::Writer& file) { file.attribute("units", labels); }, {1}, "N/m");
   };
   write_with("metres and newtons");
-  EXPECT_EQ(read_plate_matrices(path).header.units, Units{});
+  EXPECT_EQ(read().header.units, Units{});
   write_with(R"({"length": "m", "force": "N"})");
-  EXPECT_EQ(read_plate_matrices(path).header.units, (Units{"m", "N"}));
+  EXPECT_EQ(read().header.units, (Units{"m", "N"}));
   write_with(R"({"length": "mm", "force": "N"})");
-  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
-              ThrowsMessage<FileError>(HasSubstr("lab.h5:S_dd: unit is 'N/m', expected 'N/mm'")));
+  refused(":S_dd: unit is 'N/m', expected 'N/mm'");
 }
 
-TEST(PlateMatrices, AnExternalNeedsItsStiffness) {
-  const test::TemporaryFolder folder;
-  const std::string path = folder.path("lab.h5");
-  h5::Writer file(path, "plate-matrices", 1, 0);
-  file.write("p", Eigen::VectorXi(Eigen::VectorXi::Constant(1, 1)), {"1", ""});
-  file.write("disc/hole", std::vector<std::string>{"a"}, {"1", ""});
-  file.write("disc/direction", std::vector<std::string>{"x"}, {"1", ""});
-  file.write("external/id", std::vector<std::string>{"P"}, {"1", ""});
-  file.write("S_dd", {Eigen::MatrixXd::Identity(1, 1)}, 1, 1, {"force/length", ""});
-  file.commit();
-  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
-              ThrowsMessage<FileError>(HasSubstr("lab.h5:S_ee: dataset is missing")));
+TEST_F(HandMade, TheSpaceIsTheTrunkSpaceUnlessTheFileSaysOtherwise) {
+  const auto write_space = [&](const char* space) { write([&](h5::Writer& file) { file.attribute("space", space); }); };
+  write();
+  EXPECT_EQ(read().space, pfem::Space::trunk);
+  write_space("trunk");
+  EXPECT_EQ(read().space, pfem::Space::trunk);
+  write_space("product");
+  EXPECT_EQ(read().space, pfem::Space::product);
+  write_space("serendipity");
+  refused(": attribute 'space' is 'serendipity', expected one of trunk, product");
+}
+
+/// One disc and the stresses at one point of its rim.
+PlateMatrices one_disc() {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  PlateMatrices a;
+  a.p = a.ndof = Eigen::VectorXi::Ones(1);
+  a.disc_hole = {"a"};
+  a.disc_direction = {"x"};
+  a.disc_modulus = Eigen::VectorXd::Constant(1, 3e7);
+  a.S_dd = {one};
+  a.S_dd_error = one;
+  for (auto* empty : {&a.S_ee, &a.S_ed, &a.R_ef, &a.R_df, &a.T_d, &a.T_e, &a.C_t}) *empty = {Eigen::MatrixXd()};
+  auto& s = a.stresses;
+  s.p = a.p;
+  s.rim_hole = s.section_hole = {"a"};
+  s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.angle = one;
+  s.rim_center = s.bearing_area = s.rim_modulus = Eigen::MatrixXd::Constant(1, 2, 0.5);
+  s.rim_start = Eigen::VectorXi::LinSpaced(2, 0, 1);
+  s.sigma_rr = s.sigma_tt = s.sigma_rt = s.section_force = {one};
+  s.section_side = {"+x"};
+  return a;
 }
 
 TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("m.h5");
-  const auto write_with = [&](double area, const std::string& side) {
-    PlateMatrices a;
-    a.p = Eigen::VectorXi::Constant(1, 1);
-    a.ndof = a.p;
-    a.disc_hole = {"a"};
-    a.disc_direction = {"x"};
-    a.disc_modulus = Eigen::VectorXd::Constant(1, 3e7);
-    a.S_dd = {Eigen::MatrixXd::Identity(1, 1)};
-    a.S_dd_error = Eigen::MatrixXd::Zero(1, 1);
-    a.S_ed_error = Eigen::MatrixXd::Zero(0, 1);
-    const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
-    auto& s = a.stresses;
-    s.p = a.p;
-    s.rim_hole = s.section_hole = {"a"};
-    s.rim_center = Eigen::MatrixXd::Zero(1, 2);
-    s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.angle = Eigen::VectorXd::Ones(1);
-    s.bearing_area = s.rim_modulus = Eigen::MatrixXd::Constant(1, 2, area);
-    s.rim_start = Eigen::VectorXi::LinSpaced(2, 0, 1);
-    s.sigma_rr = s.sigma_tt = s.sigma_rt = s.section_force = {one};
-    s.section_side = {side};
-    a.R_df = a.T_d = {Eigen::MatrixXd(1, 0)};
-    a.S_ed = {Eigen::MatrixXd(0, 1)};
-    a.S_ee = a.R_ef = a.T_e = a.C_t = {Eigen::MatrixXd(0, 0)};
-    a.load_displacement.resize(0, 1);
+  const auto refused = [&](const std::function<void(PlateStresses&)>& edit, const std::string& message) {
+    PlateMatrices a = one_disc();
+    edit(a.stresses);
     write(path, a);
+    EXPECT_THAT([&] { (void)read_plate_matrices(path); }, ThrowsMessage<FileError>(HasSubstr("m.h5:" + message)));
   };
-  write_with(0.5, "+x");
+  write(path, one_disc());
   EXPECT_EQ(read_plate_matrices(path).stresses.section_side.at(0), "+x");
-  write_with(0, "+x");
-  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
-              ThrowsMessage<FileError>(HasSubstr("m.h5:rim/bearing_area: holds 0, expected numbers > 0")));
-  write_with(0.5, "");
-  EXPECT_THAT([&] { (void)read_plate_matrices(path); },
-              ThrowsMessage<FileError>(HasSubstr("m.h5:section/side: holds \"\", expected one of +x, -x, +y, -y")));
+  refused([](auto& s) { s.bearing_area(0, 1) = 0; }, "rim/bearing_area: holds 0, expected numbers > 0");
+  refused([](auto& s) { s.section_side = {""}; }, "section/side: holds \"\", expected one of +x, -x, +y, -y");
+  refused([](auto& s) { s.rim_start[1] = 2; }, "rim/start: does not rise from 0 to the 1 points of rim/angle");
+  refused([](auto& s) { s.p[0] = 100; }, "stress/p: holds 100, expected ascending degrees from 1 to 99");
 }
 
 TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {

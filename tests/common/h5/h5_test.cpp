@@ -21,42 +21,115 @@ using testing::ThrowsMessage;
 
 const Eigen::MatrixXd A = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
 
+/// Every kind of value that a dataset can be.
+struct Sample {
+  struct Item {
+    int number;
+    double from, to;
+    Eigen::Vector2d place;
+    std::string name;
+    friend bool operator==(const Item&, const Item&) = default;
+  };
+  std::string name;
+  bool complete = false;
+  Eigen::MatrixXd matrix, transpose, folded;
+  Eigen::VectorXd vector;
+  Eigen::VectorXi integers;
+  Eigen::MatrixXi integer_matrix;
+  std::vector<Eigen::MatrixXd> stack, nothing;
+  std::vector<Eigen::Matrix2d> fixed;
+  std::vector<std::string> names;
+  std::string text;
+  double number = 0;
+  std::optional<Eigen::VectorXd> given, absent;
+  std::vector<Item> items;
+  friend bool operator==(const Sample&, const Sample&) = default;
+};
+
+template <class File, class AnySample>
+void datasets(File& file, AnySample& a) {
+  file.attribute("name", a.name);
+  file.attribute("complete", a.complete);
+  file("group/A", a.matrix, {2, 3}, "N/mm", "a matrix");
+  file("v", a.vector, {some}, "mm", "a vector");
+  file("group/deep/i", a.integers, {any}, "1", "integers");
+  file("I", a.integer_matrix, {2, 2}, "1", "integer matrix");
+  file("stack", a.stack, {any, 2, 3}, "1", "two matrices");
+  file("nothing", a.nothing, {any, 4, 2}, "1", "no matrices");
+  file("fixed", a.fixed, {any, 2, 2}, "1", "matrices of fixed size");
+  file("B", a.transpose.transpose(), {3, 2}, "1", "A transposed");
+  file("folded", a.folded, {2, 3, 1}, "1", "a matrix of three extents");
+  file("names", a.names, {any}, "1", "strings");
+  file("text", a.text, {}, "1", "a text");
+  file("number", a.number, {1}, "1", "a number");
+  if (file.has("given", a.given)) file("given", *a.given, {any}, "1", "there");
+  if (file.has("absent", a.absent)) file("absent", *a.absent, {any}, "1", "not there");
+  file("item/number", Column{a.items, &Sample::Item::number}, {any}, "1", "a member");
+  file("item/range", Column{a.items, [](auto& item) { return std::tie(item.from, item.to); }}, {2, 2}, "1", "two");
+  file("item/place", Column{a.items, &Sample::Item::place}, {2, 2}, "1", "a vector in each");
+  file("item/name", Column{a.items, &Sample::Item::name}, {2}, "1", "a text in each");
+}
+
+Sample sample() {
+  Sample a;
+  a.name = "n\u00e4me";
+  a.complete = true;
+  a.matrix = a.transpose = A;
+  a.folded = 3 * A;
+  a.vector = A.row(1);
+  a.integers = Eigen::VectorXi::LinSpaced(2, 7, 8);
+  a.integer_matrix = (Eigen::Matrix2i() << 1, 2, 3, 4).finished();
+  a.stack = {A, 2 * A};
+  a.fixed = {A.leftCols(2), A.rightCols(2)};
+  a.names = {"one", "", "dr\u00fci"};
+  a.text = "{}";
+  a.number = 0.25;
+  a.given = A.row(0);
+  a.items = {{1, 2, 3, {4, 5}, "six"}, {7, 8, 9, {10, 11}, ""}};
+  return a;
+}
+
 void write_sample(const std::string& path, int major = 1) {
   Writer file(path, "sample", major, 2);
-  file.attribute("name", "n\u00e4me");
-  file.attribute("complete", 1);
-  file.write("group/A", A, {"N/mm", "a matrix"});
-  file.write("v", Eigen::VectorXd(Eigen::Vector3d(1, 2, 3)), {"mm", "a vector"});
-  file.write("group/deep/i", Eigen::VectorXi(Eigen::Vector2i(7, 8)), {"1", "integers"});
-  file.write("I", Eigen::MatrixXi(Eigen::Matrix2i::Identity()), {"1", "integer matrix"});
-  file.write("stack", {A, 2 * A}, 2, 3, {"1", "two matrices"});
-  file.write("nothing", std::vector<Eigen::MatrixXd>{}, 4, 2, {"1", "no matrices"});
-  file.write_transposed("B", A, {"1", "A transposed"});
-  file.write("names", std::vector<std::string>{"one", "", "dr\u00fci"}, {"1", "strings"});
-  file.write("text", std::string("{}"), {"1", "a text"});
+  const Sample a = sample();
+  datasets(file, a);
   file.commit();
 }
 
 TEST(Hdf5, ReadsBackWhatWasWritten) {
   const test::TemporaryFolder folder;
   write_sample(folder.path("a.h5"));
-  const Reader file(folder.path("a.h5"), "sample", 1);
-  EXPECT_EQ(file.attribute("name", ""), "n\u00e4me");
-  EXPECT_EQ(file.attribute("absent", "otherwise"), "otherwise");
-  EXPECT_EQ(file.integer_attribute("complete"), 1);
-  EXPECT_EQ(file.matrix("group/A", 2, any, "N/mm"), A);
-  EXPECT_EQ(file.vector("v", 3, "mm"), Eigen::Vector3d(1, 2, 3));
-  EXPECT_EQ(file.integers("group/deep/i", any), Eigen::Vector2i(7, 8));
-  EXPECT_EQ(file.integer_matrix("I", 2, 2), Eigen::MatrixXi(Eigen::Matrix2i::Identity()));
-  EXPECT_EQ(file.stack("stack", any, 2, 3, "1").at(1), 2 * A);
-  EXPECT_TRUE(file.stack("nothing", any, 4, 2, "1").empty());
-  EXPECT_EQ(file.matrix("B", 3, 2, "1"), A.transpose());
-  EXPECT_EQ(file.transposed("B", 3, 2, "1"), A);
-  EXPECT_EQ(file.strings("names", any), (std::vector<std::string>{"one", "", "dr\u00fci"}));
-  EXPECT_EQ(file.text("text"), "{}");
+  Reader file(folder.path("a.h5"), "sample", 1);
+  Sample a;
+  datasets(file, a);
+  EXPECT_TRUE(a == sample());
+  EXPECT_EQ(a.items, sample().items);
+  EXPECT_EQ(file.text_attribute("absent", "otherwise"), "otherwise");
+  Eigen::MatrixXd transposed, folded;
+  file("B", transposed, {3, 2}, "1", "");
+  EXPECT_EQ(transposed, A.transpose());
+  file("item/range", folded, {2, 2}, "1", "");
+  EXPECT_EQ(folded, (Eigen::Matrix2d() << 2, 3, 8, 9).finished()) << "the last index is the innermost";
   EXPECT_TRUE(file.has("group/A"));
   EXPECT_FALSE(file.has("group/Z"));
   EXPECT_FALSE(file.has("none/A"));
+}
+
+TEST(Hdf5, WhatIsMissingIsWhatStandsInForIt) {
+  const test::TemporaryFolder folder;
+  write_sample(folder.path("a.h5"));
+  const Reader file(folder.path("a.h5"), "sample", 1);
+  Eigen::MatrixXd matrix;
+  file("none", matrix, {2, 3}, "1", "", or_else(infinite));
+  EXPECT_EQ(matrix, Eigen::MatrixXd::Constant(2, 3, infinite));
+  file("none", matrix, {0, 3}, "1", "");
+  EXPECT_EQ(matrix.rows(), 0);
+  EXPECT_EQ(matrix.cols(), 3);
+  std::vector<std::string> texts;
+  file("none", texts, {2}, "1", "", or_else("x"));
+  EXPECT_EQ(texts, (std::vector<std::string>{"x", "x"}));
+  file("none", texts, {any}, "1", "", or_else("x"));
+  EXPECT_TRUE(texts.empty());
 }
 
 TEST(Hdf5, EqualCallsGiveEqualBytes) {
@@ -78,9 +151,18 @@ TEST(Hdf5, ANaNIsNeverWritten) {
   Writer file(folder.path("a.h5"), "sample", 1, 0);
   EXPECT_THAT(
       [&] {
-        file.write("x", Eigen::VectorXd(Eigen::Vector2d(1, std::numeric_limits<double>::quiet_NaN())), {"1", ""});
+        file("x", std::vector<double>{1, std::numeric_limits<double>::quiet_NaN()}, {any}, "1", "");
       },
       ThrowsMessage<NumericalError>(HasSubstr("x would hold a NaN")));
+}
+
+using Eigen::MatrixXd, Eigen::VectorXd, Eigen::VectorXi;
+using Stack = std::vector<MatrixXd>;
+
+template <class Value>
+void read(const Reader& file, const std::string& name, const Shape& shape, const std::string& unit = "1") {
+  Value value;
+  file(name, value, shape, unit, "");
 }
 
 class WrongFile : public testing::Test {
@@ -124,7 +206,11 @@ TEST_F(WrongFile, TruncatedAnywhere) {
   const std::size_t n_image = whole.rfind("\nfastjoint xxhash ");
   for (std::size_t n = 0; n < n_image; n += whole.size() / 37) {
     folder_.write("a.h5", whole.substr(0, n));
-    EXPECT_NE(message([](const Reader& f) { (void)f.matrix("group/A", 2, 3, "N/mm"); }), "no error") << n << " bytes";
+    EXPECT_NE(message([](const Reader& f) {
+                read<MatrixXd>(f, "group/A", {2, 3}, "N/mm");
+              }),
+              "no error")
+        << n << " bytes";
   }
 }
 
@@ -187,7 +273,7 @@ TEST_F(WrongFile, WithoutSealItIsTakenAsItIs) {
   write_sample(path_);
   const std::string whole = test::read_file(path_);
   folder_.write("a.h5", whole.substr(0, whole.rfind("\nfastjoint xxhash ")));
-  EXPECT_EQ(message([](const Reader& f) { (void)f.matrix("group/A", 2, 3, "N/mm"); }), "no error");
+  EXPECT_EQ(message([](const Reader& f) { read<MatrixXd>(f, "group/A", {2, 3}, "N/mm"); }), "no error");
   EXPECT_EQ(Reader(path_, "sample", 1).digest(), "");
 }
 
@@ -204,21 +290,74 @@ TEST(Digest, IsThatOfTheFile) {
 
 TEST_F(WrongFile, ShapesUnitsTypes) {
   write_sample(path_);
-  EXPECT_THAT(message([](const Reader& f) { (void)f.vector("absent", any, "1"); }),
+  EXPECT_THAT(message([](const Reader& f) { read<VectorXd>(f, "absent", {any}); }),
               HasSubstr("a.h5:absent: dataset is missing or damaged"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.matrix("group/A", 3, any, "N/mm"); }),
+  EXPECT_THAT(message([](const Reader& f) {
+                read<MatrixXd>(f, "group/A", {3, any}, "N/mm");
+              }),
               HasSubstr("group/A: shape is (2, 3), expected (3, any)"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.vector("group/A", 6, "N/mm"); }), HasSubstr("expected (6)"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.matrix("group/A", 2, 3, "N/m"); }),
+  EXPECT_THAT(message([](const Reader& f) { read<VectorXd>(f, "group/A", {6}, "N/mm"); }), HasSubstr("expected (6)"));
+  EXPECT_THAT(message([](const Reader& f) {
+                read<Stack>(f, "nothing", {some, 4, 2});
+              }),
+              HasSubstr("nothing: shape is (0, 4, 2), expected (at least 1, 4, 2)"));
+  EXPECT_THAT(message([](const Reader& f) {
+                read<MatrixXd>(f, "group/A", {2, 3}, "N/m");
+              }),
               HasSubstr("unit is 'N/mm', expected 'N/m'"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.integers("v", 3); }), HasSubstr("type is not integer"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.vector("group/deep/i", 2, "1"); }),
+  EXPECT_THAT(message([](const Reader& f) { read<VectorXi>(f, "v", {3}); }), HasSubstr("type is not integer"));
+  EXPECT_THAT(message([](const Reader& f) { read<VectorXd>(f, "group/deep/i", {2}); }),
               HasSubstr("type is not floating point"));
-  EXPECT_THAT(message([](const Reader& f) { (void)f.strings("v", 3); }), HasSubstr("type is not string"));
+  EXPECT_THAT(message([](const Reader& f) { read<std::vector<std::string>>(f, "v", {3}); }),
+              HasSubstr("type is not string"));
   EXPECT_THAT(message([](const Reader& f) { (void)f.integer_attribute("nothing"); }),
               HasSubstr("'nothing' is missing"));
   EXPECT_THAT(message([](const Reader& f) { (void)f.integer_attribute("version"); }),
               HasSubstr("attribute 'version' is missing or not one integer"));
+}
+
+TEST_F(WrongFile, UnitsAreNotComparedWhenToldSo) {
+  write_sample(path_);
+  Reader file(path_, "sample", 1);
+  file.compare_units(false);
+  EXPECT_NO_THROW(read<MatrixXd>(file, "group/A", {2, 3}, "N/m"));
+}
+
+TEST_F(WrongFile, EntriesThatAreNotAllowed) {
+  Writer file(path_, "sample", 1, 0);
+  file("x", std::vector<double>{1, infinite, -1}, {any}, "1", "");
+  file("i", std::vector<int>{2, 4, 4}, {any}, "1", "");
+  file("words", std::vector<std::string>{"x", "z"}, {any}, "1", "");
+  file.commit();
+  const auto refused = [&](auto value, const char* name, const Allowed& allowed) {
+    return message([&](const Reader& f) { f(name, value, {any}, "1", "", allowed); });
+  };
+  const Eigen::VectorXd x;
+  const Eigen::VectorXi i;
+  const std::vector<std::string> words;
+  EXPECT_THAT(refused(x, "x", {}), HasSubstr("a.h5:x: holds inf, expected finite numbers"));
+  EXPECT_EQ(refused(x, "x", infinite_too), "no error");
+  EXPECT_THAT(refused(x, "x", not_negative), HasSubstr("x: holds -1, expected numbers >= 0"));
+  EXPECT_EQ(refused(i, "i", integers(2, 4)), "no error");
+  EXPECT_THAT(refused(i, "i", index_into(4)), HasSubstr("i: holds 4, expected integers from 0 to 3"));
+  EXPECT_THAT(refused(i, "i", integers(3, 4)), HasSubstr("i: holds 2, expected integers from 3 to 4"));
+  EXPECT_EQ(refused(i, "i", {.step = 0}), "no error");
+  EXPECT_THAT(refused(i, "i", {.text = "others", .step = 1}), HasSubstr("i: holds 4, 4, expected others"));
+  EXPECT_THAT(refused(words, "words", one_of({"x", "y"})), HasSubstr("words: holds \"z\", expected one of x, y"));
+  EXPECT_THAT(refused(words, "words", {.text = "none", .words = {{}}}), HasSubstr("holds \"x\", expected none"));
+  EXPECT_THAT(message([](const Reader& f) {
+                f.check("later", std::vector<int>{0, 5}, index_into(5));
+              }),
+              HasSubstr("a.h5:later: holds 5, expected integers from 0 to 4"));
+}
+
+TEST_F(WrongFile, EntriesThatDoNotMakeTheShapeAreNotWritten) {
+  Writer file(path_, "sample", 1, 0);
+  EXPECT_THAT(
+      [&] {
+        file("A", A, {3, 3}, "1", "");
+      },
+      ThrowsMessage<std::logic_error>(HasSubstr("a.h5:A: 6 entries do not make the shape (3, 3)")));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // PLATE.h5 files that someone has edited: what no plate can have is refused with its dataset.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <hdf5.h>
 
 #include <functional>
 #include <limits>
@@ -29,7 +30,6 @@ class EditedPlate : public testing::Test {
                 ThrowsMessage<FileError>(HasSubstr(fmt::format("plate.h5:{}", message))));
   }
 
- private:
   PlateSolution good_ = test::solve(test::make_plate(test::grid_scene(
       {0, 1}, {0, 1}, {{"a", 0.5, 0.5, 0.2}}, R"(, "p": [2, 3], "supports": [{"on": "left", "fix": ["x", "y"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
@@ -46,14 +46,52 @@ TEST_F(EditedPlate, DirectionsAndSides) {
 }
 
 TEST_F(EditedPlate, Degrees) {
-  refused([](auto& a) { a.p << 3, 2; }, "p: is 3, 2, expected ascending degrees from 1 to 8");
-  refused([](auto& a) { a.p[1] = 9; }, "p: is 2, 9, expected");
-  refused([](auto& a) { a.ndof[0] = a.ndof[1] + 1; }, "ndof: is ");
-  refused([](auto& a) { a.stress_p << 3, 2; }, "stress_p: is 3, 2, expected ascending degrees");
+  refused([](auto& a) { a.p << 3, 2; }, "p: holds 3, 2, expected ascending degrees from 1 to 8");
+  refused([](auto& a) { a.p[1] = a.stress_p[1] = 9; }, "p: holds 9, expected");
+  refused([](auto& a) { a.stress_p << 3, 2; }, "stress_p: holds 3, 2, expected ascending degrees");
+  refused([](auto& a) { a.stress_p = Eigen::VectorXi::LinSpaced(3, 2, 4); }, "stress_p: 4 is not in p");
+}
+
+TEST_F(EditedPlate, NumbersOfUnknowns) {
+  const test::TemporaryFolder folder;
+  const std::string path = folder.path("plate.h5");
+  formats::write(path, good_);
+  const auto overwrite = [&](int at_2, int at_3) {
+    const int numbers[] = {at_2, at_3};
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), set = H5Dopen2(file, "ndof", H5P_DEFAULT);
+    H5Dwrite(set, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, numbers);
+    H5Dclose(set);
+    H5Fclose(file);
+  };
+  const auto complaint = [&](const std::string& message) {
+    EXPECT_THAT([&] { (void)formats::read_plate_solution(path); }, ThrowsMessage<FileError>(HasSubstr(message)));
+  };
+  overwrite(5, 4);
+  complaint("plate.h5:ndof: holds 5, 4, expected numbers that do not fall");
+  overwrite(-1, 4);
+  complaint("plate.h5:ndof: holds -1, expected");
+  overwrite(1, good_.ndof[1]);
+  complaint("plate.h5:p2/U: shape is (");
+}
+
+TEST_F(EditedPlate, IndicesThatNameNothing) {
+  refused([](auto& a) { a.mesh.quads(0, 0) = a.mesh.n_nodes(); }, "mesh/quads: holds ");
+  refused([](auto& a) { a.mesh.arcs[0].b = -1; }, "mesh/arc_nodes: holds -1, expected integers from 0 to ");
+  refused([](auto& a) { a.mesh.material[0] = 1; }, "mesh/material: holds 1, expected integers from 0 to 0");
+  refused([](auto& a) { a.unknown(0, 0) = a.ndof[1]; }, "unknown: holds ");
+  refused([](auto& a) { a.unknown(0, 0) = -2 - static_cast<int>(a.shift.size()); }, "unknown: holds -");
+  refused([](auto& a) { a.hole_rim[0].sides[0].element = a.mesh.n_elements(); }, "hole/rim: names side ");
+  refused([](auto& a) { a.sections.at(0).sides.at(0).local_edge = 4; }, "section/sides: names side 4 of element ");
+  refused([](auto& a) { a.sections.at(0).hole = 1; }, "section/hole: holds 1, expected integers from 0 to 0");
+  refused([](auto& a) { a.contacts = {{1, 1, 0, 0}}; }, "contact/hole: holds 1, expected integers from 0 to 0");
+  refused([](auto& a) { a.friction_hole[0] = ""; }, "friction/hole: holds \"\", expected names in hole/id");
+  refused([](auto& a) { a.traction_hole[0] = std::string("b"); }, "traction/hole: holds \"b\", expected");
 }
 
 TEST_F(EditedPlate, RowsOfASparseMatrix) {
   refused([](auto& a) { a.K_fc.innerIndexPtr()[1] = a.K_fc.innerIndexPtr()[0]; }, "K_fc: is not a sparse matrix");
+  refused([](auto& a) { a.K_fc.innerIndexPtr()[0] = -1; }, "K_fc: is not a sparse matrix");
+  refused([](auto& a) { a.T_f.innerIndexPtr()[0] = a.ndof[1]; }, "T_f: is not a sparse matrix of ");
 }
 
 TEST_F(EditedPlate, RimsThatAreNotArcsOfTheirCircle) {
@@ -64,8 +102,8 @@ TEST_F(EditedPlate, RimsThatAreNotArcsOfTheirCircle) {
 
 TEST_F(EditedPlate, InfiniteNumbers) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
-  refused([](auto& a) { a.cases[1].U(0, 0) = infinite; }, "p3/U: holds an infinite number, expected finite ones");
-  refused([](auto& a) { a.hole_spring[0].acts[0].to = infinite; }, "hole/arc: holds an infinite number");
+  refused([](auto& a) { a.cases[1].U(0, 0) = infinite; }, "p3/U: holds inf, expected finite numbers");
+  refused([](auto& a) { a.hole_spring[0].acts[0].to = infinite; }, "hole/arc: holds inf");
 }
 
 }  // namespace

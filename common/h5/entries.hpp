@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <concepts>
+#include <functional>
+#include <string>
+#include <tuple>
+#include <vector>
+
+namespace fastjoint::h5 {
+
+/// Extents of a dataset.
+using Shape = std::vector<Eigen::Index>;
+/// As the first extent of what is expected: any will do, or any but 0.
+inline constexpr Eigen::Index any = -1, some = -2;
+
+/// The dataset that one member of every item of a list makes.
+///
+/// @tparam Member A pointer to the member, or a function from an item to a reference, or to a std::tie of some.
+template <class List, class Member>
+struct Column {
+  List& list;
+  Member member;
+};
+template <class List, class Member>
+Column(List&, Member) -> Column<List, Member>;
+
+// The values that a dataset can be: a number, a text, an Eigen matrix, vector or transpose of one, a Column, tuples of
+// entries, and lists of all these.
+template <class T>
+concept Entry = std::is_arithmetic_v<T> || std::same_as<T, std::string>;
+template <class T>
+concept Matrix = requires(const T& a) {
+  a.rows();
+};
+template <class T>
+concept RowMajor = Matrix<T> &&(bool(T::IsRowMajor) || bool(T::IsVectorAtCompileTime));
+template <class T>
+concept ColumnOfList = requires(const T& a) {
+  a.member;
+};
+template <class T>
+concept Tuple = requires {
+  std::tuple_size<T>::value;
+};
+
+/// Calls each(entry) in the order of the file, where the last index is the innermost.
+template <class T, class Each>
+void for_each_entry(T&& value, const Each& each) {
+  using Value = std::remove_cvref_t<T>;
+  if constexpr (Entry<Value>) {
+    each(value);
+  } else if constexpr (Matrix<Value>) {
+    for (Eigen::Index i = 0; i < value.rows(); ++i)
+      for (Eigen::Index j = 0; j < value.cols(); ++j) each(value(i, j));
+  } else if constexpr (ColumnOfList<Value>) {
+    for (auto& item : value.list) for_each_entry(std::invoke(value.member, item), each);
+  } else if constexpr (Tuple<Value>) {
+    std::apply([&](auto&... entry) { (each(entry), ...); }, value);
+  } else {
+    for (auto& item : value) for_each_entry(item, each);
+  }
+}
+
+template <class T>
+auto entry_of() {
+  if constexpr (Entry<T>) {
+    return T();
+  } else if constexpr (Matrix<T>) {
+    return typename T::Scalar();
+  } else if constexpr (ColumnOfList<T>) {
+    using Item = decltype(*std::begin(std::declval<T>().list));
+    return entry_of<std::remove_cvref_t<std::invoke_result_t<decltype(T::member), Item>>>();
+  } else if constexpr (Tuple<T>) {
+    return entry_of<std::remove_cvref_t<std::tuple_element_t<0, T>>>();
+  } else {
+    return entry_of<typename T::value_type>();
+  }
+}
+/// Type of the entries of a value: double, int or std::string.
+template <class T>
+using EntryOf = decltype(entry_of<std::remove_cvref_t<T>>());
+
+/// First extent of a value of one extent or more.
+template <class T>
+Eigen::Index first_extent(const T& value) {
+  if constexpr (Matrix<T>)
+    return value.rows();
+  else if constexpr (ColumnOfList<T>)
+    return std::ssize(value.list);
+  else if constexpr (Entry<T>)
+    return 1;
+  else
+    return std::ssize(value);
+}
+
+/// Gives a value the extents of a dataset from the k-th on; a matrix takes all behind its first as its columns.
+template <class T>
+void resize(T&& value, const Shape& shape, std::size_t k = 0) {
+  using Value = std::remove_cvref_t<T>;
+  if constexpr (Matrix<Value>) {
+    Eigen::Index cols = 1;
+    for (std::size_t i = k + 1; i < shape.size(); ++i) cols *= shape[i];
+    value.resize(shape[k], cols);
+  } else if constexpr (ColumnOfList<Value>) {
+    value.list.resize(shape[k]);
+    for (auto& item : value.list) resize(std::invoke(value.member, item), shape, k + 1);
+  } else if constexpr (!Entry<Value> && !Tuple<Value>) {
+    value.resize(shape[k]);
+    for (auto& item : value) resize(item, shape, k + 1);
+  }
+}
+
+}  // namespace fastjoint::h5
