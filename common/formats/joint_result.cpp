@@ -118,8 +118,8 @@ void datasets(File& file, Result& a) {
   const Eigen::Index directions = a.direction.size();
   file("delta", a.delta, {steps, n}, length, "displacement of the first plate's disc relative to the second's");
   file("F", a.F, {steps, n}, force, "force of the fastener's law: of bearing, or transferred if it includes friction");
-  if (file.has("F_error", a.F_error))
-    file("F_error", *a.F_error, {steps, n}, force, "estimated error of F by those of the plates' matrices",
+  if (auto* F_error = file.part("F_error", a.F_error))
+    file("F_error", *F_error, {steps, n}, force, "estimated error of F by those of the plates' matrices",
          h5::infinite_too);
   file("delta_vector", a.delta_vector, {steps, n, directions}, length, "components of delta");
   file("F_vector", a.F_vector, {steps, n, directions}, force, "components of F");
@@ -133,7 +133,8 @@ void datasets(File& file, Result& a) {
   file("plate/plate_digest", Column{a.plates, &PlateHistory::plate_digest}, {plates}, "1",
        "digest of the PLATE.h5 that each was made of", h5::or_else(""));
   for (auto& plate : a.plates) plate_datasets(file, plate, steps, units);
-  if (file.has("sensitivity", a.sensitivity)) sensitivity_datasets(file, *a.sensitivity, steps, n, units);
+  if (auto* sensitivity = file.part("sensitivity", a.sensitivity))
+    sensitivity_datasets(file, *sensitivity, steps, n, units);
 }
 
 }  // namespace

@@ -32,11 +32,10 @@ class Reader {
   /// Whether units are compared: they are unless told otherwise.
   void compare_units(bool compare);
   [[nodiscard]] bool has(const std::string& dataset) const;
-  /// The same, and then makes a value for what is there.
+  /// Where to read what the file may lack: a new value, or null if it does.
   template <class T>
-  [[nodiscard]] bool has(const std::string& dataset, std::optional<T>& value) const {
-    if (has(dataset)) value.emplace();
-    return value.has_value();
+  [[nodiscard]] T* part(const std::string& dataset, std::optional<T>& value) const {
+    return has(dataset) ? &value.emplace() : nullptr;
   }
 
   /// Root attribute; `otherwise` if the file has none of that name.

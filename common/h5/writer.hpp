@@ -47,10 +47,10 @@ class Writer {
       put(name, shape, std::span<const Scalar>(entries), unit, meaning);
     }
   }
-  /// Whether the file has what `value` is.
+  /// What the file gets of a value that may be missing; null if it is.
   template <class T>
-  [[nodiscard]] bool has(const std::string& /*name*/, const std::optional<T>& value) const {
-    return value.has_value();
+  [[nodiscard]] const T* part(const std::string& /*name*/, const std::optional<T>& value) const {
+    return value ? &*value : nullptr;
   }
 
   /// Flushes, puts the file at its path and returns its digest.

@@ -62,8 +62,8 @@ void datasets(File& file, AnySample& a) {
   file("names", a.names, {any}, "1", "strings");
   file("text", a.text, {}, "1", "a text");
   file("number", a.number, {1}, "1", "a number");
-  if (file.has("given", a.given)) file("given", *a.given, {any}, "1", "there");
-  if (file.has("absent", a.absent)) file("absent", *a.absent, {any}, "1", "not there");
+  if (auto* given = file.part("given", a.given)) file("given", *given, {any}, "1", "there");
+  if (auto* absent = file.part("absent", a.absent)) file("absent", *absent, {any}, "1", "not there");
   file("item/number", Column{a.items, &Sample::Item::number}, {any}, "1", "a member");
   file("item/range", Column{a.items, [](auto& item) { return std::tie(item.from, item.to); }}, {2, 2}, "1", "two");
   file("item/place", Column{a.items, &Sample::Item::place}, {2, 2}, "1", "a vector in each");
