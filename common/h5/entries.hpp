@@ -51,6 +51,8 @@ void for_each_entry(T&& value, const Each& each) {
   using Value = std::remove_cvref_t<T>;
   if constexpr (Entry<Value>) {
     each(value);
+  } else if constexpr (RowMajor<Value>) {
+    for (Eigen::Index k = 0; k < value.size(); ++k) each(value.data()[k]);
   } else if constexpr (Matrix<Value>) {
     for (Eigen::Index i = 0; i < value.rows(); ++i)
       for (Eigen::Index j = 0; j < value.cols(); ++j) each(value(i, j));

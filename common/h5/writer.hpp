@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <span>
 #include <string>
@@ -43,6 +45,7 @@ class Writer {
       put(name, shape, std::span<const Scalar>(value.data(), value.size()), unit, meaning);
     } else {
       std::vector<Scalar> entries;
+      entries.reserve(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
       for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
       put(name, shape, std::span<const Scalar>(entries), unit, meaning);
     }
