@@ -99,8 +99,8 @@ Document parse(const std::string& file, const std::string& text) {
         fmt::format("{}: not valid JSON at {}: {}", file, line_and_column(text, e.byte), reason(text, e.what())));
   } catch (const json::exception& e) {  // a number that no double holds
     const std::string what = e.what();
-    throw InputError(
-        fmt::format("{}: not valid JSON: {}; allowed: numbers up to 1.8e308", file, what.substr(what.find("] ") + 2)));
+    throw InputError(fmt::format("{}: not valid JSON: {} is too large; allowed: numbers up to 1.8e308", file,
+                                 what.substr(what.find('\''))));
   }
 }
 

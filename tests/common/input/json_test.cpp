@@ -60,7 +60,7 @@ TEST(Json, SaysWhatToDoAboutCommonMistakes) {
   says("{\"a\": NaN}", "allowed: a number, a text or key in double quotes, true, false");
   says("{\"a\": .5}", "allowed: a number");
   says("{\"a\": \"\xe4\"}", "a character is not UTF-8; save the file as UTF-8");
-  says("{\"a\": 1e999}", "'1e999'; allowed: numbers up to 1.8e308");
+  says("{\"a\": 1e999}", "'1e999' is too large; allowed: numbers up to 1.8e308");
   const std::string sixteen("{\0\"\0a\0", 7);
   says("\xff\xfe" + sixteen, "is encoded in UTF-16; save it as UTF-8");
   says(sixteen, "is encoded in UTF-16; save it as UTF-8");
