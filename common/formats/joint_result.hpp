@@ -66,7 +66,8 @@ struct JointResult {
   Eigen::VectorXi iterations;   ///< (steps) of the nonlinear solver, failed tries included; of an exact path its pieces
   Eigen::VectorXd residual;     ///< (steps) largest, relative to the largest force
   std::vector<std::string> event;  ///< (steps) fasteners that begin or cease to bear exactly there, or pass a corner
-  // Of each of the n shear planes: one for each neighbouring pair of a fastener's plates, fastener after fastener.
+  // The n shear planes have one entry each: one plane for each neighbouring pair of a fastener's plates, fastener after
+  // fastener.
   std::vector<std::string> fastener_id;                   ///< (n)
   std::vector<std::string> first_hole, second_hole;       ///< (n) "plate:hole"
   std::vector<std::string> direction;                     ///< (a) of the joint's discs: "x", "y"

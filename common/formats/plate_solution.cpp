@@ -165,8 +165,8 @@ void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
   file("loads/traction", a.load_traction, {l, q}, unit(a.header.units, 0, 1), "force of each traction under them");
 }
 
-/// Of one degree of n unknowns. The fields of all cases are there where stresses are wanted, else none of externals,
-/// discs and friction.
+/// Datasets of one degree with n unknowns. If stresses are wanted, the fields of all cases are there; else those of
+/// externals, discs and friction are not.
 template <class File, class Cases>
 void case_datasets(File& file, const std::string& group, Cases& a, bool stressed, Index n, Index nc, Index h, Index q,
                    const Units& units) {
@@ -212,7 +212,7 @@ void datasets(File& file, Solution& a) {
        h5::or_else(0));
 }
 
-/// Where the rim of a hole runs follows from the mesh as well.
+/// Refuses a rim that is not the one that the mesh has around that hole.
 void check_rims(const h5::Reader& file, const PlateSolution& a) {
   const auto edges = pfem::find_edges(a.mesh);
   for (std::size_t hole = 0; hole < a.hole_rim.size(); ++hole) {

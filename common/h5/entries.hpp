@@ -12,7 +12,7 @@ namespace fastjoint::h5 {
 
 /// Extents of a dataset.
 using Shape = std::vector<Eigen::Index>;
-/// As the first extent of what is expected: any will do, or any but 0.
+/// Values of the first extent of an expected shape for which any extent will do, or any but 0.
 inline constexpr Eigen::Index any = -1, some = -2;
 
 /// The dataset that one member of every item of a list makes.

@@ -32,7 +32,8 @@ class Reader {
   /// Whether units are compared: they are unless told otherwise.
   void compare_units(bool compare);
   [[nodiscard]] bool has(const std::string& dataset) const;
-  /// Where to read what the file may lack: a new value, or null if it does.
+  /// Makes the value of a dataset or group that the file may lack, and returns it to be read; null if the file lacks
+  /// it.
   template <class T>
   [[nodiscard]] T* part(const std::string& dataset, std::optional<T>& value) const {
     return has(dataset) ? &value.emplace() : nullptr;
@@ -69,7 +70,7 @@ class Reader {
 
  private:
   struct Impl;
-  // Of double, int and std::string.
+  // Scalar is double, int or std::string.
   template <class Scalar>
   Shape get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
             std::vector<Scalar>& entries) const;

@@ -61,7 +61,7 @@ class Writer {
 
  private:
   struct Impl;
-  // Of double, int and std::string.
+  // Scalar is double, int or std::string.
   template <class Scalar>
   void put(const std::string& name, const Shape& shape, std::span<const Scalar> entries, const std::string& unit,
            const std::string& meaning);

@@ -26,8 +26,8 @@ class Timings {
   /// Size of what the run solves: n unknowns at degree p.
   void set_unknowns(int p, int n) { unknowns_[p] = n; }
 
-  /// Of a summary, after stop(): "  time 0.213 s: read 0.001, solve 0.030; peak memory 143 MB" and a line break,
-  /// phases in the order in which they first began.
+  /// Last line of a summary, after stop(): "  time 0.213 s: read 0.001, solve 0.030; peak memory 143 MB" and a line
+  /// break, phases in the order in which they first began.
   [[nodiscard]] std::string line() const;
   /// The same in full as a JSON object, after stop(): "program", "version", "threads", "seconds" by phase, "total" in
   /// seconds, "peak_memory_bytes" and, if any were set, "unknowns" by degree.

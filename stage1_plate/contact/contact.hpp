@@ -5,7 +5,7 @@
 
 namespace fastjoint::stage1 {
 
-/// Where the springs of one hole push under the scene's loads.
+/// Arcs on which the springs of one hole push under the scene's loads.
 struct RimContact {
   int hole;               ///< index into PlateScene::holes
   Arcs arcs;              ///< where they push

@@ -17,7 +17,7 @@ bool has_friction(const std::vector<Load>& loads) {
   return std::any_of(loads.begin(), loads.end(), [](const Load& load) { return load.friction > 0; });
 }
 
-/// Of each controlled displacement.
+/// The load on each controlled displacement.
 std::vector<Load> controlled_loads(const PlateScene& scene, const Unknowns& unknowns) {
   const SceneLoads& given = scene.given_loads();
   std::vector<Load> loads;

@@ -33,7 +33,7 @@ class RimGap {
 
   /// int k t a a^T ds over the arcs, where g = a.z: the springs' stiffness over z, shape (n_r + nc, n_r + nc).
   [[nodiscard]] Eigen::MatrixXd stiffness(const Arcs& arcs) const;
-  /// Where g > 0; the ends to 1e-12 of a side.
+  /// The arcs on which g > 0, their ends to 1e-12 of a side.
   [[nodiscard]] Arcs pressed(const Eigen::VectorXd& z) const;
   /// The part of the rim that the model has and that bears along the unit vector d.
   [[nodiscard]] Arcs bearing_half(const Eigen::Vector2d& d) const;

@@ -37,7 +37,7 @@ struct SolvedPlate {
 [[nodiscard]] SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& generator,
                                       program::Timings& timings);
 
-/// Where the springs of each hole with contact push, how soon that was found, the largest pressure: a line for each.
+/// A line for each hole with contact: the arcs on which its springs push, the iterations, the largest pressure.
 [[nodiscard]] std::string contact_summary(const PlateScene& scene, const ContactState& state);
 
 /// Size, degrees and contacts, for people. @param file Where it has been written.

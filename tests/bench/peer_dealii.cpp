@@ -137,7 +137,8 @@ struct Controlled {
   Eigen::MatrixXd C, K_cc;
 };
 
-/// As a user would first write it: every cell integrated, all unknowns in one sparse matrix, one solve for each case.
+/// The program that a user would first write: every cell integrated, all unknowns in one sparse matrix, one solve for
+/// each case.
 Eigen::MatrixXd solve_by_umfpack(Discretisation& plate, Phases& phases) {
   phases.begin("integrate");
   plate.number_rows();

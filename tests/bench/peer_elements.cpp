@@ -57,7 +57,7 @@ void Integrator::add_plate(FullMatrix<double>& K) const {
   }
 }
 
-/// Of the energy 1/2 int k t (D n_x - u . n)^2 ds.
+/// Adds the second derivatives of the energy 1/2 int k t (D n_x - u . n)^2 ds.
 void Integrator::add_springs(FullMatrix<double>& K) const {
   std::vector<double> gap(K.m());
   for (const unsigned int q : side_.quadrature_point_indices()) {

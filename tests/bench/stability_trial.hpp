@@ -25,11 +25,11 @@ inline constexpr std::array coordinate_names{"contact", "displacement"};
 /// F(delta) + S_ud delta + friction = q. Slopes are at most 1e12 times the plates' stiffness.
 [[nodiscard]] stage3::RootProblem displacement_problem(const RandomJoint& joint, double unit);
 
-/// From each of the program's first guesses.
+/// Results from each of the program's first guesses.
 [[nodiscard]] std::vector<Trial> try_guesses(const RandomJoint& joint, stage3::SolveFunction solver,
                                              Coordinate coordinate, const stage3::RootOptions& options);
 
-/// As the program goes about it: one increment of follow(). Of evaluations it says nothing.
+/// What the program does with one increment, by follow(); evaluations are not counted.
 [[nodiscard]] Trial try_as_shipped(const RandomJoint& joint, const stage3::RootOptions& options);
 
 }  // namespace fastjoint::bench

@@ -120,7 +120,7 @@ TEST_F(ThreeFasteners, FrictionLowersBearingAndRaisesTheTransferredLoad) {
   }
 }
 
-/// To 1e-5 on the bare grid, to 2e-7 with one more ring (as the example has it); and it knows its error.
+/// S is right to 1e-5 on the bare grid and to 2e-7 with one more ring (as the example has it), and it knows its error.
 TEST_F(ThreeFasteners, StiffnessOfTheCentreSheet) {
   constexpr double independent = 18473.0316;  // of another code, p to infinity
   const auto expect = [](const std::string& name, double tolerance) {

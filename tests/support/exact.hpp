@@ -8,7 +8,7 @@ namespace fastjoint::test {
 /// Infinite plate (plane stress) with a circular hole at the origin whose rim is held by distributed normal springs to
 /// a fixed disc, under remote tension s along x. kappa = k a / E; kappa = 0 is Kirsch's open hole.
 ///
-/// With rho = a/r: sigma_rr = s/2 (1 + A rho^2) + s/2 (1 + B rho^2 + C rho^4) cos 2 theta,
+/// The stresses at rho = a/r: sigma_rr = s/2 (1 + A rho^2) + s/2 (1 + B rho^2 + C rho^4) cos 2 theta,
 /// sigma_tt = s/2 (1 - A rho^2) - s/2 (1 + C rho^4) cos 2 theta, sigma_rt = -s/2 (1 - B/2 rho^2 - C rho^4) sin 2 theta.
 /// The rim has no shear, C = 1 - B/2, and sigma_rr = k u_r there, which gives A and B (docs/theory.md, section 3.3).
 class SpringInclusion {

@@ -25,7 +25,7 @@ struct Plate {
 /// Stage 1 to the end, and stage 2 behind it.
 [[nodiscard]] formats::PlateSolution solve(const Plate& plate,
                                            stage1::Wanted wanted = stage1::Wanted::loads_and_stresses);
-/// With the fields of every degree, not of the two highest only.
+/// Solves for the fields of every degree, not of the two highest only.
 [[nodiscard]] formats::PlateSolution solve_all_fields(const Plate& plate);
 [[nodiscard]] stage2::Extraction extract(const std::string& json);
 

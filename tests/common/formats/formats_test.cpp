@@ -219,7 +219,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
          {&rims.bearing_load, &rims.bearing_load_y, &rims.bearing_stress, &rims.bypass_load, &rims.bypass_error,
           &rims.peak_hoop, &rims.peak_angle, &rims.peak_error, &rims.gross_concentration, &rims.net_concentration})
       *table = Eigen::MatrixXd::Random(steps, 1);
-    // As of one degree alone.
+    // A sheet of one degree alone has such errors.
     for (auto* error : {&rims.bypass_error, &rims.peak_error})
       error->setConstant(std::numeric_limits<double>::infinity());
     write(folder.path("r.h5"), a);

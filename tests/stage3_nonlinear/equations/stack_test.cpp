@@ -158,7 +158,7 @@ double friction_at(const JointModel& joint, std::size_t plate, double bearing) {
   return joint.fasteners[0].holes[plate].friction[0][bearing < 0 ? minus_side : plus_side].load[0];
 }
 
-/// Of three plates of one disc each, k D + r |b| = b + P with b = -F1, F1 - F2, F2, and D_a - D_b = F1 / K1,
+/// Equations of three plates of one disc each: k D + r |b| = b + P with b = -F1, F1 - F2, F2, and D_a - D_b = F1 / K1,
 /// D_b - D_c = F2 / K2: all solutions, by trying all signs of the three bearing forces.
 std::vector<Vector2d> by_hand(const JointModel& joint, const Vector3d& k, const Vector3d& P, const Vector2d& K) {
   const Eigen::Matrix<double, 3, 2> bearing{{-1, 0}, {1, -1}, {0, 1}};

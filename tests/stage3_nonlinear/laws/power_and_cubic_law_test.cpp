@@ -20,7 +20,7 @@ TEST(PowerLaw, IsRigidAtFirstContact) {
   EXPECT_EQ(contact.ddelta, 0);
 }
 
-/// From far below to far above the plates' stiffness, and for exponents far below practice.
+/// Stiffnesses go from far below to far above the plates', and exponents far below practice.
 TEST(PowerLaw, IsFoundForAnyRatioOfStiffnesses) {
   for (const double n : {0.05, 0.4, 0.7, 0.99})
     for (double A = 1e-8; A < 1e9; A *= 10)

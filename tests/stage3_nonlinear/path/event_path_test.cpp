@@ -23,8 +23,8 @@ const PathOptions tight{{}, {.tolerance = 1e-12, .max_iterations = 500}};
 constexpr ContactEvent closes(Index plane) { return {plane, CornerKind::contact, false}; }
 constexpr ContactEvent opens(Index plane) { return {plane, CornerKind::contact, true}; }
 
-/// As in load_path_test.cpp: contact at P* = g / (1/K + f) = 40, whatever the law of the second fastener beyond its
-/// gap.
+/// The joint of load_path_test.cpp: contact at P* = g / (1/K + f) = 40, whatever the law of the second fastener beyond
+/// its gap.
 class GapAtTheSecondFastener : public testing::TestWithParam<double> {};
 
 TEST_P(GapAtTheSecondFastener, IncrementIsAtTheLoadOfTheClosedForm) {

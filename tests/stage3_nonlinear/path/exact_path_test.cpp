@@ -27,7 +27,7 @@ double residual(const JointEquations& equations, const ExactPath& path, double l
          force_scale(equations.system, 1);
 }
 
-/// As in load_path_test.cpp: contact at P* = g / (1/K + f).
+/// The joint of load_path_test.cpp: contact at P* = g / (1/K + f).
 TEST(ExactPath, CornerIsTheContactOfTheClosedForm) {
   constexpr double K = 2000, f = 1e-3, g = 0.06;
   auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(K));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where a joint can carry no more: limit loads of level laws, instability of falling ones, and what is said of them.
+// Joints that can carry no more: limit loads of level laws, instability of falling ones, and what is said of them.
 #include <fmt/format.h>
 
 #include "common/errors.hpp"

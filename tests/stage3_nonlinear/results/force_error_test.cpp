@@ -71,7 +71,8 @@ TEST(ForceError, IsNoneUnderAGivenForceThatOneFastenerCarries) {
   EXPECT_LT((*error)(0, 0), 1e-9 * lap.force);
 }
 
-/// Of one degree what the file says of S counts, entry by entry; what it does not know is not made up.
+/// A sheet of one degree has the errors of S that its file gives, entry by entry; what the file does not know is not
+/// made up.
 TEST(ForceError, OfOneDegree) {
   auto lap = one_fastener();
   EXPECT_EQ((*solve(lap).error)(0, 0), 0);  // the file says exact

@@ -188,7 +188,8 @@ PlateModel pressed(double from, double to, const std::function<double(double)>& 
   return model;
 }
 
-/// Of p = cos + 0.2 sin + 3 cos 2, twice, over d t = 0.5: the force along x is 2 pi / 2 d t, across it a fifth.
+/// The pressure p = cos + 0.2 sin + 3 cos 2, twice, acts over d t = 0.5: the force along x is 2 pi / 2 d t, across it a
+/// fifth.
 TEST(RimState, ForceAcrossIsThatOfThePressure) {
   const auto sigma = [](double t) { return -std::cos(t) - 0.2 * std::sin(t) - 3 * std::cos(2 * t); };
   const double along = std::numbers::pi * 0.5;
