@@ -8,7 +8,6 @@
 
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
-#include "common/program/text_file.hpp"
 #include "stage1_plate/run/accuracy.hpp"
 #include "stage1_plate/run/solve.hpp"
 
@@ -104,8 +103,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   linalg::set_threads(threads);
   timings.set_threads(threads);
   timings.phase("read");
-  stage1::PlateScene scene =
-      stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
+  stage1::PlateScene scene = stage1::read_scene(input::parse(arguments.input, input::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
   if (arguments.flag("--accuracy")) timings.phase("search");
   const auto accuracy = meet_accuracy(scene, arguments);

@@ -11,7 +11,6 @@
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
-#include "common/program/text_file.hpp"
 #include "stage3_nonlinear/output/joint_history.hpp"
 #include "stage3_nonlinear/output/summary.hpp"
 #include "stage3_nonlinear/output/warnings.hpp"
@@ -93,7 +92,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
 void run(const RunOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings) {
   timings.phase("read");
   check_csv(options);
-  const auto document = input::parse(options.input, program::read_text_file(options.input));
+  const auto document = input::parse(options.input, input::read_text_file(options.input));
   const JointScene scene = read_joint_scene(document);
   check_results_spare(options, scene);
   warn(log, scene.warnings);

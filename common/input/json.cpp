@@ -5,8 +5,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -84,6 +89,18 @@ std::string reason(const std::string& text, const std::string& what) {
 }
 
 }  // namespace
+
+std::string read_text_file(const std::string& path) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!error && std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw FileError(fmt::format("{}: is not a regular file", path));
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  text << in.rdbuf();
+  if (!in) throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+  return text.str();
+}
 
 Document parse(const std::string& file, const std::string& text) {
   constexpr std::size_t longest_mark = 4;  // of an encoding

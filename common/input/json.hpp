@@ -14,6 +14,9 @@ struct Document {
   std::shared_ptr<const nlohmann::json> root;
 };
 
+/// Contents of a regular file. Throws FileError with the path and the reason.
+[[nodiscard]] std::string read_text_file(const std::string& path);
+
 /// Throws InputError naming the file, line and column of the first mistake.
 [[nodiscard]] Document parse(const std::string& file, const std::string& text);
 

@@ -2,7 +2,6 @@
 #include "common/program/memory.hpp"
 
 #include <fmt/format.h>
-#include <malloc.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -14,21 +13,22 @@
 
 #include "common/errors.hpp"
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace fastjoint::program {
 namespace {
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
-
 constexpr double kilobyte = 1024;
 
-/// The number behind a word of a file of the system, in bytes.
-double entry(const std::string& path, const std::string& name, double unit = kilobyte) {
+/// The number behind a word of a file of Linux, in bytes; `otherwise` where another system has no such file.
+double entry(const std::string& path, const std::string& name, double otherwise, double unit = kilobyte) {
   std::ifstream in(path);
-  std::string word;
-  double value = 0;
-  while (in >> word)
-    if (word == name && in >> value) return unit * value;
-  return unlimited;
+  for (std::string word; in >> word;)
+    if (double value = 0; word == name && in >> value) return unit * value;
+  return otherwise;
 }
 
 /// The number that is all of a file; one that says "max", or is not there, sets no limit.
@@ -42,7 +42,7 @@ double left_in_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
   constexpr double blas = 1 << 27;  // OpenBLAS reserves it for its work, and asks for ever where it cannot
-  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:") - blas;
+  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:", 0) - blas;
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ double left_in_address_space() {
 double left_in_control_group(const std::string& folder) {
   const bool first_version = std::filesystem::exists(folder + "memory.limit_in_bytes");
   const auto cached = [&](const std::string& list) {
-    return entry(folder + "memory.stat", first_version ? "total_" + list : list, 1);
+    return entry(folder + "memory.stat", first_version ? "total_" + list : list, unlimited, 1);
   };
   return number(folder + (first_version ? "memory.limit_in_bytes" : "memory.max")) -
          number(folder + (first_version ? "memory.usage_in_bytes" : "memory.current")) + cached("inactive_file") +
@@ -59,13 +59,21 @@ double left_in_control_group(const std::string& folder) {
 
 double available_memory() {
   static const double found = [] {
-    double least = entry("/proc/meminfo", "MemAvailable:");
+    const double built_in = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    double least = entry("/proc/meminfo", "MemAvailable:", built_in);
     for (const double left : {left_in_control_group("/sys/fs/cgroup/"), left_in_control_group("/sys/fs/cgroup/memory/"),
                               left_in_address_space()})
       if (left < least) least = left;  // not a number where a file is not there
     return std::max(least, 0.0);
   }();
   return found;
+}
+
+double peak_memory() {
+  // A child begins with its parent's ru_maxrss: what a large Python script starts would seem as large. VmHWM does not.
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return entry("/proc/self/status", "VmHWM:", kilobyte * static_cast<double>(usage.ru_maxrss));
 }
 
 std::string bytes_text(double bytes) {

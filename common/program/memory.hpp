@@ -12,6 +12,9 @@ namespace fastjoint::program {
 /// is no limit. What only caches files is left too: the system takes it back when it is needed.
 [[nodiscard]] double left_in_control_group(const std::string& folder);
 
+/// Most memory in bytes that this process has had resident.
+[[nodiscard]] double peak_memory();
+
 /// Throws InputError "WHAT takes about NEED of memoryPARTS, ... are available; allowed: ALLOWED" if that is not
 /// available.
 void require_memory(const std::string& what, double need, const std::string& parts, const std::string& allowed);

@@ -133,26 +133,27 @@ int outcome(const Command& command, int argc, char** argv, const Body& body) {
   }
 }
 
-}  // namespace
-
-int Arguments::integer(const std::string& name, int low, int high, int otherwise) const {
-  const std::string given = text(name);
-  if (given.empty()) return otherwise;
-  int value = 0;
+/// @param kind What the message calls an allowed value.
+template <class Number>
+Number number_in(const Arguments& arguments, const std::string& name, Number low, Number high, Number otherwise,
+                 const char* kind) {
+  if (!arguments.flag(name)) return otherwise;
+  const std::string given = arguments.text(name);
+  Number value = 0;
   const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
-  if (error != std::errc() || end != given.data() + given.size() || value < low || value > high)
-    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: an integer from {} to {}", name, given, low, high));
+  if (error != std::errc() || end != given.data() + given.size() || !(value >= low && value <= high))
+    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: {} from {} to {}", name, given, kind, low, high));
   return value;
 }
 
+}  // namespace
+
+int Arguments::integer(const std::string& name, int low, int high, int otherwise) const {
+  return number_in(*this, name, low, high, otherwise, "an integer");
+}
+
 double Arguments::number(const std::string& name, double low, double high, double otherwise) const {
-  const std::string given = text(name);
-  if (!options.contains(name)) return otherwise;
-  double value = 0;
-  const auto [end, error] = std::from_chars(given.data(), given.data() + given.size(), value);
-  if (error != std::errc() || end != given.data() + given.size() || !(value >= low && value <= high))
-    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: a number from {} to {}", name, given, low, high));
-  return value;
+  return number_in(*this, name, low, high, otherwise, "a number");
 }
 
 std::string Arguments::text(const std::string& name) const {

@@ -46,7 +46,4 @@ class Timings {
   std::map<int, int> unknowns_;
 };
 
-/// Most memory in bytes that this process has had resident.
-[[nodiscard]] long peak_memory();
-
 }  // namespace fastjoint::program

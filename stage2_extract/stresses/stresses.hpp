@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include "common/formats/plate_matrices.hpp"
 #include "common/formats/plate_solution.hpp"
-#include "common/formats/plate_stresses.hpp"
 
 namespace fastjoint::stage2 {
 

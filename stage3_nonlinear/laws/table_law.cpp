@@ -14,7 +14,6 @@
 
 #include "common/errors.hpp"
 #include "common/program/program.hpp"
-#include "common/program/text_file.hpp"
 #include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/laws/rising_root.hpp"
 
@@ -154,7 +153,7 @@ TestPoints points_of(const input::Value& law) {
 }  // namespace
 
 TestPoints read_points(const std::string& path) {
-  const std::string text = program::read_text_file(path);
+  const std::string text = input::read_text_file(path);
   std::string_view rest = text;
   if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   TestPoints points;

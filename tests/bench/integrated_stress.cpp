@@ -8,7 +8,6 @@
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
-#include "common/program/text_file.hpp"
 #include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/scene/scene.hpp"
@@ -45,7 +44,7 @@ Eigen::VectorXd first_field(const stage1::PlateProblem& problem, int p) {
 void run(const program::Arguments& arguments, program::Timings& timings) {
   linalg::set_threads(1);
   timings.phase("read");
-  auto scene = stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
+  auto scene = stage1::read_scene(input::parse(arguments.input, input::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
   const std::string edge = first_external(scene).on;
   timings.phase("mesh");

@@ -9,7 +9,6 @@
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
-#include "common/program/text_file.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/scene/scene.hpp"
 #include "tests/support/straightforward.hpp"
@@ -35,7 +34,7 @@ std::string json(const Eigen::MatrixXd& A) {
 void run(const program::Arguments& arguments, program::Timings& timings) {
   linalg::set_threads(1);
   timings.phase("read");
-  auto scene = stage1::read_scene(input::parse(arguments.input, program::read_text_file(arguments.input)));
+  auto scene = stage1::read_scene(input::parse(arguments.input, input::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
   if (scene.loads) stage1::reject(scene, "/loads", "springs that push but do not pull", "springs that do both");
   timings.phase("mesh");

@@ -51,5 +51,18 @@ TEST(RequireMemory, NamesTheNumbers) {
                                  testing::EndsWith("B are available; allowed: less"))));
 }
 
+TEST(PeakMemory, GrowsWithWhatIsUsedAndNeverFalls) {
+  const double before = peak_memory();
+  EXPECT_GT(before, 1e6) << "a program with libraries";
+  constexpr double more = 2e8;
+  const double used = [&] {
+    const std::string memory(static_cast<std::size_t>(before + more), 'x');
+    return memory.back() == 'x' ? peak_memory() : 0.0;
+  }();
+  EXPECT_GT(used, before + 0.9 * more);
+  EXPECT_LT(used, 2 * before + 1.1 * more);
+  EXPECT_GE(peak_memory(), 0.99 * used) << "the memory was given back";
+}
+
 }  // namespace
 }  // namespace fastjoint::program

@@ -76,18 +76,5 @@ TEST(Timings, TheClockRuns) {
   EXPECT_THAT(timings.line(), Not(HasSubstr("read 0.000")));
 }
 
-TEST(PeakMemory, GrowsWithWhatIsUsedAndNeverFalls) {
-  const long before = peak_memory();
-  EXPECT_GT(before, 1'000'000) << "a program with libraries";
-  constexpr std::size_t more = 200'000'000;
-  const long used = [&] {
-    const std::string memory(before + more, 'x');
-    return memory.back() == 'x' ? peak_memory() : 0;
-  }();
-  EXPECT_GT(used, before + static_cast<long>(more) * 9 / 10);
-  EXPECT_LT(used, 2 * before + static_cast<long>(more) * 11 / 10);
-  EXPECT_GE(peak_memory(), used * 99 / 100) << "the memory was given back";
-}
-
 }  // namespace
 }  // namespace fastjoint::program
