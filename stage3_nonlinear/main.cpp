@@ -7,8 +7,6 @@
 
 namespace {
 
-constexpr int highest_p = 99;  // matrices may come from elsewhere; what they hold is checked when they are read
-
 const fastjoint::program::Command command{
     .name = "stage3_nonlinear",
     .summary = "Finds the loads of the fasteners of a joint from its plates' matrices.",
@@ -21,22 +19,12 @@ const fastjoint::program::Command command{
         {"--sensitivities", "",
          "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}}};
 
-void body(const fastjoint::program::Arguments& arguments, fastjoint::program::Timings& timings) {
-  fastjoint::stage3::run({.input = arguments.input,
-                          .output = arguments.output,
-                          .csv = arguments.text("--csv"),
-                          .timings = arguments.timings,
-                          .p = arguments.integer("--p", 1, highest_p, 0),
-                          .all_stresses = arguments.flag("--all-stresses"),
-                          .sensitivities = arguments.flag("--sensitivities"),
-                          .quiet = arguments.quiet,
-                          .generator = fastjoint::program::generator(command.name)},
-                         std::cout, std::cerr, timings);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-  fastjoint::stage3::take_over_gsl_errors();
-  fastjoint::program::run(command, argc, argv, body);
+  using namespace fastjoint;
+  stage3::take_over_gsl_errors();
+  program::run(command, argc, argv, [](const program::Arguments& arguments, program::Timings& timings) {
+    stage3::run(arguments, std::cout, std::cerr, timings);
+  });
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <ostream>
 #include <utility>
@@ -10,42 +11,41 @@
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
-#include "common/program/program.hpp"
-#include "stage3_nonlinear/output/joint_history.hpp"
-#include "stage3_nonlinear/output/summary.hpp"
-#include "stage3_nonlinear/output/warnings.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/results/force_error.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
-void check_csv(const RunOptions& options) {
-  if (options.csv.empty()) return;
-  for (const auto& [path, what] :
-       {std::pair(options.input, "the input or the output file"),
-        std::pair(options.output, "the input or the output file"), std::pair(options.timings, "the file of --timings")})
-    if (h5::same_file(options.csv, path))
-      throw InputError(fmt::format("--csv {}: is {}; choose another name", options.csv, what));
-  h5::check_can_write(options.csv);
+constexpr const char* program_name = "stage3_nonlinear";
+
+/// Throws InputError if the file that an option names is another one of this run.
+void check_spare(const char* option, const std::string& path, const std::string& other, const std::string& what) {
+  if (h5::same_file(path, other))
+    throw InputError(fmt::format("{} {}: is {}; choose another name", option, path, what));
+}
+
+void check_csv(const program::Arguments& arguments, const std::string& csv_file) {
+  for (const auto& path : {arguments.input, arguments.output})
+    check_spare("--csv", csv_file, path, "the input or the output file");
+  check_spare("--csv", csv_file, arguments.timings, "the file of --timings");
+  if (!csv_file.empty()) h5::check_can_write(csv_file);
 }
 
 /// The results must not take the place of what they are made of.
-void check_results_spare(const RunOptions& options, const JointScene& scene) {
+void check_results_spare(const program::Arguments& arguments, const std::string& csv_file, const JointScene& scene) {
   const auto check = [&](const std::string& input) {
     for (const auto& [option, path] :
-         {std::pair("-o", options.output), std::pair("--csv", options.csv), std::pair("--timings", options.timings)})
-      if (h5::same_file(path, input))
-        throw InputError(
-            fmt::format("{} {}: is a file that {} reads; choose another name", option, path, options.input));
+         {std::pair("-o", arguments.output), std::pair("--csv", csv_file), std::pair("--timings", arguments.timings)})
+      check_spare(option, path, input, fmt::format("a file that {} reads", arguments.input));
   };
   for (const auto& plate : scene.plates) check(plate.file);
   for (const auto& [name, law] : scene.laws) check(law.law->file());
 }
 
 void warn(std::ostream& log, const std::vector<std::string>& sentences) {
-  for (const auto& sentence : sentences) log << "stage3_nonlinear: warning: " << program::one_line(sentence) << "\n";
+  for (const auto& sentence : sentences) log << program_name << ": warning: " << program::one_line(sentence) << "\n";
 }
 
 /// Bytes of the program and of the plates' matrices.
@@ -58,17 +58,16 @@ double matrices_need(const JointScene& scene) {
   return bytes;
 }
 
-/// Throws InputError if there is too little memory for the matrices, for solving and for the results of n_steps
-/// increments.
-void require_memory(const JointScene& scene, const JointModel& joint, const JointEquations& equations,
-                    const RunOptions& options, std::size_t n_steps) {
+/// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments.
+void require_memory(const JointScene& scene, const JointModel& joint, const JointEquations& equations, bool with_csv,
+                    bool with_sensitivities) {
   using program::bytes_text;
   const JointNumbers numbers = joint_numbers(joint, equations.system);
   const double n = double(joint.n_planes());
-  double of_plane = options.csv.empty() ? 12 : 37;
-  if (options.sensitivities)
-    of_plane += n + double(numbers.friction.size() + numbers.law.size() + numbers.loads.force.size() +
-                           numbers.loads.displacement.size());
+  double of_plane = with_csv ? 37 : 12;
+  if (with_sensitivities)
+    of_plane +=
+        n + double(numbers.friction.size() + numbers.law.size() + numbers.force.size() + numbers.displacement.size());
   constexpr double number = sizeof(double), of_rim = 17, of_stiffness = 24;
   double solving = 0, of_step = of_plane * n;
   for (const auto& plate : joint.plates) {
@@ -77,6 +76,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
     of_step += unknowns + cases + of_rim * (plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0);
   }
   const double read = matrices_need(scene);
+  const std::size_t n_steps = std::max(scene.load_factors.size(), std::size_t{1});  // how many events is not known yet
   constexpr double copies = 4.5;  // in the states, in the tables, in the file and in its image
   const double results = copies * number * of_step * double(n_steps);
   program::require_memory(
@@ -84,43 +84,46 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
       fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),
                   program::counted(n_steps, "increment"), bytes_text(results)),
       fmt::format("fewer increments, or {}",
-                  options.sensitivities ? "no --sensitivities" : "matrices of stage1_plate --loads-only"));
+                  with_sensitivities ? "no --sensitivities" : "matrices of stage1_plate --loads-only"));
 }
 
 }  // namespace
 
-void run(const RunOptions& options, std::ostream& out, std::ostream& log, program::Timings& timings) {
+void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
   timings.phase("read");
-  check_csv(options);
-  const auto document = input::parse(options.input, input::read_text_file(options.input));
+  const int p = arguments.integer("--p", 1, formats::highest_degree, 0);
+  const std::string csv_file = arguments.text("--csv");
+  const bool with_sensitivities = arguments.flag("--sensitivities");
+  check_csv(arguments, csv_file);
+  const auto document = input::parse(arguments.input, input::read_text_file(arguments.input));
   const JointScene scene = read_joint_scene(document);
-  check_results_spare(options, scene);
+  check_results_spare(arguments, csv_file, scene);
   warn(log, scene.warnings);
   program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
                           "matrices of fewer holes, or of stage1_plate --loads-only");
-  const JointModel joint = load_joint(scene, options.p);
+  const JointModel joint = load_joint(scene, p);
   if (scene.solver.method == Method::exact_path && joint.n_directions() > 1)
     refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",
            "another method, or plates whose discs have one direction");
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
-  require_memory(scene, joint, equations, options, scene.load_factors.size());
+  require_memory(scene, joint, equations, !csv_file.empty(), with_sensitivities);
   const PathOptions solving{scene.initial, scene.solver};
-  LoadPath path = scene.at_events ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
+  LoadPath path =
+      scene.load_factors.empty() ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
   const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, path);
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));
   warn(log, rim_warnings(joint, states));
   auto result = joint_result(joint, path, states);
-  result.header = {options.generator, scene.name, joint.units, document.text};
+  result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   result.F_error = force_errors(joint, equations, path, states);
-  if (options.sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);
+  if (with_sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);
   timings.phase("write");
-  formats::write(options.output, result);
-  if (!options.csv.empty()) h5::write_whole_file(options.csv, csv(joint, result));
-  if (!options.quiet) out << summary(scene, joint, path, states, result.F_error, options.all_stresses);
-  if (path.failure)
-    throw IncompleteResult(failure_message(scene, joint, *path.failure, path.n_increments, options.output));
+  formats::write(arguments.output, result);
+  if (!csv_file.empty()) h5::write_whole_file(csv_file, csv(joint, result));
+  if (!arguments.quiet) out << summary(scene, joint, path, states, result, arguments.flag("--all-stresses"));
+  if (path.failure) throw IncompleteResult(failure_message(scene, joint, path, arguments.output));
 }
 
 }  // namespace fastjoint::stage3

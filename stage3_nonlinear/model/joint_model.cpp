@@ -9,23 +9,13 @@
 #include <filesystem>
 #include <set>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
 using formats::PlateMatrices;
-
-std::optional<Eigen::Index> index_of(const std::vector<std::string>& names, const std::string& name) {
-  const auto found = std::find(names.begin(), names.end(), name);
-  return found == names.end() ? std::nullopt : std::optional<Eigen::Index>(found - names.begin());
-}
-
-/// Plate of a name, which the scene has checked.
-std::size_t plate_of(const JointModel& model, const std::string& name) {
-  const auto is_named = [&](const PlateModel& plate) { return plate.name == name; };
-  return std::find_if(model.plates.begin(), model.plates.end(), is_named) - model.plates.begin();
-}
 
 std::vector<PlateMatrices> read_all(const JointScene& scene) {
   std::vector<PlateMatrices> all;
@@ -59,8 +49,8 @@ Units common_units(const JointScene& scene, const std::vector<PlateMatrices>& al
   return units;
 }
 
-/// Degrees that every plate has, ascending.
-std::set<int> common_degrees(const JointScene& scene, const std::vector<PlateMatrices>& all) {
+/// @param p Degree that every plate must have, or 0 for the highest that all have.
+int common_degree(const JointScene& scene, const std::vector<PlateMatrices>& all, int p) {
   std::set<int> common(all[0].p.begin(), all[0].p.end());
   std::string each;
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -70,16 +60,10 @@ std::set<int> common_degrees(const JointScene& scene, const std::vector<PlateMat
   }
   if (common.empty())
     throw InputError(fmt::format("{}: the plates have no polynomial degree in common: {}", scene.file, each));
-  return common;
-}
-
-int chosen_degree(const JointScene& scene, const std::vector<PlateMatrices>& all, int p) {
-  const auto degrees = common_degrees(scene, all);
-  if (p == 0) return *degrees.rbegin();
-  if (!degrees.contains(p))
+  if (p != 0 && !common.contains(p))
     throw InputError(fmt::format("--p: {} is not in the matrices of every plate of {}; allowed: {}", p, scene.file,
-                                 fmt::join(degrees, ", ")));
-  return p;
+                                 fmt::join(common, ", ")));
+  return p == 0 ? *common.rbegin() : p;
 }
 
 /// The plates' directions, which must be the same.
@@ -106,16 +90,15 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
     if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
     const double c = plate.friction_unit_force[i];
     if (!(c > 0))
-      throw InputError(
-          fmt::format("{}:friction/unit_force: hole \"{}\" has {} on its side {}: no rim there can bear, so friction "
-                      "{} has no meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or "
-                      "friction 0",
-                      plate.file, hole, c, bearing, mu));
+      throw InputError(fmt::format(
+          "{}:friction/unit_force: hole \"{}\" has {} on its side {}: no rim there can bear, so friction {} has no "
+          "meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or friction 0",
+          plate.file, hole, c, bearing, mu));
     return {plate.R.col(i) * (mu / c), std::abs(plate.friction_resultant[i]) * mu / c, i, mu / c};
   }
   throw InputError(
-      fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has "
-                  "friction {}; run stage 2 again, or set the friction to 0",
+      fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has friction "
+                  "{}; run stage 2 again, or set the friction to 0",
                   plate.file, hole, bearing, mu));
 }
 
@@ -136,22 +119,22 @@ void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
   for (std::size_t i = 0; i < plate.friction_hole.size(); ++i)
     if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0))
       throw InputError(fmt::format(
-          "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, "
-          "off its line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
+          "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, off its "
+          "line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
           plate.file, hole, plate.friction_bearing[i]));
 }
 
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, std::size_t at) {
   const Reference& hole = fastener.between[at];
-  const std::size_t plate_at = plate_of(model, hole.plate);
+  const std::size_t plate_at = index_of(model.plates, hole.plate, &PlateModel::name);
   const PlateModel& plate = model.plates[plate_at];
-  const auto index = index_of(plate.holes, hole.name);
-  if (!index)
+  const Eigen::Index index = index_of(plate.holes, hole.name);
+  if (index == std::ssize(plate.holes))
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate.file),
            fmt::format("{}", fmt::join(plate.holes, ", ")));
   if (model.n_directions() > 1) check_rim_all_around(plate, hole.name);
   const double mu = fastener.friction[at];
-  HoleModel result{plate_at, *index * model.n_directions(), mu, {}};
+  HoleModel result{plate_at, index * model.n_directions(), mu, {}};
   if (mu == 0) return result;
   const auto sides = bearing_sides(scene, fastener, at);
   for (const int axis : model.axes) {
@@ -181,16 +164,17 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
 
 void apply_load(JointModel& model, const LoadScene& load) {
   const Reference& name = load.external;
-  PlateModel& plate = model.plates[plate_of(model, name.plate)];
-  if (const auto rigid = index_of(plate.externals, name.name); rigid && load.is_displacement) {
-    plate.external_displacement[*rigid] = load.value;
-  } else if (rigid) {
-    plate.external_force[*rigid] = load.value;
-  } else if (const auto traction = index_of(plate.tractions, name.name)) {
+  PlateModel& plate = model.plates[index_of(model.plates, name.plate, &PlateModel::name)];
+  const Eigen::Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
+  if (rigid < plate.n_externals() && load.is_displacement) {
+    plate.external_displacement[rigid] = load.value;
+  } else if (rigid < plate.n_externals()) {
+    plate.external_force[rigid] = load.value;
+  } else if (traction < plate.traction_force.size()) {
     if (load.is_displacement)
       refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
              "\"force\", or an external of kind \"rigid\"");
-    plate.traction_force[*traction] = load.value;
+    plate.traction_force[traction] = load.value;
   } else {
     auto known = plate.externals;
     known.insert(known.end(), plate.tractions.begin(), plate.tractions.end());
@@ -234,14 +218,6 @@ Eigen::Index JointModel::offset(std::size_t plate) const {
   return offset;
 }
 
-const HoleModel& JointModel::first_hole(const ShearPlane& plane) const {
-  return fasteners[plane.fastener].holes[plane.first];
-}
-
-const HoleModel& JointModel::second_hole(const ShearPlane& plane) const {
-  return fasteners[plane.fastener].holes[plane.first + 1];
-}
-
 std::string JointModel::name(const HoleModel& hole) const {
   return plates[hole.plate].name + ":" + plates[hole.plate].hole_of(hole.disc);
 }
@@ -266,7 +242,7 @@ JointModel load_joint(const JointScene& scene, int p) {
   JointModel model;
   model.file = scene.file;
   model.units = common_units(scene, all);
-  model.p = chosen_degree(scene, all, p);
+  model.p = common_degree(scene, all, p);
   for (std::size_t i = 0; i < all.size(); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, std::move(all[i]), model.p));
   model.axes = common_axes(scene, model.plates);

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/model/plate_model.hpp"
-
 #include <fmt/format.h>
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cassert>
 #include <limits>
-#include <map>
 #include <set>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
+#include "stage3_nonlinear/model/joint_model.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -27,39 +25,29 @@ void check_once(const std::string& file, const char* dataset, const std::vector<
       throw FileError(fmt::format("{}:{}: \"{}\" stands twice, expected each name once", file, dataset, name));
 }
 
-int axis(const std::string& file, const std::string& place, const std::string& name) {
-  for (int i = 0; i < 2; ++i)
-    if (name == axis_names[i]) return i;
-  throw FileError(fmt::format("{}:{}: is \"{}\", expected \"x\" or \"y\"", file, place, name));
+std::vector<int> axes_of(const std::string& file, const char* dataset, const std::vector<std::string>& names) {
+  std::vector<int> axes;
+  axes.reserve(names.size());
+  for (const auto& name : names) {
+    axes.push_back(index_of(axis_names, name));
+    if (axes.back() == count_of(axis_names))
+      throw FileError(fmt::format("{}:{}: is \"{}\", expected \"x\" or \"y\"", file, dataset, name));
+  }
+  return axes;
 }
 
 /// Directions of the first hole's discs; every other hole must have the same in the same order, one after the other.
 std::vector<int> disc_axes(const std::string& file, const formats::PlateMatrices& a) {
-  std::vector<int> axes;
-  for (std::size_t i = 0; i < a.disc_hole.size() && a.disc_hole[i] == a.disc_hole[0]; ++i) {
-    const int next = axis(file, "disc/direction", a.disc_direction[i]);
-    if (std::find(axes.begin(), axes.end(), next) != axes.end()) break;  // check_once says why
-    axes.push_back(next);
-  }
-  for (std::size_t i = 0; i < a.disc_hole.size(); ++i) {
-    const std::size_t first = i - i % axes.size();
-    if (a.disc_hole[i] == a.disc_hole[first] &&
-        axis(file, "disc/direction", a.disc_direction[i]) == axes[i % axes.size()] &&
-        a.disc_hole.size() % axes.size() == 0)
-      continue;
-    throw FileError(
-        fmt::format("{}:disc/direction: hole \"{}\" has other directions than hole \"{}\", expected the same of every "
-                    "disc, hole after hole",
-                    file, a.disc_hole[i], a.disc_hole[0]));
-  }
-  return axes;
-}
-
-std::vector<int> axes_of(const std::string& file, const std::string& dataset, const std::vector<std::string>& names) {
-  std::vector<int> axes;
-  axes.reserve(names.size());
-  for (const auto& name : names) axes.push_back(axis(file, dataset, name));
-  return axes;
+  const std::vector<int> all = axes_of(file, "disc/direction", a.disc_direction);
+  // Where a direction stands twice, check_once says why.
+  const std::size_t n = all.size() > 1 && a.disc_hole[1] == a.disc_hole[0] && all[1] != all[0] ? 2 : 1;
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (a.disc_hole[i] != a.disc_hole[i - i % n] || all[i] != all[i % n] || all.size() % n != 0)
+      throw FileError(
+          fmt::format("{}:disc/direction: hole \"{}\" has other directions than hole \"{}\", expected the same of "
+                      "every disc, hole after hole",
+                      file, a.disc_hole[i], a.disc_hole[0]));
+  return {all.begin(), all.begin() + n};
 }
 
 void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
@@ -84,13 +72,6 @@ void check_not_negative(const std::string& file, const MatrixXd& S) {
                     file, least));
 }
 
-/// Largest error over the largest entry; unknown if the file has no estimate, p is not its highest degree, or S is
-/// zero.
-std::optional<double> relative_error(const MatrixXd& error, const MatrixXd& S) {
-  if (!error.allFinite() || S.isZero(0)) return std::nullopt;
-  return error.cwiseAbs().maxCoeff() / S.cwiseAbs().maxCoeff();
-}
-
 MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
   MatrixXd A(discs.rows() + externals.rows(), discs.cols());
   A << discs, externals;
@@ -104,42 +85,17 @@ MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   return A;
 }
 
-PlateDegrees degrees_up_to(const formats::PlateMatrices& a, int p) {
-  constexpr std::size_t most = 4;  // no estimate looks further back
-  std::map<int, std::size_t> levels;
-  for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    if (a.p[i] <= p) levels.emplace(a.p[i], i);
-  while (levels.size() > most) levels.erase(levels.begin());
-  PlateDegrees degrees;
-  degrees.p.resize(std::ssize(levels));
-  for (const auto& [degree, level] : levels) {
-    degrees.p[std::ssize(degrees.S)] = degree;
-    degrees.S.push_back(joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]));
-    degrees.R.push_back(stacked(a.R_df[level], a.R_ef[level]));
-    degrees.T.push_back(stacked(a.T_d[level], a.T_e[level]));
-    degrees.C.push_back(a.C_t[level]);
+PlateDegrees degrees_up_to(const formats::PlateMatrices& a, Eigen::Index level) {
+  constexpr Eigen::Index most = 4;  // no estimate looks further back
+  const Eigen::Index n = std::min(level + 1, most), first = level + 1 - n;
+  PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
+  for (Eigen::Index i = first; i <= level; ++i) {
+    degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
+    degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
+    degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
+    degrees.C.push_back(a.C_t[i]);
   }
   return degrees;
-}
-
-MatrixXd error_of(const formats::PlateMatrices& a, int p) {
-  const MatrixXd error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
-  return p == a.p.maxCoeff() ? error
-                             : MatrixXd::Constant(error.rows(), error.cols(), std::numeric_limits<double>::infinity());
-}
-
-std::size_t level_of(const formats::PlateMatrices& a, int p) {
-  for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    if (a.p[i] == p) return i;
-  throw std::logic_error("make_plate: degree not in the file");
-}
-
-MatrixXd stiffness(const std::string& file, const formats::PlateMatrices& a, std::size_t level) {
-  check_symmetric(file, "S_dd", a.S_dd[level]);
-  check_symmetric(file, "S_ee", a.S_ee[level]);
-  MatrixXd S = joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]);
-  check_not_negative(file, S);
-  return S;
 }
 
 }  // namespace
@@ -149,7 +105,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   std::vector<std::string> boundaries = a.external_id;
   boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
   check_once(file, "external/id", boundaries);
-  const std::size_t level = level_of(a, p);
+  const Eigen::Index level = std::find(a.p.begin(), a.p.end(), p) - a.p.begin();
+  if (level == a.p.size()) throw std::logic_error("make_plate: degree not in the file");
   PlateModel plate;
   plate.name = name;
   plate.file = file;
@@ -163,18 +120,21 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   check_once(file, "disc/hole", plate.holes);
   plate.externals = a.external_id;
   plate.tractions = a.traction_id;
-  plate.S = stiffness(file, a, level);
-  plate.R = stacked(a.R_df[level], a.R_ef[level]);
-  plate.T = stacked(a.T_d[level], a.T_e[level]);
+  check_symmetric(file, "S_dd", a.S_dd[level]);
+  check_symmetric(file, "S_ee", a.S_ee[level]);
+  plate.degrees = degrees_up_to(a, level);
+  plate.S = plate.degrees.S.back();
+  plate.R = plate.degrees.R.back();
+  plate.T = plate.degrees.T.back();
+  check_not_negative(file, plate.S);
   plate.friction_hole = a.friction_hole;
   plate.friction_bearing = a.friction_bearing;
   plate.friction_unit_force = a.friction_unit_force;
   plate.friction_resultant = a.friction_resultant;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
-  plate.degrees = degrees_up_to(a, p);
-  plate.S_error = error_of(a, p);
-  plate.relative_error = relative_error(plate.S_error, plate.S);
+  plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
+  if (level + 1 < a.p.size()) plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
   const auto& levels = plate.stresses.p;
   if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())

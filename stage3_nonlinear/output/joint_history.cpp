@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/output/joint_history.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/output/rim_quantities.hpp"
 #include "stage3_nonlinear/path/contact_event.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
@@ -72,9 +71,7 @@ std::string csv_heads(const JointModel& joint) {
 
 formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
                                   const std::vector<JointState>& states) {
-  const Index steps = path.steps.size();
-  const Index n = joint.n_planes();
-  const Index a = joint.n_directions();
+  const Index steps = path.steps.size(), n = joint.n_planes(), a = joint.n_directions();
   formats::JointResult result;
   result.p = joint.p;
   result.complete = !path.failure;
@@ -113,13 +110,13 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
   const JointNumbers numbers = joint_numbers(joint, equations.system);
   formats::SensitivityHistory history;
   for (const auto& hole : numbers.friction) history.mu_hole.push_back(hole.name);
-  for (const auto& number : numbers.law) {
-    history.law_name.push_back(number.law);
-    history.law_number.push_back(number.parameter.name);
-    history.law_unit.push_back(unit(joint.units, -number.parameter.length, 1 - number.parameter.force));
+  for (const auto& [law, number] : numbers.law) {
+    history.law_name.push_back(law);
+    history.law_number.push_back(number.name);
+    history.law_unit.push_back(unit(joint.units, -number.length, 1 - number.force));
   }
-  history.force_external = numbers.loads.force;
-  history.displacement_external = numbers.loads.displacement;
+  history.force_external = numbers.force;
+  history.displacement_external = numbers.displacement;
   history.load_factor.resize(std::ssize(path.steps), joint.n_planes());
   for (const auto& step : path.steps) {
     Sensitivity each = sensitivity(equations, numbers, step);

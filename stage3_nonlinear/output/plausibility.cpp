@@ -3,11 +3,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
 #include <set>
 
-#include "stage3_nonlinear/output/warnings.hpp"
-#include "stage3_nonlinear/output/worst_of_kind.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -77,15 +78,47 @@ std::string unlike(const Source& formula, const KnownPlane& known, double cleara
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+/// A doubt about rims: how much of it a rim gives cause for, 0 or NaN if none, and what to say where that is most.
+struct RimDoubt {
+  double (*amount)(const RimState&, bool loose);
+  const char* text;  ///< {at} the hole with the increment and the number of others, other fields as arguments name them
+};
+
+constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
+
+constexpr std::array<RimDoubt, 6> doubts = {{
+    {[](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
+     "the springs of {at} pull the sheet instead of pushing it: they act on the arc that does not bear under these "
+     "loads; give the hole's spring the other \"arc\" in PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
+     "the springs all around {at} pull on its rim by up to {pull:.4g} {unit}, beside a bearing stress of {stress:.4g}: "
+     "a fastener only pushes, and hoop peaks come out too low; give the hole's spring the \"arc\" that bears in "
+     "PLATE.json"},
+    {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
+     "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
+     "peak, {peak:.4g} {unit}, too low; give the hole's spring the \"arc\" that bears in PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
+     "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
+     "springs pull on its rim; give the hole's spring the \"arc\" that bears in PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? std::abs(rim.across) : 0; },
+     "the disc of {at} is held across its one direction by {across:.4g} {force}, beside a bearing force of "
+     "{bearing:.4g}, and nothing in the joint gives that; let the discs move: \"disc_directions\": [\"x\", \"y\"] in "
+     "all PLATE.json"},
+    {[](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
+     "friction acts off the axes, by its components along x and y, at {at}: the loads hold, but peak hoop stresses "
+     "there may lack what friction adds to them, most of it at 45 degrees"},
+}};
+
 }  // namespace
 
 std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
-  WorstOfKind friction, gaps, distances, movements;
+  std::vector<Doubt> friction, gaps, distances, movements;
   std::vector<std::string> formulas;
   for (const auto& fastener : scene.fasteners)
     if (const double mu = *std::max_element(fastener.friction.begin(), fastener.friction.end()); mu > 1)
-      friction.add(mu, fmt::format("{}/friction: {} is above 1, which dry metals hardly reach: it may be a percentage",
-                                   fastener.where, mu));
+      friction.emplace_back(
+          mu, fmt::format("{}/friction: {} is above 1, which dry metals hardly reach: it may be a percentage",
+                          fastener.where, mu));
   const auto planes = known_planes(joint);
   std::map<Plates, std::vector<Vector2d>> offsets;
   for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
@@ -95,24 +128,23 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
     const std::string& where = scene.fasteners[plane.fastener].where;
     const double radius = known.d.minCoeff() / 2;
     if (const double gap = plane.law->gap(plane.clearance); gap > radius)
-      gaps.add(gap / radius,
-               fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
-                           "{:.6g} of the hole: one of them may be in another unit of length",
-                           where, gap, plane.law_name, radius));
+      gaps.emplace_back(gap / radius,
+                        fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
+                                    "{:.6g} of the hole: one of them may be in another unit of length",
+                                    where, gap, plane.law_name, radius));
     if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
-      distances.add(
+      distances.emplace_back(
           apart / radius,
-          fmt::format("{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius "
-                      "{:.6g}: one of "
-                      "them may be another fastener's hole, or the sheets are drawn in different coordinates",
-                      where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
+          fmt::format(
+              "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius {:.6g}: one "
+              "of them may be another fastener's hole, or the sheets are drawn in different coordinates",
+              where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
     const auto formula = plane.law->source();
     const std::string other = formula ? unlike(*formula, known, plane.clearance) : "";
     if (!other.empty() && compared.insert(plane.law_name).second)
-      formulas.push_back(
-          fmt::format("{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another "
-                      "fastener, or in other units",
-                      joint.file, plane.law_name, other, joint.name(plane)));
+      formulas.push_back(fmt::format(
+          "{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another fastener, or in other units",
+          joint.file, plane.law_name, other, joint.name(plane)));
     const double crushing = (known.d * known.t * known.E).minCoeff();  // 0: not known
     for (const auto& step : path.steps) {
       const double delta = std::abs(amounts(step.delta, joint.n_directions())[known.at]);
@@ -122,16 +154,54 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
       const std::string what =
           far ? fmt::format("|delta| = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
               : fmt::format("|F| = {:.6g} is above d t E = {:.6g} of a sheet", F, crushing);
-      movements.add(std::max(delta / radius, crushing > 0 ? F / crushing : 0),
-                    fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
-                                joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
+      movements.emplace_back(
+          std::max(delta / radius, crushing > 0 ? F / crushing : 0),
+          fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
+                      joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
       break;
     }
   }
   std::vector<std::string> result;
-  for (const auto* kind : {&friction, &gaps, &distances}) kind->say(result);
+  for (const auto* kind : {&friction, &gaps, &distances}) add_worst(result, *kind);
   result.insert(result.end(), formulas.begin(), formulas.end());
-  movements.say(result);
+  add_worst(result, movements);
+  return result;
+}
+
+std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
+  std::set<std::string> loose;
+  for (const auto& plane : joint.planes)
+    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
+      if (plane.clearance > 0) loose.insert(joint.name(*hole));
+  std::vector<std::string> result;
+  for (const auto& doubt : doubts) {
+    double most = 0;
+    std::string at;
+    const RimState* worst = nullptr;
+    std::set<std::string> holes;
+    for (std::size_t step = 0; step < states.size(); ++step)
+      for (std::size_t i = 0; i < joint.plates.size(); ++i)
+        for (std::size_t rim = 0; rim < states[step].plates[i].rims.size(); ++rim) {
+          const RimState& state = states[step].plates[i].rims[rim];
+          const std::string hole = joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim];
+          const double amount = doubt.amount(state, loose.contains(hole));
+          if (amount > 0) holes.insert(hole);
+          if (!(amount > most)) continue;
+          most = amount;
+          worst = &state;
+          at = fmt::format("hole \"{}\" (increment {}", hole, step + 1);
+        }
+    if (!worst) continue;
+    const std::size_t others = holes.size() - 1;
+    at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
+    using fmt::arg;
+    result.push_back(fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file),
+                                 arg("at", at), arg("pull", worst->pull), arg("stress", worst->bearing_stress),
+                                 arg("peak", worst->peak_hoop), arg("net", worst->net_concentration),
+                                 arg("across", std::abs(worst->across)),
+                                 arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
+                                 arg("force", unit(joint.units, 0, 1)), arg("unit", unit(joint.units, -2, 1))));
+  }
   return result;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/output/rim_quantities.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 
 #include <fmt/format.h>
 
@@ -124,13 +124,9 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
         return fmt::format(fmt::runtime(quantity.heading.format), value == 0 ? 0 : value);
       });
     }
-  if (rows.empty()) return rows;
-  return row("hole", [](const Quantity& quantity) { return quantity.heading.text; }) +
-         row("",
-             [&](const Quantity& quantity) {
-               return quantity.heading.has_unit ? unit_of(quantity, joint.units) : "";
-             }) +
-         rows;
+  const auto unit_below = [&](const Quantity& each) { return each.heading.has_unit ? unit_of(each, joint.units) : ""; };
+  const auto heading = [](const Quantity& each) { return each.heading.text; };
+  return rows.empty() ? rows : row("hole", heading) + row("", unit_below) + rows;
 }
 
 }  // namespace fastjoint::stage3

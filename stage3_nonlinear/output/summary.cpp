@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/output/summary.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/output/rim_quantities.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -18,9 +17,8 @@ using Eigen::Index;
 constexpr std::size_t least_name = 12;
 constexpr const char* legend =
     "  forces on a plate are positive along +x, +y; delta = D(first plate) - D(second plate), and F > 0 (F_x, F_y > 0 "
-    "where "
-    "there are two) pushes the second along +\n  share: of what all fasteners transfer between the same two plates, "
-    "friction included\n";
+    "where there are two) pushes the second along +\n  share: of what all fasteners transfer between the same two "
+    "plates, friction included\n";
 
 /// Width of the column of names: fasteners and plates share it.
 std::size_t name_width(const JointModel& joint) {
@@ -56,6 +54,13 @@ std::string effort(const LoadPath& path, const PathStep& step) {
   return step.exact ? counted(step.iterations, "piece") + " without iterations" : counted(step.iterations, "iteration");
 }
 
+/// Estimated error of a plate's S over its largest entry; none if the file has no estimate, p is not its highest
+/// degree, or S is zero.
+std::optional<double> relative_error(const PlateModel& plate) {
+  if (!plate.S_error.allFinite() || plate.S.isZero(0)) return std::nullopt;
+  return plate.S_error.cwiseAbs().maxCoeff() / plate.S.cwiseAbs().maxCoeff();
+}
+
 std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   std::string text =
       fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
@@ -64,9 +69,8 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
   for (const auto& [name, law] : scene.laws)
     if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)
-    if (plate.relative_error)
-      text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name,
-                          *plate.relative_error);
+    if (const auto error = relative_error(plate))
+      text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name, *error);
     else if (plate.S.isZero(0))
       text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
   return text;
@@ -111,20 +115,12 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
 }
 
 /// The largest force of all increments with its error bar.
-std::string error_bar(const JointModel& joint, const LoadPath& path, const Eigen::MatrixXd& F_error) {
-  std::size_t step = 0;
-  Index plane = 0;
-  double largest = 0;
-  for (std::size_t i = 0; i < path.steps.size(); ++i) {
-    const Eigen::VectorXd F = amounts(path.steps[i].F, joint.n_directions());
-    Index at = 0;
-    if (!(F.cwiseAbs().maxCoeff(&at) > std::abs(largest))) continue;
-    largest = F[at];
-    step = i;
-    plane = at;
-  }
+std::string error_bar(const JointModel& joint, const formats::JointResult& result) {
+  Index step = 0, plane = 0;
+  result.F.transpose().cwiseAbs().maxCoeff(&plane, &step);  // the first of several
   return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
-                     largest, F_error(step, plane), unit(joint.units, 0, 1), joint.name(joint.planes[plane]), step + 1);
+                     result.F(step, plane) + 0.0, (*result.F_error)(step, plane), unit(joint.units, 0, 1),
+                     joint.name(joint.planes[plane]), step + 1);
 }
 
 std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,
@@ -153,8 +149,7 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
 }  // namespace
 
 std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                    const std::vector<JointState>& states, const std::optional<Eigen::MatrixXd>& F_error,
-                    bool all_stresses) {
+                    const std::vector<JointState>& states, const formats::JointResult& result, bool all_stresses) {
   const std::size_t width = name_width(joint);
   std::string text = title(scene, joint, path);
   for (std::size_t i = 0; i < states.size(); ++i) {
@@ -164,9 +159,9 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }
-  if (!states.empty() && F_error) text += error_bar(joint, path, *F_error);
-  if (!states.empty()) text += legend + stress_tables(joint, path, states, all_stresses);
-  return text;
+  if (states.empty()) return text;
+  if (result.F_error) text += error_bar(joint, result);
+  return text + legend + stress_tables(joint, path, states, all_stresses);
 }
 
 }  // namespace fastjoint::stage3

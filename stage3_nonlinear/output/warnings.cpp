@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/output/warnings.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +10,6 @@
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/equations/implicit_slopes.hpp"
-#include "stage3_nonlinear/output/worst_of_kind.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -31,7 +30,7 @@ const PathStep* first_step(const LoadPath& path, Is is) {
 
 /// Warns of each plane at the first increment at which it happens.
 void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
-  WorstOfKind worst;
+  std::vector<Doubt> beyond;
   for (std::size_t j = 0; j < joint.planes.size(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const double last = plane.law->last_delta(plane.clearance);
@@ -40,12 +39,12 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
       return std::abs(delta(step)) > last && !(plane.one_sided && delta(step) < 0);
     };
     if (const PathStep* step = first_step(path, is_beyond))
-      worst.add(std::abs(delta(*step)) / last,
-                fmt::format("{}: delta = {:.6g} at {} is beyond the last point {:.6g} of its law (gap included), which "
-                            "is extrapolated there",
-                            joint.name(plane), delta(*step), increment_text(path, *step), last));
+      beyond.emplace_back(std::abs(delta(*step)) / last,
+                          fmt::format("{}: delta = {:.6g} at {} is beyond the last point {:.6g} of its law (gap "
+                                      "included), which is extrapolated there",
+                                      joint.name(plane), delta(*step), increment_text(path, *step), last));
   }
-  worst.say(result);
+  add_worst(result, beyond);
 }
 
 std::string names(const JointModel& joint, const std::vector<Index>& planes) {
@@ -93,10 +92,10 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& re
     if (!source || !source->bearing_of_sheet) continue;
     for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
       if (joint.plates[hole->plate].on_springs[hole->disc / joint.n_directions()] && said.insert(plane.law_name).second)
-        result.push_back(fmt::format(
-            "/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole \"{}\" have "
-            "already: the joint comes out too soft; take \"fastener only\"",
-            plane.law_name, joint.name(*hole)));
+        result.push_back(
+            fmt::format("/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole "
+                        "\"{}\" have already: the joint comes out too soft; take \"fastener only\"",
+                        plane.law_name, joint.name(*hole)));
   }
 }
 
@@ -128,25 +127,24 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
               "its limit load, and the one given was found from a first guess (\"initial\")"
             : "it is followed from no load up to load factor {:.6g}, where it jumps: the one given from there on is "
               "another";
-    result.push_back(
-        fmt::format("the law of {} falls more steeply than the plates hold against: the solution may be one of "
-                    "several; {}",
-                    names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0)));
+    result.push_back(fmt::format(
+        "the law of {} falls more steeply than the plates hold against: the solution may be one of several; {}",
+        names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0)));
   }
   const auto snaps = [](const PathStep& step) { return step.check.unstable > 0 && !step.check.locking; };
   if (const PathStep* step = first_step(path, snaps))
-    result.push_back(fmt::format(
-        "at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality it snaps "
-        "through before; take a law that does not fall, or hold the joint by displacements",
-        increment_text(path, *step),
-        step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable)));
+    result.push_back(
+        fmt::format("at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality "
+                    "it snaps through before; take a law that does not fall, or hold the joint by displacements",
+                    increment_text(path, *step),
+                    step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable)));
 }
 
 /// @param factor At most 1.
 std::string locking_text(double factor) {
   return fmt::format(
-      "with friction {:.4g} times as large the joint locks itself: friction alone carries "
-      "the load there, and beyond it a solution need neither exist nor be the only one",
+      "with friction {:.4g} times as large the joint locks itself: friction alone carries the load there, and beyond "
+      "it a solution need neither exist nor be the only one",
       factor);
 }
 
@@ -198,29 +196,35 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   return result;
 }
 
-std::string failure_message(const JointScene& scene, const JointModel& joint, const PathFailure& failure,
-                            std::size_t n_increments, const std::string& output) {
+void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind) {
+  if (kind.empty()) return;
+  const auto less = [](const Doubt& a, const Doubt& b) { return a.first < b.first; };
+  const std::string& worst = std::max_element(kind.begin(), kind.end(), less)->second;
+  warnings.push_back(
+      kind.size() == 1 ? worst : fmt::format("{} ({} more likewise, this is the worst)", worst, kind.size() - 1));
+}
+
+std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
+                            const std::string& output) {
+  const PathFailure& failure = *path.failure;
   const std::string before = program::counted(failure.increment, "increment");
   const std::string kept = fmt::format("{} holds the {} before (complete = 0).", output, before);
-  const std::string increment =
-      fmt::format("increment {} of {} (load factor {:.6g})", failure.increment + 1, n_increments, failure.load_factor);
+  const std::string increment = fmt::format("increment {} of {} (load factor {:.6g})", failure.increment + 1,
+                                            path.n_increments, failure.load_factor);
   if (!failure.unbalanced.empty())
     return fmt::format(
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
-        "carries "
-        "load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made by hand "
-        "see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
+        "carries load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made "
+        "by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
         scene.file, increment, failure.unbalanced, failure.out_of_balance, failure.allowed, kept);
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
   if (!failure.level.empty())
     return fmt::format(
         "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} allow no more "
-        "force (a "
-        "law that ends level holds its last one, a cubic that falls is past its peak); {} did not converge. {} "
-        "{}Take smaller loads or displacements, or more or stronger fasteners; what others carry once these have "
-        "failed, a "
-        "joint without these shows",
+        "force (a law that ends level holds its last one, a cubic that falls is past its peak); {} did not converge. "
+        "{} {}Take smaller loads or displacements, or more or stronger fasteners; what others carry once these have "
+        "failed, a joint without these shows",
         scene.file, failure.reached, names(joint, failure.level), increment, kept, locking);
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)

@@ -27,10 +27,10 @@ Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
   return bearing;
 }
 
-/// Friction case of a hole for a bearing force; null without friction.
-const FrictionLoad* friction_at(const HoleModel& hole, Index direction, double bearing) {
-  if (hole.friction.empty()) return nullptr;
-  return &hole.friction[direction][bearing < 0 ? minus_side : plus_side];
+/// Friction case of a hole for a bearing force; that without a load if there is no friction.
+const FrictionLoad& friction_at(const HoleModel& hole, Index direction, double bearing) {
+  static const FrictionLoad none;
+  return hole.friction.empty() ? none : hole.friction[direction][bearing < 0 ? minus_side : plus_side];
 }
 
 /// @param side 0: in the first hole of each plane, 1: in the second.
@@ -40,78 +40,71 @@ VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& 
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const std::size_t hole = plane.first + side;
-    for (Index d = 0; d < a; ++d)
-      if (const auto* friction =
-              friction_at(joint.fasteners[plane.fastener].holes[hole], d, bearing[plane.fastener][hole][d]))
-        result[j * a + d] *= friction->bearing + friction->resultant;
+    for (Index d = 0; d < a; ++d) {
+      const double b = bearing[plane.fastener][hole][d];
+      const FrictionLoad& friction = friction_at(joint.fasteners[plane.fastener].holes[hole], d, b);
+      result[j * a + d] *= friction.bearing + friction.resultant;
+    }
   }
   return amounts(result, a);
 }
 
-/// Forces that act on one plate and that its rows ask for.
-struct PlateForces {
-  VectorXd asked;     ///< (m+e) S u + R Lambda + T f
-  VectorXd discs;     ///< (m) by the fasteners' bearing
-  VectorXd friction;  ///< (m) by their friction
-  VectorXd Lambda;    ///< (h) stress
-};
-
-void add_hole(PlateForces& forces, const HoleModel& hole, const VectorXd& bearing) {
+/// Adds what a fastener's bearing forces, (a), and their friction do to a plate in one of its holes.
+/// @param asked (m+e) S u + R Lambda + T f of the plate's rows, force.
+void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const VectorXd& bearing) {
   for (Index d = 0; d < bearing.size(); ++d) {
     const double b = bearing[d];
-    const FrictionLoad* friction = friction_at(hole, d, b);
-    forces.discs[hole.disc + d] += friction ? friction->bearing * b : b;
-    if (!friction || friction->load.size() == 0) continue;
-    forces.asked += friction->load * std::abs(b);
-    forces.Lambda[friction->case_index] += friction->peak * std::abs(b);
-    forces.friction[hole.disc + d] += b * friction->resultant;
+    const FrictionLoad& friction = friction_at(hole, d, b);
+    state.bearing[hole.disc + d] += friction.bearing * b;
+    if (friction.load.size() == 0) continue;
+    asked += friction.load * std::abs(b);
+    state.Lambda[friction.case_index] += friction.peak * std::abs(b);
+    state.friction[hole.disc + d] += b * friction.resultant;
   }
 }
 
-PlateForces plate_forces(const JointModel& joint, std::size_t at, const VectorXd& u, double load_factor,
-                         const Bearing& bearing) {
+/// @param u         (m+e) displacements of the plate.
+/// @param worst_row Raised to what the plate's worst row is out of balance, force.
+PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& u, double factor,
+                       const Bearing& bearing, double& worst_row) {
   const PlateModel& plate = joint.plates[at];
-  const VectorXd none = VectorXd::Zero(plate.n_discs());
-  PlateForces forces{plate.S * u + load_factor * (plate.T * plate.traction_force), none, none,
-                     VectorXd::Zero(plate.friction_unit_force.size())};
+  const Index m = plate.n_discs();
+  const VectorXd none = VectorXd::Zero(m);
+  VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_force);
+  PlateState state{.D = u.head(m),
+                   .De = u.tail(plate.n_externals()),
+                   .Pe = factor * plate.external_force,
+                   .Lambda = VectorXd::Zero(plate.friction_unit_force.size()),
+                   .traction = factor * plate.traction_force,
+                   .bearing = none,
+                   .friction = none};
   for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
     for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
       if (joint.fasteners[i].holes[hole].plate == at)
-        add_hole(forces, joint.fasteners[i].holes[hole], bearing[i][hole]);
-  return forces;
-}
-
-/// Fills in the plate and returns its worst row, force.
-double fill(PlateState& state, const PlateModel& plate, const PlateForces& forces, const VectorXd& u, double factor) {
-  const Index m = plate.n_discs();
-  state.D = u.head(m);
-  state.De = u.tail(plate.n_externals());
-  state.Pe = factor * plate.external_force;
-  state.Lambda = forces.Lambda;
-  state.traction = factor * plate.traction_force;
-  VectorXd amounts(state.De.size() + m + state.Lambda.size() + state.traction.size());
+        add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
+  VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
   amounts << state.De, state.D, state.Lambda, state.traction;
-  state.rims = rim_states(plate, {amounts, forces.discs, forces.friction});
-  double worst = (forces.asked.head(m) - forces.discs).cwiseAbs().maxCoeff();
+  state.rims = rim_states(plate, amounts, state.bearing, state.friction);
+  worst_row = std::max(worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff());
   for (Index i = 0; i < state.Pe.size(); ++i) {
-    if (plate.external_displacement[i]) state.Pe[i] = forces.asked[m + i];
-    worst = std::max(worst, std::abs(forces.asked[m + i] - state.Pe[i]));
+    if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];
+    worst_row = std::max(worst_row, std::abs(asked[m + i] - state.Pe[i]));
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
   for (Index i = 0; i < state.traction.size(); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
-  for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += forces.discs[i] + forces.friction[i];
+  for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += state.bearing[i] + state.friction[i];
   state.by_supports = -(state.applied + state.by_fasteners);
-  return worst;
+  return state;
 }
 
 /// Worst component of what the holes of a fastener give it altogether, bearing and friction, of all fasteners, force.
-double worst_fastener(const JointModel& joint, const std::vector<PlateForces>& plates) {
+double worst_fastener(const JointModel& joint, const std::vector<PlateState>& plates) {
   double worst = 0;
   for (const auto& fastener : joint.fasteners) {
     VectorXd sum = VectorXd::Zero(joint.n_directions());
     for (const auto& hole : fastener.holes) {
-      const PlateForces& forces = plates[hole.plate];
-      sum += (forces.discs + forces.friction).segment(hole.disc, sum.size());
+      const PlateState& plate = plates[hole.plate];
+      sum += (plate.bearing + plate.friction).segment(hole.disc, sum.size());
     }
     worst = std::max(worst, sum.lpNorm<Eigen::Infinity>());
   }
@@ -124,11 +117,10 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
   constexpr double rounding = 1e-9;
   std::optional<double> worst;
   for (const int axis : {0, 1}) {
-    VectorXd motion(plate.n_unknowns());
-    for (Index i = 0; i < motion.size(); ++i) {
+    const VectorXd motion = VectorXd::NullaryExpr(plate.n_unknowns(), [&](Index i) {
       const Index external = i - plate.n_discs();
-      motion[i] = (external < 0 ? plate.axis_of(i) : plate.external_axis[external]) == axis;
-    }
+      return double((external < 0 ? plate.axis_of(i) : plate.external_axis[external]) == axis);
+    });
     if (motion.isZero(0) || (plate.S * motion).norm() > rounding * plate.S.norm()) continue;
     worst = std::max(worst.value_or(0), std::abs(state.by_supports[axis]));
   }
@@ -140,23 +132,21 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
 JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
   const VectorXd D = system.displacements(step.F, step.delta, step.load_factor);
   JointState state;
-  state.plates.resize(joint.plates.size());
   const Bearing bearing = bearing_forces(joint, step.F);
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
   state.largest_force = step.F.lpNorm<Eigen::Infinity>();
-  std::vector<PlateForces> forces;
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
-    forces.push_back(plate_forces(joint, i, u, step.load_factor, bearing));
-    state.out_of_balance = std::max(state.out_of_balance, fill(state.plates[i], plate, forces[i], u, step.load_factor));
-    if (const auto worst = given_by_no_support(plate, state.plates[i]))
+    const PlateState& its =
+        state.plates.emplace_back(plate_state(joint, i, u, step.load_factor, bearing, state.out_of_balance));
+    if (const auto worst = given_by_no_support(plate, its))
       state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), *worst);
-    const double traction = std::abs(step.load_factor) * plate.traction_force.lpNorm<Eigen::Infinity>();
-    state.largest_force = std::max({state.largest_force, state.plates[i].Pe.lpNorm<Eigen::Infinity>(), traction});
+    for (const VectorXd* forces : {&its.Pe, &its.traction})
+      state.largest_force = std::max(state.largest_force, forces->lpNorm<Eigen::Infinity>());
   }
-  state.fasteners_out_of_balance = worst_fastener(joint, forces);
+  state.fasteners_out_of_balance = worst_fastener(joint, state.plates);
   if (!(state.largest_force > 0)) return state;
   for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;
   if (state.plates_out_of_balance) *state.plates_out_of_balance /= state.largest_force;

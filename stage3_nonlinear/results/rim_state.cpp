@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/rim_state.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
 
+#include "common/count.hpp"
 #include "common/rim/angles.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -28,14 +28,6 @@ struct Peak {
 };
 
 double turn(double angle) { return angle - 360 * std::round(angle / 360); }
-
-/// Components of friction whose peak is more than 1 % of the bearing stress, else 0: the friction of the other axis
-/// must not hide the peak beside the hole under a force almost along one axis.
-Eigen::Vector2d jumping(const Eigen::Vector2d& friction, const Eigen::Vector2d& bearing) {
-  // The cosine distribution's peak stress over F / (d t) is twice its resultant over F.
-  const double negligible = 0.01 / 2 * bearing.norm();
-  return (friction.array().abs() > negligible).select(friction, 0);
-}
 
 /// Points of one rim.
 class Rim {
@@ -63,7 +55,12 @@ class Rim {
     const Index n = angle_.size(), before = (best->at + n - 1) % n, after = (best->at + 1) % n;
     const double step = distance(best->at, after);
     const bool between = step > 0 && std::abs(distance(before, best->at) - step) < same_step * step;
-    if (between && allowed_[before] && allowed_[after]) refine(value[before], value[after], step, *best);
+    const double curvature = value[before] - 2 * best->value + value[after];
+    if (between && allowed_[before] && allowed_[after] && curvature < 0) {
+      const double shift = (value[before] - value[after]) / (2 * curvature);
+      best->value -= curvature * shift * shift / 2;
+      best->angle += shift * step;
+    }
     best->angle = turn(best->angle);
     return best;
   }
@@ -99,14 +96,6 @@ class Rim {
 
   /// Counter-clockwise, degrees; negative or 0 where that is not the shorter way.
   [[nodiscard]] double distance(Index from, Index to) const { return turn(angle_[to] - angle_[from]); }
-  static void refine(double before, double after, double step, Peak& peak) {
-    const double curvature = before - 2 * peak.value + after;
-    if (!(curvature < 0)) return;
-    const double shift = (before - after) / (2 * curvature);
-    peak.value -= curvature * shift * shift / 2;
-    peak.angle += shift * step;
-  }
-
   Index first_;
   VectorXd angle_;
   std::vector<bool> allowed_;  ///< (n) not close to the jump
@@ -123,14 +112,10 @@ void read_peak(const formats::PlateStresses& a, const Rim& rim, std::size_t leve
       level > 0 ? rim.change_around(peak->at, hoop - rim.stress(a.sigma_tt[level - 1], amounts)) : unknown;
 }
 
-/// Forces over all sections of a plate.
-struct SectionForces {
-  VectorXd force;                 ///< (s)
-  std::optional<VectorXd> below;  ///< at the degree below
-};
-
-/// @param T Force of the fastener along x, friction included. @param largest Force anywhere on the plate.
-void read_sections(const formats::PlateStresses& a, const std::string& hole, const SectionForces& sections, double T,
+/// @param forces  Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or 2).
+/// @param T       Force of the fastener along x, friction included.
+/// @param largest Force anywhere on the plate.
+void read_sections(const formats::PlateStresses& a, const std::string& hole, const Eigen::MatrixXd& forces, double T,
                    double largest, RimState& state) {
   std::optional<Index> plus, minus;
   for (std::size_t i = 0; i < a.section_hole.size(); ++i) {
@@ -146,9 +131,9 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
     const double left = minus ? N[*minus] : N[*plus] + T;
     return T == 0 ? (left + right) / 2 : T > 0 ? right : left;
   };
-  const VectorXd& force = sections.force;
+  const VectorXd force = forces.col(0);
   state.bypass_load = bypass(force);
-  state.bypass_error = sections.below ? std::abs(bypass(*sections.below) - state.bypass_load) : unknown;
+  state.bypass_error = forces.cols() > 1 ? std::abs(bypass(forces.col(1)) - state.bypass_load) : unknown;
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
@@ -159,37 +144,41 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
 
 }  // namespace
 
-std::vector<RimState> rim_states(const PlateModel& plate, const PlateLoading& loading) {
+std::vector<RimState> rim_states(const PlateModel& plate, const VectorXd& amounts, const VectorXd& all_bearing,
+                                 const VectorXd& all_friction) {
   std::vector<RimState> states;
   const formats::PlateStresses& a = plate.stresses;
   if (!plate.stress_level) return states;
   const std::size_t level = *plate.stress_level;
-  SectionForces forces{a.section_force[level] * loading.amounts, std::nullopt};
-  if (level > 0) forces.below = a.section_force[level - 1] * loading.amounts;
-  const double largest = std::max(forces.force.lpNorm<Eigen::Infinity>(), loading.bearing.lpNorm<Eigen::Infinity>());
+  Eigen::MatrixXd forces(a.section_hole.size(), level > 0 ? 2 : 1);
+  for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * amounts;
+  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
     RimState state;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
-    const auto hole = std::find(plate.holes.begin(), plate.holes.end(), a.rim_hole[i]) - plate.holes.begin();
-    for (Index disc = 0; disc < plate.n_discs(); ++disc) {
-      if (disc / std::ssize(plate.axes) != hole) continue;
-      bearing[plate.axis_of(disc)] = loading.bearing[disc];
-      friction[plate.axis_of(disc)] = loading.friction[disc];
+    const int hole = index_of(plate.holes, a.rim_hole[i]);
+    const bool is_open = hole == count_of(plate.holes);
+    for (std::size_t d = 0; d < plate.axes.size() && !is_open; ++d) {
+      bearing[plate.axes[d]] = all_bearing[hole * plate.axes.size() + d];
+      friction[plate.axes[d]] = all_friction[hole * plate.axes.size() + d];
     }
     state.bearing_load = bearing[0];
     state.bearing_load_y = bearing[1];
     state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(i).transpose()).norm();
-    const Eigen::Vector2d jumps = jumping(friction, bearing);
+    // Friction whose peak is below 1 % of the bearing stress does not jump: that of the other axis must not hide the
+    // peak beside the hole under a force almost along one axis. The cosine distribution's peak stress over F / (d t) is
+    // twice its resultant over F.
+    const Eigen::Vector2d jumps = (friction.array().abs() > 0.01 / 2 * bearing.norm()).select(friction, 0);
     state.by_components = jumps[0] != 0 && jumps[1] != 0;
     const Rim points(a, i, jumps);
-    read_peak(a, points, level, loading.amounts, state);
-    const VectorXd radial = points.stress(a.sigma_rr[level], loading.amounts);
+    read_peak(a, points, level, amounts, state);
+    const VectorXd radial = points.stress(a.sigma_rr[level], amounts);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();
     state.filled = double(touched) > (1 - hardly) * double(radial.size());
     if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
-    if (const int across = 1 - plate.axes[0]; plate.axes.size() == 1 && hole < std::ssize(plate.holes))
+    if (const int across = 1 - plate.axes[0]; plate.axes.size() == 1 && !is_open)
       state.across = points.force(radial, across, a.bearing_area(i, across));
     state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
     read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <map>
 
+#include "common/matrices/stiffness_error.hpp"
 #include "stage3_nonlinear/equations/implicit_slopes.hpp"
 
 namespace fastjoint::stage3 {
@@ -12,11 +16,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Changes by all numbers at fixed c, one column each: load factor, clearances, laws, mu, forces, displacements.
-struct Changes {
-  MatrixXd F;         ///< (n a, columns)
-  MatrixXd residual;  ///< (n a, columns)
-};
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Derivatives dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (n a, n +
 /// l).
@@ -80,58 +80,93 @@ MatrixXd friction_changes(const CondensedSystem& system, const std::vector<Frict
   return changes;
 }
 
-Changes changes(const JointEquations& equations, const JointNumbers& numbers, const ContactState& state,
-                const VectorXd& c, double load_factor) {
-  const CondensedSystem& system = equations.system;
-  const auto [F, delta] = law_changes(equations, numbers, state, c);
+/// Changes of the residual at fixed c by all numbers, (n a, columns): load factor, clearances, laws, mu, forces,
+/// displacements.
+/// @param F, delta Those of law_changes.
+MatrixXd residual_changes(const CondensedSystem& system, const JointNumbers& numbers, const ContactState& state,
+                          const MatrixXd& F, const MatrixXd& delta, double load_factor) {
   MatrixXd by_law = F + system.S_ud * delta;
   if (system.has_friction()) by_law += system.friction_matrix(state.F) * F;
   const MatrixXd by_mu = friction_changes(system, numbers.friction, state.F);
-  const UnitLoads& loads = numbers.loads;
-  Changes all;
-  all.residual.resize(c.size(), 1 + by_law.cols() + by_mu.cols() + loads.q_force.cols() + loads.q_displacement.cols());
-  all.residual << -system.q, by_law, by_mu, -load_factor * loads.q_force, -load_factor * loads.q_displacement;
-  all.F = MatrixXd::Zero(c.size(), all.residual.cols());
-  all.F.middleCols(1, F.cols()) = F;
+  MatrixXd all(F.rows(), 1 + by_law.cols() + by_mu.cols() + numbers.q_force.cols() + numbers.q_displacement.cols());
+  all << -system.q, by_law, by_mu, -load_factor * numbers.q_force, -load_factor * numbers.q_displacement;
   return all;
 }
 
-/// Adds a load under its name.
-/// @param D_delta Rows of one plate, (m+e, n a).
-/// @param load    Forces on its unknowns, (m+e).
-void add(std::vector<std::string>& names, MatrixXd& q, const std::string& name, const MatrixXd& D_delta,
-         const VectorXd& load) {
-  names.push_back(name);
-  q.conservativeResize(Eigen::NoChange, q.cols() + 1);
-  q.rightCols(1) = without_rounding(D_delta.transpose() * load, load.cwiseAbs().maxCoeff());
+/// Adds the loads and the work of each on the displacements D_delta, which by reciprocity is its q, without another
+/// solve (docs/theory.md, section 7.1).
+void add_unit_loads(const JointModel& joint, const CondensedSystem& system, JointNumbers& numbers) {
+  for (MatrixXd* q : {&numbers.q_force, &numbers.q_displacement}) q->resize(system.q.size(), 0);
+  for (std::size_t p = 0; p < joint.plates.size(); ++p) {
+    const PlateModel& plate = joint.plates[p];
+    const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
+    const auto add = [&](std::vector<std::string>& names, MatrixXd& q, const std::string& name, const VectorXd& load) {
+      names.push_back(plate.name + ":" + name);
+      q.conservativeResize(Eigen::NoChange, q.cols() + 1);
+      q.rightCols(1) = without_rounding(D.transpose() * load, load.cwiseAbs().maxCoeff());
+    };
+    for (Index i = 0; i < plate.n_externals(); ++i) {
+      const Index unknown = plate.n_discs() + i;
+      if (plate.external_displacement[i])
+        add(numbers.displacement, numbers.q_displacement, plate.externals[i], -plate.S.col(unknown));
+      else
+        add(numbers.force, numbers.q_force, plate.externals[i], VectorXd::Unit(plate.n_unknowns(), unknown));
+    }
+    for (std::size_t i = 0; i < plate.tractions.size(); ++i)
+      add(numbers.force, numbers.q_force, plate.tractions[i], -plate.T.col(i));
+  }
+}
+
+bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
+
+/// Part of a plate in the errors of all forces, (n).
+/// @param w (n, m + e) change of each force per force on each unknown.
+VectorXd plate_errors(const PlateModel& plate, const MatrixXd& w, const PlateState& state) {
+  VectorXd u(plate.n_unknowns());
+  u << state.D, state.De;
+  const VectorXd& f = state.traction;
+  const PlateDegrees& degrees = plate.degrees;
+  const auto n = degrees.S.size();
+  if (n < 2) return w.cwiseAbs() * (plate.S_error * u.cwiseAbs());
+  constexpr double least = 0.25;  // of the bound
+  const auto load = [&](std::size_t i) -> VectorXd {
+    return degrees.S[i] * u + degrees.T[i] * f + degrees.R[i] * state.Lambda;
+  };
+  VectorXd energy(degrees.p.size());  // u . S u + 2 u . T f - f . C f at every degree
+  for (Index i = 0; i < energy.size(); ++i)
+    energy[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
+  const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
+  const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
+  const MatrixXd dS = degrees.S[n - 2] - degrees.S[n - 1];
+  const VectorXd change = w * (load(n - 2) - load(n - 1));
+  const VectorXd fall_by_w = (w * dS).cwiseProduct(w).rowwise().sum().cwiseAbs();
+  return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
+}
+
+/// Errors of the forces of one increment, (n).
+VectorXd errors(const JointModel& joint, const JointEquations& equations, const PathStep& step,
+                const JointState& solution) {
+  const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
+  ContactState state = contact_state(equations.contacts, c);
+  if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
+  Slopes slopes = implicit_slopes(equations.system, state, equations.system.D_delta.transpose());
+  slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
+  const MatrixXd w = of_amounts(slopes, state, c);
+  VectorXd result = VectorXd::Zero(w.rows());
+  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    result += plate_errors(plate, w.middleCols(joint.offset(i), plate.n_unknowns()), solution.plates[i]);
+  }
+  if (step.check.at_limit_load()) result.setConstant(infinite);
+  for (const Index row : slopes.no_row) result[row / joint.n_directions()] = infinite;
+  return result;
 }
 
 }  // namespace
 
-UnitLoads unit_loads(const JointModel& joint, const CondensedSystem& system) {
-  const Index rows = system.q.size();
-  UnitLoads loads{{}, MatrixXd(rows, 0), {}, MatrixXd(rows, 0)};
-  for (std::size_t p = 0; p < joint.plates.size(); ++p) {
-    const PlateModel& plate = joint.plates[p];
-    const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
-    for (Index i = 0; i < plate.n_externals(); ++i) {
-      const std::string name = plate.name + ":" + plate.externals[i];
-      const Index unknown = plate.n_discs() + i;
-      if (plate.external_displacement[i]) {
-        add(loads.displacement, loads.q_displacement, name, D, -plate.S.col(unknown));
-      } else {
-        add(loads.force, loads.q_force, name, D, VectorXd::Unit(plate.n_unknowns(), unknown));
-      }
-    }
-    for (std::size_t i = 0; i < plate.tractions.size(); ++i)
-      add(loads.force, loads.q_force, plate.name + ":" + plate.tractions[i], D, -plate.T.col(i));
-  }
-  return loads;
-}
-
 JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
   JointNumbers numbers;
-  numbers.loads = unit_loads(joint, system);
+  add_unit_loads(joint, system, numbers);
   for (std::size_t i = 0; i < system.friction.size(); ++i) {
     const FrictionRow& row = system.friction[i];
     if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
@@ -142,7 +177,7 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
     const auto [at, is_new] = first.try_emplace(plane.law_name, std::ssize(numbers.law));
     numbers.first_of_law.push_back(at->second);
     if (!is_new) continue;
-    for (const auto& parameter : plane.law->parameters()) numbers.law.push_back({plane.law_name, parameter});
+    for (const auto& parameter : plane.law->parameters()) numbers.law.emplace_back(plane.law_name, parameter);
   }
   return numbers;
 }
@@ -150,23 +185,33 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
 Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
   const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
   ContactState state = contact_state(equations.contacts, c);
-  const Changes all = changes(equations, numbers, state, c, step.load_factor);
+  const auto [F, delta] = law_changes(equations, numbers, state, c);
+  const MatrixXd residual = residual_changes(equations.system, numbers, state, F, delta, step.load_factor);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations.system, state, all.residual);
-  slopes.F += all.F;
+  Slopes slopes = implicit_slopes(equations.system, state, residual);
+  MatrixXd at_fixed_c = MatrixXd::Zero(residual.rows(), residual.cols());
+  at_fixed_c.middleCols(1, F.cols()) = F;
+  slopes.F += at_fixed_c;
   const MatrixXd dF = of_amounts(slopes, state, c);
   Index column = 0;
   const auto next = [&](Index count) -> MatrixXd {
     column += count;
     return dF.middleCols(column - count, count);
   };
-  Sensitivity result;
-  result.load_factor = next(1);
-  result.clearance = next(std::ssize(equations.contacts));
-  result.law = next(std::ssize(numbers.law));
-  result.mu = next(std::ssize(numbers.friction));
-  result.force = next(numbers.loads.q_force.cols());
-  result.displacement = next(numbers.loads.q_displacement.cols());
+  return {.load_factor = next(1),
+          .clearance = next(std::ssize(equations.contacts)),
+          .law = next(std::ssize(numbers.law)),
+          .mu = next(std::ssize(numbers.friction)),
+          .force = next(numbers.q_force.cols()),
+          .displacement = next(numbers.q_displacement.cols())};
+}
+
+std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                                     const std::vector<JointState>& states) {
+  if (!std::all_of(joint.plates.begin(), joint.plates.end(), is_known)) return std::nullopt;
+  MatrixXd result(std::ssize(path.steps), joint.n_planes());
+  for (std::size_t i = 0; i < path.steps.size(); ++i)
+    result.row(i) = errors(joint, equations, path.steps[i], states[i]).transpose();
   return result;
 }
 

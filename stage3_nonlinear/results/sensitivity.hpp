@@ -2,24 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stage3_nonlinear/path/path_result.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 
 namespace fastjoint::stage3 {
-
-/// Forces of rigid fasteners under each load alone: q of the condensed system is the sum of these, each times its load.
-struct UnitLoads {
-  std::vector<std::string> force;         ///< (u) "plate:external" without a given displacement, loaded or not
-  Eigen::MatrixXd q_force;                ///< (n a, u) per unit force, dimensionless
-  std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
-  Eigen::MatrixXd q_displacement;         ///< (n a, v) per unit displacement, force / length
-};
-
-/// Work of each load on the displacements D_delta, which by reciprocity is its q, without another solve
-/// (docs/theory.md, section 7.1).
-[[nodiscard]] UnitLoads unit_loads(const JointModel& joint, const CondensedSystem& system);
 
 /// A hole with friction and what its coefficient does to the rows of its fastener.
 struct FrictionHole {
@@ -32,18 +23,17 @@ struct FrictionHole {
   std::vector<Row> rows;
 };
 
-/// A number of a law, which all planes with that law share.
-struct LawNumber {
-  std::string law;
-  Parameter parameter;
-};
-
 /// Numbers of the input that bearing forces are differentiated by, besides the load factor and every plane's clearance.
 struct JointNumbers {
-  std::vector<FrictionHole> friction;      ///< (f)
-  std::vector<LawNumber> law;              ///< (l) laws in the order of the planes
+  std::vector<FrictionHole> friction;  ///< (f)
+  /// (l) names and numbers of the laws in the order of the planes; planes with one law share its numbers.
+  std::vector<std::pair<std::string, Parameter>> law;
   std::vector<Eigen::Index> first_of_law;  ///< (n) where the numbers of each plane's law begin
-  UnitLoads loads;
+  // Forces of rigid fasteners under each load alone: q of the condensed system is their sum, each times its load.
+  std::vector<std::string> force;         ///< (u) "plate:external" without a given displacement, loaded or not
+  Eigen::MatrixXd q_force;                ///< (n a, u) per unit force, dimensionless
+  std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
+  Eigen::MatrixXd q_displacement;         ///< (n a, v) per unit displacement, force / length
 };
 
 [[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system);
@@ -55,8 +45,8 @@ struct Sensitivity {
   Eigen::MatrixXd clearance;     ///< (n, n) column: by the clearance of that plane, force / length
   Eigen::MatrixXd law;           ///< (n, l) force per unit of the number
   Eigen::MatrixXd mu;            ///< (n, f) force
-  Eigen::MatrixXd force;         ///< (n, u) by UnitLoads::force at load factor 1, dimensionless
-  Eigen::MatrixXd displacement;  ///< (n, v) by UnitLoads::displacement at load factor 1, force / length
+  Eigen::MatrixXd force;         ///< (n, u) by JointNumbers::force at load factor 1, dimensionless
+  Eigen::MatrixXd displacement;  ///< (n, v) by JointNumbers::displacement at load factor 1, force / length
 };
 
 /// Derivatives at one step, by the implicit function theorem with one factorisation of the tangent for all numbers
@@ -66,5 +56,17 @@ struct Sensitivity {
 /// balance; derivatives by a load that would set it moving, and those of forces at a limit load, are infinite.
 [[nodiscard]] Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers,
                                       const PathStep& step);
+
+/// Estimated errors of the n bearing forces (with two directions of their amounts) by those of the plates' matrices,
+/// shape (steps, n), force; none if those of a plate are not known.
+///
+/// An error of a plate's matrices acts, to first order, as a load on its unknowns; implicit_slopes gives what that load
+/// does to each force. The last change with p is extrapolated as the plate's energy is, and errors of several plates
+/// are added without sign (docs/theory.md, section 5.3).
+///
+/// The file's own S_error counts for matrices of one degree, as from a laboratory, with the worst sign of every entry.
+/// Errors of forces at a limit load are infinite.
+[[nodiscard]] std::optional<Eigen::MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations,
+                                                          const LoadPath& path, const std::vector<JointState>& states);
 
 }  // namespace fastjoint::stage3

@@ -4,11 +4,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <set>
-#include <utility>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/input/value.hpp"
 #include "common/program/program.hpp"
@@ -34,7 +33,7 @@ Reference read_reference(const Value& value, const JointScene& scene, const char
   Reference result{text.substr(0, colon), text.substr(colon + 1), where(value)};
   std::vector<std::string> names;
   for (const auto& plate : scene.plates) names.push_back(plate.name);
-  if (std::find(names.begin(), names.end(), result.plate) == names.end())
+  if (index_of(names, result.plate) == count_of(names))
     value.fail(fmt::format("plate \"{}\" does not exist", result.plate), fmt::format("{}", fmt::join(names, ", ")));
   return result;
 }
@@ -82,9 +81,9 @@ std::vector<double> read_friction(const Value& value, const std::vector<Referenc
   for (const auto& hole : between) plates.push_back(hole.plate);
   std::vector<double> friction(between.size(), 0.0);
   for (const auto& [plate, mu] : value.members()) {
-    const auto hole = std::find(plates.begin(), plates.end(), plate);
-    if (hole == plates.end()) mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
-    friction[hole - plates.begin()] = mu.number(input::not_negative);
+    const int hole = index_of(plates, plate);
+    if (hole == count_of(plates)) mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
+    friction[hole] = mu.number(input::not_negative);
   }
   return friction;
 }
@@ -193,19 +192,12 @@ SolverScene read_solver(const Value& value, const JointScene& scene) {
   value.only({"method", "tolerance", "max_iterations"});
   SolverScene solver;
   if (const auto method = value.find("method")) {
-    const std::string name = method->choice(method_names);
-    const auto at = std::find(method_names.begin(), method_names.end(), name) - method_names.begin();
-    solver.method = static_cast<Method>(at + 1);
+    solver.method = static_cast<Method>(index_of(method_names, method->choice(method_names)) + 1);
     if (solver.method == Method::exact_path) check_exact_path(scene, *method);
   }
   if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
   if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);
   return solver;
-}
-
-Units read_units(const Value& value) {
-  value.only({"length", "force"});
-  return {value.at("length").text(), value.at("force").text()};
 }
 
 }  // namespace
@@ -218,17 +210,14 @@ JointScene read_joint_scene(const input::Document& document) {
   JointScene scene;
   scene.file = document.file;
   if (const auto name = root.find("name")) scene.name = name->text();
-  if (const auto units = root.find("units")) scene.units = read_units(*units);
+  if (const auto units = root.find("units"))
+    scene.units = Units{units->only({"length", "force"}).at("length").text(), units->at("force").text()};
   scene.plates = read_plates(root.at("plates"));
   scene.laws = read_laws(root.at("laws"));
   read_fasteners(root.at("fasteners"), scene);
   scene.warnings = law_doubts(root.at("laws"), scene);
   for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(item, scene));
-  if (const auto increments = root.find("increments")) {
-    auto factors = read_increments(*increments);
-    scene.at_events = factors.empty();
-    if (!scene.at_events) scene.load_factors = std::move(factors);
-  }
+  if (const auto increments = root.find("increments")) scene.load_factors = read_increments(*increments);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver, scene);
   return scene;

@@ -84,8 +84,7 @@ struct JointScene {
   std::map<std::string, LawScene> laws;
   std::vector<FastenerScene> fasteners;
   std::vector<LoadScene> loads;
-  std::vector<double> load_factors{1};  ///< one per increment
-  bool at_events = false;               ///< increments at every event instead (follow_events)
+  std::vector<double> load_factors{1};  ///< one per increment; none: increments at every event (follow_events)
   InitialScene initial;
   SolverScene solver;
   std::vector<std::string> warnings;  ///< one sentence each, with file and pointer

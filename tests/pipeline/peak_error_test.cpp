@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "stage3_nonlinear/results/rim_state.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -42,13 +42,13 @@ class RandomSheet {
     "external": [{{"id": "P", "on": "right", "direction": "x", "kind": "traction"}}], "p": [{}, {}])",
                     p - 1, p)));
     const Eigen::Index m = discs_.size();
-    stage3::PlateLoading loading{Eigen::VectorXd::Zero(a.matrices.n_cases()), Eigen::VectorXd::Zero(m),
-                                 Eigen::VectorXd::Zero(m)};
-    loading.amounts.head(m) = Eigen::Map<const Eigen::VectorXd>(discs_.data(), m);
-    loading.amounts[m] = friction_;  // of the first hole, bearing to +x
-    loading.amounts.tail(1).setOnes();
-    loading.friction[0] = friction_;
-    return stage3::rim_states(stage3::make_plate("sheet", "sheet.h5", a.matrices, p), loading);
+    Eigen::VectorXd amounts = Eigen::VectorXd::Zero(a.matrices.n_cases()), friction = Eigen::VectorXd::Zero(m);
+    amounts.head(m) = Eigen::Map<const Eigen::VectorXd>(discs_.data(), m);
+    amounts[m] = friction_;  // of the first hole, bearing to +x
+    amounts.tail(1).setOnes();
+    friction[0] = friction_;
+    return stage3::rim_states(stage3::make_plate("sheet", "sheet.h5", a.matrices, p), amounts, Eigen::VectorXd::Zero(m),
+                              friction);
   }
 
  private:

@@ -40,10 +40,11 @@ class PlaneRun : public testing::Test {
   }
   void write(const std::vector<std::string>& a, const std::vector<std::string>& b,
              const std::map<std::string, std::string>& members = {}) {
-    options_ = {.input = test::write_joint(folder_, {plate(true, a), plate(false, b)}, members),
-                .output = folder_.path("result.h5"),
-                .csv = folder_.path("result.csv"),
-                .generator = "test 1"};
+    options_ = {test::write_joint(folder_, {plate(true, a), plate(false, b)}, members),
+                folder_.path("result.h5"),
+                "",
+                false,
+                {{"--csv", csv_}}};
   }
   formats::JointResult run() {
     stage3::run(options_, out_, log_, timings_);
@@ -54,7 +55,8 @@ class PlaneRun : public testing::Test {
   }
 
   test::TemporaryFolder folder_;
-  RunOptions options_;
+  const std::string csv_ = folder_.path("result.csv");
+  program::Arguments options_;
   std::ostringstream out_, log_;
   program::Timings timings_;
 };
@@ -89,7 +91,7 @@ TEST_F(PlaneRun, ShowsTheDirectionOfForces) {
                                     "  f1                      0.025               25              0             25"));
   EXPECT_THAT(out_.str(), HasSubstr("  a x                         0                0                    0\n"
                                     "  a y                        50              -50                    0\n"));
-  std::istringstream csv(test::read_file(options_.csv));
+  std::istringstream csv(test::read_file(csv_));
   std::string header, line;
   std::getline(csv, header);
   std::getline(csv, line);
@@ -160,7 +162,7 @@ class Couple : public PlaneRun {
     sheet.external_id = {"P", "Q"};
     sheet.external_direction = {"y", "y"};
     options_ = {
-        .input = test::write_joint(
+        test::write_joint(
             folder_, {sheet, base},
             {{"laws",
               fmt::format(R"({{"lin": {{"type": "bilinear", "k": 1000, "F_yield": {}, "k_yield": 0}}}})", yield)},
@@ -169,9 +171,10 @@ class Couple : public PlaneRun {
                                    couple / 3)},
              {"solver", fmt::format(R"({{"method": "{}"}})", method)},
              {"increments", "[0.5, 1]"}}),
-        .output = folder_.path("result.h5"),
-        .csv = {},
-        .generator = "test 1"};
+        folder_.path("result.h5"),
+        "",
+        false,
+        {}};
   }
 };
 

@@ -19,16 +19,14 @@ using Members = std::map<std::string, std::string>;
 class Run : public testing::Test {
  protected:
   void write(const Members& members, const test::Lap& lap = test::two_fastener_lap()) {
-    options_ = {.input = test::write_joint(folder_, lap, members),
-                .output = folder_.path("result.h5"),
-                .csv = folder_.path("result.csv"),
-                .generator = "test 1"};
+    options_ = {test::write_joint(folder_, lap, members), folder_.path("result.h5"), "", false, {{"--csv", csv_}}};
   }
   void run() { stage3::run(options_, out_, log_, timings_); }
   [[nodiscard]] formats::JointResult result() const { return formats::read_joint_result(options_.output); }
 
   test::TemporaryFolder folder_;
-  RunOptions options_;
+  const std::string csv_ = folder_.path("result.csv");
+  program::Arguments options_;
   std::ostringstream out_, log_;
   program::Timings timings_;
 };

@@ -43,7 +43,7 @@ TEST_F(Run, PrintsTheStressesOfEveryIncrementIfAsked) {
                                     "prints every increment)\n"));
   write({{"increments", "3"}}, lap);
   out_.str("");
-  options_.all_stresses = true;
+  options_.options["--all-stresses"] = "given";
   run();
   for (const char* each : {"1", "2", "3"})
     EXPECT_THAT(out_.str(), HasSubstr(fmt::format("stresses at increment {}\n", each)));

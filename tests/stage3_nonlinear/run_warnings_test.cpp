@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/output/warnings.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 #include "tests/stage3_nonlinear/run_fixture.hpp"
 
 namespace fastjoint::stage3 {
@@ -31,7 +31,7 @@ TEST_F(Run, KeepsWhatConvergedAndSaysWhatToCheck) {
   EXPECT_FALSE(result().complete);
   EXPECT_THAT(result().load_factor, ElementsAre(1, 2));
   EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 4"));
-  EXPECT_THAT(test::read_file(options_.csv), HasSubstr("\n2,2,left bolt,"));
+  EXPECT_THAT(test::read_file(csv_), HasSubstr("\n2,2,left bolt,"));
 }
 
 TEST_F(Run, SaysThatAFastenerIsSpent) {

@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "stage3_nonlinear/equations/linear_joint.hpp"
-#include "stage3_nonlinear/output/warnings.hpp"
+#include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 

@@ -51,13 +51,14 @@ class Locking : public testing::Test {
     fasteners << R"([{"id": "1", "between": ["a:1", "b:1"], "law": "f", "friction": )" << mu << R"(},
                      {"id": "2", "between": ["a:2", "b:2"], "law": "f", "friction": )"
               << mu << "}]";
-    const RunOptions options{.input = test::write_joint(folder_, lap(),
-                                                        {{"laws", "{\"f\": " + law + "}"},
-                                                         {"fasteners", fasteners.str()},
-                                                         {"loads", R"([{"external": "a:P", "displacement": 1}])"}}),
-                             .output = folder_.path("r.h5"),
-                             .csv = {},
-                             .generator = "test 1"};
+    const program::Arguments options{test::write_joint(folder_, lap(),
+                                                       {{"laws", "{\"f\": " + law + "}"},
+                                                        {"fasteners", fasteners.str()},
+                                                        {"loads", R"([{"external": "a:P", "displacement": 1}])"}}),
+                                     folder_.path("r.h5"),
+                                     "",
+                                     false,
+                                     {}};
     log_.str("");
     stage3::run(options, out_, log_, timings_);
   }

@@ -259,8 +259,7 @@ std::map<std::string, double> loads_of(const test::TemporaryFolder& folder, cons
                                       {"fasteners", fasteners}}));
   std::ostringstream out, log;
   program::Timings timings;
-  run({.input = path, .output = folder.path("result.h5"), .csv = "", .quiet = true, .generator = "test 1"}, out, log,
-      timings);
+  run({path, folder.path("result.h5"), "", true, {}}, out, log, timings);
   const auto a = formats::read_joint_result(folder.path("result.h5"));
   std::map<std::string, double> loads;
   for (std::size_t j = 0; j < a.fastener_id.size(); ++j)

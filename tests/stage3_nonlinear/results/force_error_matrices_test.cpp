@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/results/force_error.hpp"
+#include "stage3_nonlinear/results/sensitivity.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint {

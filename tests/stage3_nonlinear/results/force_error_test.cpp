@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/force_error.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/sensitivity.hpp"
 
 #include <gtest/gtest.h>
 

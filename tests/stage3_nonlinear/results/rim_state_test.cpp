@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/rim_state.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -44,8 +44,8 @@ PlateModel plate(double from, double to, const std::function<double(double)>& ho
 }
 
 RimState state(const PlateModel& model, double bearing, double friction) {
-  const auto states = rim_states(
-      model, {Eigen::Vector2d(2, 1), Eigen::VectorXd::Constant(1, bearing), Eigen::VectorXd::Constant(1, friction)});
+  const auto states = rim_states(model, Eigen::Vector2d(2, 1), Eigen::VectorXd::Constant(1, bearing),
+                                 Eigen::VectorXd::Constant(1, friction));
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
 }
@@ -100,7 +100,7 @@ PlateModel plane_plate(const std::function<double(double)>& hoop) {
 }
 
 RimState plane_state(const PlateModel& model, const Eigen::Vector2d& bearing, double friction_share) {
-  return rim_states(model, {Eigen::Vector2d(2, 1), bearing, friction_share * bearing}).at(0);
+  return rim_states(model, Eigen::Vector2d(2, 1), bearing, friction_share * bearing).at(0);
 }
 
 TEST(RimState, BearingLoadsOfBothDirections) {
@@ -238,7 +238,7 @@ TEST(RimState, OneDegreeAloneKnowsNoError) {
 TEST(RimState, NoStressesNoRims) {
   PlateModel model = plate(0, 360, [](double) { return 4.0; });
   model.stress_level.reset();
-  EXPECT_TRUE(rim_states(model, {Eigen::Vector2d(2, 1), Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)}).empty());
+  EXPECT_TRUE(rim_states(model, Eigen::Vector2d(2, 1), Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)).empty());
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ std::vector<Number> Differences::numbers() const {
                    by.mu.col(i)});
   }
   for (Index i = 0; i < by.force.cols(); ++i) {
-    const std::string name = names.loads.force[i];
+    const std::string name = names.force[i];
     const bool traction = name.ends_with(":T");
     all.push_back({name, small * force_scale(),
                    [name, traction](NamedJoint& j, double h) {
@@ -141,7 +141,7 @@ std::vector<Number> Differences::numbers() const {
                    by.force.col(i)});
   }
   for (Index i = 0; i < by.displacement.cols(); ++i) {
-    const std::string name = names.loads.displacement[i];
+    const std::string name = names.displacement[i];
     all.push_back({name, small * length,
                    [name](NamedJoint& j, double h) { *plate_of(j, name).external_displacement[0] += h; },
                    by.displacement.col(i)});

@@ -52,9 +52,9 @@ class TwoFastenerLap : public testing::Test {
 TEST_F(TwoFastenerLap, HasItsClosedForm) {
   const Solved a = solved(joint(), {0.5 * contact, 2 * contact, -2 * contact});
   ASSERT_EQ(a.by.size(), 3U);
-  EXPECT_THAT(a.numbers.loads.force, ElementsAre("a:P"));
+  EXPECT_THAT(a.numbers.force, ElementsAre("a:P"));
   ASSERT_EQ(a.numbers.law.size(), 1U) << "both planes share it";
-  EXPECT_EQ(a.numbers.law[0].parameter.name, "k");
+  EXPECT_EQ(a.numbers.law[0].second.name, "k");
   EXPECT_LT((a.by[0].load_factor - Vector2d(P, 0)).norm(), 1e-10);
   EXPECT_EQ(a.by[0].clearance.col(1).norm(), 0);
   EXPECT_LT(a.by[0].law.norm(), 1e-14);
@@ -105,12 +105,12 @@ TEST_F(TwoFastenerLap, WithoutLoadAClearanceChangesNothing) {
   EXPECT_EQ(a.by[0].clearance.norm() + a.by[0].law.norm() + a.by[0].force.norm(), 0);
 }
 
-TEST(UnitLoads, AddUpToQ) {
+TEST(JointNumbers, LoadsAddUpToQ) {
   std::mt19937 random(71);
   for (int i = 0; i < 100; ++i) {
     const auto joint = test::named_joint(random, i % test::n_kinds).model;
     const CondensedSystem system = condense(joint);
-    const UnitLoads loads = unit_loads(joint, system);
+    const JointNumbers loads = joint_numbers(joint, system);
     VectorXd q = VectorXd::Zero(system.q.size());
     Index force = 0, displacement = 0;
     for (const auto& plate : joint.plates) {
@@ -239,7 +239,7 @@ TEST_F(FreeDoubler, LeavesTheForcesOfTheOthers) {
 
 TEST_F(FreeDoubler, WouldFlyUnderALoadOfItsOwn) {
   const Solved a = solved(joint(true), {1});
-  ASSERT_THAT(a.numbers.loads.force, ElementsAre("a:P", "d:P"));
+  ASSERT_THAT(a.numbers.force, ElementsAre("a:P", "d:P"));
   EXPECT_TRUE(a.by[0].force.col(0).allFinite());
   EXPECT_THAT(a.by[0].force.col(1), Each(infinity));
 }
@@ -251,12 +251,12 @@ TEST(Sensitivity, AtALimitPointIsInfinite) {
   ASSERT_FALSE(equations.contacts[0].law->rises());
   equations.system.q = VectorXd::Constant(1, 4);
   equations.system.E = MatrixXd::Zero(0, 1);
-  JointNumbers numbers{{}, {}, {0}, {{}, MatrixXd(1, 0), {}, MatrixXd(1, 0)}};
+  JointNumbers numbers{{}, {}, {0}, {}, MatrixXd(1, 0), {}, MatrixXd(1, 0)};
   // S_ud takes back all that the law gains.
   const Branch on = equations.contacts[0].law->at(3, 1, 0);
   equations.system.S_ud = MatrixXd::Constant(1, 1, -on.dF);
   ASSERT_LT(on.dF, 0);
-  for (const auto& parameter : equations.contacts[0].law->parameters()) numbers.law.push_back({"law", parameter});
+  for (const auto& parameter : equations.contacts[0].law->parameters()) numbers.law.emplace_back("law", parameter);
   const Sensitivity by =
       sensitivity(equations, numbers, {1, VectorXd::Constant(1, on.F), VectorXd::Constant(1, 3), 0, 0, {}});
   EXPECT_THAT(by.load_factor, ElementsAre(infinity));

@@ -84,8 +84,7 @@ TEST(JointScene, HasDefaults) {
   EXPECT_FALSE(scene.units);
   EXPECT_THAT(scene.load_factors, ElementsAre(0.25, 0.5, 0.75, 1));
   EXPECT_THAT(read({{"increments", ""}}).load_factors, ElementsAre(1)) << "left out";
-  EXPECT_FALSE(scene.at_events);
-  EXPECT_TRUE(read({{"increments", R"("events")"}}).at_events);
+  EXPECT_THAT(read({{"increments", R"("events")"}}).load_factors, IsEmpty());
   EXPECT_EQ(scene.solver.method, Method::fitting) << "the exact path where it applies";
   EXPECT_EQ(read({{"solver", R"({"method": "exact path"})"}}).solver.method, Method::exact_path);
   EXPECT_EQ(scene.initial.guess, Guess::linear);

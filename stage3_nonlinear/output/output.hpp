@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/formats/joint_result.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
+
+namespace fastjoint::stage3 {
+
+/// The path as RESULT.h5 holds it, one state per step; the header is left to the caller.
+[[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
+                                                const std::vector<JointState>& states);
+
+/// The derivatives of the bearing forces at every step of the path, as RESULT.h5 holds them.
+[[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
+                                                              const LoadPath& path);
+
+/// One line per increment and shear plane under a line of names; all digits, RFC 4180. What a plate's matrices do not
+/// tell, stresses and bypass loads, is left empty.
+[[nodiscard]] std::string csv(const JointModel& joint, const formats::JointResult& result);
+
+/// The summary on stdout: per increment the fasteners, the plates and how well all of it balances.
+///
+/// @param states       One per step of the path, as `result`.
+/// @param all_stresses Print those of every increment, not of the last alone.
+[[nodiscard]] std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
+                                  const std::vector<JointState>& states, const formats::JointResult& result,
+                                  bool all_stresses);
+
+/// Warnings that the solution gives cause for, one sentence each: bearing of sheets counted twice, laws used
+/// beyond their last point, a mechanism within the gaps, other solutions, self-locking.
+[[nodiscard]] std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations,
+                                                const LoadPath& path);
+
+/// Numbers that hardly any joint has, one sentence each: friction above 1, a gap or |delta| above a radius, centres of
+/// a fastener's holes apart (of three and more fasteners between two plates: from the median, since plates may be drawn
+/// in coordinates of their own), a formula for other sheets, F above d t E. Numbers that MATRICES.h5 does not tell of a
+/// hole are not compared.
+[[nodiscard]] std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint,
+                                                           const LoadPath& path);
+
+/// One sentence for each kind of doubt about rims, naming the hole and the increment where it is largest.
+[[nodiscard]] std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states);
+
+/// Message that says why a path with a failure ended, where, and what to check.
+/// @param output File that holds the increments before.
+[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
+                                          const std::string& output);
+
+/// A warning and the size of its doubt, > 0.
+using Doubt = std::pair<double, std::string>;
+
+/// Appends the worst warning of one kind about several fasteners or holes, with the number of the others.
+void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind);
+
+/// Quantities of the holes of one plate, one row per step.
+[[nodiscard]] formats::RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states,
+                                              std::size_t at);
+
+/// Heads of the CSV's columns for one side of a shear plane, "first" or "second".
+[[nodiscard]] std::vector<std::string> rim_csv_heads(const std::string& side, const Units& units);
+
+/// Values of these columns for a hole at a step; empty if not known.
+[[nodiscard]] std::vector<std::string> rim_csv_fields(const formats::RimHistory& rims, const std::string& hole,
+                                                      Eigen::Index step);
+
+/// The table of the summary: every hole of every plate at one increment. Empty if no plate has stresses.
+[[nodiscard]] std::string rim_table(const JointModel& joint, const JointState& state);
+
+}  // namespace fastjoint::stage3
