@@ -3,7 +3,8 @@
 
 #include "common/count.hpp"
 #include "common/linalg/condensed.hpp"
-#include "stage2_extract/matrices/friction_constants.hpp"
+#include "common/rim/bearing.hpp"
+#include "stage2_extract/stresses/rim_stress.hpp"
 #include "stage2_extract/stresses/stresses.hpp"
 
 namespace fastjoint::stage2 {
@@ -17,35 +18,21 @@ Eigen::VectorXd disc_modulus(const formats::PlateSolution& plate) {
   });
 }
 
-formats::PlateMatrices names(const formats::PlateSolution& plate, const std::string& generator) {
-  formats::PlateMatrices a;
-  a.header = plate.header;
+/// Sets the names of the cases, the modulus of the discs and the constants of the unit friction cases.
+void describe(const formats::PlateSolution& plate, const std::string& generator, formats::PlateMatrices& a) {
+  static_cast<formats::UnitCases&>(a) = plate;
   a.header.generator = generator;
   a.plate_digest = plate.header.digest;
-  a.space = plate.space;
-  a.p = plate.p;
-  a.ndof = plate.ndof;
-  a.disc_hole = plate.disc_hole;
-  a.disc_direction = plate.disc_direction;
   a.disc_modulus = disc_modulus(plate);
-  a.external_id = plate.external_id;
-  a.external_direction = plate.external_direction;
-  a.traction_id = plate.traction_id;
-  a.traction_direction = plate.traction_direction;
-  a.friction_hole = plate.friction_hole;
-  a.friction_bearing = plate.friction_bearing;
-  const auto constants = friction_constants(plate);
-  a.friction_unit_force = constants.unit_force;
-  a.friction_resultant = constants.resultant;
-  return a;
+  const auto edges = pfem::find_edges(plate.mesh);
+  a.friction_unit_force = a.friction_resultant = Eigen::VectorXd::Zero(a.n_friction_cases());
+  for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
+    const auto& rim = plate.hole_rim[index_of(plate.hole_id, a.friction_hole[j])];
+    const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.friction_bearing[j]));
+    a.friction_unit_force[j] = bearing.unit_force;
+    a.friction_resultant[j] = a.friction_bearing[j][0] == '+' ? bearing.resultant : -bearing.resultant;
+  }
 }
-
-/// Forces that must act on externals and discs at one degree (docs/theory.md, section 4).
-struct Level {
-  Eigen::MatrixXd S;  ///< (nc, nc) forces per unit displacement of each
-  Eigen::MatrixXd R;  ///< (nc, h) forces under unit friction cases; by reciprocity no case is solved for it
-  Eigen::MatrixXd T;  ///< (nc, q) forces under a unit total force on each traction boundary
-};
 
 /// Takes from forces on externals and discs, (nc, columns), what they sum to along a free translation beside `known`.
 void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eigen::MatrixXd& forces) {
@@ -66,7 +53,6 @@ void balance(const FreeTranslation& free, Level& level) {
 
 void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
   const auto e = a.n_externals(), m = a.n_discs();
-  for (auto* each : {&a.S_ee, &a.S_ed, &a.S_dd, &a.R_ef, &a.R_df, &a.T_e, &a.T_d}) each->clear();
   for (const auto& [S, R, T] : levels) {
     a.S_ee.push_back(S.topLeftCorner(e, e));
     a.S_ed.push_back(S.topRightCorner(e, m));
@@ -78,48 +64,43 @@ void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
   }
 }
 
-/// Copies what stage 1 found about the scene's own loads, for readers of MATRICES.h5.
-void carry_over_loads(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
+/// Copies what contact stage 1 found under the scene's own loads, for readers of MATRICES.h5.
+void carry_over_contacts(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
   for (const auto& contact : plate.contacts) {
     a.contacts.push_back(
         {plate.hole_id[contact.hole], {}, contact.iterations, contact.peak_pressure, contact.peak_angle / rim::degree});
     for (const auto& range : plate.hole_spring[contact.hole].acts)
       a.contacts.back().arcs.push_back({range.from / rim::degree, range.to / rim::degree});
   }
-  a.load_displacement = plate.load_displacement;
-  a.load_friction = plate.load_friction;
-  a.load_traction = plate.load_traction;
 }
 
 }  // namespace
 
 Extraction extract(const formats::PlateSolution& plate, const std::string& file, const std::string& generator) {
-  Extraction result{names(plate, generator), {}, {}};
+  Extraction result;
   auto& a = result.matrices;
-  const auto e = a.n_externals();
-  const auto m = a.n_discs();
+  describe(plate, generator, a);
   matrices::CondensedLevels levels;
-  auto& S = levels.S;
   std::vector<Level> solved;
   for (const auto& each : plate.cases) {
     const auto n_p = each.V.rows();
-    S.push_back(linalg::condensed_stiffness(each.E_c, plate.shift, plate.K_cc));
+    levels.S.push_back(linalg::condensed_stiffness(each.E_c, plate.shift, plate.K_cc));
     levels.R.push_back(linalg::product_transposed(each.E_c, each.E_h));
-    solved.push_back({S.back(), levels.R.back(), plate.K_fc.topRows(n_p).transpose() * each.V - plate.T_c});
+    solved.push_back({levels.S.back(), levels.R.back(), plate.K_fc.topRows(n_p).transpose() * each.V - plate.T_c});
     a.C_t.push_back(plate.T_f.topRows(n_p).transpose() * each.V);
   }
-  store(solved, a);
   levels.C = a.C_t;
   levels.rounding = plate.probe.rounding;
   const double fastest = matrices::fastest_rate(plate.elasticity);
-  const Eigen::MatrixXd error = matrices::stiffness_error(S, plate.p, fastest).cwiseMax(levels.rounding);
+  const Eigen::MatrixXd error = matrices::stiffness_error(levels.S, plate.p, fastest).cwiseMax(levels.rounding);
+  const auto e = a.n_externals(), m = a.n_discs();
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, file);
-  carry_over_loads(plate, a);
+  carry_over_contacts(plate, a);
   result.errors = matrices::relative_errors(levels, plate.p, plate.K_cc, fastest);
-  result.checks = check(plate, a, S.back());  // of what was solved, before it is balanced
+  result.checks = check(plate, a.friction_resultant, solved.back());  // before it is balanced
   for (const auto& free : free_translations(plate, a.friction_resultant))
     for (auto& level : solved) balance(free, level);
   store(solved, a);

@@ -6,10 +6,11 @@
 #include <filesystem>
 #include <iostream>
 
+#include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
-#include "stage2_extract/field/field_file.hpp"
+#include "stage2_extract/field/field.hpp"
 #include "stage2_extract/stresses/stresses.hpp"
 
 namespace {
@@ -53,6 +54,22 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
   std::cout << stage2::report(extraction.checks) << fmt::format("  digest {}\n", digest);
 }
 
+void write_field(const program::Arguments& arguments, const formats::PlateSolution& plate,
+                 const stage2::FieldRequest& request, program::Timings& timings) {
+  const auto state = stage2::field_state(plate, arguments.input, request);
+  timings.phase("extract");
+  const auto field = stage2::make_field(plate, arguments.input, request, state);
+  timings.phase("write");
+  h5::write_whole_file(arguments.output, stage2::vtu(plate, state, field));
+  if (arguments.quiet) return;
+  Eigen::Index at = 0;
+  const double largest = stage2::von_mises(field.stress).maxCoeff(&at);
+  const auto& units = plate.header.units;
+  std::cout << fmt::format("{}: {}, {} of degree {}\n  largest von Mises stress {:.6g} {} at ({:.4g}, {:.4g}) {}\n",
+                           arguments.output, state.words, program::counted(plate.mesh.n_elements(), "cell"), field.p,
+                           largest, unit(units, -2, 1), field.points(0, at), field.points(1, at), unit(units, 1, 0));
+}
+
 /// Options are checked before a large file is read.
 stage2::FieldRequest field_request(const program::Arguments& arguments) {
   constexpr int most_increments = 1000000;
@@ -89,8 +106,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   if (!arguments.flag("--field")) require_memory(arguments.input, extraction_need(plate, size));
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
   if (!arguments.flag("--field")) return write_matrices(arguments, plate, timings);
-  const std::string summary = stage2::write_field(arguments.output, plate, arguments.input, request, timings);
-  if (!arguments.quiet) std::cout << summary;
+  write_field(arguments, plate, request, timings);
 }
 
 }  // namespace

@@ -18,10 +18,10 @@ STAGES = {
         "": ["linalg", "program"],
     },
     "stage2_extract": {
-        "matrices": ["formats", "linalg", "pfem", "rim", ""],
+        "matrices": ["formats", ""],
         "stresses": ["formats", "pfem", "rim", ""],
-        "field": ["formats", "h5", "pfem", "program", ""],
-        "": ["formats", "linalg", "matrices", "program", "rim", ""],
+        "field": ["formats", "h5", "pfem", ""],
+        "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
     },
     "stage3_nonlinear": {
         "laws": ["input", "program", ""],

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,29 @@ struct Header {
   Units units;
   std::string input;     ///< JSON text that it came from
   std::string digest{};  ///< of the file that this was read from; empty if that carries none
+};
+
+/// A sheet with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,
+/// m discs (hole x direction), h friction cases (hole, direction, bearing + then -), q tractions.
+struct UnitCases {
+  Header header;
+  pfem::Space space = pfem::Space::trunk;                    ///< of a sheet of finite elements
+  Eigen::VectorXi p, ndof;                                   ///< (np)
+  std::vector<std::string> disc_hole, disc_direction;        ///< (m)
+  std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"
+  std::vector<std::string> traction_id, traction_direction;  ///< (q)
+  std::vector<std::string> friction_hole, friction_bearing;  ///< (h); bearing is "+x", "-x", "+y", "-y"
+  /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
+  Eigen::MatrixXd load_displacement;  ///< (l, e + m) length
+  Eigen::MatrixXd load_friction;      ///< (l, h) stress
+  Eigen::MatrixXd load_traction;      ///< (l, q) force
+
+  [[nodiscard]] Eigen::Index n_externals() const { return external_id.size(); }
+  [[nodiscard]] Eigen::Index n_discs() const { return disc_hole.size(); }
+  [[nodiscard]] Eigen::Index n_friction_cases() const { return friction_hole.size(); }
+  [[nodiscard]] Eigen::Index n_tractions() const { return traction_id.size(); }
+  /// Unit cases in their order: externals, discs, friction, tractions.
+  [[nodiscard]] Eigen::Index n_cases() const { return n_externals() + n_discs() + n_friction_cases() + n_tractions(); }
 };
 
 /// @tparam File An h5::Writer and a const Header, or an h5::Reader and a Header. Units are then compared only if the

@@ -40,10 +40,9 @@ struct Contact {
 
 /// What stage 1 hands to stage 2 (schemas/plate-solution.md).
 ///
-/// nc = e + m controlled displacements: e rigid externals, then m discs; h friction cases; q tractions. Unknowns are
-/// ordered by degree: the rows of the couplings and loads for degree p are the first ndof(p).
-struct PlateSolution {
-  Header header;
+/// nc = e + m controlled displacements: e rigid externals, then m discs. Unknowns are ordered by degree: the rows of
+/// the couplings and loads for degree p are the first ndof(p).
+struct PlateSolution : UnitCases {
   pfem::Mesh mesh;
   std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
   /// (2, n_functions) what becomes of u_x and u_y of each global function of the highest degree (pfem/numbering.hpp):
@@ -54,14 +53,8 @@ struct PlateSolution {
   std::vector<rim::HoleSpring> hole_spring;
   std::vector<rim::Section> sections;
   std::vector<std::string> supported;  ///< directions that a support fixes somewhere
-  pfem::Space space = pfem::Space::trunk;
-  Eigen::VectorXi p, ndof;
-  std::vector<std::string> external_id, external_direction;
-  std::vector<std::string> traction_id, traction_direction;
   std::vector<std::string>
-      traction_hole;  ///< (q) the hole under cosine pressure, "" for an edge under uniform traction
-  std::vector<std::string> disc_hole, disc_direction;
-  std::vector<std::string> friction_hole, friction_bearing;
+      traction_hole;                 ///< (q) the hole under cosine pressure, "" for an edge under uniform traction
   Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc), force / length
   Eigen::MatrixXd K_cc;              ///< (nc, nc), force / length
   Eigen::SparseMatrix<double> L_f;   ///< (n_f, h) loads of the unit friction cases, length^2
@@ -73,10 +66,6 @@ struct PlateSolution {
   std::vector<PlateCases> cases;     ///< one for each p
   Probe probe;
   std::vector<Contact> contacts;
-  /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
-  Eigen::MatrixXd load_displacement;  ///< (l, nc) length
-  Eigen::MatrixXd load_friction;      ///< (l, h) stress
-  Eigen::MatrixXd load_traction;      ///< (l, q) force
 };
 
 /// Throws FileError; what was at `path` before survives.

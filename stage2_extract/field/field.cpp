@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage2_extract/field/field.hpp"
 
+#include <fmt/format.h>
+
 #include <cassert>
 
+#include "common/errors.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
 
@@ -42,6 +45,20 @@ Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts)
     field.displacement.middleCols(first, n) << c.head(N.rows()).transpose() * N, c.tail(N.rows()).transpose() * N;
     field.stress.middleCols(first, n) = fields.elasticity(element) * strain.reshaped(3, n);
   }
+  return field;
+}
+
+Field make_field(const formats::PlateSolution& plate, const std::string& file, const FieldRequest& request,
+                 const FieldState& state) {
+  const std::size_t level = field_level(plate, file, request, state);
+  UnitFields fields(plate, file);
+  fields.use(level);
+  Field field = superpose(fields, plate.p[level], state.amounts);
+  if (!field.displacement.allFinite() || !von_mises(field.stress).allFinite())
+    throw NumericalError(
+        fmt::format("{}: --field {}: displacements or stresses are too large for the numbers of this "
+                    "machine; allowed: smaller amounts",
+                    file, request.spec));
   return field;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
+#include "stage2_extract/field/field_state.hpp"
 #include "stage2_extract/stresses/unit_fields.hpp"
 
 namespace fastjoint::stage2 {
@@ -27,6 +29,12 @@ struct Field {
 /// solved.
 [[nodiscard]] Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts);
 
+/// The field of a state at the degree that field_level chooses.
+/// @param file Name of the plate's file, for messages.
+/// Throws InputError and FileError if there is none, NumericalError if amounts are too large.
+[[nodiscard]] Field make_field(const formats::PlateSolution& plate, const std::string& file,
+                               const FieldRequest& request, const FieldState& state);
+
 /// Von Mises stress at points, taken as if sigma_z = 0, shape (n_points). In plane strain the elasticity alone does not
 /// tell sigma_z.
 /// @param stress sigma_x, sigma_y, tau_xy, shape (3, n_points).
@@ -34,5 +42,12 @@ struct Field {
 
 /// Principal stresses in the plane at points, shape (2, n_points), the larger one first.
 [[nodiscard]] Eigen::Matrix2Xd principal(const Eigen::Matrix3Xd& stress);
+
+/// The field as an unstructured grid of VTK (XML, ASCII) of Lagrange quadrilaterals.
+///
+/// Points: displacement, stress_xx, stress_yy, stress_xy, von_mises, principal_1, principal_2. Cells: thickness. Of the
+/// whole: names of plate, state and units, the holes, and of a joint's state its sheet and increment.
+/// VTK File Formats, Kitware, section "XML File Formats", UnstructuredGrid.
+[[nodiscard]] std::string vtu(const formats::PlateSolution& plate, const FieldState& state, const Field& field);
 
 }  // namespace fastjoint::stage2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/field/vtu.hpp"
+#include "stage2_extract/field/field.hpp"
 
 #include <fmt/format.h>
 

@@ -12,7 +12,6 @@
 namespace fastjoint::stage2 {
 namespace {
 
-using formats::PlateMatrices;
 using formats::PlateSolution;
 
 /// Far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any modelling error.
@@ -26,12 +25,6 @@ double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), least * largest(plate.K_cc));
 }
 
-Eigen::MatrixXd stacked(const Eigen::MatrixXd& above, const Eigen::MatrixXd& below) {
-  Eigen::MatrixXd A(above.rows() + below.rows(), above.cols());
-  A << above, below;
-  return A;
-}
-
 /// Forces that the probe's displacements need, by its field, against those by S.
 std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   if (S.size() == 0) return std::nullopt;
@@ -41,19 +34,18 @@ std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& 
 }
 
 /// Forces of friction and tractions on externals and discs, by the probe's fields, against R and T.
-std::optional<double> reciprocity(const PlateSolution& plate, const PlateMatrices& matrices) {
+std::optional<double> reciprocity(const PlateSolution& plate, const Level& level) {
   const auto& probe = plate.probe;
   if (plate.K_cc.size() == 0 || plate.L_c.cols() + plate.T_c.cols() == 0) return std::nullopt;
   double worst = 0;
   if (plate.L_c.cols() > 0) {
-    const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
     const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.w - plate.L_c * probe.friction;
-    worst = ratio(largest(solved - R * probe.friction), largest(R));
+    worst = ratio(largest(solved - level.R * probe.friction), largest(level.R));
   }
   if (plate.T_c.cols() > 0) {
-    const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
     const Eigen::VectorXd solved = -(plate.T_f.transpose() * probe.u + plate.T_c.transpose() * probe.displacement);
-    worst = std::max(worst, ratio(largest(solved - T.transpose() * probe.displacement), std::max(largest(T), 1e-3)));
+    const double scale = std::max(largest(level.T), 1e-3);
+    worst = std::max(worst, ratio(largest(solved - level.T.transpose() * probe.displacement), scale));
   }
   return worst;
 }
@@ -69,21 +61,19 @@ std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale
 }
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.
-double residual_force(const PlateMatrices& matrices, const Eigen::MatrixXd& S, double scale,
-                      const FreeTranslation& free) {
+double residual_force(const Level& level, double scale, const FreeTranslation& free) {
+  const auto& [S, R, T] = level;
   double worst = ratio(largest(S * free.motion), scale);
-  const Eigen::MatrixXd R = stacked(matrices.R_ef.back(), matrices.R_df.back());
   for (Eigen::Index j = 0; j < R.cols(); ++j)
     if (free.friction[j] != 0)
       worst = std::max(worst, ratio(std::abs(R.col(j).dot(free.motion) + free.friction[j]), largest(R)));
-  const Eigen::MatrixXd T = stacked(matrices.T_e.back(), matrices.T_d.back());
   return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 
-std::optional<double> equilibrium(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
+std::optional<double> equilibrium(const PlateSolution& plate, const Eigen::VectorXd& resultant, const Level& level) {
   std::optional<double> worst;
-  for (const auto& free : free_translations(plate, matrices.friction_resultant))
-    worst = std::max(worst.value_or(0), residual_force(matrices, S, scale_of(plate, S), free));
+  for (const auto& free : free_translations(plate, resultant))
+    worst = std::max(worst.value_or(0), residual_force(level, scale_of(plate, level.S), free));
   return worst;
 }
 
@@ -114,9 +104,10 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
 
 double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 
-Checks check(const PlateSolution& plate, const PlateMatrices& matrices, const Eigen::MatrixXd& S) {
-  return {energy(plate, S), reciprocity(plate, matrices), negative_eigenvalue(S, scale_of(plate, S)),
-          equilibrium(plate, matrices, S), ratio(plate.probe.rounding, scale_of(plate, S))};
+Checks check(const PlateSolution& plate, const Eigen::VectorXd& resultant, const Level& level) {
+  const double scale = scale_of(plate, level.S);
+  return {energy(plate, level.S), reciprocity(plate, level), negative_eigenvalue(level.S, scale),
+          equilibrium(plate, resultant, level), ratio(plate.probe.rounding, scale)};
 }
 
 void require_good(const Checks& checks, const std::string& file) {

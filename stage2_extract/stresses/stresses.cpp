@@ -6,10 +6,11 @@
 #include <iterator>
 
 #include "common/count.hpp"
+#include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
+#include "common/pfem/strain.hpp"
 #include "common/rim/bearing.hpp"
-#include "stage2_extract/matrices/friction_constants.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
-#include "stage2_extract/stresses/section_force.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -49,19 +50,58 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
   a.angle = Eigen::Map<const Eigen::VectorXd>(angle.data(), angle.size());
 }
 
-void describe_sections(const UnitFields& fields, formats::PlateStresses& a) {
-  const auto& plate = fields.plate();
+/// Where sections lie, and their areas: net of what the hole takes.
+void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
   const Eigen::Index s = plate.sections.size();
-  a.gross_area.resize(s);
+  a.gross_area = Eigen::VectorXd::Zero(s);
   a.net_area.resize(s);
   for (Eigen::Index i = 0; i < s; ++i) {
     const auto& section = plate.sections[i];
     a.section_hole.push_back(plate.hole_id[section.hole]);
     a.section_side.push_back(section.side);
-    const auto area = section_area(fields, section);
-    a.gross_area[i] = area.gross;
-    a.net_area[i] = area.net;
+    for (const auto& side : section.sides)
+      a.gross_area[i] += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();
+    const auto& rim = plate.hole_rim[section.hole];
+    a.net_area[i] = a.gross_area[i] - rim::bearing(plate.mesh, edges, rim, bearing_direction(section.side)).area;
   }
+}
+
+/// The side itself, and the same edge seen from the element beyond, if there is one.
+std::vector<pfem::Side> both_sides(const pfem::Edges& edges, const pfem::Side& side) {
+  const int edge = edges.of_element(side.local_edge, side.element);
+  std::vector<pfem::Side> result;
+  for (int element = 0; element < edges.of_element.cols(); ++element)
+    for (int local = 0; local < pfem::n_local_edges; ++local)
+      if (edges.of_element(local, element) == edge) result.push_back({element, local});
+  return result;
+}
+
+/// int n.sigma.n t ds over one side of an element; n along x or y.
+Eigen::RowVectorXd side_force(const UnitFields& fields, const pfem::Side& side, Eigen::Index component) {
+  const auto& mesh = fields.plate().mesh;
+  const auto rule = pfem::gauss(fields.p() + 3);  // a rational integrand: see element_stiffness.cpp
+  const pfem::ElementMap map(mesh, fields.edges(), side.element);
+  const auto curve = pfem::edge_curve(mesh, fields.edges(), side.element, side.local_edge);
+  const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);
+  const Eigen::MatrixXd B =
+      pfem::strain_operator(map, fields.space(), fields.p(), at.row(0).transpose(), at.row(1).transpose());
+  Eigen::RowVectorXd per_coefficient = Eigen::RowVectorXd::Zero(B.cols());
+  for (Eigen::Index q = 0; q < rule.x.size(); ++q)
+    per_coefficient += rule.w[q] * curve.derivative(rule.x[q]).norm() * mesh.thickness[side.element] *
+                       fields.elasticity(side.element).row(component) * B.middleRows<3>(3 * q);
+  return per_coefficient * fields.coefficients(side.element);
+}
+
+/// Normal force over a section in every unit case, shape (n_cases), tension positive: the integral of the stress, mean
+/// of the elements on both sides of the section, force per unit of the case.
+Eigen::RowVectorXd section_force(const UnitFields& fields, const rim::Section& section) {
+  const Eigen::Index component = section.side[1] == 'x' ? 0 : 1;
+  Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(fields.n_cases());
+  for (const auto& side : section.sides) {
+    const auto sides = both_sides(fields.edges(), side);
+    for (const auto& one : sides) force += side_force(fields, one, component) / count_of(sides);
+  }
+  return force;
 }
 
 void add_level(const UnitFields& fields, const Rims& rims, formats::PlateStresses& a) {
@@ -95,7 +135,7 @@ formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, con
   describe_rims(plate, edges, rims, a);
   if (a.p.size() == 0) return a;
   UnitFields fields(plate, file);
-  describe_sections(fields, a);
+  describe_sections(plate, edges, a);
   for (const int p : a.p) {
     fields.use(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p)));
     add_level(fields, rims, a);

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "stage2_extract/stresses/rim_points.hpp"
+#include "stage2_extract/stresses/rim_stress.hpp"
 #include "stage2_extract/stresses/unit_fields.hpp"
 
 namespace fastjoint::test {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/field/field_state.hpp"
+#include "stage2_extract/field/field.hpp"
 
 #include <gmock/gmock.h>
 
-#include <filesystem>
-
 #include "common/errors.hpp"
 #include "common/formats/joint_result.hpp"
-#include "stage2_extract/field/field_file.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/plates.hpp"
 
@@ -182,8 +179,6 @@ TEST_F(StateOfAJoint, WhatIsRefused) {
   EXPECT_THAT([&] { return stage2::field_state(other, "other.h5", {file}); },
               ThrowsMessage<InputError>(AllOf(HasSubstr("--field: no sheet of "), HasSubstr("(up) has the cases of "
                                                                                             "other.h5: external:P"))));
-  refused({"external:P", "up"}, HasSubstr("--plate: goes with --field RESULT.h5 only"));
-  refused({"external:P", "", 1}, HasSubstr("--increment: goes with --field RESULT.h5 only"));
   EXPECT_THAT([&] { return state({folder_.path("none.h5")}); },
               ThrowsMessage<FileError>(HasSubstr("none.h5: cannot be opened")));
   EXPECT_THAT([&] { return state({folder_.write("text", "text")}); },
@@ -228,6 +223,18 @@ TEST(FieldOptions, ThatNeedOthers) {
   EXPECT_THAT(check({"", "", 0, 8}), ThrowsMessage<InputError>(HasSubstr("--p: goes with --field only")));
   EXPECT_THAT(check({"", "up"}), ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 only")));
   EXPECT_THAT(check({"", "", 2}), ThrowsMessage<InputError>(HasSubstr("--increment: goes with --field RESULT.h5")));
+  for (const std::string spec : {"external:P", "loads"}) {
+    EXPECT_THAT(
+        [&] {
+          stage2::check_field_options({spec, "up"}, true, "out.vtu", "");
+        },
+        ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 only")));
+    EXPECT_THAT(
+        [&] {
+          stage2::check_field_options({spec, "", 1}, true, "out.vtu", "");
+        },
+        ThrowsMessage<InputError>(HasSubstr("--increment: goes with --field RESULT.h5 only")));
+  }
   const test::TemporaryFolder folder;
   const auto file = folder.write("joint.h5", "");
   EXPECT_THAT([&] { stage2::check_field_options({file}, true, file, ""); },
@@ -236,14 +243,13 @@ TEST(FieldOptions, ThatNeedOthers) {
               ThrowsMessage<InputError>(testing::StartsWith("--timings " + file + ": is the file of --field")));
 }
 
-TEST(FieldFile, AmountsThatOverflowAreRefused) {
+TEST(MakeField, RefusesAmountsThatOverflow) {
   const auto plate = test::solve(test::make_plate(test::panel(1, 1)));
-  const test::TemporaryFolder folder;
-  program::Timings timings;
+  const stage2::FieldRequest request = {"external:P=1e305"};
+  const auto state = stage2::field_state(plate, "plate.h5", request);
   EXPECT_THAT(
-      [&] { (void)stage2::write_field(folder.path("f.vtu"), plate, "plate.h5", {"external:P=1e305"}, timings); },
+      [&] { return stage2::make_field(plate, "plate.h5", request, state); },
       ThrowsMessage<NumericalError>(HasSubstr("plate.h5: --field external:P=1e305: displacements or stresses")));
-  EXPECT_FALSE(std::filesystem::exists(folder.path("f.vtu")));
 }
 
 }  // namespace

@@ -3,7 +3,6 @@
 
 #include <numbers>
 
-#include "stage2_extract/matrices/friction_constants.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/straightforward.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/stresses/rim_points.hpp"
+#include "stage2_extract/stresses/rim_stress.hpp"
 
 #include <gtest/gtest.h>
 
