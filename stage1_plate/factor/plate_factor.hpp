@@ -6,10 +6,23 @@
 #include <vector>
 
 #include "common/linalg/cholesky.hpp"
-#include "stage1_plate/factor/condensed_element.hpp"
+#include "common/linalg/condensed.hpp"
 #include "stage1_plate/factor/skeleton.hpp"
 
 namespace fastjoint::stage1 {
+
+/// A class of elements at one degree, condensed onto the functions that it shares and onto its border: by hole the
+/// discs, then the friction cases. The border's rows are those of a bordered stiffness [K_ff K_fc -L; . K_cc -L_c], in
+/// which a friction case has an amplitude as a disc has a displacement.
+struct CondensedElement {
+  std::vector<int> inside, outside;  ///< degrees of freedom of the element: mode, or n_modes + mode for u_y
+  Eigen::Index n_border;
+  linalg::Condensed matrix;
+};
+
+/// @param K Stiffness of the congruence class at the highest degree and unit thickness, (2 n_modes, 2 n_modes).
+[[nodiscard]] CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K,
+                                        const pfem::Numbering& numbering, int p);
 
 /// The plate's stiffness at one degree, factorised: elements are condensed onto their skeletons, each class once; what
 /// is left of all is one sparse system, bordered by the controlled displacements and the friction cases. The problem

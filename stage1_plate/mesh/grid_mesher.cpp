@@ -7,7 +7,7 @@
 #include <map>
 
 #include "common/count.hpp"
-#include "stage1_plate/mesh/cell_lines.hpp"
+#include "stage1_plate/mesh/grid_cells.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -38,20 +38,19 @@ class Builder {
   MeshGeometry lists_;
 };
 
-/// A cell of the grid with the nodes that its sides have.
+/// A cell of the grid.
 struct Cell {
   int column, row;
-  double x_low, x_high, y_low, y_high, thickness;
+  Point low, high;  ///< its corners bottom left and top right
+  double thickness;
   int material;
 };
 
 Cell cell_at(const GridGeometry& grid, int column, int row) {
   return {column,
           row,
-          grid.x[column],
-          grid.x[column + 1],
-          grid.y[row],
-          grid.y[row + 1],
+          {grid.x[column], grid.y[row]},
+          {grid.x[column + 1], grid.y[row + 1]},
           grid.thickness(row, column),
           grid.material(row, column)};
 }
@@ -64,8 +63,8 @@ std::vector<double> with_ends(double low, const std::vector<double>& inner, doub
 }
 
 void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell) {
-  const auto x = with_ends(cell.x_low, lines.nodes(cell.column, cell.row, bottom), cell.x_high);
-  const auto y = with_ends(cell.y_low, lines.nodes(cell.column, cell.row, left), cell.y_high);
+  const auto x = with_ends(cell.low.x(), lines.nodes(cell.column, cell.row, bottom), cell.high.x());
+  const auto y = with_ends(cell.low.y(), lines.nodes(cell.column, cell.row, left), cell.high.y());
   for (std::size_t j = 0; j + 1 < y.size(); ++j)
     for (std::size_t i = 0; i + 1 < x.size(); ++i)
       builder.quad({builder.shared_node({x[i], y[j]}), builder.shared_node({x[i + 1], y[j]}),
@@ -75,14 +74,14 @@ void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell)
 
 /// Points of one side in counter-clockwise order, without its last.
 std::vector<Point> side_points(const CellLines& lines, const Cell& cell, int side) {
+  const std::array<Point, n_cell_sides> corners = {
+      cell.low, {cell.high.x(), cell.low.y()}, cell.high, {cell.low.x(), cell.high.y()}};
+  const Point& corner = corners[side];
   auto at = lines.nodes(cell.column, cell.row, static_cast<CellSide>(side));
-  const bool along_x = side == bottom || side == top, backwards = side == top || side == left;
-  if (backwards) std::reverse(at.begin(), at.end());
-  const double start = along_x ? (backwards ? cell.x_high : cell.x_low) : (backwards ? cell.y_high : cell.y_low);
-  const double line = along_x ? (side == top ? cell.y_high : cell.y_low) : (side == right ? cell.x_high : cell.x_low);
-  at.insert(at.begin(), start);
-  std::vector<Point> points;
-  for (const double t : at) points.push_back(along_x ? Point(t, line) : Point(line, t));
+  if (side == top || side == left) std::reverse(at.begin(), at.end());
+  std::vector<Point> points = {corner};
+  for (const double t : at)
+    points.push_back(side == bottom || side == top ? Point(t, corner.y()) : Point(corner.x(), t));
   return points;
 }
 
@@ -107,8 +106,8 @@ std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleC
 
 /// Radii of the hole and of the extra rings, in geometric progression up to the nearest side of the cell.
 std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double radius, int n_rings) {
-  const std::array<double, n_cell_sides> distance = {hole.center.y() - cell.y_low, cell.x_high - hole.center.x(),
-                                                     cell.y_high - hole.center.y(), hole.center.x() - cell.x_low};
+  const Point below = hole.center - cell.low, above = cell.high - hole.center;
+  const std::array<double, n_cell_sides> distance = {below.y(), above.x(), above.y(), below.x()};
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t side = 0; side < distance.size(); ++side)
     if (!hole.cuts[side]) nearest = std::min(nearest, distance[side]);
@@ -172,19 +171,15 @@ void name_border(const GridGeometry& grid, PlateMesh& plate) {
 
 /// The sides of a hole's cell across each direction of the discs, unless they run through the hole.
 void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& plate) {
-  struct Cut {
-    CellSide side;
-    const char* name;
-    double line;
-  };
   for (const auto& direction : scene.disc_directions) {
-    const bool is_x = direction == "x";
-    const std::array<Cut, 2> cuts =
-        is_x ? std::array<Cut, 2>{{{right, "+x", at.cell.x_high}, {left, "-x", at.cell.x_low}}}
-             : std::array<Cut, 2>{{{top, "+y", at.cell.y_high}, {bottom, "-y", at.cell.y_low}}};
-    for (const auto& cut : cuts)
-      if (!at.hole->cuts[cut.side])
-        plate.sections.push_back({at.hole->hole, cut.name, sides_on(plate, at.first, at.last, is_x ? 0 : 1, cut.line)});
+    const int axis = direction == "x" ? 0 : 1;
+    const auto add = [&](CellSide side, const char* sign, const Point& corner) {
+      if (!at.hole->cuts[side])
+        plate.sections.push_back(
+            {at.hole->hole, sign + direction, sides_on(plate, at.first, at.last, axis, corner[axis])});
+    };
+    add(axis == 0 ? right : top, "+", at.cell.high);
+    add(axis == 0 ? left : bottom, "-", at.cell.low);
   }
 }
 

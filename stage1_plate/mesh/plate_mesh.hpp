@@ -30,15 +30,10 @@ struct PlateMesh {
 [[nodiscard]] PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid);
 
 /// Takes the user's mesh as it is, without rims. Throws InputError if it is not conforming: an edge of more than two
-/// elements, a node that hangs on an edge, an arc that no element has, a node that nothing uses, or if an edge that it
-/// names will not do (name_edges).
+/// elements, a node that hangs on an edge, an arc that no element has, a node that nothing uses; or if no element has
+/// an edge that it names, an edge of a set is inside the plate, or the edges of a section are not straight, not on one
+/// line across the section's direction, or not beyond the rim on that side of the hole.
 [[nodiscard]] PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry);
-
-/// Finds the edges that an explicit mesh names: its sets on the border, and its sections, whose sides are those of the
-/// elements between the cut and the hole (on a border, of the only element there is). Throws InputError if no element
-/// has such an edge, an edge of a set is inside the plate, or the edges of a section are not straight, not on one line
-/// across the section's direction, or not beyond the rim on that side of the hole.
-void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh& plate);
 
 /// The lists of nodes, elements and arcs as a mesh.
 [[nodiscard]] pfem::Mesh to_mesh(const MeshGeometry& geometry);

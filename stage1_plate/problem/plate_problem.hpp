@@ -42,9 +42,6 @@ struct PlateProblem {
 /// Integrates elements, springs and loads, each congruence class once.
 /// Throws InputError for an arc that the rim of the model does not have, and for a load that loads nothing.
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
-/// Sets T_f and T_c: unit total force on every external that is not rigid, as uniform traction on an edge or as cosine
-/// pressure on an open hole.
-void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
 /// Numbers and integrates.
 [[nodiscard]] PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate);
 

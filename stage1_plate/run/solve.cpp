@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 
 #include "common/count.hpp"
 #include "common/program/memory.hpp"
@@ -16,10 +17,6 @@
 namespace fastjoint::stage1 {
 
 namespace {
-
-bool has_fields(const formats::PlateSolution& a, int p) {
-  return std::find(a.stress_p.begin(), a.stress_p.end(), p) != a.stress_p.end();
-}
 
 formats::PlateCases solve_degree(const PlateProblem& problem, const PlateFactor& K, int n, bool with_fields) {
   const Eigen::MatrixXd E = K.energy_rows();
@@ -34,7 +31,7 @@ formats::PlateCases solve_degree(const PlateProblem& problem, const PlateFactor&
 /// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
 Eigen::VectorXd amounts(Eigen::Index n_cases) {
   const auto n = double(n_cases);
-  return n_cases > 0 ? Eigen::VectorXd(Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n) : Eigen::VectorXd();
+  return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
 }
 
 formats::Probe probe(const PlateProblem& problem, const PlateFactor& K) {
@@ -69,10 +66,9 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   }
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
-  for (const auto& support : scene.supports)
-    a.supported.insert(a.supported.end(), support.fix.begin(), support.fix.end());
-  std::sort(a.supported.begin(), a.supported.end());
-  a.supported.erase(std::unique(a.supported.begin(), a.supported.end()), a.supported.end());
+  std::set<std::string> supported;
+  for (const auto& support : scene.supports) supported.insert(support.fix.begin(), support.fix.end());
+  a.supported.assign(supported.begin(), supported.end());
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = unknowns.dofs;
   a.space = problem.numbering.space;
@@ -123,7 +119,8 @@ void solve_cases(const PlateProblem& problem, const Skeleton& skeleton, formats:
     timings.phase("factorise");
     const PlateFactor K(problem, skeleton, a.p[i]);
     timings.phase("solve");
-    a.cases.push_back(solve_degree(problem, K, a.ndof[i], has_fields(a, a.p[i])));
+    const bool with_fields = (a.stress_p.array() == a.p[i]).any();
+    a.cases.push_back(solve_degree(problem, K, a.ndof[i], with_fields));
     if (i + 1 == a.p.size()) a.probe = probe(problem, K);
   }
 }

@@ -4,8 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-
-#include "common/count.hpp"
+#include <set>
 
 namespace fastjoint::stage1 {
 namespace {
@@ -29,8 +28,6 @@ class LoadReader {
   explicit LoadReader(const PlateScene& scene) : scene_(scene), discs_(list_discs(scene)) {
     loads_.external.assign(scene.externals.size(), {true, 0});
     loads_.disc.assign(discs_.size(), {false, 0});
-    external_given_.assign(scene.externals.size(), false);
-    disc_given_.assign(discs_.size(), false);
   }
 
   SceneLoads read(const Value& list) {
@@ -51,16 +48,13 @@ class LoadReader {
   void read_external(const Value& item) {
     item.only({"external", "force", "displacement"});
     const Value id = item.at("external");
-    std::vector<std::string> ids;
-    ids.reserve(scene_.externals.size());
-    for (const auto& external : scene_.externals) ids.push_back(external.id);
-    const auto i = index_of(ids, id.choice(ids));
+    const int i = read_id(id, scene_.externals);
     const Load load = read_amount(item);
     if (!load.is_force && scene_.externals[i].kind != ExternalKind::rigid)
       item.at("displacement")
-          .fail(fmt::format("external \"{}\" does not move as one", ids[i]), "\"displacement\" of kind \"rigid\" only");
-    take_once(external_given_, i, id);
-    loads_.external[i] = load;
+          .fail(fmt::format("external \"{}\" does not move as one", scene_.externals[i].id),
+                "\"displacement\" of kind \"rigid\" only");
+    put(load, id, loads_.external[i]);
   }
 
   void read_disc(const Value& item) {
@@ -80,19 +74,19 @@ class LoadReader {
       if (index_of(scene_.holes, discs_[i].id, &Hole::id) == count_of(scene_.holes))
         friction->fail(fmt::format("\"{}\" is a point, which has no rim", discs_[i].id), "friction at discs of holes");
     }
-    take_once(disc_given_, i, id);
-    loads_.disc[i] = load;
+    put(load, id, loads_.disc[i]);
   }
 
-  static void take_once(std::vector<bool>& given, int i, const Value& id) {
-    if (given[i]) id.fail("loaded twice", "one load for each external, and for each disc and direction");
-    given[i] = true;
+  void put(const Load& load, const Value& id, Load& place) {
+    if (!given_.insert(&place).second)
+      id.fail("loaded twice", "one load for each external, and for each disc and direction");
+    place = load;
   }
 
   const PlateScene& scene_;
   std::vector<Disc> discs_;
-  std::vector<bool> external_given_, disc_given_;
   SceneLoads loads_;
+  std::set<const Load*> given_;  ///< those of loads_ that the list has
 };
 
 }  // namespace

@@ -4,10 +4,10 @@
 #include <Eigen/Core>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
+#include "common/count.hpp"
 #include "common/input/value.hpp"
 #include "stage1_plate/scene/scene.hpp"
 
@@ -27,8 +27,13 @@ inline constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed
 
 [[nodiscard]] Eigen::Vector2d read_point(const input::Value& value);
 
-/// Reads a list of edges, each by its two nodes, and at least one.
-[[nodiscard]] std::vector<std::pair<int, int>> read_edges(const input::Value& value, int n_nodes);
+/// Reads the id of one of these items, as its index.
+template <class Item>
+[[nodiscard]] int read_id(const input::Value& value, const std::vector<Item>& items) {
+  std::vector<std::string> ids;
+  for (const auto& item : items) ids.push_back(item.id);
+  return index_of(ids, value.choice(ids));
+}
 
 /// Reads "geometry": {"grid": ...} or {"mesh": ...} without its "sections", which need the holes.
 [[nodiscard]] std::variant<GridGeometry, MeshGeometry> read_geometry(const input::Value& value,
@@ -36,6 +41,17 @@ inline constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed
 
 /// Reads "sections" of an explicit mesh into the scene's geometry; needs its holes and the directions of its discs.
 void read_sections(const input::Value& root, PlateScene& scene);
+
+/// A law by which the modulus of distributed springs follows from the elastic disc that they stand for.
+struct SpringLaw {
+  std::string name;
+  /// @param E, nu Constants of the disc. @param d Its diameter. @return Modulus, force / length^3.
+  double (*modulus)(double E, double nu, double d);
+  bool incompressible_allowed;  ///< whether nu = 0.5 has a finite modulus
+};
+
+/// All laws; the first is the default. Adding one = one line of its table.
+[[nodiscard]] const std::vector<SpringLaw>& spring_laws();
 
 /// Reads "spring" of a hole of that radius: what its stiffness follows from, where on the rim it acts, and how.
 [[nodiscard]] Spring read_spring(const input::Value& value, double radius);

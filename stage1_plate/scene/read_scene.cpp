@@ -2,10 +2,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <charconv>
 #include <map>
 #include <set>
 
-#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "stage1_plate/scene/read_parts.hpp"
 
@@ -90,12 +90,10 @@ std::vector<Support> read_supports(const Value& root, const std::vector<std::str
 
 /// The id of an open hole.
 std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes) {
-  std::vector<std::string> names;
-  for (const auto& hole : holes) names.push_back(hole.id);
-  std::string name = value.choice(names);
-  if (holes[index_of(holes, name, &Hole::id)].spring)
-    value.fail(fmt::format("hole \"{}\" has springs, which transmit its load", name), "a hole without \"spring\"");
-  return name;
+  const Hole& hole = holes[read_id(value, holes)];
+  if (hole.spring)
+    value.fail(fmt::format("hole \"{}\" has springs, which transmit its load", hole.id), "a hole without \"spring\"");
+  return hole.id;
 }
 
 std::vector<External> read_externals(const Value& root, const std::vector<std::string>& edge_names,
@@ -129,6 +127,13 @@ std::vector<std::string> edge_names(const PlateScene& scene) {
   std::vector<std::string> names;
   for (const auto& set : std::get<MeshGeometry>(scene.geometry).edges) names.push_back(set.name);
   return names;
+}
+
+/// The whole text as a number, or 0.
+int degree(std::string_view text) {
+  int value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() ? value : 0;
 }
 
 }  // namespace
@@ -165,6 +170,22 @@ PlateScene read_scene(const input::Document& document) {
   if (space) scene.space = pfem::space_named(space->choice(pfem::space_names));
   read_p(root, scene);
   return scene;
+}
+
+void set_degrees(PlateScene& scene, const std::string& option) {
+  if (option.empty()) return;
+  const auto dots = option.find("..");
+  const int low = degree(std::string_view(option).substr(0, dots));
+  const int high = dots == std::string::npos ? low : degree(std::string_view(option).substr(dots + 2));
+  if (low < 1 || high < low || high > pfem::highest_p)
+    throw InputError(fmt::format("--p: '{}' is not allowed; allowed: a degree from 1 to {}, or a range such as 1..{}",
+                                 option, pfem::highest_p, pfem::highest_p));
+  scene.p_low = low;
+  scene.p_high = high;
+}
+
+Eigen::VectorXi degrees(const PlateScene& scene) {
+  return Eigen::VectorXi::LinSpaced(scene.p_high - scene.p_low + 1, scene.p_low, scene.p_high);
 }
 
 std::vector<Disc> list_discs(const PlateScene& scene) {

@@ -1,19 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/scene/read_parts.hpp"
 
-#include "stage1_plate/scene/spring_law.hpp"
+#include "common/count.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
 
 using input::Value;
 
+/// Modulus for a disc in plane stress under uniform pressure, u_r = (1 - nu) p r / E: equation (29).
+double plane_stress(double E, double nu, double d) { return 2 / (1 - nu) * E / d; }
+
+/// Modulus for a disc in plane strain under uniform pressure, u_r = (1 + nu) (1 - 2 nu) p r / E.
+double plane_strain(double E, double nu, double d) { return 2 * E / ((1 - 2 * nu) * (1 + nu) * d); }
+
+/// Modulus for a disc in plane stress under the pressure p cos 2 theta without shear: u_r = (3 + nu)/3 p r / E cos 2
+/// theta.
+double second_harmonic(double E, double nu, double d) { return 6 * E / ((3 + nu) * d); }
+
 double read_disk(const Value& disk, double radius) {
   disk.only({"E", "nu", "law"});
   std::vector<std::string> names;
   for (const auto& law : spring_laws()) names.push_back(law.name);
   const auto name = disk.find("law");
-  const SpringLaw& law = find_spring_law(name ? name->choice(names) : names.front());
+  const SpringLaw& law = spring_laws()[name ? index_of(names, name->choice(names)) : 0];
   const double E = disk.at("E").number(input::positive);
   input::Range range = poisson_range;
   range.high_allowed = law.incompressible_allowed;
@@ -30,6 +40,13 @@ rim::AngleRange read_arc(const Value& value) {
 }
 
 }  // namespace
+
+const std::vector<SpringLaw>& spring_laws() {
+  static const std::vector<SpringLaw> laws = {{"plane stress", plane_stress, true},
+                                              {"plane strain", plane_strain, false},
+                                              {"second harmonic", second_harmonic, true}};
+  return laws;
+}
 
 Spring read_spring(const Value& value, double radius) {
   value.only({"disk", "modulus", "links", "arc", "compression_only"});

@@ -11,7 +11,7 @@
 #include "common/pfem/legendre.hpp"
 #include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"
-#include "stage1_plate/scene/spring_law.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
 #include "tests/support/exact.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"
@@ -163,7 +163,8 @@ TEST(Inclusion, EachLawHasTheHarmonicOfTheElasticDiskThatItIsMadeFor) {
     const auto second = [](double kappa) { return 8 * kappa / (1 + kappa * (5 - nu) / 3); };
     const double disk_mean = mean(beta / (1 - nu)), disk_second = second(3 * beta / (3 + nu));
     const auto solved = [&](const char* law) {
-      const double modulus = stage1::find_spring_law(law).modulus(beta * E, nu, 2 * radius);
+      const auto& laws = stage1::spring_laws();
+      const double modulus = laws.at(index_of(laws, law, &stage1::SpringLaw::name)).modulus(beta * E, nu, 2 * radius);
       const test::Plate plate = test::make_plate(quarter(modulus, 1));
       const test::SpringInclusion exact(E, nu, radius, modulus * radius / E, tension);  // for the outer border
       const Eigen::VectorXd u = solve(plate, exact_load(plate, exact), 8);

@@ -1,12 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/mesh/cell_lines.hpp"
+#include "stage1_plate/mesh/grid_cells.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
+
+/// The interval between cell lines of one axis in which a centre lies.
+struct Interval {
+  int index;
+  double center;
+  bool at_low_border, at_high_border;
+};
+
+[[noreturn]] void reject_hole(const PlateScene& scene, int index, const std::string& reaches,
+                              const std::string& allowed) {
+  const Hole& hole = scene.holes[index];
+  reject(scene, fmt::format("/holes/{}", index),
+         fmt::format("hole \"{}\" of radius {:g} about ({:g}, {:g}) reaches {}", hole.id, hole.radius, hole.center.x(),
+                     hole.center.y(), reaches),
+         allowed);
+}
+
+Interval locate(const PlateScene& scene, int index, const std::vector<double>& lines, int axis) {
+  const Hole& hole = scene.holes[index];
+  const double c = hole.center[axis], low = lines.front(), high = lines.back(), same = 1e-9 * (high - low);
+  const bool at_low = std::abs(c - low) < same, at_high = std::abs(c - high) < same;
+  const double center = at_low ? low : at_high ? high : c;
+  const auto reaches = [&](double line) {
+    if (line <= low || line >= high)
+      reject_hole(scene, index, "outside the plate",
+                  "a hole inside a cell, or centred on the plate's border (half) or corner (quarter)");
+    reject_hole(scene, index, fmt::format("over the cell line {} = {:g}", axis == 0 ? "x" : "y", line),
+                "a hole inside one cell; move the cell line");
+  };
+  if (center < low || center > high) reaches(center);
+  const auto above = at_high ? lines.end() - 1 : std::upper_bound(lines.begin(), lines.end(), center);
+  if (!at_low && center - hole.radius <= above[-1]) reaches(above[-1]);
+  if (!at_high && center + hole.radius >= *above) reaches(*above);
+  return {static_cast<int>(above - lines.begin()) - 1, center, at_low, at_high};
+}
 
 /// The node at `center` that a hole wants on the sides across one axis of its cell.
 struct Wish {
@@ -49,6 +88,25 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
 
 }  // namespace
 
+std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid) {
+  std::vector<HoleCell> cells;
+  for (int i = 0; i < count_of(scene.holes); ++i) {
+    const Interval x = locate(scene, i, grid.x, 0);
+    const Interval y = locate(scene, i, grid.y, 1);
+    for (const auto& other : cells)
+      if (other.column == x.index && other.row == y.index)
+        reject(scene, fmt::format("/holes/{}", i),
+               fmt::format("holes \"{}\" and \"{}\" are in one cell", scene.holes[other.hole].id, scene.holes[i].id),
+               "one hole in a cell; draw a cell line between them");
+    cells.push_back({i,
+                     x.index,
+                     y.index,
+                     {x.center, y.center},
+                     {y.at_low_border, x.at_high_border, y.at_high_border, x.at_low_border}});
+  }
+  return cells;
+}
+
 CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes) {
   const std::size_t n_columns = grid.x.size() - 1;
   const std::size_t n_rows = grid.y.size() - 1;
@@ -65,16 +123,8 @@ CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const st
 }
 
 const std::vector<double>& CellLines::nodes(int column, int row, CellSide side) const {
-  switch (side) {
-    case bottom:
-      return horizontal_[column][row];
-    case top:
-      return horizontal_[column][row + 1];
-    case left:
-      return vertical_[row][column];
-    default:
-      return vertical_[row][column + 1];
-  }
+  const int line = side == right || side == top ? 1 : 0;
+  return side == bottom || side == top ? horizontal_[column][row + line] : vertical_[row][column + line];
 }
 
 }  // namespace fastjoint::stage1
