@@ -73,9 +73,9 @@ void write_field(const program::Arguments& arguments, const formats::PlateSoluti
 /// Options are checked before a large file is read.
 stage2::FieldRequest field_request(const program::Arguments& arguments) {
   constexpr int most_increments = 1000000;
-  const stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
-                                        arguments.integer("--increment", 1, most_increments, 0),
-                                        arguments.integer("--p", 1, pfem::highest_p, 0)};
+  stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
+                                  arguments.integer("--increment", 1, most_increments, 0),
+                                  arguments.integer("--p", 1, pfem::highest_p, 0)};
   stage2::check_field_options(request, arguments.flag("--field"), arguments.output, arguments.timings);
   return request;
 }
