@@ -6,12 +6,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 #include <vector>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/equations/condition.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -44,7 +44,7 @@ class BorderedSystem {
   }
 
   /// False if some motion meets no stiffness while B^T holds.
-  [[nodiscard]] bool is_regular() const { return reciprocal_condition(lu_) > singular; }
+  [[nodiscard]] bool is_regular() const { return least_stretch(lu_, matrix_) > singular; }
 
   /// @param rhs Shape (N + n a, columns): forces (force), then relative displacements (length).
   /// @return    Same shape: displacements (length), then forces (force).
@@ -236,6 +236,11 @@ VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta
 VectorXd without_rounding(const VectorXd& q, double largest_load) {
   constexpr double rounding = 1e-12;
   return (q.array().abs() > rounding * largest_load).select(q, 0);
+}
+
+double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A) {
+  if ((lu.matrixLU().diagonal().array() == 0).any()) return 0;
+  return lu.rcond() * std::min(1.0, A.cwiseAbs().colwise().sum().maxCoeff());
 }
 
 CondensedSystem condense(const JointModel& joint) {

@@ -50,6 +50,11 @@ struct CondensedSystem {
 /// the largest.
 [[nodiscard]] Eigen::VectorXd without_rounding(const Eigen::VectorXd& q, double largest_load);
 
+/// Reciprocal condition number, in the 1-norm and estimated, of a matrix that is of order 1, and so singular also if
+/// all of it is small; 0 if a pivot is 0, where Eigen's estimate divides by it and may then drop the infinity that it
+/// meets.
+[[nodiscard]] double least_stretch(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu, const Eigen::MatrixXd& A);
+
 /// @throws NumericalError naming the plates that can move if nothing holds them.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint);
 

@@ -48,6 +48,10 @@ struct ContactState {
 /// @param c Contact coordinates, shape (n a), force.
 [[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const Eigen::VectorXd& c);
 
+/// Contact coordinates of a solution, (n a), exact whatever the law.
+[[nodiscard]] Eigen::VectorXd coordinates(const std::vector<Contact>& contacts, const Eigen::VectorXd& F,
+                                          const Eigen::VectorXd& delta);
+
 /// Coordinates at which the bearing forces are F, or about that; where a fastener cannot carry F it is left open.
 ///
 /// @param F Shape (n a), force.

@@ -2,12 +2,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "stage3_nonlinear/laws/laws.hpp"
-#include "stage3_nonlinear/laws/rising_root.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -44,13 +42,18 @@ struct Cubic {
   }
 };
 
+/// Cubic through (0, 0) and three measured points: Bortman & Szabo, equation (8).
+///
+/// It may lose monotonicity. The fastener is spent where the cubic is negative, as none pushes on in the direction of
+/// its stretch, and from where the cubic, fallen beyond its last point, rises again: no test showed the fastener do so.
 class CubicLaw final : public Law {
  public:
+  /// @param delta Three different stretches > 0, length.
+  /// @param F     Forces there, force.
   CubicLaw(const std::array<double, 3>& delta, const std::array<double, 3>& F)
       : last_(*std::max_element(delta.begin(), delta.end())),
         x_{delta[0] / last_, delta[1] / last_, delta[2] / last_},
         cubic_(Cubic::through(x_, F)) {
-    assert(x_[0] > 0 && x_[1] > 0 && x_[2] > 0 && x_[0] != x_[1] && x_[1] != x_[2] && x_[0] != x_[2]);
     const bool rises_far_out = cubic_.a[2] > 0 || (cubic_.a[2] == 0 && cubic_.a[1] >= 0);
     rises_ = rises_far_out && cubic_.slope(cubic_.least(infinity)) >= 0;
     const double valley = cubic_.second_rise();
@@ -134,10 +137,6 @@ class CubicLaw final : public Law {
 
 }  // namespace
 
-LawPointer cubic_law(const std::array<double, 3>& delta, const std::array<double, 3>& F) {
-  return std::make_shared<CubicLaw>(delta, F);
-}
-
 /// {"type": "cubic", "delta": [three], "F": [three]}
 LawPointer read_cubic_law(const input::Value& law) {
   law.only({"type", "delta", "F", "one_sided"});
@@ -146,7 +145,7 @@ LawPointer read_cubic_law(const input::Value& law) {
   if (delta[0] == delta[1] || delta[1] == delta[2] || delta[0] == delta[2])
     deltas.not_allowed("three different displacements");
   const auto F = law.at("F").numbers(3, 3, input::positive);
-  return cubic_law({delta[0], delta[1], delta[2]}, {F[0], F[1], F[2]});
+  return std::make_shared<CubicLaw>(std::array{delta[0], delta[1], delta[2]}, std::array{F[0], F[1], F[2]});
 }
 
 }  // namespace fastjoint::stage3

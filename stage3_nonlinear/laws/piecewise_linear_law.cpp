@@ -2,28 +2,40 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 #include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::stage3 {
-
 namespace {
 
+/// Corner of a piecewise linear curve.
+struct Vertex {
+  double delta, F;  ///< length, force
+};
+
+/// Piecewise linear curve: from (0, 0) through its vertices, then on with a last slope.
+struct Polyline {
+  std::vector<Vertex> vertices;  ///< neither delta nor F falls
+  double last_slope;             ///< force / length, >= 0
+};
+
+/// Number of the input and what it does to the curve.
+struct PolylineParameter {
+  Parameter parameter;
+  Polyline derivative;  ///< of every vertex and of the last slope
+};
+
+/// Law that is linear between corners.
 class PiecewiseLinearLaw final : public Law {
  public:
+  /// @param first_moved The clearance moves the vertices from this one on along delta.
   PiecewiseLinearLaw(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
                      std::optional<Source> source)
       : curve_(std::move(curve)),
         first_moved_(first_moved),
         parameters_(std::move(parameters)),
-        source_(std::move(source)) {
-    assert(first_moved_ < curve_.vertices.size());
-    assert(std::all_of(parameters_.begin(), parameters_.end(), [&](const PolylineParameter& each) {
-      return each.derivative.vertices.size() == curve_.vertices.size();
-    }));
-  }
+        source_(std::move(source)) {}
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
     const Piece on = piece(c, k, clearance);
@@ -127,12 +139,12 @@ class PiecewiseLinearLaw final : public Law {
   std::optional<Source> source_;
 };
 
-}  // namespace
-
 LawPointer piecewise_linear_law(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
-                                std::optional<Source> source) {
+                                std::optional<Source> source = std::nullopt) {
   return std::make_shared<PiecewiseLinearLaw>(std::move(curve), first_moved, std::move(parameters), std::move(source));
 }
+
+}  // namespace
 
 LawPointer linear_law(double k, std::optional<Source> source) {
   return piecewise_linear_law({{{0, 0}}, k}, 0, {{{"k", -1, 1}, {{{0, 0}}, 1}}}, std::move(source));
@@ -141,7 +153,7 @@ LawPointer linear_law(double k, std::optional<Source> source) {
 /// {"type": "linear", "k": force / length}
 LawPointer read_linear_law(const input::Value& law) {
   law.only({"type", "k", "one_sided"});
-  return linear_law(law.at("k").number(input::positive));
+  return linear_law(law.at("k").number(input::positive), std::nullopt);
 }
 
 /// {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "stage3_nonlinear/laws/laws.hpp"
@@ -10,11 +9,10 @@
 namespace fastjoint::stage3 {
 namespace {
 
+/// F = A (delta - delta0)^n past delta0, zero before: Bortman & Szabo, equation (7).
 class PowerLaw final : public Law {
  public:
-  PowerLaw(double A, double n, double delta0) : A_(A), n_(n), delta0_(delta0) {
-    assert(A > 0 && n > 0 && n <= 1 && delta0 >= 0);
-  }
+  PowerLaw(double A, double n, double delta0) : A_(A), n_(n), delta0_(delta0) {}
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
     const double s = c - k * gap(clearance);
@@ -77,12 +75,12 @@ class PowerLaw final : public Law {
     return F;
   }
 
-  double A_, n_, delta0_;
+  double A_;       ///< force / length^n, A > 0
+  double n_;       ///< exponent, 0 < n <= 1
+  double delta0_;  ///< gap of the law, length, delta0 >= 0
 };
 
 }  // namespace
-
-LawPointer power_law(double A, double n, double delta0) { return std::make_shared<PowerLaw>(A, n, delta0); }
 
 /// {"type": "power", "A": ..., "n": ..., "delta0": 0}; delta0 may be left out.
 LawPointer read_power_law(const input::Value& law) {
@@ -90,7 +88,7 @@ LawPointer read_power_law(const input::Value& law) {
   const double A = law.at("A").number(input::positive);
   const double n = law.at("n").number({.low = 0, .high = 1, .low_allowed = false});
   const auto delta0 = law.find("delta0");
-  return power_law(A, n, delta0 ? delta0->number(input::not_negative) : 0.0);
+  return std::make_shared<PowerLaw>(A, n, delta0 ? delta0->number(input::not_negative) : 0.0);
 }
 
 }  // namespace fastjoint::stage3

@@ -3,7 +3,6 @@
 #include <gsl/gsl_interp.h>
 
 #include <algorithm>
-#include <cassert>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -15,22 +14,22 @@
 #include "common/errors.hpp"
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/laws/laws.hpp"
-#include "stage3_nonlinear/laws/rising_root.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
+/// Measured curve that never falls: piecewise cubic through its points with continuous slope, monotone between points
+/// that are (Steffen, Astronomy & Astrophysics 239, 1990); beyond the last point straight on.
 class TableLaw final : public Law {
  public:
-  explicit TableLaw(const TestPoints& points, std::string file) : x_{0}, F_{0}, file_(std::move(file)) {
-    assert(points.size() >= 2);
+  /// @param points (0, 0) and at least two more: delta rises, F does not fall.
+  TableLaw(const TestPoints& points, std::string file)
+      : spline_(gsl_interp_alloc(gsl_interp_steffen, points.size()), &gsl_interp_free), file_(std::move(file)) {
+    if (!spline_) throw std::bad_alloc();
     for (const auto& [delta, F] : points) {
-      assert(delta > x_.back() && F >= F_.back());
       x_.push_back(delta);
       F_.push_back(F);
     }
-    spline_.reset(gsl_interp_alloc(gsl_interp_steffen, x_.size()));
-    if (!spline_) throw std::bad_alloc();
     gsl_interp_init(spline_.get(), x_.data(), F_.data(), x_.size());
   }
 
@@ -77,11 +76,8 @@ class TableLaw final : public Law {
     return {F + slope * (x - inside), std::max(slope, 0.0)};  // rounding may make a level piece fall
   }
 
-  struct Free {
-    void operator()(gsl_interp* interp) const noexcept { gsl_interp_free(interp); }
-  };
   std::vector<double> x_, F_;  ///< points with (0, 0): stretch, length; force
-  std::unique_ptr<gsl_interp, Free> spline_;
+  std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline_;
   std::string file_;
 };
 
@@ -130,17 +126,8 @@ double checked(std::string_view field, const std::string& place) {
   return *value;
 }
 
-/// Path of the file of points, empty if they stand in the law itself.
-std::string file_of(const input::Value& law) {
-  const auto file = law.find("file");
-  return file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : "";
-}
-
-TestPoints points_of(const input::Value& law) {
-  if (const std::string file = file_of(law); !file.empty()) {
-    law.only({"type", "file", "one_sided"});
-    return read_points(file);
-  }
+/// Points that stand in the law itself.
+TestPoints points_inside(const input::Value& law) {
   law.only({"type", "delta", "F", "one_sided"});
   constexpr std::size_t most = 100000;
   const auto delta = law.at("delta").numbers(2, most, input::not_negative);
@@ -148,6 +135,11 @@ TestPoints points_of(const input::Value& law) {
   TestPoints points;
   for (std::size_t i = 0; i < delta.size(); ++i) points.push_back({delta[i], F[i]});
   return points;
+}
+
+TestPoints points_of_file(const input::Value& law, const std::string& path) {
+  law.only({"type", "file", "one_sided"});
+  return read_points(path);
 }
 
 }  // namespace
@@ -175,19 +167,18 @@ TestPoints read_points(const std::string& path) {
   return points;
 }
 
-LawPointer table_law(const TestPoints& points) { return std::make_shared<TableLaw>(points, ""); }
-
 /// {"type": "table", "file": CSV} or {"type": "table", "delta": [...], "F": [...]}: points of a test, without (0, 0) or
 /// with it.
 LawPointer read_table_law(const input::Value& law) {
-  auto points = points_of(law);
-  const auto place = law.find("file") ? law.at("file") : law;
-  if (!points.empty() && points[0][0] == 0) {
-    if (points[0][1] > 0)
-      place.fail(fmt::format("F = {} at delta = 0", points[0][1]), "0 there: stiff contact is a power law");
-    points.erase(points.begin());
-  }
-  if (points.size() < 2) place.fail(points.empty() ? "no point beyond (0, 0)" : "1 point beyond (0, 0)", "at least 2");
+  const auto file = law.find("file");
+  const auto path = file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : std::string();
+  auto points = file ? points_of_file(law, path) : points_inside(law);
+  const auto& place = file ? *file : law;
+  if (points[0][0] != 0) points.insert(points.begin(), {0, 0});
+  if (points[0][1] > 0)
+    place.fail(fmt::format("F = {} at delta = 0", points[0][1]), "0 there: stiff contact is a power law");
+  if (points.size() < 3)
+    place.fail(points.size() < 2 ? "no point beyond (0, 0)" : "1 point beyond (0, 0)", "at least 2");
   for (std::size_t i = 1; i < points.size(); ++i) {
     const auto& [delta, F] = points[i];
     if (!(delta > points[i - 1][0]))
@@ -197,7 +188,7 @@ LawPointer read_table_law(const input::Value& law) {
                  "forces that do not fall: smooth the data, or fit a law to it (scripts/fit_law)");
   }
   if (!(points.back()[1] > 0)) place.fail("no force at any point", "a force > 0");
-  return std::make_shared<TableLaw>(points, file_of(law));
+  return std::make_shared<TableLaw>(points, path);
 }
 
 }  // namespace fastjoint::stage3

@@ -9,7 +9,7 @@
 #include <set>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/equations/implicit_slopes.hpp"
+#include "stage3_nonlinear/equations/tangent.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "stage3_nonlinear/equations/linear_joint.hpp"
 #include "stage3_nonlinear/equations/piecewise_joint.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"

@@ -10,7 +10,6 @@
 #include <limits>
 #include <optional>
 
-#include "stage3_nonlinear/equations/condition.hpp"
 #include "stage3_nonlinear/equations/piecewise_joint.hpp"
 
 namespace fastjoint::stage3 {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stage3_nonlinear/path/exact_path.hpp"
-#include "stage3_nonlinear/path/path_result.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
 
 namespace fastjoint::stage3 {

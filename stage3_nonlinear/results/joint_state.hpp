@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "stage3_nonlinear/equations/condensed_system.hpp"
-#include "stage3_nonlinear/path/path_result.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 
 namespace fastjoint::stage3 {
 

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "common/matrices/stiffness_error.hpp"
-#include "stage3_nonlinear/equations/implicit_slopes.hpp"
+#include "stage3_nonlinear/equations/tangent.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "stage3_nonlinear/path/path_result.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 
 namespace fastjoint::stage3 {

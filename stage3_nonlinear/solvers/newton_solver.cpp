@@ -13,34 +13,24 @@ namespace {
 
 using Eigen::VectorXd;
 
-/// Point on the way along a step.
-struct Point {
-  VectorXd x, residual;
-};
-
-Point point_at(const RootProblem& problem, const Root& root, const VectorXd& step, double length) {
-  Point point{root.x + length * step, {}};
-  point.residual = problem.residual(point.x);
-  return point;
+/// The root so far, moved by `length` steps.
+Root moved(const RootProblem& problem, Root root, const VectorXd& step, double length) {
+  root.x += length * step;
+  root.residual = problem.residual(root.x);
+  return root;
 }
 
-bool take(Root& root, Point&& point) {
-  root.x = std::move(point.x);
-  root.residual = std::move(point.residual);
-  return true;
-}
-
-/// Moves as far as the residual's norm falls; false if it falls nowhere.
-bool move_by_norm(const RootProblem& problem, const VectorXd& step, Root& root) {
+/// Moves as far as the residual's norm falls; none if it falls nowhere.
+std::optional<Root> move_by_norm(const RootProblem& problem, const VectorXd& step, const Root& root) {
   constexpr int most_halvings = 40;
   constexpr double least_fall = 1e-4;  // Armijo's share of what the tangent promises
   const double norm = root.residual.norm();
   double length = 1;
   for (int i = 0; i < most_halvings; ++i, length /= 2) {
-    Point point = point_at(problem, root, step, length);
-    if (point.residual.norm() <= (1 - least_fall * length) * norm) return take(root, std::move(point));
+    Root there = moved(problem, root, step, length);
+    if (there.residual.norm() <= (1 - least_fall * length) * norm) return there;
   }
-  return false;
+  return std::nullopt;
 }
 
 /// Lengths of a step between which a convex function is least, by its slopes there.
@@ -90,38 +80,37 @@ class Bracket {
 
 /// Moves to where the convex function surely is lower, and either its slope along the step has risen from `before` < 0
 /// to little, or as near as rounding lets it, or the residual is well below what it was; a whole step that brings it
-/// well below all before is taken as it is (docs/theory.md, section 8.4, shows that they may mix). False if there is no
+/// well below all before is taken as it is (docs/theory.md, section 8.4, shows that they may mix). None if there is no
 /// such place.
-bool move_downhill(const RootProblem& problem, const VectorXd& step, double before, double least_norm, Root& root) {
+std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, double before, double least_norm,
+                                  const Root& root) {
   constexpr int most_tries = 100;
   constexpr double little = 0.03;
   constexpr double well = 0.5;
   const double norm_here = root.residual.norm();
   Bracket bracket(before);
-  std::optional<Point> best;
+  std::optional<Root> best;
   double best_slope = -before;
   double length = 1;
   for (int i = 0; i < most_tries && best_slope > -little * before; ++i) {
-    Point point = point_at(problem, root, step, length);
-    const double norm = point.residual.norm();
-    if (i == 0 && norm <= well * least_norm) return take(root, std::move(point));
-    const double slope = problem.descent(point.residual).dot(step);
-    if (norm <= well * norm_here && bracket.falls_to(length, slope)) return take(root, std::move(point));
+    Root there = moved(problem, root, step, length);
+    const double norm = there.residual.norm();
+    if (i == 0 && norm <= well * least_norm) return there;
+    const double slope = problem.descent(there.residual).dot(step);
+    if (norm <= well * norm_here && bracket.falls_to(length, slope)) return there;
     if (std::abs(slope) < best_slope && bracket.falls_to(length, slope)) {
-      best = std::move(point);
+      best = std::move(there);
       best_slope = std::abs(slope);
     }
     length = bracket.next(length, slope);
   }
-  return best && take(root, *std::move(best));
+  return best;
 }
 
-bool move(const RootProblem& problem, const VectorXd& step, double least_norm, Root& root) {
-  if (problem.descent) {
-    const double slope = problem.descent(root.residual).dot(step);
-    if (slope < 0 && move_downhill(problem, step, slope, least_norm, root)) return true;
-  }
-  return move_by_norm(problem, step, root);
+std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double least_norm, const Root& root) {
+  const double slope = problem.descent ? problem.descent(root.residual).dot(step) : 0;
+  auto there = slope < 0 ? move_downhill(problem, step, slope, least_norm, root) : std::nullopt;
+  return there ? there : move_by_norm(problem, step, root);
 }
 
 }  // namespace
@@ -138,7 +127,9 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
     ++root.iterations;
     least_norm = std::min(least_norm, root.residual.norm());
     const VectorXd step = -problem.jacobian(root.x).partialPivLu().solve(root.residual);
-    if (!step.allFinite() || !move(problem, step, least_norm, root)) break;
+    auto there = step.allFinite() ? move(problem, step, least_norm, root) : std::nullopt;
+    if (!there) break;
+    root = *std::move(there);
   }
   return root;
 }

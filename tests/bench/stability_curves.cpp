@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/stability_curves.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::bench {
 namespace {
 
-using stage3::Polyline;
+/// Curve from (0, 0) through its corners (delta, F), then on with a last slope.
+struct Polyline {
+  std::vector<std::array<double, 2>> corners;
+  double last_slope;
+};
 
 Curve power(double A, double n) {
-  return {stage3::power_law(A, n, 0), [A, n](double delta, double clearance) -> Force {
+  return {test::power_law(A, n), [A, n](double delta, double clearance) -> Force {
             const double x = delta - clearance;
             if (x <= 0) return {0, 0};
             const double F = A * std::pow(x, n);
@@ -21,11 +27,12 @@ Curve power(double A, double n) {
           }};
 }
 
-Curve polyline(const Polyline& line, std::size_t first_moved) {
+/// @param first_moved The clearance moves the corners from this one on.
+Curve polyline(std::shared_ptr<const stage3::Law> law, const Polyline& line, std::size_t first_moved) {
   auto at = [line, first_moved](double delta, double clearance) -> Force {
     double x0 = 0, F0 = 0;
-    for (std::size_t i = 0; i < line.vertices.size(); ++i) {
-      const double x1 = line.vertices[i].delta + (i >= first_moved ? clearance : 0), F1 = line.vertices[i].F;
+    for (std::size_t i = 0; i < line.corners.size(); ++i) {
+      const double x1 = line.corners[i][0] + (i >= first_moved ? clearance : 0), F1 = line.corners[i][1];
       if (delta < x1) {
         const double slope = (F1 - F0) / (x1 - x0);
         return {F0 + slope * (delta - x0), slope};
@@ -35,21 +42,25 @@ Curve polyline(const Polyline& line, std::size_t first_moved) {
     }
     return {F0 + line.last_slope * (delta - x0), line.last_slope};
   };
-  return {stage3::piecewise_linear_law(line, first_moved, std::vector<stage3::PolylineParameter>{}), std::move(at)};
+  return {std::move(law), std::move(at)};
 }
 
 Curve bilinear(std::mt19937& random, const LawSize& size) {
   const double F = size.F * uniform(random, 0.3, 2);
   const double k_yield = chance(random, 1. / 3) ? 0 : size.k * decades(random, 1e-3, 0.5);
-  return polyline({{{0, 0}, {F / size.k, F}}, k_yield}, 0);
+  return polyline(test::bilinear_law(size.k, F, k_yield), {{{0, 0}, {F / size.k, F}}, k_yield}, 0);
 }
 
 Curve four_stage(std::mt19937& random, const LawSize& size) {
   const double F_slip = size.F * uniform(random, 0.1, 1), F_yield = F_slip + size.F * uniform(random, 0.1, 1);
   const double k_stick = size.k * decades(random, 1, 10), k_bearing = size.k * decades(random, 0.3, 3);
-  const double stuck = F_slip / k_stick, slipped = stuck + size.F / size.k * uniform(random, 0, 1);
+  const double slip = size.F / size.k * uniform(random, 0, 1), stuck = F_slip / k_stick, slipped = stuck + slip;
   const double k_yield = chance(random, 1. / 3) ? 0 : size.k * decades(random, 1e-3, 0.2);
-  return polyline({{{stuck, F_slip}, {slipped, F_slip}, {slipped + (F_yield - F_slip) / k_bearing, F_yield}}, k_yield},
+  auto law = test::law_of(fmt::format(R"({{"type": "four stage", "k_stick": {}, "F_slip": {}, "slip": {},
+                                          "k_bearing": {}, "F_yield": {}, "k_yield": {}}})",
+                                      k_stick, F_slip, slip, k_bearing, F_yield, k_yield));
+  return polyline(std::move(law),
+                  {{{stuck, F_slip}, {slipped, F_slip}, {slipped + (F_yield - F_slip) / k_bearing, F_yield}}, k_yield},
                   1);
 }
 
@@ -59,7 +70,7 @@ Curve cubic(std::mt19937& random, const LawSize& size) {
   const double b = uniform(random, -0.98, 1) * std::sqrt(3 * a * c);
   const double unit = size.F / size.k, F0 = size.F;
   const auto F = [=](double x) { return F0 * x * (a + x * (b + x * c)); };
-  return {stage3::cubic_law(std::array{unit, 2 * unit, 3 * unit}, std::array{F(1), F(2), F(3)}),
+  return {test::cubic_law({unit, 2 * unit, 3 * unit}, {F(1), F(2), F(3)}),
           [=](double delta, double clearance) -> Force {
             const double x = (delta - clearance) / unit;
             if (x <= 0) return {0, 0};
@@ -82,7 +93,7 @@ bool chance(std::mt19937& random, double share) { return uniform(random, 0, 1) <
 Curve random_curve(std::mt19937& random, const LawSize& size) {
   switch (std::uniform_int_distribution<int>(0, 7)(random)) {
     case 0:
-      return polyline({{{0, 0}}, size.k}, 0);
+      return polyline(test::linear_law(size.k), {{{0, 0}}, size.k}, 0);
     case 1:
       return bilinear(random, size);
     case 2:

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "stage3_nonlinear/laws/laws.hpp"
 #include "tests/bench/stability_curves.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
@@ -178,9 +177,8 @@ stage3::JointEquations random_falling_joint(std::uint32_t seed) {
   std::vector<Contact> contacts;
   for (int j = 0; j < n; ++j) {
     const double size = F * decades(random, 0.3, 3), unit = F / (k > 0 ? k : 1) * decades(random, 0.1, 10);
-    const auto law =
-        stage3::cubic_law(std::array{unit, 2 * unit, 3 * unit},
-                          std::array{size, size * uniform(random, 0.1, 2), size * uniform(random, 0.1, 3)});
+    const auto law = test::cubic_law(std::array{unit, 2 * unit, 3 * unit},
+                                     std::array{size, size * uniform(random, 0.1, 2), size * uniform(random, 0.1, 3)});
     contacts.push_back({law, chance(random, 0.5) ? 0 : unit * uniform(random, 0, 1), 1, chance(random, 0.2)});
   }
   return make_equations(std::move(system), std::move(contacts));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "stage3_nonlinear/equations/linear_joint.hpp"
+#include "stage3_nonlinear/equations/joint_equations.hpp"
 
 namespace fastjoint::bench {
 namespace {

@@ -2,12 +2,11 @@
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-
-#include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::test {
 
@@ -58,12 +57,10 @@ std::shared_ptr<const stage3::Law> random_piecewise_law(std::mt19937& random) {
   const double yielding = uniform(random, 0, 1) < 0.2 ? 0.0 : k * uniform(random, 0.01, 0.5);
   const double kind = uniform(random, 0, 1);
   if (kind < 0.4) return linear_law(k);
-  const std::string text =
-      kind < 0.7 ? fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})", k, F, yielding)
-                 : fmt::format(R"({{"type": "four stage", "k_stick": {}, "F_slip": {}, "slip": {}, "k_bearing": {},
-                                    "F_yield": {}, "k_yield": {}}})",
-                               3 * k, 0.1 * F, decades(random, 1e-4, 1e-1), k, F, yielding);
-  return stage3::read_law(input::Value(input::parse("law", text)));
+  if (kind < 0.7) return bilinear_law(k, F, yielding);
+  return law_of(fmt::format(R"({{"type": "four stage", "k_stick": {}, "F_slip": {}, "slip": {}, "k_bearing": {},
+                                "F_yield": {}, "k_yield": {}}})",
+                            3 * k, 0.1 * F, decades(random, 1e-4, 1e-1), k, F, yielding));
 }
 
 std::shared_ptr<const stage3::Law> random_law(std::mt19937& random, const RandomJoint& kind) {
@@ -72,7 +69,7 @@ std::shared_ptr<const stage3::Law> random_law(std::mt19937& random, const Random
     // Rises for all delta: a cubic that turns down carries no more than its peak.
     const double F = decades(random, 30, 3000);
     const double d = decades(random, 0.003, 0.3);
-    return stage3::cubic_law(std::array{d, 2 * d, 3 * d}, std::array{F, 1.6 * F, 2.4 * F});
+    return cubic_law({d, 2 * d, 3 * d}, {F, 1.6 * F, 2.4 * F});
   }
   const double n = uniform(random, 0, 1) < 0.25 ? 1.0 : uniform(random, kind.least_n, 1.0);
   return power_law(decades(random, 100, 100000), n);
@@ -155,10 +152,24 @@ void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu) {
   balance(joint.fasteners[fastener]);
 }
 
-std::shared_ptr<const stage3::Law> linear_law(double k) { return stage3::linear_law(k); }
+std::shared_ptr<const stage3::Law> law_of(const std::string& text) {
+  return stage3::read_law(input::Value(input::parse("joint.json", text)));
+}
+
+std::shared_ptr<const stage3::Law> linear_law(double k) {
+  return law_of(fmt::format(R"({{"type": "linear", "k": {}}})", k));
+}
 
 std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0) {
-  return stage3::power_law(A, n, delta0);
+  return law_of(fmt::format(R"({{"type": "power", "A": {}, "n": {}, "delta0": {}}})", A, n, delta0));
+}
+
+std::shared_ptr<const stage3::Law> bilinear_law(double k, double F_yield, double k_yield) {
+  return law_of(fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})", k, F_yield, k_yield));
+}
+
+std::shared_ptr<const stage3::Law> cubic_law(const std::array<double, 3>& delta, const std::array<double, 3>& F) {
+  return law_of(fmt::format(R"({{"type": "cubic", "delta": {}, "F": {}}})", delta, F));
 }
 
 stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {

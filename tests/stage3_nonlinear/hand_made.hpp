@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <map>
 #include <random>
 #include <string>
@@ -47,8 +48,13 @@ void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<std::si
 /// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
 void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu);
 
+/// Laws as the input gives them; `text` is their JSON.
+[[nodiscard]] std::shared_ptr<const stage3::Law> law_of(const std::string& text);
 [[nodiscard]] std::shared_ptr<const stage3::Law> linear_law(double k);
 [[nodiscard]] std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0 = 0);
+[[nodiscard]] std::shared_ptr<const stage3::Law> bilinear_law(double k, double F_yield, double k_yield);
+[[nodiscard]] std::shared_ptr<const stage3::Law> cubic_law(const std::array<double, 3>& delta,
+                                                           const std::array<double, 3>& F);
 
 /// Ranges of random joints.
 struct RandomJoint {

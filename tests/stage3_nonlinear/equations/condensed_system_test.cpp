@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/equations/linear_joint.hpp"
+#include "stage3_nonlinear/equations/joint_equations.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"

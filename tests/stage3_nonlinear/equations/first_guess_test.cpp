@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/equations/linear_joint.hpp"
+#include "stage3_nonlinear/equations/joint_equations.hpp"
 
 #include <gtest/gtest.h>
 

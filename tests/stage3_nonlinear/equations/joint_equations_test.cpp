@@ -5,8 +5,7 @@
 
 #include <Eigen/Eigenvalues>
 
-#include "stage3_nonlinear/equations/tangent_check.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "stage3_nonlinear/equations/tangent.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -80,7 +79,7 @@ TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
 
 /// A law that falls has no energy to descend on.
 TEST(JointEquations, MetricNeedsLawsThatRise) {
-  const auto falling = cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const auto falling = test::cubic_law({1.0, 2.0, 3.0}, {1.0, 1.8, 2.4});
   EXPECT_EQ(make_equations(test::joint_of(test::two_fastener_lap(), falling)).metric.size(), 0);
 }
 
@@ -112,7 +111,7 @@ TEST(JointEquations, TellsASheetThatNothingHolds) {
 TEST(JointEquations, TellsASolutionPastTheLargestLoad) {
   const test::Lap lap{test::spring_plate(1, 1, {{0, 1, 1000}, {0, test::ground, 0.5}}),
                       test::spring_plate(1, 0, {{0, test::ground, 1e6}}), 1};
-  const auto falling = cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const auto falling = test::cubic_law({1.0, 2.0, 3.0}, {1.0, 1.8, 2.4});
   const JointEquations equations = make_equations(test::joint_of(lap, falling));
   const auto unstable_at = [&](double delta) {
     const double c = equations.contacts[0].stiffness * delta;

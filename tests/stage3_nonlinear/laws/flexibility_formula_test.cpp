@@ -8,7 +8,7 @@
 #include <string>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -151,18 +151,14 @@ std::string law(const std::string& formula, const std::string& more) {
          "}";
 }
 
-LawPointer read(const std::string& json) {
-  const auto document = input::parse("joint.json", json);
-  return read_formula_law(input::Value(document));
-}
-
-double stiffness(const LawPointer& law) {
+double stiffness(const std::shared_ptr<const Law>& law) {
   const Branch on = law->at(1, 1, 0);
   return on.F / on.delta;
 }
 
 TEST(FormulaLaw, GivesTheStiffness) {
-  const auto whole = read(law("huth bolt", R"("mode": "total", "shear": "single", "E_f": 110000, "one_sided": true)"));
+  const auto whole =
+      test::law_of(law("huth bolt", R"("mode": "total", "shear": "single", "E_f": 110000, "one_sided": true)"));
   EXPECT_NEAR(stiffness(whole), 1 / 2.903227e-5, 0.01);
   EXPECT_TRUE(whole->source()->bearing_of_sheet);
   EXPECT_EQ(whole->source()->text,
@@ -172,29 +168,30 @@ TEST(FormulaLaw, GivesTheStiffness) {
   const double bending = (8 + 60 + 90 + 27) / (40 * 110000 * std::numbers::pi * 625 / 64);
   const double shear = 4 * 5 / (9 * 110000 / 2.66 * std::numbers::pi * 25 / 4);
   const auto part =
-      read(law("tate-rosenfeld", R"("mode": "fastener only", "shear": "single", "E_f": 110000, "nu_f": 0.33)"));
+      test::law_of(law("tate-rosenfeld", R"("mode": "fastener only", "shear": "single", "E_f": 110000, "nu_f": 0.33)"));
   EXPECT_NEAR(1 / stiffness(part), bending + shear + (1 / 2.0 + 1 / 3.0) / 110000, 1e-17);
   EXPECT_FALSE(part->source()->bearing_of_sheet);
   EXPECT_THAT(part->source()->text, HasSubstr("tate-rosenfeld in single shear, fastener only: M. B. Tate"));
 }
 
 TEST(FormulaLaw, KnowsDoubleShear) {
-  const auto one = read(law("huth rivet", R"("mode": "total", "shear": "single", "E_f": 110000)"));
-  const auto two = read(law("huth rivet", R"("mode": "total", "shear": "double", "E_f": 110000)"));
+  const auto one = test::law_of(law("huth rivet", R"("mode": "total", "shear": "single", "E_f": 110000)"));
+  const auto two = test::law_of(law("huth rivet", R"("mode": "total", "shear": "double", "E_f": 110000)"));
   // Both planes of the fastener are half as flexible, and each of them is half as stiff as both.
   EXPECT_NEAR(2 * stiffness(two) / stiffness(one), 2 * (1 / 2.0 + 1 / 3.0) / (1 / 2.0 + 1 / 6.0), 1e-12);
   EXPECT_THAT(two->source()->text, HasSubstr("huth rivet in double shear, total"));
 }
 
 TEST(FormulaLaw, IsASpringThatSaysWhereItComesFrom) {
-  const auto law = read(R"({"type": "formula", "formula": "huth bolt", "mode": "total", "shear": "single", "t": [2, 3],
+  const auto law =
+      test::law_of(R"({"type": "formula", "formula": "huth bolt", "mode": "total", "shear": "single", "t": [2, 3],
                             "E": [72000, 72000], "d": 5, "E_f": 110000})");
   const Branch on = law->at(1000, 1e4, 0);
   EXPECT_NEAR(on.delta / on.F, 2.903227e-5, 5e-12);
   ASSERT_TRUE(law->source());
   EXPECT_TRUE(law->source()->bearing_of_sheet);
   EXPECT_THAT(law->source()->text, HasSubstr("huth bolt in single shear, total"));
-  EXPECT_FALSE(linear_law(1)->source());
+  EXPECT_FALSE(test::linear_law(1)->source());
 }
 
 struct Refusal {
@@ -204,7 +201,7 @@ struct Refusal {
 class FlexibilityRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(FlexibilityRefuses, WithPointerFoundAndAllowed) {
-  EXPECT_THAT([] { (void)read(GetParam().json); }, ThrowsMessage<InputError>(HasSubstr(GetParam().message)));
+  EXPECT_THAT([] { (void)test::law_of(GetParam().json); }, ThrowsMessage<InputError>(HasSubstr(GetParam().message)));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -237,10 +234,12 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{law("morris", R"("mode": "total", "shear": "single", "E_f": 1)"), R"(key "E_z" is missing)"},
         Refusal{R"({"type": "formula", "formula": "swift", "mode": "total", "shear": "single", "t": [1], "E": [1, 1]})",
                 "/t: array of 1; allowed: exactly 2"},
-        Refusal{R"({"formula": "swift", "mode": "total", "shear": "single", "t": [1, 1], "E": [1, -1]})",
-                "/E/1: -1 is not allowed; allowed: a number > 0"},
-        Refusal{R"({"formula": "swift", "mode": "total", "shear": "single", "t": [1, 1], "E": [1, 1], "d": 0})",
-                "/d: 0 is not allowed; allowed: a number > 0"}));
+        Refusal{
+            R"({"type": "formula", "formula": "swift", "mode": "total", "shear": "single", "t": [1, 1], "E": [1, -1]})",
+            "/E/1: -1 is not allowed; allowed: a number > 0"},
+        Refusal{
+            R"({"type": "formula", "formula": "swift", "mode": "total", "shear": "single", "t": [1, 1], "E": [1, 1], "d": 0})",
+            "/d: 0 is not allowed; allowed: a number > 0"}));
 
 }  // namespace
 }  // namespace fastjoint::stage3

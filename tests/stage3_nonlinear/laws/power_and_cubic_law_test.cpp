@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -13,7 +13,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 TEST(PowerLaw, IsRigidAtFirstContact) {
-  const Branch contact = power_law(200, 0.6, 0)->at(0, 7, 0);
+  const Branch contact = test::power_law(200, 0.6, 0)->at(0, 7, 0);
   EXPECT_EQ(contact.F, 0);
   EXPECT_EQ(contact.delta, 0);
   EXPECT_EQ(contact.dF, 1);
@@ -25,20 +25,21 @@ TEST(PowerLaw, IsFoundForAnyRatioOfStiffnesses) {
   for (const double n : {0.05, 0.4, 0.7, 0.99})
     for (double A = 1e-8; A < 1e9; A *= 10)
       for (double c = 1e-6; c < 1e7; c *= 10) {
-        const Branch on = power_law(A, n, 0)->at(c, 1, 0);
+        const Branch on = test::power_law(A, n, 0)->at(c, 1, 0);
         EXPECT_NEAR(on.F + on.delta, c, 1e-13 * c) << A << " " << c;
         EXPECT_NEAR(A * std::pow(on.delta, n), on.F, 1e-11 * on.F) << A << " " << c;
       }
 }
 
 TEST(PowerLaw, WarnsBelowThePracticalRange) {
-  EXPECT_THAT(power_law(1, 0.4, 0)->doubts(), IsEmpty());
-  EXPECT_THAT(power_law(1, 0.3, 0)->doubts(), ElementsAre(HasSubstr("n = 0.3 is below the practical range 0.4 to 1")));
+  EXPECT_THAT(test::power_law(1, 0.4, 0)->doubts(), IsEmpty());
+  EXPECT_THAT(test::power_law(1, 0.3, 0)->doubts(),
+              ElementsAre(HasSubstr("n = 0.3 is below the practical range 0.4 to 1")));
 }
 
 TEST(CubicLaw, GoesThroughItsPointsInAnyOrder) {
-  for (const auto& law :
-       {cubic_law({0.01, 0.02, 0.04}, {900, 1500, 2000}), cubic_law({0.04, 0.01, 0.02}, {2000, 900, 1500})}) {
+  for (const auto& law : {test::cubic_law({0.01, 0.02, 0.04}, {900, 1500, 2000}),
+                          test::cubic_law({0.04, 0.01, 0.02}, {2000, 900, 1500})}) {
     EXPECT_EQ(law->last_delta(0.5), 0.54);
     const auto at = [&](double F, double delta) {
       return law->at(law->rises() ? F + 1e5 * delta : 1e5 * delta, 1e5, 0);
@@ -51,7 +52,7 @@ TEST(CubicLaw, GoesThroughItsPointsInAnyOrder) {
 
 TEST(CubicLaw, NeverPushesOn) {
   // x (1.1 - 0.1 x) falls from 5.5 on and is back at zero at x = 11.
-  const auto law = cubic_law({1, 2, 3}, {1, 1.8, 2.4});
+  const auto law = test::cubic_law({1, 2, 3}, {1, 1.8, 2.4});
   EXPECT_FALSE(law->rises());
   EXPECT_LE(law->least_slope(), -1.1 + 1e-12);
   EXPECT_NEAR(law->at(10, 1, 0).F, 1, 1e-12);
@@ -64,7 +65,7 @@ TEST(CubicLaw, NeverPushesOn) {
 
 /// Beyond its last point the cubic falls to 995 at a stretch of 0.19 and rises from there: no test showed that.
 TEST(CubicLaw, DoesNotHoldAgainBeyondItsLastPoint) {
-  const auto law = cubic_law({0.05, 0.1, 0.15}, {1500, 1800, 1200});
+  const auto law = test::cubic_law({0.05, 0.1, 0.15}, {1500, 1800, 1200});
   constexpr double k = 1e4;
   EXPECT_FALSE(law->at(k * 0.15, k, 0).spent);
   double before = law->at(k * 0.15, k, 0).F;
@@ -79,16 +80,16 @@ TEST(CubicLaw, DoesNotHoldAgainBeyondItsLastPoint) {
   }
   EXPECT_TRUE(law->at(k * 0.6, k, 0).spent);
   // Where its own points show that it rises again, it does.
-  EXPECT_FALSE(cubic_law({1, 2, 3}, {10, 2, 10})->at(k * 5, k, 0).spent);
+  EXPECT_FALSE(test::cubic_law({1, 2, 3}, {10, 2, 10})->at(k * 5, k, 0).spent);
 }
 
 TEST(CubicLaw, WarnsWhereItTurnsDown) {
-  EXPECT_THAT(cubic_law({1, 2, 3}, {1, 1.6, 2.4})->doubts(), IsEmpty());
+  EXPECT_THAT(test::cubic_law({1, 2, 3}, {1, 1.6, 2.4})->doubts(), IsEmpty());
   // F = x (6.5 - 4.75 x + x^2): slope 6.5 - 9.5 x + 3 x^2 falls below zero between 1 and 2, at x = 19/12
   // by 1.0208.
-  EXPECT_THAT(cubic_law({1, 2, 3}, {2.75, 2, 3.75})->doubts(),
+  EXPECT_THAT(test::cubic_law({1, 2, 3}, {2.75, 2, 3.75})->doubts(),
               ElementsAre(HasSubstr("slope at delta = 1.583 is -1.021; the joint may have more than one solution")));
-  EXPECT_THAT(cubic_law({1, 2, 3}, {1, 1.5, 1.2})->doubts(), ElementsAre(HasSubstr("slope at delta = 3 ")));
+  EXPECT_THAT(test::cubic_law({1, 2, 3}, {1, 1.5, 1.2})->doubts(), ElementsAre(HasSubstr("slope at delta = 3 ")));
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/ranges.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -6,6 +7,7 @@
 
 #include "common/errors.hpp"
 #include "stage3_nonlinear/laws/laws.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/message.hpp"
 
@@ -17,9 +19,13 @@ using testing::EndsWith;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-std::shared_ptr<const Law> read(const std::string& json) {
-  const auto document = input::parse("joint.json", json);
-  return read_law(input::Value(document));
+LawPointer table_law(const TestPoints& points) {
+  std::vector<double> delta, F;
+  for (const auto& point : points) {
+    delta.push_back(point[0]);
+    F.push_back(point[1]);
+  }
+  return test::law_of(fmt::format(R"({{"type": "table", "delta": {}, "F": {}}})", delta, F));
 }
 
 /// Points of sin: the error of a cubic with continuous slope falls as h^3 at least (as h^4 where it may).
@@ -68,7 +74,7 @@ TEST(TableLaw, ReadsTheSamePointsFromAFile) {
   folder.write("rivet.csv", "delta, F\n0, 0\n0.1, 300\n0.2, 500 # last\n");
   const auto document = input::parse(folder.path("joint.json"), R"({"type": "table", "file": "rivet.csv"})");
   const auto from_file = read_law(input::Value(document));
-  const auto inside = read(R"({"type": "table", "delta": [0.1, 0.2], "F": [300, 500]})");
+  const auto inside = test::law_of(R"({"type": "table", "delta": [0.1, 0.2], "F": [300, 500]})");
   for (const double c : {10.0, 400.0, 2000.0}) {
     EXPECT_EQ(from_file->at(c, 1e3, 0.01).F, inside->at(c, 1e3, 0.01).F);
     EXPECT_EQ(from_file->slopes(c, 1e3, 0.01)[0].F, inside->slopes(c, 1e3, 0.01)[0].F);
@@ -76,19 +82,19 @@ TEST(TableLaw, ReadsTheSamePointsFromAFile) {
 }
 
 TEST(TableLaw, IsExactlyAtRestWithoutForce) {
-  const auto law = read(R"({"type": "table", "delta": [0.1, 0.2], "F": [300, 310]})");
+  const auto law = test::law_of(R"({"type": "table", "delta": [0.1, 0.2], "F": [300, 310]})");
   EXPECT_EQ(law->at(0, 1e5, 0).F, 0);
   EXPECT_EQ(law->at(0, 1e5, 0).delta, 0);
   EXPECT_EQ(law->at(1e5 * 0.03, 1e5, 0.03).delta, 0.03) << "at first contact";
 }
 
 TEST(TableLaw, NamesAFileThatIsMissing) {
-  EXPECT_THAT([] { (void)read(R"({"type": "table", "file": "nope.csv"})"); },
+  EXPECT_THAT([] { (void)test::law_of(R"({"type": "table", "file": "nope.csv"})"); },
               ThrowsMessage<FileError>(HasSubstr("nope.csv: cannot be opened: No such file")));
 }
 
 TEST(TableLaw, HasDerivatives) {
-  const auto law = read(R"({"type": "table", "delta": [0.1, 0.2, 0.5], "F": [300, 500, 600]})");
+  const auto law = test::law_of(R"({"type": "table", "delta": [0.1, 0.2, 0.5], "F": [300, 500, 600]})");
   constexpr double h = 1e-4, k = 1000;
   for (double c = 20; c < 2000; c += 33) {
     const Branch on = law->at(c, k, 0.01), above = law->at(c + h, k, 0.01), below = law->at(c - h, k, 0.01);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
@@ -260,7 +259,7 @@ TEST(Events, GivenLoadFactorsThatHitOneSaySo) {
 TEST(Events, SearchEndsWhereTheJointDoes) {
   const auto lap =
       test::Lap{test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, ground, 1000}}), 4};
-  auto joint = test::joint_of(lap, cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4}));
+  auto joint = test::joint_of(lap, test::cubic_law({1.0, 2.0, 3.0}, {1.0, 1.8, 2.4}));
   const LoadPath path = follow_events(make_equations(joint), {});
   ASSERT_TRUE(path.failure) << "it carries 3.025 at most";
   EXPECT_EQ(path.failure->load_factor, 0.875);

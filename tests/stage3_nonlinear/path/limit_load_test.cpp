@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/run_fixture.hpp"
@@ -21,7 +20,7 @@ using testing::Not;
 using testing::ThrowsMessage;
 
 /// F = x (1.1 - 0.1 x): slope 1.1 - 0.2 x.
-std::shared_ptr<const Law> falling() { return cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4}); }
+std::shared_ptr<const Law> falling() { return test::cubic_law({1.0, 2.0, 3.0}, {1.0, 1.8, 2.4}); }
 
 /// n discs of both plates, each held by a spring of its own, nothing between them: n uncoupled planes with S_ud = k.
 test::Lap uncoupled(int n, double k) {
@@ -194,8 +193,8 @@ TEST(LargeJoint, OfMoreThanAHundredNonlinearFastenersBalances) {
   constexpr int n = 150;
   const test::Lap lap{test::chain(n, 1, 1e4, {{n - 1, n, 1e4}}), test::chain(n, 0, 1e4, {{0, ground, 1e4}}), 3000};
   auto joint = test::joint_of(lap, test::power_law(900, 0.6));
-  const auto plastic_law = piecewise_linear_law(Polyline{{{0, 0}, {0.02, 20}}, 0}, 0, std::vector<PolylineParameter>{});
-  const auto cubic = cubic_law(std::array{0.1, 0.2, 0.3}, std::array{100.0, 180.0, 280.0});
+  const auto plastic_law = test::bilinear_law(1000, 20, 0);
+  const auto cubic = test::cubic_law({0.1, 0.2, 0.3}, {100.0, 180.0, 280.0});
   for (std::size_t j = 0; j < joint.planes.size(); ++j) {
     if (j % 3 == 1) joint.planes[j].law = plastic_law;
     if (j % 3 == 2) joint.planes[j].law = cubic;

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "stage3_nonlinear/laws/laws.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -67,7 +66,7 @@ TEST_F(GapAtTheSecondFastener, PowerLawHasItsClosedForm) {
 }
 
 TEST_F(GapAtTheSecondFastener, CubicIsShiftedByTheGap) {
-  const auto cubic = cubic_law(std::array{0.01, 0.02, 0.04}, std::array{9.0, 15.0, 20.0});
+  const auto cubic = test::cubic_law({0.01, 0.02, 0.04}, {9.0, 15.0, 20.0});
   const LoadPath path = follow(equations(cubic), {1.5}, tight);
   ASSERT_FALSE(path.failure);
   const auto& step = path.steps[0];
@@ -174,7 +173,7 @@ TEST(LoadPath, StopsAfterHalvingsAndKeepsWhatConverged) {
   // A parabola F = x (1.1 - 0.1 x) f that turns down carries no more than its peak 3.025 f at x = 5.5: in
   // series with a sheet there is no equilibrium beyond.
   auto lap = test::Lap{test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, ground, 1000}}), 1};
-  auto joint = test::joint_of(lap, cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4}));
+  auto joint = test::joint_of(lap, test::cubic_law({1.0, 2.0, 3.0}, {1.0, 1.8, 2.4}));
   const LoadPath path = follow(make_equations(joint), {1, 3, 3.5, 4}, {});
   ASSERT_TRUE(path.failure);
   ASSERT_EQ(path.steps.size(), 2U);
@@ -189,7 +188,7 @@ TEST(LoadPath, StopsAfterHalvingsAndKeepsWhatConverged) {
 
 /// Two fasteners that yield at 30 each and do not harden hold a sheet that nothing else holds: 100 is too much.
 TEST(LoadPath, PerfectlyPlasticFastenersEndAtTheirLimitLoad) {
-  const auto law = piecewise_linear_law(Polyline{{{0, 0}, {0.03, 30}}, 0}, 0, std::vector<PolylineParameter>{});
+  const auto law = test::bilinear_law(1000, 30, 0);
   const LoadPath path = follow(make_equations(test::joint_of(test::two_fastener_lap(), law)), {0.59, 1}, {});
   ASSERT_EQ(path.steps.size(), 1U);
   EXPECT_NEAR(path.steps[0].F.sum(), 59, 1e-7);
@@ -204,7 +203,7 @@ TEST(LoadPath, SpentFastenersAreNoSolution) {
   // below zero.
   const test::Lap lap{test::spring_plate(1, 1, {{0, 1, 1000}, {0, ground, 1}}),
                       test::spring_plate(1, 0, {{0, ground, 1000}}), 1};
-  const auto law = cubic_law(std::array{1.0, 2.0, 3.0}, std::array{1.0, 1.8, 2.4});
+  const auto law = test::cubic_law({1.0, 2.0, 3.0}, {1.0, 1.8, 2.4});
   const LoadPath path = follow(make_equations(test::joint_of(lap, law)), {1, 20}, {});
   ASSERT_TRUE(path.failure);
   EXPECT_EQ(path.steps.size(), 1U);

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "common/input/json.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
 
@@ -35,11 +34,6 @@ JointModel turned(JointModel joint, const Matrix2d& Q) {
 
 VectorXd turned(const VectorXd& vectors, const Matrix2d& Q) {
   return (Q * vectors.reshaped(2, vectors.size() / 2)).reshaped();
-}
-
-std::shared_ptr<const Law> bilinear() {
-  const auto document = input::parse("law", R"({"type": "bilinear", "k": 60, "F_yield": 3, "k_yield": 2})");
-  return read_law(input::Value(document));
 }
 
 struct LawCase {
@@ -73,12 +67,13 @@ TEST_P(Objectivity, ForcesTurnWithTheJoint) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Each, Objectivity,
-    testing::Values(LawCase{"linear", test::linear_law(40), 0}, LawCase{"linear_with_gap", test::linear_law(40), 0.02},
-                    LawCase{"power", test::power_law(40, 0.5), 0.02}, LawCase{"bilinear", bilinear(), 0.01},
-                    LawCase{"cubic", cubic_law(std::array{0.1, 0.2, 0.3}, std::array{5.0, 8.0, 12.0}), 0.01}),
-    [](const auto& test) { return test.param.name; });
+INSTANTIATE_TEST_SUITE_P(Each, Objectivity,
+                         testing::Values(LawCase{"linear", test::linear_law(40), 0},
+                                         LawCase{"linear_with_gap", test::linear_law(40), 0.02},
+                                         LawCase{"power", test::power_law(40, 0.5), 0.02},
+                                         LawCase{"bilinear", test::bilinear_law(60, 3, 2), 0.01},
+                                         LawCase{"cubic", test::cubic_law({0.1, 0.2, 0.3}, {5.0, 8.0, 12.0}), 0.01}),
+                         [](const auto& test) { return test.param.name; });
 
 TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
   // Linear planes are two springs each: (S + B K B') u = loads, and F = K B' u, per direction.

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "stage3_nonlinear/laws/laws.hpp"
 #include "tests/stage3_nonlinear/named_laws.hpp"
 
 namespace fastjoint::stage3 {
@@ -86,8 +85,7 @@ TEST_F(TwoFastenerLap, SaysTheSameWithPowerAndCubicLawsAtFirstContact) {
   // A power law is rigid there: F_2 grows as if its fastener had no flexibility, g = P* (1/K + f) - F_2 (1/K + 2 f).
   JointModel model = joint();
   for (const auto& [law, flexibility] : std::vector<std::pair<std::shared_ptr<const Law>, double>>{
-           {test::power_law(300, 0.5), 0.0},
-           {cubic_law(std::array{1.0, 2.0, 3.0}, std::array{64.0, 128.0, 192.0}), 1 / 64.0}}) {
+           {test::power_law(300, 0.5), 0.0}, {test::cubic_law({1.0, 2.0, 3.0}, {64.0, 128.0, 192.0}), 1 / 64.0}}) {
     model.planes[1].law = law;
     model.planes[1].law_name = "other";
     const JointEquations equations = make_equations(model);
@@ -247,7 +245,7 @@ TEST_F(FreeDoubler, WouldFlyUnderALoadOfItsOwn) {
 /// Force-controlled, the peak of a law is a limit point.
 TEST(Sensitivity, AtALimitPointIsInfinite) {
   JointEquations equations;
-  equations.contacts = {{.law = cubic_law(std::array{1.0, 2.0, 4.0}, std::array{3.0, 4.0, 0.001})}};
+  equations.contacts = {{.law = test::cubic_law({1.0, 2.0, 4.0}, {3.0, 4.0, 0.001})}};
   ASSERT_FALSE(equations.contacts[0].law->rises());
   equations.system.q = VectorXd::Constant(1, 4);
   equations.system.E = MatrixXd::Zero(0, 1);

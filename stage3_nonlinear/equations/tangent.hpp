@@ -9,13 +9,6 @@
 
 namespace fastjoint::stage3 {
 
-/// Reciprocal condition, with columns scaled, below which a tangent is singular.
-inline constexpr double singular_tangent = 1e-10;
-
-/// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
-/// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
-Eigen::VectorXd scale_columns(Eigen::MatrixXd& A);
-
 /// A way for the joint to move that meets no stiffness at a solution.
 struct Mechanism {
   std::vector<Eigen::Index> open;   ///< shear planes that move within their gaps
@@ -49,5 +42,23 @@ struct TangentCheck {
 /// Planes whose laws may fall more steeply than the plates hold against: S_ud + diag(least slopes) is not positive
 /// definite, so that the solution may be one of several. Empty if the joint has one solution only (friction aside).
 [[nodiscard]] std::vector<Eigen::Index> planes_that_may_snap(const JointEquations& equations);
+
+/// Derivatives of the bearing forces as vectors, one column for each number (docs/theory.md, section 10).
+struct Slopes {
+  Eigen::MatrixXd F;                            ///< (n a, columns)
+  std::vector<Eigen::Index> no_column, no_row;  ///< columns and rows of F that have no derivative
+};
+
+/// Slopes by the implicit function theorem: dF = F_c dc with J dc = -residual, at a solution.
+/// @param residual Rise of the residual of the condensed system at fixed c, force, shape (n a, columns).
+[[nodiscard]] Slopes implicit_slopes(const CondensedSystem& system, const ContactState& state,
+                                     const Eigen::MatrixXd& residual);
+
+/// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
+/// friction acts.
+void bear(const JointEquations& equations, ContactState& state);
+
+/// Slopes of the forces' amounts, (n, columns); infinite where they do not exist.
+[[nodiscard]] Eigen::MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const Eigen::VectorXd& c);
 
 }  // namespace fastjoint::stage3
