@@ -89,14 +89,6 @@ struct Rows {
   std::vector<Index> free;            ///< unknowns that are not given
 };
 
-std::vector<FrictionRow> friction_rows(const JointModel& joint) {
-  std::vector<FrictionRow> rows;
-  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
-    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
-      for (Index d = 0; d < std::ssize(joint.fasteners[i].holes[hole].friction); ++d) rows.push_back({i, hole, d});
-  return rows;
-}
-
 void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
   const Index m = plate.n_discs();
   const Index n = plate.n_unknowns();
@@ -143,17 +135,17 @@ void add_friction(Rows& rows, const JointModel& joint, Index at) {
 Rows assemble(const JointModel& joint) {
   const Index N = joint.n_unknowns();
   const Index n = joint.n_planes() * joint.n_directions();
-  auto friction = friction_rows(joint);
-  const Index f = friction.size();
-  Rows rows{.S = MatrixXd::Zero(N, N),
-            .B = MatrixXd::Zero(N, n),
-            .friction = std::move(friction),
-            .E = MatrixXd::Zero(f, n),
-            .G_plus = MatrixXd::Zero(N, f),
-            .G_minus = MatrixXd::Zero(N, f),
-            .load = VectorXd::Zero(N),
-            .given = VectorXd::Zero(N),
-            .free = {}};
+  Rows rows;
+  rows.S = MatrixXd::Zero(N, N);
+  rows.B = MatrixXd::Zero(N, n);
+  rows.load = rows.given = VectorXd::Zero(N);
+  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
+    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
+      for (Index d = 0; d < std::ssize(joint.fasteners[i].holes[hole].friction); ++d)
+        rows.friction.push_back({i, hole, d});
+  const Index f = rows.friction.size();
+  rows.E = MatrixXd::Zero(f, n);
+  rows.G_plus = rows.G_minus = MatrixXd::Zero(N, f);
   for (std::size_t i = 0; i < joint.plates.size(); ++i) add_plate(rows, joint.plates[i], joint.offset(i));
   for (Index j = 0; j < joint.n_planes(); ++j) add_plane(rows, joint, j);
   for (Index i = 0; i < f; ++i) add_friction(rows, joint, i);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/contact.hpp"
 
-#include <cassert>
 #include <cmath>
 
 namespace fastjoint::stage3 {
@@ -9,12 +8,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-Index directions(const std::vector<Contact>& contacts, const VectorXd& vectors) {
-  const Index n = contacts.size();
-  assert(n > 0 && vectors.size() % n == 0);
-  return vectors.size() / n;
-}
 
 /// Unit vector along v; the first axis where v = 0.
 VectorXd along(const VectorXd& v) {
@@ -43,8 +36,7 @@ Eigen::MatrixXd ContactState::times(const Eigen::MatrixXd& A, const Blocks& bloc
 }
 
 ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c) {
-  const Index n = contacts.size();
-  const Index a = directions(contacts, c);
+  const Index n = contacts.size(), a = c.size() / n;
   ContactState state{VectorXd(n * a),
                      VectorXd(n * a),
                      Eigen::MatrixXd(a, n),
@@ -84,7 +76,7 @@ VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, co
 }
 
 VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F) {
-  const Index a = directions(contacts, F);
+  const Index a = F.size() / contacts.size();
   VectorXd c(F.size());
   for (std::size_t j = 0; j < contacts.size(); ++j) {
     const Contact& contact = contacts[j];

@@ -13,24 +13,19 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Reference stiffnesses K, one for each plane.
-///
-/// @param contacts Contacts with the stiffnesses of the plates themselves, which replace a row of S that is nothing but
-///                 rounding, as that of a plate held by one fastener alone.
-VectorXd reference_stiffnesses(const MatrixXd& S, const std::vector<Contact>& contacts) {
+/// Replaces the stiffnesses of the plates themselves by reference stiffnesses K. They stay where S is nothing but
+/// rounding beside them, as that of a plate held by one fastener alone.
+void set_reference_stiffnesses(const MatrixXd& S, std::vector<Contact>& contacts) {
   constexpr double more = 1.05;
   constexpr double negligible = 1e-9, rounding = 1e-12;
-  const Index n = contacts.size();
-  const Index a = S.rows() / n;
   const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
+  const Index a = rows.size() / contacts.size();
   const double largest = rows.maxCoeff();
-  VectorXd k(n);
-  for (Index j = 0; j < n; ++j) {
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
+    if (largest <= rounding * contacts[j].stiffness) continue;
     const double row = rows.segment(j * a, a).maxCoeff();
-    const double own = contacts[j].stiffness;
-    k[j] = largest <= rounding * own ? own : row > negligible * largest ? row : largest;
+    contacts[j].stiffness = row > negligible * largest ? row : largest;
   }
-  return k;
 }
 
 /// Stiffness of the softer of the two plates at its discs.
@@ -72,7 +67,6 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
 
 JointEquations make_equations(const JointModel& joint) {
   std::vector<Contact> contacts;
-  contacts.reserve(joint.planes.size());
   for (const auto& plane : joint.planes)
     contacts.push_back({plane.law, plane.clearance, plate_stiffness(joint, plane), plane.one_sided});
   return make_equations(condense(joint), std::move(contacts));
@@ -87,8 +81,7 @@ JointEquations make_equations(CondensedSystem system, std::vector<Contact> conta
     system.S_ud.row(i).setZero();
     system.S_ud.col(i).setZero();
   }
-  const VectorXd k = reference_stiffnesses(system.S_ud, contacts);
-  for (std::size_t j = 0; j < contacts.size(); ++j) contacts[j].stiffness = k[j];
+  set_reference_stiffnesses(system.S_ud, contacts);
   const bool rise = std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.law->rises(); });
   MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();
   return {std::move(system), std::move(contacts), std::move(metric)};

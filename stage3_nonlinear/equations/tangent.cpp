@@ -22,11 +22,8 @@ constexpr double singular_tangent = 1e-10;
 /// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
 /// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
 VectorXd scale_columns(MatrixXd& A) {
-  VectorXd scale(A.cols());
-  for (Index j = 0; j < A.cols(); ++j) {
-    scale[j] = std::max(A.col(j).cwiseAbs().maxCoeff(), 1.0);
-    A.col(j) /= scale[j];
-  }
+  const VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
+  A.array().rowwise() /= scale.transpose().array();
   return scale;
 }
 
@@ -186,12 +183,9 @@ MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const Vecto
     result.resize(state.direction.cols(), slopes.F.cols());
     for (Index j = 0; j < result.rows(); ++j) {
       const auto block = slopes.F.middleRows(j * a, a);
+      result.row(j) = state.direction.col(j).transpose() * block;
       // Without load there is no direction; the amount then grows whatever the direction is.
-      if (c.segment(j * a, a).isZero(0)) {
-        result.row(j) = block.colwise().norm();
-      } else {
-        result.row(j) = state.direction.col(j).transpose() * block;
-      }
+      if (c.segment(j * a, a).isZero(0)) result.row(j) = block.colwise().norm();
     }
   }
   constexpr double none = std::numeric_limits<double>::infinity();

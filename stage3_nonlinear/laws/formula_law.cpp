@@ -1,18 +1,56 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/laws/flexibility_formula.hpp"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "common/count.hpp"
 #include "stage3_nonlinear/laws/laws.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
+/// Numbers that only a formula with correlations for the row of fasteners asks for.
+struct FastenerRows {
+  std::array<double, 2> E_z;  ///< Young's modulus of the sheets through the thickness, force / length^2
+  double d_head;              ///< diameter of the head, length
+  double pitch, row_pitch;    ///< between fasteners of a row, between rows, length
+  double rows;                ///< how many
+  double c_f;                 ///< factor of the kind of fastener
+};
+
+/// Numbers of one fastener and the sheets that it joins, for published formulas, in any consistent units.
+///
+/// In double shear sheet 1 is the one in the middle and sheet 2 one of the two equal straps around it.
+struct FastenerGeometry {
+  std::array<double, 2> t;  ///< thickness, length
+  std::array<double, 2> E;  ///< Young's modulus of the sheets along the load, force / length^2
+  double d;                 ///< diameter of the shank, length
+  double E_f;               ///< Young's modulus of the fastener, force / length^2
+  double nu_f = 0;          ///< its Poisson's ratio, where the formula uses it
+  int n_shear = 1;          ///< shear planes: 1, or 2 where the formula knows them
+  FastenerRows rows{};      ///< where the formula uses them
+};
+
+/// One term of a formula: the bearing of a sheet, which the springs around a modelled hole have already, or what
+/// the fastener itself gives.
+struct FlexibilityTerm {
+  bool of_the_fastener;
+  double value;  ///< length / force
+};
+
 using Terms = std::vector<FlexibilityTerm>;
+
+/// A published formula for the flexibility of a fastener: relative displacement of the sheets, beyond their own
+/// stretch, per force of the whole fastener (in double shear: of both its planes together).
+struct FlexibilityFormula {
+  const char* name;
+  Terms (*terms)(const FastenerGeometry&);
+  bool knows_double_shear;
+  bool uses_nu_f;
+  const char* provenance;  ///< who, where, when
+  bool uses_rows = false;
+};
 
 FlexibilityTerm of_sheet(double value) { return {false, value}; }
 FlexibilityTerm of_fastener(double value) { return {true, value}; }
@@ -89,6 +127,7 @@ Terms morris(const FastenerGeometry& g) {
 
 constexpr const char* huth_source = "H. Huth, LBF report FB-172, 1984, and ASTM STP 927, 1986";
 
+/// All formulas that the program knows; a new one is one function and one line here.
 constexpr std::array formulas{
     FlexibilityFormula{"huth bolt", huth_bolt, true, false, huth_source},
     FlexibilityFormula{"huth rivet", huth_rivet, true, false, huth_source},
@@ -105,17 +144,18 @@ constexpr std::array formulas{
         true},
 };
 
-double sum(const Terms& terms, bool all) {
+/// Sum of the terms, length / force.
+double sum(const Terms& terms, bool of_the_fastener_alone) {
   double flexibility = 0;
   for (const auto& term : terms)
-    if (all || term.of_the_fastener) flexibility += term.value;
+    if (term.of_the_fastener || !of_the_fastener_alone) flexibility += term.value;
   return flexibility;
 }
 
 const FlexibilityFormula& read_formula(const input::Value& law) {
   std::vector<std::string> names;
   for (const auto& formula : formulas) names.emplace_back(formula.name);
-  return formulas[std::find(names.begin(), names.end(), law.at("formula").choice(names)) - names.begin()];
+  return formulas[index_of(names, law.at("formula").choice(names))];
 }
 
 int read_shear(const input::Value& law, const FlexibilityFormula& formula) {
@@ -157,11 +197,6 @@ FastenerRows read_rows(const input::Value& law, const FlexibilityFormula& formul
 
 }  // namespace
 
-std::span<const FlexibilityFormula> flexibility_formulas() { return formulas; }
-
-double total_flexibility(const Terms& terms) { return sum(terms, true); }
-double fastener_flexibility(const Terms& terms) { return sum(terms, false); }
-
 /// Reads {"type": "formula", "formula": "huth bolt", "mode": "total" or "fastener only", "shear": "single" or "double",
 /// "t": [t1, t2], "E": [E1, E2], "d": d, "E_f": E_f}, and "nu_f" and FastenerRows where the formula uses them.
 ///
@@ -181,7 +216,7 @@ LawPointer read_formula_law(const input::Value& law) {
                                   .n_shear = n_shear,
                                   .rows = read_rows(law, formula)};
   const auto terms = formula.terms(geometry);
-  const double total = total_flexibility(terms), fastener = fastener_flexibility(terms);
+  const double total = sum(terms, false), fastener = sum(terms, true);
   const bool whole = mode == "total";
   return linear_law(
       1 / (n_shear * (whole ? total : fastener)),

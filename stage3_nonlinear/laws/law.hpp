@@ -51,9 +51,6 @@ struct Source {
 /// takes.
 class Law {
  public:
-  Law() = default;
-  Law(const Law&) = delete;
-  Law& operator=(const Law&) = delete;
   virtual ~Law() = default;
 
   /// @param c Contact coordinate, force, c >= 0.

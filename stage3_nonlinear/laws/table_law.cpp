@@ -137,11 +137,6 @@ TestPoints points_inside(const input::Value& law) {
   return points;
 }
 
-TestPoints points_of_file(const input::Value& law, const std::string& path) {
-  law.only({"type", "file", "one_sided"});
-  return read_points(path);
-}
-
 }  // namespace
 
 TestPoints read_points(const std::string& path) {
@@ -172,7 +167,8 @@ TestPoints read_points(const std::string& path) {
 LawPointer read_table_law(const input::Value& law) {
   const auto file = law.find("file");
   const auto path = file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : std::string();
-  auto points = file ? points_of_file(law, path) : points_inside(law);
+  if (file) law.only({"type", "file", "one_sided"});
+  auto points = file ? read_points(path) : points_inside(law);
   const auto& place = file ? *file : law;
   if (points[0][0] != 0) points.insert(points.begin(), {0, 0});
   if (points[0][1] > 0)

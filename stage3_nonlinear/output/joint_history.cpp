@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/path/contact_event.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {

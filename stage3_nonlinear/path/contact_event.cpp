@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/path/contact_event.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,12 +23,10 @@ std::vector<Corner> corners_of(const Contact& contact) {
   const double gap = law.gap(contact.clearance);
   std::vector<Corner> result;
   const auto corners = law.corners(k, contact.clearance);
-  if (!corners) {
-    if (gap > 0 || contact.one_sided) result.push_back({k * gap, CornerKind::contact});
-    return result;
-  }
-  if (gap == 0 && contact.one_sided) result.push_back({0, CornerKind::contact});
-  for (const double c : *corners) {
+  // Among the corners of a law that is linear between them is that of its gap.
+  if (corners ? gap == 0 && contact.one_sided : gap > 0 || contact.one_sided)
+    result.push_back({k * gap, CornerKind::contact});
+  for (const double c : corners.value_or(std::vector<double>{})) {
     const double delta = law.at(c, k, contact.clearance).delta;
     const CornerKind kind = std::abs(delta - gap) <= equal * gap ? CornerKind::contact
                             : delta < gap                        ? CornerKind::slip
@@ -62,10 +60,8 @@ double ContactCorners::nearness(const VectorXd& c, double at) {
   return of_corner * at + of_largest * c.cwiseAbs().maxCoeff();
 }
 
-VectorXd ContactCorners::positions(const VectorXd& c) const { return amounts(c, c.size() / corners_.size()); }
-
 VectorXi ContactCorners::passed(const VectorXd& c) const {
-  const VectorXd x = positions(c);
+  const VectorXd x = amounts(c, c.size() / corners_.size());
   VectorXi result(x.size());
   for (Index j = 0; j < x.size(); ++j) {
     const bool mirrored = x[j] < 0 && !one_sided_[j];
@@ -93,7 +89,8 @@ std::vector<ContactEvent> ContactCorners::between(const VectorXi& before, const 
 std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const VectorXd& c) const {
   std::vector<ContactEvent> result;
   if (c.isZero(0)) return result;
-  const VectorXd x = positions(c), was = positions(before);
+  const Index n_directions = c.size() / corners_.size();
+  const VectorXd x = amounts(c, n_directions), was = amounts(before, n_directions);
   for (Index j = 0; j < x.size(); ++j) {
     const bool mirrored = x[j] < 0 && !one_sided_[j];
     const double sign = mirrored ? -1 : 1;

@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "stage3_nonlinear/equations/piecewise_joint.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 
@@ -121,12 +120,12 @@ class Search {
     const Index n_directions = equations_.n_directions();
     const Index rows = equations_.n_unknowns();
     const auto own = Eigen::seqN(plane * n_directions, n_directions);
-    const auto position = [&](const VectorXd& c) { return amounts(c(own), n_directions)[0]; };
     double unit = 1;
     RootProblem problem;
     problem.residual = [&](const VectorXd& x) -> VectorXd {
       VectorXd r(rows + 1);
-      r << root_problem(equations_, x[rows], unit).residual(x.head(rows)), position(x.head(rows)) - corner / unit;
+      r << root_problem(equations_, x[rows], unit).residual(x.head(rows)),
+          position(x.head(rows), plane) - corner / unit;
       return r;
     };
     problem.jacobian = [&](const VectorXd& x) -> MatrixXd {
@@ -137,7 +136,7 @@ class Search {
       J.row(rows)(own) = n_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
       return J;
     };
-    const double from = position(a.c), to = position(b.c);
+    const double from = position(a.c, plane), to = position(b.c, plane);
     const double share = from == to ? 0.5 : std::clamp((corner - from) / (to - from), 0.0, 1.0);
     VectorXd c = (1 - share) * a.c + share * b.c;
     if (!(c(own).norm() > 0)) return std::nullopt;
@@ -162,7 +161,7 @@ class Search {
     if (n_directions == 1)
       c[plane] = corner;
     else
-      c(own) *= corner / position(c);
+      c(own) *= corner / position(c, plane);
     return EventPlace{{load, std::move(c)}, iterations};
   }
 
@@ -178,9 +177,7 @@ class Search {
         return std::nullopt;
       all.push_back(*found);
     }
-    const auto first = std::min_element(all.begin(), all.end(), [](const EventPlace& x, const EventPlace& y) {
-      return x.place.load_factor < y.place.load_factor;
-    });
+    const auto first = std::ranges::min_element(all, {}, [](const EventPlace& e) { return e.place.load_factor; });
     if (first == all.end() || contact_state(equations_.contacts, first->place.c).spent) return std::nullopt;
     const VectorXd& c = first->place.c;
     const VectorXi here = corners_.passed(c);
@@ -191,9 +188,12 @@ class Search {
     return *first;
   }
 
+  [[nodiscard]] double position(const VectorXd& c, Index plane) const {
+    return amounts(c, equations_.n_directions())[plane];
+  }
+
   [[nodiscard]] bool is_on(const VectorXd& c, Index plane, double corner) const {
-    const double x = amounts(c, equations_.n_directions())[plane];
-    return std::abs(x - corner) <= corners_.nearness(c, std::abs(corner));
+    return std::abs(position(c, plane) - corner) <= corners_.nearness(c, std::abs(corner));
   }
 
   /// Corners passed behind a crossing: all planes that are on the corner they pass have passed it.
@@ -262,8 +262,7 @@ std::vector<EventPlace> events_of(const ExactPath& path, const ContactCorners& c
 
 LoadPath follow_events(const JointEquations& equations, const PathOptions& options) {
   constexpr double at_end = 1 - 1e-10;
-  const std::vector<double> end{1};
-  if (linear_flexibility(equations)) return follow(equations, end, options);
+  if (linear_flexibility(equations)) return follow(equations, {1}, options);
   LoadPath path{.steps = {}, .failure = {}};
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));

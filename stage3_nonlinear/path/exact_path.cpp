@@ -9,8 +9,7 @@
 #include <compare>
 #include <limits>
 #include <optional>
-
-#include "stage3_nonlinear/equations/piecewise_joint.hpp"
+#include <set>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -45,7 +44,7 @@ class Tracer {
   }
 
   ExactPath trace() {
-    std::vector<Border> tied = borders_near(c_, rounding);
+    std::set<Border> tied = borders_near(c_, rounding);
     auto line = leave(tied, {});
     for (std::size_t steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
       const auto [end, reached] = next(*line);
@@ -55,10 +54,8 @@ class Tracer {
       if (line->loads && stop >= target_) break;
       // Corners that follow each other within rounding are left together.
       auto here = borders_near(c_, rounding);
-      if (!moved) here.insert(here.end(), tied.begin(), tied.end());
-      here.insert(here.end(), reached.begin(), reached.end());
-      std::sort(here.begin(), here.end());
-      here.erase(std::unique(here.begin(), here.end()), here.end());
+      if (!moved) here.merge(tied);
+      here.insert(reached.begin(), reached.end());
       tied = std::move(here);
       line = leave(tied, reached);
     }
@@ -76,17 +73,17 @@ class Tracer {
   [[nodiscard]] Index rim(const Border& s) const { return joint_.shared_rims()[s.at - joint_.n_planes()]; }
 
   /// Borders at which c is, to a share of its largest entry.
-  [[nodiscard]] std::vector<Border> borders_near(const VectorXd& c, double share) const {
-    std::vector<Border> result;
+  [[nodiscard]] std::set<Border> borders_near(const VectorXd& c, double share) const {
+    std::set<Border> result;
     const double near = share * c.cwiseAbs().maxCoeff();
     for (std::size_t j = 0; j < joint_.n_planes(); ++j)
       for (std::size_t i = 0; i < joint_.curve(j).corners.size(); ++i) {
         const bool borders = i == cell_.piece[j] || i + 1 == cell_.piece[j];
-        if (borders && std::abs(c[j] - joint_.curve(j).corners[i]) <= near) result.push_back({j, i});
+        if (borders && std::abs(c[j] - joint_.curve(j).corners[i]) <= near) result.insert({j, i});
       }
     for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i)
       if (std::abs(joint_.rim_force(cell_, joint_.shared_rims()[i], c)) <= near)
-        result.push_back({joint_.n_planes() + i, 0});
+        result.insert({joint_.n_planes() + i, 0});
     return result;
   }
 
@@ -109,7 +106,7 @@ class Tracer {
 
   /// The line on from here, and its cell, by least index from the cell beyond the borders reached; none if there is
   /// none, or two that both come here: the path turns.
-  std::optional<Line> leave(const std::vector<Border>& tied, const std::vector<Border>& reached) {
+  std::optional<Line> leave(const std::set<Border>& tied, const std::vector<Border>& reached) {
     for (const auto& s : reached) flip(s);
     const std::size_t most_flips = 2 + 20 * tied.size();
     for (std::size_t flips = 0; flips < most_flips; ++flips) {
@@ -202,10 +199,9 @@ class Tracer {
 
 std::size_t ExactPath::piece_of(double load_factor) const {
   assert(!pieces.empty());
-  const double load = std::abs(load_factor);
-  const auto found =
-      std::lower_bound(pieces.begin(), pieces.end(), load, [](const PathPiece& p, double x) { return p.end < x; });
-  return (found == pieces.end() ? found - 1 : found) - pieces.begin();
+  // The last piece also has what rounding takes beyond its end.
+  return std::ranges::lower_bound(pieces.begin(), pieces.end() - 1, std::abs(load_factor), {}, &PathPiece::end) -
+         pieces.begin();
 }
 
 VectorXd ExactPath::at(double load_factor) const {
@@ -213,9 +209,6 @@ VectorXd ExactPath::at(double load_factor) const {
   return piece.offset + std::abs(load_factor) * piece.rate;
 }
 
-ExactPath exact_path(const JointEquations& equations, double target) {
-  assert(is_piecewise_linear(equations));
-  return Tracer(equations, target).trace();
-}
+ExactPath exact_path(const JointEquations& equations, double target) { return Tracer(equations, target).trace(); }
 
 }  // namespace fastjoint::stage3

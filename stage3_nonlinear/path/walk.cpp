@@ -6,8 +6,6 @@
 #include <limits>
 #include <utility>
 
-#include "stage3_nonlinear/equations/piecewise_joint.hpp"
-
 namespace fastjoint::stage3 {
 
 using Eigen::Index;
@@ -33,33 +31,6 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
     const auto state = contact_state(equations.contacts, contact_coordinates(equations.contacts, F));
     path.steps.push_back({factor, F, delta, forces->solves, residual, check_tangent(equations, state)});
   }
-  return path;
-}
-
-/// One for each sign that the load factors have, as far as they go.
-std::vector<ExactPath> exact_paths(const JointEquations& equations, const std::vector<double>& load_factors) {
-  const auto [least, most] = std::minmax_element(load_factors.begin(), load_factors.end());
-  std::vector<ExactPath> paths;
-  if (*most > 0) paths.push_back(exact_path(equations, *most));
-  if (*least < 0) paths.push_back(exact_path(equations, *least));
-  return paths;
-}
-
-LoadPath walk_along(const JointEquations& equations, const std::vector<double>& load_factors,
-                    const PathOptions& options, std::vector<ExactPath> exact) {
-  LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
-  Walk walk(equations, options, std::move(exact));
-  const ContactCorners corners(equations.contacts);
-  for (std::size_t i = 0; i < load_factors.size(); ++i) {
-    const VectorXd before = walk.here().c;
-    if (!walk.reach(load_factors[i])) {
-      path.failure = walk.failure(i, load_factors[i]);
-      break;
-    }
-    path.steps.push_back(walk.step());
-    path.steps.back().events = corners.at(before, walk.here().c);
-  }
-  path.left = walk.left();
   return path;
 }
 
@@ -249,16 +220,28 @@ void Walk::note_failure(const Root& root) {
   best_ = scale_ * root.x;
 }
 
-LoadPath follow_nonlinear(const JointEquations& equations, const std::vector<double>& load_factors,
-                          const PathOptions& options) {
-  return walk_along(equations, load_factors, options, {});
-}
-
 LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors, const PathOptions& options) {
-  if (auto path = follow_linear(equations, load_factors, options.solver.tolerance)) return *std::move(path);
-  const bool exact = may_be_exact(options.solver.method) && is_piecewise_linear(equations);
-  return walk_along(equations, load_factors, options,
-                    exact ? exact_paths(equations, load_factors) : std::vector<ExactPath>{});
+  if (auto linear = follow_linear(equations, load_factors, options.solver.tolerance)) return *std::move(linear);
+  std::vector<ExactPath> exact;
+  if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) {  // one for each sign, as far as it goes
+    const auto [least, most] = std::minmax_element(load_factors.begin(), load_factors.end());
+    if (*most > 0) exact.push_back(exact_path(equations, *most));
+    if (*least < 0) exact.push_back(exact_path(equations, *least));
+  }
+  LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
+  Walk walk(equations, options, std::move(exact));
+  const ContactCorners corners(equations.contacts);
+  for (std::size_t i = 0; i < load_factors.size(); ++i) {
+    const VectorXd before = walk.here().c;
+    if (!walk.reach(load_factors[i])) {
+      path.failure = walk.failure(i, load_factors[i]);
+      break;
+    }
+    path.steps.push_back(walk.step());
+    path.steps.back().events = corners.at(before, walk.here().c);
+  }
+  path.left = walk.left();
+  return path;
 }
 
 }  // namespace fastjoint::stage3

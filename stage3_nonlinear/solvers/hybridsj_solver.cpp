@@ -12,15 +12,11 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// GSL's vectors and matrices as Eigen sees them.
-auto view(const gsl_vector* v) {
-  using Strided = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>>;
-  return Strided(v->data, v->size, Eigen::InnerStride<>(v->stride));
-}
+/// GSL's own vectors and matrices, which have no gaps, as Eigen sees them.
+auto view(const gsl_vector* v) { return Eigen::Map<Eigen::VectorXd>(v->data, v->size); }
 auto view(const gsl_matrix* m) {
   using RowMajorXd = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  using Strided = Eigen::Map<RowMajorXd, 0, Eigen::OuterStride<>>;
-  return Strided(m->data, m->size1, m->size2, Eigen::OuterStride<>(m->tda));
+  return Eigen::Map<RowMajorXd>(m->data, m->size1, m->size2);
 }
 
 /// Data that GSL carries through to the functions below.

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/stability_trial.hpp"
-#include "stage3_nonlinear/path/load_path.hpp"
 
 #include <algorithm>
 #include <chrono>
 
-#include "stage3_nonlinear/equations/joint_equations.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::bench {
 namespace {
@@ -100,7 +99,7 @@ Trial try_as_shipped(const RandomJoint& joint, const stage3::RootOptions& option
   const stage3::PathOptions path_options{{},
                                          {.tolerance = options.tolerance, .max_iterations = options.max_iterations}};
   const double begin = now();
-  const auto path = follow_nonlinear(joint.equations, {1}, path_options);
+  const auto path = test::follow_nonlinear(joint.equations, {1}, path_options);
   const double seconds = now() - begin;
   if (path.failure) return {.seconds = seconds, .F = {}};
   const auto& step = path.steps[0];

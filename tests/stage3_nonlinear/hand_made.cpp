@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "stage3_nonlinear/path/walk.hpp"
+
 namespace fastjoint::test {
 
 using Eigen::Index;
@@ -195,6 +197,21 @@ stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
     if (kind.friction && uniform(random, 0, 1) < 0.7) set_friction(joint, j, uniform(random, 0, 0.4));
   }
   return joint;
+}
+
+stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations, const std::vector<double>& load_factors,
+                                  const stage3::PathOptions& options) {
+  stage3::LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
+  stage3::Walk walk(equations, options);
+  for (const double factor : load_factors) {
+    if (!walk.reach(factor)) {
+      path.failure = walk.failure(path.steps.size(), factor);
+      break;
+    }
+    path.steps.push_back(walk.step());
+  }
+  path.left = walk.left();
+  return path;
 }
 
 MatrixXd random_stiffness(std::mt19937& random, int n) {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
-#include "stage3_nonlinear/equations/joint_equations.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
 #include "tests/support/files.hpp"
 
 namespace fastjoint::test {
@@ -69,6 +69,11 @@ struct RandomJoint {
 
 /// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.
 [[nodiscard]] stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind);
+
+/// Follows the load factors by the nonlinear solvers even if linear solves or an exact path would do.
+[[nodiscard]] stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations,
+                                                const std::vector<double>& load_factors,
+                                                const stage3::PathOptions& options);
 
 /// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).
 [[nodiscard]] Eigen::MatrixXd random_stiffness(std::mt19937& random, int n);

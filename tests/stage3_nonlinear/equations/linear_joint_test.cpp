@@ -82,7 +82,7 @@ TEST(LinearJoint, AgreesWithTheNonlinearPath) {
     const std::vector<double> factors{0.3, 1, -0.7};
     const PathOptions options{{}, {.tolerance = 1e-13, .max_iterations = 200}};
     const LoadPath linear = follow(equations, factors, {});
-    const LoadPath nonlinear = follow_nonlinear(equations, factors, options);
+    const LoadPath nonlinear = test::follow_nonlinear(equations, factors, options);
     ASSERT_TRUE(linear.linear) << "joint " << i;
     ASSERT_FALSE(nonlinear.failure) << "joint " << i;
     for (std::size_t step = 0; step < factors.size(); ++step)

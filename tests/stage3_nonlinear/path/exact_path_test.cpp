@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/equations/piecewise_joint.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
@@ -141,7 +140,7 @@ TEST_P(RandomPaths, EqualWhatTheSolversFind) {
       std::vector<double> factors;
       for (int k = 0; k < 3; ++k)
         factors.push_back(path.sign * path.reach() * std::uniform_real_distribution<double>(0.01, 1)(random));
-      const LoadPath solved = follow_nonlinear(equations, factors, tight);
+      const LoadPath solved = test::follow_nonlinear(equations, factors, tight);
       EXPECT_FALSE(solved.failure) << "joint " << i;
       for (const auto& step : solved.steps) {
         const auto state = contact_state(equations.contacts, path.at(step.load_factor));
@@ -189,7 +188,7 @@ TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
       const ExactPath path = exact_path(equations, sign);
       ASSERT_EQ(path.reach(), 1) << "joint " << i;
       for (const auto& piece : path.pieces) EXPECT_LE(residual(equations, path, sign * piece.end), 1e-12);
-      const LoadPath solved = follow_nonlinear(equations, {0.3 * sign, 0.7 * sign, sign}, tight);
+      const LoadPath solved = test::follow_nonlinear(equations, {0.3 * sign, 0.7 * sign, sign}, tight);
       EXPECT_FALSE(solved.failure) << "joint " << i;
       for (const auto& step : solved.steps) {
         const auto state = contact_state(equations.contacts, path.at(step.load_factor));

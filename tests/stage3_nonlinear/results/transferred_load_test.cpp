@@ -221,7 +221,8 @@ TEST(TransferredLoad, OfTheExactPathIsThatOfTheSolvers) {
     }
     (void)rub(joint, random);
     const JointEquations equations = make_equations(joint);
-    const LoadPath exact = follow(equations, {0.4, 1, -1}, {}), other = follow_nonlinear(equations, {0.4, 1, -1}, {});
+    const LoadPath exact = follow(equations, {0.4, 1, -1}, {}),
+                   other = test::follow_nonlinear(equations, {0.4, 1, -1}, {});
     ASSERT_FALSE(exact.failure || other.failure) << "joint " << i;
     for (std::size_t k = 0; k < 3; ++k)
       EXPECT_LT((exact.steps[k].F - other.steps[k].F).norm(), 1e-7 * exact.steps[k].F.norm()) << "joint " << i;

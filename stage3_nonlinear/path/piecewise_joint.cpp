@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/path/exact_path.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Corners of a plane over all of c, ascending.
+/// @param zero True if c = 0 counts as a corner.
+std::vector<double> corners(const Contact& contact, bool zero) {
+  auto result = contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
+  if (!contact.one_sided)
+    for (std::size_t i = result.size(); i-- > 0;) result.push_back(-result[i]);
+  if (zero) result.push_back(0);
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+/// Distance to a point inside the first or last piece: as far out again as its corner is, so that no unit of force
+/// loses digits.
+double outward(double corner) { return corner != 0 ? std::abs(corner) : 1.0; }
+
+CornerCurve make_curve(const Contact& contact, bool friction) {
+  const bool bears_at_once = contact.law->at(0, contact.stiffness, contact.clearance).dF > 0;
+  CornerCurve curve{corners(contact, friction || (contact.one_sided && bears_at_once)), {}};
+  const auto& at = curve.corners;
+  for (std::size_t i = 0; i <= at.size(); ++i) {
+    const double low = i == 0 ? (at.empty() ? 0 : at[0] - outward(at[0])) : at[i - 1];
+    const double high = i == at.size() ? low + outward(low) : at[i];
+    const double c = 0.5 * (low + high);
+    const auto state = contact_state({contact}, VectorXd::Constant(1, c));
+    const double dF = state.dF.along[0], ddelta = state.ddelta.along[0];
+    curve.pieces.push_back({state.F[0] - dF * c, dF, state.delta[0] - ddelta * c, ddelta, c < 0 ? -1 : 1});
+  }
+  return curve;
+}
+
+}  // namespace
+
+bool is_piecewise_linear(const JointEquations& equations) {
+  const auto& contacts = equations.contacts;
+  return equations.n_directions() == 1 && std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) {
+           return c.law->corners(c.stiffness, c.clearance).has_value();
+         });
+}
+
+PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equations.system) {
+  assert(is_piecewise_linear(equations));
+  std::vector<bool> alone(equations.contacts.size(), false);
+  for (Index at = 0; at < system_->E.rows(); ++at) {
+    Rim& rim = rims_.emplace_back();
+    for (Index plane = 0; plane < system_->E.cols(); ++plane)
+      if (const double sign = system_->E(at, plane); sign != 0) rim.emplace_back(plane, sign);
+    if (rim.size() > 1) {
+      shared_rims_.push_back(at);
+    } else {
+      alone[rim[0].first] = true;
+    }
+  }
+  for (std::size_t j = 0; j < alone.size(); ++j) curves_.push_back(make_curve(equations.contacts[j], alone[j]));
+}
+
+Cell PiecewiseJoint::start() const {
+  Cell cell;
+  for (const auto& [corners, pieces] : curves_)
+    cell.piece.push_back(std::upper_bound(corners.begin(), corners.end(), 0) - corners.begin());
+  cell.side.assign(rims_.size(), 1);
+  follow_signs(cell);
+  return cell;
+}
+
+void PiecewiseJoint::follow_signs(Cell& cell) const {
+  for (std::size_t at = 0; at < rims_.size(); ++at) {
+    if (rims_[at].size() > 1) continue;
+    const auto& [plane, sign] = rims_[at][0];
+    cell.side[at] = sign > 0 ? piece(cell, plane).sign : -piece(cell, plane).sign;
+  }
+}
+
+CellEquations PiecewiseJoint::equations(const Cell& cell) const {
+  const Index n = curves_.size();
+  Eigen::MatrixXd on_forces = Eigen::MatrixXd::Identity(n, n);
+  for (std::size_t at = 0; at < rims_.size(); ++at)
+    for (const auto& [plane, sign] : rims_[at]) {
+      const bool plus = cell.side[at] > 0;
+      on_forces.col(plane) += (plus ? sign : -sign) * (plus ? system_->H_plus : system_->H_minus).col(at);
+    }
+  const auto of = [&](double CurvePiece::*value) {
+    return VectorXd(VectorXd::NullaryExpr(n, [&](Index j) { return piece(cell, j).*value; }));
+  };
+  return {system_->S_ud * of(&CurvePiece::ddelta).asDiagonal() + on_forces * of(&CurvePiece::dF).asDiagonal(),
+          system_->S_ud * of(&CurvePiece::delta0) + on_forces * of(&CurvePiece::F0)};
+}
+
+double PiecewiseJoint::rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const {
+  double sum = 0;
+  for (const auto& [plane, sign] : rims_[rim]) sum += sign * piece(cell, plane).dF * rate[plane];
+  return sum;
+}
+
+double PiecewiseJoint::rim_force(const Cell& cell, Index rim, const VectorXd& c) const {
+  double sum = rim_rate(cell, rim, c);
+  for (const auto& [plane, sign] : rims_[rim]) sum += sign * piece(cell, plane).F0;
+  return sum;
+}
+
+}  // namespace fastjoint::stage3
