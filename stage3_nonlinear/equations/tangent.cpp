@@ -22,7 +22,7 @@ constexpr double singular_tangent = 1e-10;
 /// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
 /// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
 VectorXd scale_columns(MatrixXd& A) {
-  const VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
+  VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
   A.array().rowwise() /= scale.transpose().array();
   return scale;
 }
