@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <Eigen/SparseCore>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -20,104 +23,132 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// LU of the bordered system [[S, B], [B^T, 0]], scaled row and column so that units and the stiffness of one plate
-/// against the next do not matter.
-class BorderedSystem {
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Stiffness of a joint whose shear planes do not move, scaled so that units and the stiffness of one unknown against
+/// the next do not matter, as its Cholesky factor.
+class RigidJoint {
  public:
-  /// @param S   Symmetric, positive semi-definite, shape (N, N), force / length.
-  /// @param own Stiffness of each unknown's plate, shape (N), force / length; 0 of a plate without any.
-  /// @param B   One column for each shear plane and direction, +1 at the first disc, -1 at the second, shape (N, n a).
-  BorderedSystem(const MatrixXd& S, const VectorXd& own, const MatrixXd& B)
-      : scale_(S.rows() + B.cols()), N_(S.rows()) {
-    const double largest = S.diagonal().maxCoeff();
-    for (Index i = 0; i < N_; ++i)
-      scale_[i] = 1 / std::sqrt(S(i, i) > singular * own[i] ? S(i, i)
-                                : own[i] > 0                ? own[i]
-                                : largest > 0               ? largest
-                                                            : 1.0);
-    for (Index j = 0; j < B.cols(); ++j)
-      scale_[N_ + j] = 1 / B.col(j).cwiseAbs().cwiseProduct(scale_.head(N_)).maxCoeff();
-    matrix_.resize(scale_.size(), scale_.size());
-    matrix_ << S, B, B.transpose(), MatrixXd::Zero(B.cols(), B.cols());
-    matrix_ = scale_.asDiagonal() * matrix_ * scale_.asDiagonal();
-    lu_.compute(matrix_);
-  }
-
-  /// False if some motion meets no stiffness while B^T holds.
-  [[nodiscard]] bool is_regular() const { return least_stretch(lu_, matrix_) > singular; }
-
-  /// @param rhs Shape (N + n a, columns): forces (force), then relative displacements (length).
-  /// @return    Same shape: displacements (length), then forces (force).
-  [[nodiscard]] MatrixXd solve(const MatrixXd& rhs) const {
-    return scale_.asDiagonal() * lu_.solve(scale_.asDiagonal() * rhs);
-  }
-
-  /// Largest displacement of each unknown in motions that meet no stiffness, each with the largest entry 1, shape (N).
-  [[nodiscard]] VectorXd free_motions() const {
-    // A little above the limit of is_regular, whose rcond is an estimate in another norm.
-    constexpr double small = 1e3 * singular;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(matrix_);
-    const VectorXd values = eigen.eigenvalues().cwiseAbs();
-    VectorXd largest = VectorXd::Zero(N_);
-    for (Index i = 0; i < values.size(); ++i) {
-      if (values[i] > small * values.maxCoeff()) continue;
-      const VectorXd D = scale_.head(N_).cwiseProduct(eigen.eigenvectors().col(i).head(N_)).cwiseAbs();
-      largest = largest.cwiseMax(D / D.maxCoeff());
+  /// @param S_z Symmetric, positive semi-definite, shape (r, r), force / length.
+  /// @param own Stiffness of the stiffest plate at each unknown, shape (r), force / length; 0 of plates without any.
+  RigidJoint(const MatrixXd& S_z, const VectorXd& own) : scale_(own) {
+    for (Index i = 0; i < own.size(); ++i) {
+      const double at = std::max(S_z(i, i), singular * own[i]);
+      scale_[i] = 1 / std::sqrt(at > 0 ? at : 1.0);
     }
-    return largest;
+    S_z_ = scale_.asDiagonal() * S_z * scale_.asDiagonal();
+    factor_.compute(S_z_);
+  }
+
+  /// False if some motion meets no stiffness.
+  [[nodiscard]] bool is_held() const { return factor_.info() == Eigen::Success && factor_.rcond() > singular; }
+
+  /// L^-1 f of forces f, shape (r, columns), where S_z = L L^T.
+  [[nodiscard]] MatrixXd half_solve(const MatrixXd& f) const {
+    return factor_.matrixL().solve(scale_.asDiagonal() * f);
+  }
+  /// L^-T of that: the displacements under the forces.
+  [[nodiscard]] MatrixXd restore(const MatrixXd& half) const {
+    return scale_.asDiagonal() * factor_.matrixU().solve(half);
+  }
+
+  /// Motions that meet no stiffness, shape (r, their number).
+  [[nodiscard]] MatrixXd free_motions() const {
+    // A little above the limit of is_held, whose rcond is an estimate in another norm.
+    constexpr double small = 1e3 * singular;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(S_z_);
+    const auto n = (eigen.eigenvalues().array() <= small * eigen.eigenvalues().maxCoeff()).count();
+    return scale_.asDiagonal() * eigen.eigenvectors().leftCols(n);
   }
 
  private:
-  /// Stage 2's rounding leaves a floating plate about 1e-12 of its stiffness; a long chain of fasteners needs 1e-6. A
-  /// plate may be as much softer than its neighbours as it likes: its rows are scaled by its own stiffness.
+  /// Stage 2's rounding leaves a floating plate about 1e-12 of its stiffness; a long chain of fasteners needs 1e-6, a
+  /// floating plate the stiffness of what holds it over its own.
   static constexpr double singular = 1e-10;
-  VectorXd scale_;  ///< (N + n a)
-  MatrixXd matrix_;
-  Eigen::PartialPivLU<MatrixXd> lu_;
-  Index N_;
+  VectorXd scale_;  ///< (r)
+  MatrixXd S_z_;
+  Eigen::LLT<MatrixXd> factor_;
 };
 
-/// The joint's rows S u + G+ b+ + G- b- + B F = load, before anything is eliminated.
+/// The joint's rows S u + G+ b+ + G- b- + B F = load, and their displacements u = Z z + Y delta + given: those of the
+/// stiffest plate's disc of each fastener are in z, the others lie behind it by the delta of the planes between.
 struct Rows {
   MatrixXd S;                         ///< (N, N)
-  MatrixXd B;                         ///< (N, n a)
+  SparseMatrix Y;                     ///< (N, n a), of -1, 0 and 1; B^T Y = I
+  SparseMatrix Z;                     ///< (N, r), of 0 and 1; B^T Z = 0
   std::vector<FrictionRow> friction;  ///< (f)
   MatrixXd E;                         ///< (f, n a)
   MatrixXd G_plus, G_minus;           ///< (N, f)
   VectorXd load;                      ///< (N) at load factor 1
   VectorXd given;                     ///< (N) given displacements at load factor 1, else 0
-  std::vector<Index> free;            ///< unknowns that are not given
+  VectorXd own;                       ///< (N) stiffness of each unknown's plate, force / length
 };
 
 void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
-  const Index m = plate.n_discs();
-  const Index n = plate.n_unknowns();
+  const Index m = plate.n_discs(), n = plate.n_unknowns();
   rows.S.block(offset, offset, n, n) = plate.S;
+  rows.own.segment(offset, n).setConstant(plate.S.diagonal().maxCoeff());
   rows.load.segment(offset, n) = -plate.T * plate.traction_force;
   rows.load.segment(offset + m, plate.n_externals()) += plate.external_force;
-  for (Index i = 0; i < n; ++i) {
-    const auto displacement = i < m ? std::nullopt : plate.external_displacement[i - m];
-    if (!displacement) rows.free.push_back(offset + i);
-    rows.given[offset + i] = displacement.value_or(0);
-  }
+  for (Index i = m; i < n; ++i) rows.given[offset + i] = plate.external_displacement[i - m].value_or(0);
 }
 
-void add_plane(Rows& rows, const JointModel& joint, Index at) {
-  const ShearPlane& plane = joint.planes[at];
-  const HoleModel& first = joint.first_hole(plane);
-  const HoleModel& second = joint.second_hole(plane);
-  for (Index d = 0; d < joint.n_directions(); ++d) {
-    const Index column = at * joint.n_directions() + d;
-    rows.B(joint.offset(first.plate) + first.disc + d, column) = 1;
-    rows.B(joint.offset(second.plate) + second.disc + d, column) = -1;
+/// First unknown of a disc in the joint's list.
+Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset(hole.plate) + hole.disc; }
+
+/// Hole in the stiffest plate of a fastener.
+std::size_t stiffest(const JointModel& joint, const Rows& rows, const FastenerModel& fastener) {
+  std::size_t best = 0;
+  for (std::size_t hole = 1; hole < fastener.holes.size(); ++hole)
+    if (rows.own[disc(joint, fastener.holes[hole])] > rows.own[disc(joint, fastener.holes[best])]) best = hole;
+  return best;
+}
+
+void add_planes(Rows& rows, const JointModel& joint) {
+  std::vector<Eigen::Triplet<double>> Y;
+  for (Index at = 0; at < joint.n_planes(); ++at) {
+    const ShearPlane& plane = joint.planes[at];
+    const auto& holes = joint.fasteners[plane.fastener].holes;
+    const bool beyond = stiffest(joint, rows, joint.fasteners[plane.fastener]) > plane.first;
+    for (Index d = 0; d < joint.n_directions(); ++d) {
+      const Index column = at * joint.n_directions() + d;
+      for (std::size_t hole = 0; hole < holes.size(); ++hole)
+        if ((hole <= plane.first) == beyond) Y.emplace_back(disc(joint, holes[hole]) + d, column, beyond ? 1 : -1);
+    }
+    for (std::size_t i = 0; i < rows.friction.size(); ++i) {
+      const FrictionRow& row = rows.friction[i];
+      if (row.fastener != plane.fastener) continue;
+      const Index column = at * joint.n_directions() + row.direction;
+      if (row.hole == plane.first) rows.E(i, column) = -1;
+      if (row.hole == plane.first + 1) rows.E(i, column) = 1;
+    }
   }
-  for (std::size_t i = 0; i < rows.friction.size(); ++i) {
-    const FrictionRow& row = rows.friction[i];
-    if (row.fastener != plane.fastener) continue;
-    const Index column = at * joint.n_directions() + row.direction;
-    if (row.hole == plane.first) rows.E(i, column) = -1;
-    if (row.hole == plane.first + 1) rows.E(i, column) = 1;
+  rows.Y.resize(rows.S.rows(), joint.n_planes() * joint.n_directions());
+  rows.Y.setFromTriplets(Y.begin(), Y.end());
+}
+
+/// Gives each free unknown that follows no other its column of Z, and those of a fastener that of its stiffest plate.
+void add_free_unknowns(Rows& rows, const JointModel& joint) {
+  const Index N = rows.S.rows();
+  std::vector<Index> leader(N);
+  std::iota(leader.begin(), leader.end(), Index{0});
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (Index e = 0; e < joint.plates[i].n_externals(); ++e)
+      if (joint.plates[i].external_displacement[e]) leader[joint.offset(i) + joint.plates[i].n_discs() + e] = -1;
+  for (const auto& fastener : joint.fasteners) {
+    const Index first = disc(joint, fastener.holes[stiffest(joint, rows, fastener)]);
+    for (const auto& hole : fastener.holes)
+      for (Index d = 0; d < joint.n_directions(); ++d) leader[disc(joint, hole) + d] = first + d;
   }
+  std::vector<Index> column(N, -1);
+  Index r = 0;
+  for (Index i = 0; i < N; ++i)
+    if (leader[i] == i) column[i] = r++;
+  std::vector<Eigen::Triplet<double>> Z;
+  for (Index i = 0; i < N; ++i)
+    if (leader[i] >= 0) Z.emplace_back(i, column[leader[i]], 1);
+  rows.Z.resize(N, r);
+  rows.Z.setFromTriplets(Z.begin(), Z.end());
 }
 
 void add_friction(Rows& rows, const JointModel& joint, Index at) {
@@ -137,8 +168,7 @@ Rows assemble(const JointModel& joint) {
   const Index n = joint.n_planes() * joint.n_directions();
   Rows rows;
   rows.S = MatrixXd::Zero(N, N);
-  rows.B = MatrixXd::Zero(N, n);
-  rows.load = rows.given = VectorXd::Zero(N);
+  rows.load = rows.given = rows.own = VectorXd::Zero(N);
   for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
     for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
       for (Index d = 0; d < std::ssize(joint.fasteners[i].holes[hole].friction); ++d)
@@ -147,54 +177,25 @@ Rows assemble(const JointModel& joint) {
   rows.E = MatrixXd::Zero(f, n);
   rows.G_plus = rows.G_minus = MatrixXd::Zero(N, f);
   for (std::size_t i = 0; i < joint.plates.size(); ++i) add_plate(rows, joint.plates[i], joint.offset(i));
-  for (Index j = 0; j < joint.n_planes(); ++j) add_plane(rows, joint, j);
+  add_planes(rows, joint);
+  add_free_unknowns(rows, joint);
   for (Index i = 0; i < f; ++i) add_friction(rows, joint, i);
   return rows;
 }
 
-[[noreturn]] void fail_as_mechanism(const JointModel& joint, const Rows& rows, const BorderedSystem& bordered) {
+[[noreturn]] void fail_as_mechanism(const JointModel& joint, const MatrixXd& motions) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
-  VectorXd largest = VectorXd::Zero(joint.n_unknowns());
-  largest(rows.free) = bordered.free_motions();
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    if (largest.segment(joint.offset(i), joint.plates[i].n_unknowns()).maxCoeff() > moves)
+  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+    const auto of_plate = motions.middleRows(joint.offset(i), joint.plates[i].n_unknowns()).cwiseAbs();
+    if ((of_plate.colwise().maxCoeff().array() > moves * motions.cwiseAbs().colwise().maxCoeff().array()).any())
       names.push_back(fmt::format("\"{}\"", joint.plates[i].name));
+  }
   throw NumericalError(
       fmt::format("{}: the joint is a mechanism: plate {} can move freely even with rigid fasteners, nothing "
                   "holds the joint there; give a plate a support (stage 1), or hold an external with "
                   "\"displacement\": 0",
                   joint.file, fmt::join(names, " with plate ")));
-}
-
-/// Right-hand sides of the bordered system, block after block: load, delta, b+, b-.
-MatrixXd right_hand_sides(const Rows& rows) {
-  const Index N = rows.free.size(), n = rows.B.cols();
-  MatrixXd forces(rows.S.rows(), 1 + n + 2 * rows.G_plus.cols());
-  forces << rows.load - rows.S * rows.given, MatrixXd::Zero(forces.rows(), n), -rows.G_plus, -rows.G_minus;
-  MatrixXd rhs = MatrixXd::Zero(N + n, forces.cols());
-  for (Index i = 0; i < N; ++i) rhs.row(i) = forces.row(rows.free[i]);
-  rhs.block(N, 1, n, n).setIdentity();
-  return rhs;
-}
-
-CondensedSystem unpack(const Rows& rows, const MatrixXd& rhs, const MatrixXd& solution) {
-  const Index n = rows.B.cols();
-  const Index n_friction = rows.G_plus.cols();
-  const MatrixXd F = solution.bottomRows(n);
-  MatrixXd D = MatrixXd::Zero(rows.S.rows(), solution.cols());
-  D(rows.free, Eigen::all) = solution.topRows(rows.free.size());
-  D.col(0) += rows.given;
-  return {.q = without_rounding(F.col(0), rhs.col(0).cwiseAbs().maxCoeff()),
-          .S_ud = -F.middleCols(1, n),
-          .friction = rows.friction,
-          .E = rows.E,
-          .H_plus = -F.middleCols(1 + n, n_friction),
-          .H_minus = -F.rightCols(n_friction),
-          .D_load = D.col(0),
-          .D_delta = D.middleCols(1, n),
-          .D_plus = D.middleCols(1 + n, n_friction),
-          .D_minus = D.rightCols(n_friction)};
 }
 
 }  // namespace
@@ -237,13 +238,30 @@ double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A)
 
 CondensedSystem condense(const JointModel& joint) {
   const Rows rows = assemble(joint);
-  VectorXd own(joint.n_unknowns());
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(joint.plates[i].S.diagonal().maxCoeff());
-  const BorderedSystem bordered(rows.S(rows.free, rows.free), own(rows.free), rows.B(rows.free, Eigen::all));
-  if (!bordered.is_regular()) fail_as_mechanism(joint, rows, bordered);
-  const MatrixXd rhs = right_hand_sides(rows);
-  return unpack(rows, rhs, bordered.solve(rhs));
+  const MatrixXd SZ = rows.S * rows.Z, SY = rows.S * rows.Y;
+  VectorXd own = VectorXd::Zero(rows.Z.cols());
+  for (Index j = 0; j < rows.Z.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator at(rows.Z, j); at; ++at) own[j] = std::max(own[j], rows.own[at.row()]);
+  const RigidJoint rigid(rows.Z.transpose() * SZ, own);
+  if (!rigid.is_held()) fail_as_mechanism(joint, rows.Z * rigid.free_motions());
+  const VectorXd load = rows.load - rows.S * rows.given;
+  const auto moved = [&](const MatrixXd& forces) -> MatrixXd {
+    return rows.Z * rigid.restore(rigid.half_solve(rows.Z.transpose() * forces));
+  };
+  const MatrixXd half = rigid.half_solve(rows.Z.transpose() * SY);
+  const MatrixXd D_delta = MatrixXd(rows.Y) - rows.Z * rigid.restore(half);
+  MatrixXd S_ud = rows.Y.transpose() * SY;
+  S_ud.noalias() -= half.transpose() * half;
+  return {.q = without_rounding(D_delta.transpose() * load, (rows.Z.transpose() * load.cwiseAbs()).maxCoeff()),
+          .S_ud = S_ud,
+          .friction = rows.friction,
+          .E = rows.E,
+          .H_plus = D_delta.transpose() * rows.G_plus,
+          .H_minus = D_delta.transpose() * rows.G_minus,
+          .D_load = rows.given + moved(load),
+          .D_delta = D_delta,
+          .D_plus = -moved(rows.G_plus),
+          .D_minus = -moved(rows.G_minus)};
 }
 
 }  // namespace fastjoint::stage3

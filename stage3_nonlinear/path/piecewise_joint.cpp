@@ -34,9 +34,11 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
     const double low = i == 0 ? (at.empty() ? 0 : at[0] - outward(at[0])) : at[i - 1];
     const double high = i == at.size() ? low + outward(low) : at[i];
     const double c = 0.5 * (low + high);
-    const auto state = contact_state({contact}, VectorXd::Constant(1, c));
-    const double dF = state.dF.along[0], ddelta = state.ddelta.along[0];
-    curve.pieces.push_back({state.F[0] - dF * c, dF, state.delta[0] - ddelta * c, ddelta, c < 0 ? -1 : 1});
+    const double near = c < 0 ? high : low;  // a law that yields far out loses no digits of its offset there
+    const auto inside = contact_state({contact}, VectorXd::Constant(1, c));
+    const auto state = contact_state({contact}, VectorXd::Constant(1, near));
+    const double dF = inside.dF.along[0], ddelta = inside.ddelta.along[0];
+    curve.pieces.push_back({state.F[0] - dF * near, dF, state.delta[0] - ddelta * near, ddelta, c < 0 ? -1 : 1});
   }
   return curve;
 }

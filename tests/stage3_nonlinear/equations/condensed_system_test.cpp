@@ -100,6 +100,21 @@ TEST(CondensedSystem, IsTheSameForALargerSpreadOfStiffness) {
   EXPECT_NEAR(linear_solution(condense(joint), K)[1] / T, 1, 1e-9);
 }
 
+/// The other way round, where rounding of the doubler's stiffness meets what holds it; at last nothing seems to.
+TEST(CondensedSystem, AFloatingSheetMayBeMuchStifferThanWhatHoldsIt) {
+  constexpr double k = 700, K = 1200, P = 10;
+  const auto joint = [](double contrast) {
+    return test::joint_of({test::spring_plate(2, 1, {{0, ground, k}, {0, 1, k}, {1, 2, k}}),
+                           test::spring_plate(2, 0, {{0, 1, contrast * k}}), P},
+                          test::linear_law(K));
+  };
+  for (const double contrast : {1e3, 1e6, 1e9}) {
+    const double T = P / (1 + 1 / contrast + 2 * k / K);
+    EXPECT_NEAR(linear_solution(condense(joint(contrast)), K)[1], T, 1e-15 * contrast * T) << contrast;
+  }
+  EXPECT_THAT([&] { return condense(joint(1e12)); }, testing::ThrowsMessage<NumericalError>(HasSubstr("mechanism")));
+}
+
 TEST(CondensedSystem, ImposedDisplacementActsLikeItsForce) {
   std::mt19937 random(4);
   auto joint = test::joint_of(
