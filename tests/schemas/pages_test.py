@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The HDF5 files that the programs write are what schemas/*.md say, dataset by dataset, both ways.
+"""The HDF5 files that the programs write are what schemas/*.md say, dataset by dataset, both ways, meanings included.
 
 usage: pages_test.py STAGE1_PLATE STAGE2_EXTRACT STAGE3_NONLINEAR
 """
@@ -87,7 +87,13 @@ def compare(rows, items, version):
             yield f"{path}: is on the page since {row['since']}, the file is of version {version}"
 
 
-def check_units(rows, datasets, labels):
+def begins(meaning, description):
+    """Whether the meaning on the page, markdown taken off, is the file's description, alone or followed by more."""
+    plain = re.sub(r"`|\\(?=[^A-Za-z0-9\s])", "", meaning)
+    return plain == description or plain.startswith((f"{description}; ", f"{description}. "))
+
+
+def check_attributes(rows, datasets, labels):
     for path in sorted(rows.keys() & datasets.keys()):
         attributes = datasets[path].attrs
         unit = re.sub("length|force", lambda match: labels.get(match[0], match[0]), rows[path]["unit"])
@@ -95,6 +101,8 @@ def check_units(rows, datasets, labels):
             yield f"{path}: unit is {attributes.get('unit')}, the page says {unit}"
         if set(attributes) != {"unit", "description"} or not attributes["description"]:
             yield f"{path}: has the attributes {dict(attributes)}"
+        elif not begins(rows[path]["meaning"], attributes["description"]):
+            yield f"{path}: means '{attributes['description']}', the page says '{rows[path]['meaning']}'"
 
 
 def check(page, path, labels):
@@ -104,7 +112,7 @@ def check(page, path, labels):
         file.visititems(lambda name, item: datasets.update({name: item}) if isinstance(item, h5py.Dataset) else None)
         rows, version = page.rows(file), list(file.attrs["version"])
         problems = list(compare(rows, datasets, version))
-        problems += check_units(rows, datasets, labels)
+        problems += check_attributes(rows, datasets, labels)
         attributes = {name: file.attrs.get_id(name) for name in file.attrs}
         problems += compare({row["attribute"]: row for row in page.attributes}, attributes, version)
         if file.attrs["format"] != page.name or f"version {version[0]}.{version[1]}" not in page.text:
@@ -130,6 +138,7 @@ def check_notices(page, path, labels):
         "missing dataset": lambda file: file.pop("input"),
         "other unit": lambda file: file["input"].attrs.modify("unit", "m"),
         "no description": lambda file: file["input"].attrs.pop("description"),
+        "other description": lambda file: file["input"].attrs.modify("description", "JSON text that this file"),
         "extra attribute": lambda file: file.attrs.create("extra", "text"),
     }
     for what, change in changes.items():
