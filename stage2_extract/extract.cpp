@@ -39,7 +39,8 @@ void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eig
   forces -= motion * ((motion.transpose() * forces + known) / motion.squaredNorm());
 }
 
-/// Takes out the rounding by which matrices do not balance where nothing supports the sheet: a joint would bear on it.
+/// Takes out the rounding by which matrices do not balance along a direction in which nothing supports the sheet: in a
+/// joint the fasteners would have to carry it.
 void balance(const FreeTranslation& free, Level& level) {
   if (free.motion.isZero(0)) return;
   for (int side = 0; side < 2; ++side) {

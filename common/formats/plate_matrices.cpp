@@ -87,7 +87,7 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
        "normal force over the section in each unit case, tension positive");
 }
 
-/// What no stage behind the second one needs.
+/// Writes what only people read: the third stage does not need it.
 void write_contacts(h5::Writer& file, const PlateMatrices& a) {
   const Units& units = a.header.units;
   const auto& contacts = a.contacts;

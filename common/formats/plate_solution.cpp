@@ -150,14 +150,15 @@ void sparse_datasets(File& file, const std::string& group, Sparse& A, Index rows
 template <class File, class Solution>
 void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
   const std::string length = unit(a.header.units, 1, 0), stress = unit(a.header.units, -2, 1);
-  file("contact/hole", Column{a.contacts, &Contact::hole}, {any}, "1",
+  file("contact/hole", Column{a.contacts, &RimContact::hole}, {any}, "1",
        "index in hole/id of each hole whose springs push but do not pull", h5::index_into(std::ssize(a.hole_id)));
   const Index n = a.contacts.size();
-  file("contact/iterations", Column{a.contacts, &Contact::iterations}, {n}, "1",
+  file("contact/iterations", Column{a.contacts, &RimContact::iterations}, {n}, "1",
        "until the ends of its sprung arcs stood still under the loads");
-  file("contact/peak_pressure", Column{a.contacts, &Contact::peak_pressure}, {n}, stress,
+  file("contact/peak_pressure", Column{a.contacts, &RimContact::peak_pressure}, {n}, stress,
        "largest pressure on its rim under the loads");
-  file("contact/peak_angle", Column{a.contacts, &Contact::peak_angle}, {n}, "rad", "where, counter-clockwise from x");
+  file("contact/peak_angle", Column{a.contacts, &RimContact::peak_angle}, {n}, "rad",
+       "where, counter-clockwise from x");
   file("loads/displacement", a.load_displacement, {any, nc}, length,
        "displacement of each external, then disc, under the loads of the input");
   const Index l = a.load_displacement.rows();
@@ -224,7 +225,7 @@ void check_rims(const h5::Reader& file, const PlateSolution& a) {
   }
 }
 
-/// What datasets say of others that stand before them.
+/// Checks the datasets that name others or index into them.
 void check(const h5::Reader& file, const PlateSolution& a) {
   check_rims(file, a);
   file.check("mesh/material", a.mesh.material, h5::index_into(std::ssize(a.elasticity)));

@@ -31,7 +31,7 @@ struct Probe {
 };
 
 /// A hole whose springs push but do not pull, under the scene's loads.
-struct Contact {
+struct RimContact {
   int hole;              ///< index into hole_id
   int iterations;        ///< until its arcs stood still
   double peak_pressure;  ///< stress
@@ -65,7 +65,7 @@ struct PlateSolution : UnitCases {
   Eigen::VectorXi stress_p;          ///< degrees whose stresses are wanted: those that have U and W
   std::vector<PlateCases> cases;     ///< one for each p
   Probe probe;
-  std::vector<Contact> contacts;
+  std::vector<RimContact> contacts;
 };
 
 /// Throws FileError; what was at `path` before survives.

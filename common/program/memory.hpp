@@ -19,7 +19,7 @@ namespace fastjoint::program {
 /// available.
 void require_memory(const std::string& what, double need, const std::string& parts, const std::string& allowed);
 
-/// "63 MB", "1.2 GB".
+/// Bytes in words: "63 MB", "1.2 GB".
 [[nodiscard]] std::string bytes_text(double bytes);
 
 /// Tells the allocator to keep what is freed: matrices come and go by the megabyte, and giving their pages back to the

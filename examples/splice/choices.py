@@ -45,7 +45,8 @@ def main(*words):
         axis.grid(alpha=0.3)
     axes[0].axhspan(0, axes[0].get_ylim()[1], color="C3", alpha=0.08)
     axes[0].text(0, 0.5 * axes[0].get_ylim()[1], "pulls", ha="center", va="center", color="C3")
-    axes[1].legend(fontsize=8, loc="lower center")
+    axes[1].set_ylim(top=1.3 * axes[1].get_ylim()[1])
+    axes[1].legend(fontsize=8, loc="upper center")
     figure.savefig(output, dpi=120, metadata={"Software": None})
 
 

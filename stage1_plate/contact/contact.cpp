@@ -30,7 +30,7 @@ class ContactSearch {
     for (const int hole : system_.holes()) result_.push_back({hole, {}, 0, 0, 0, 0});
   }
 
-  ContactState run(int most_iterations) {
+  RimContactState run(int most_iterations) {
     start();
     for (int iteration = 1; !at_rest_; ++iteration) {
       if (iteration > most_iterations) not_converged(most_iterations);
@@ -115,12 +115,12 @@ class ContactSearch {
 
 }  // namespace
 
-ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
-                          int most_iterations) {
+RimContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
+                             int most_iterations) {
   return ContactSearch(scene, plate, problem).run(most_iterations);
 }
 
-PlateScene with_arcs(PlateScene scene, const ContactState& state) {
+PlateScene with_arcs(PlateScene scene, const RimContactState& state) {
   for (const auto& contact : state.holes)
     if (auto& spring = scene.holes[contact.hole].spring) spring->acts = contact.arcs;
   return scene;

@@ -18,7 +18,7 @@ struct RimContact {
 };
 
 /// Unilateral contact under the scene's loads, and the loads as amounts of the unit cases.
-struct ContactState {
+struct RimContactState {
   std::vector<RimContact> holes;
   Eigen::VectorXd displacement;  ///< (nc) of externals, then discs
   Eigen::VectorXd force;         ///< (nc) on them from outside; of a disc, what its springs transmit
@@ -33,10 +33,10 @@ struct ContactState {
 /// halves that bear under the forces on the discs when all springs act.
 /// @param problem Of the scene with the whole rims sprung.
 /// Throws NumericalError if contact is lost or the arcs do not come to rest.
-[[nodiscard]] ContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
-                                        int most_iterations = 50);
+[[nodiscard]] RimContactState find_contact(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
+                                           int most_iterations = 50);
 
 /// The scene with springs on the found arcs only: an ordinary linear plate.
-[[nodiscard]] PlateScene with_arcs(PlateScene scene, const ContactState& state);
+[[nodiscard]] PlateScene with_arcs(PlateScene scene, const RimContactState& state);
 
 }  // namespace fastjoint::stage1

@@ -22,7 +22,8 @@ class ContactSystem {
     Eigen::VectorXd friction;      ///< (h) amplitudes, stress
     bool friction_settled;         ///< whether the sides that bear are those that friction was taken on
   };
-  /// @param arcs Of each of holes(). Throws NumericalError if they leave something free to move.
+  /// The solution under the loads with these sprung arcs, one list for each of holes(). Throws NumericalError if they
+  /// leave something free to move.
   [[nodiscard]] State solve(const std::vector<Arcs>& arcs);
   /// The whole rims sprung.
   [[nodiscard]] State solve_whole();

@@ -53,7 +53,8 @@ class ElementClassifier {
     return holes;
   }
 
-  /// Whether the element's function k = 2 on one of its edges must stay: only a rim has no neighbour and no support.
+  /// Tells whether the functions of an edge are kept when the element is condensed. Those of a free rim are not: no
+  /// neighbour and no support has them.
   [[nodiscard]] bool is_edge_kept(int element, int edge) const {
     const auto& sides = rims_[element];
     const bool on_rim =

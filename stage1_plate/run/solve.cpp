@@ -105,7 +105,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   return a;
 }
 
-void add_contact(const ContactState& state, formats::PlateSolution& a) {
+void add_contact(const RimContactState& state, formats::PlateSolution& a) {
   for (const auto& contact : state.holes)
     a.contacts.push_back({contact.hole, contact.iterations, contact.peak_pressure, contact.peak_angle});
   a.load_displacement = state.displacement.transpose();
@@ -136,7 +136,7 @@ SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& gene
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);
-  std::optional<ContactState> contact;
+  std::optional<RimContactState> contact;
   if (scene.loads) {
     timings.phase("factorise");
     contact = find_contact(scene, plate, problem);
@@ -152,7 +152,7 @@ SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& gene
   return {std::move(scene), std::move(contact), need, std::move(solution)};
 }
 
-std::string contact_summary(const PlateScene& scene, const ContactState& state) {
+std::string contact_summary(const PlateScene& scene, const RimContactState& state) {
   std::string text;
   for (const auto& contact : state.holes) {
     text += fmt::format("  hole {}: {}, {}", scene.holes[contact.hole].id, arcs_text(contact),

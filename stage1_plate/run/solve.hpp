@@ -17,7 +17,7 @@ namespace fastjoint::stage1 {
                                                  Wanted wanted);
 
 /// Sets the contacts and the loads of a scene that has them.
-void add_contact(const ContactState& state, formats::PlateSolution& solution);
+void add_contact(const RimContactState& state, formats::PlateSolution& solution);
 
 /// Factorises the plate at every degree and solves what stage 2 reads: all fields at the degrees whose stresses are
 /// wanted, elsewhere those of tractions only, and at the highest degree the probe. Phases: factorise, solve.
@@ -27,7 +27,7 @@ void solve_cases(const PlateProblem& problem, const Skeleton& skeleton, formats:
 /// A scene and what became of it.
 struct SolvedPlate {
   PlateScene scene;  ///< with springs on the arcs that contact has found
-  std::optional<ContactState> contact;
+  std::optional<RimContactState> contact;
   MemoryNeed need;
   formats::PlateSolution solution;
 };
@@ -38,9 +38,9 @@ struct SolvedPlate {
                                       program::Timings& timings);
 
 /// A line for each hole with contact: the arcs on which its springs push, the iterations, the largest pressure.
-[[nodiscard]] std::string contact_summary(const PlateScene& scene, const ContactState& state);
+[[nodiscard]] std::string contact_summary(const PlateScene& scene, const RimContactState& state);
 
-/// Size, degrees and contacts, for people. @param file Where it has been written.
+/// The summary on stdout: size, degrees and contacts. @param file Where the plate has been written.
 [[nodiscard]] std::string summary(const SolvedPlate& plate, const std::string& file);
 
 }  // namespace fastjoint::stage1

@@ -42,15 +42,15 @@ template <class Item>
 /// Reads "sections" of an explicit mesh into the scene's geometry; needs its holes and the directions of its discs.
 void read_sections(const input::Value& root, PlateScene& scene);
 
-/// A law by which the modulus of distributed springs follows from the elastic disc that they stand for.
+/// A law by which the modulus of distributed springs follows from the elastic disk that they stand for.
 struct SpringLaw {
   std::string name;
-  /// @param E, nu Constants of the disc. @param d Its diameter. @return Modulus, force / length^3.
+  /// @param E, nu Constants of the disk. @param d Its diameter. @return Modulus, force / length^3.
   double (*modulus)(double E, double nu, double d);
   bool incompressible_allowed;  ///< whether nu = 0.5 has a finite modulus
 };
 
-/// All laws; the first is the default. Adding one = one line of its table.
+/// All laws; the first is the default. A new one is one more line of the table.
 [[nodiscard]] const std::vector<SpringLaw>& spring_laws();
 
 /// Reads "spring" of a hole of that radius: what its stiffness follows from, where on the rim it acts, and how.

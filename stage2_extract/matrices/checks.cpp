@@ -19,7 +19,8 @@ constexpr double worst_allowed = 1e-7;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
-/// The largest stiffness, or, of a sheet that offers next to none, such that what rounding leaves of K_cc is allowed.
+/// Stiffness that errors of S are compared with: the largest of S, or a share of K_cc where the sheet offers next to
+/// none, so that the rounding of K_cc passes.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   constexpr double least = 1e-5;
   return std::max(largest(S), least * largest(plate.K_cc));

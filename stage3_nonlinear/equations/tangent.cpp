@@ -27,8 +27,9 @@ VectorXd scale_columns(MatrixXd& A) {
   return scale;
 }
 
-/// Planes take part that move by more than a share of the largest motion; a law that rises again behind a level piece,
-/// as after a slip, is no limit.
+/// The motion that the tangent does not resist, and the planes that take part in it by more than a share of its largest
+/// entry: those that are open, and those that bear on a level piece of their law. A law that rises again behind a level
+/// piece, as after a slip, is no limit.
 Mechanism mechanism(const JointEquations& equations, const ContactState& state, const MatrixXd& J,
                     const VectorXd& scale) {
   constexpr double moves = 1e-6, level = 1e-12, far = 1e6;

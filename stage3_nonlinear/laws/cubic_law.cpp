@@ -137,7 +137,7 @@ class CubicLaw final : public Law {
 
 }  // namespace
 
-/// {"type": "cubic", "delta": [three], "F": [three]}
+/// Reads {"type": "cubic", "delta": [three], "F": [three]}
 LawPointer read_cubic_law(const input::Value& law) {
   law.only({"type", "delta", "F", "one_sided"});
   const auto deltas = law.at("delta");

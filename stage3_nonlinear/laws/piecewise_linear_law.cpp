@@ -168,7 +168,8 @@ LawPointer read_bilinear_law(const input::Value& law) {
                                {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}});
 }
 
-/// {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo, Figure 2.
+/// Reads {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo,
+/// Figure 2.
 ///
 /// Static friction sticks up to F_slip, the joint slips by "slip" and the fastener's clearance, bears elastically up to
 /// F_yield, yields beyond.

@@ -82,7 +82,7 @@ class PowerLaw final : public Law {
 
 }  // namespace
 
-/// {"type": "power", "A": ..., "n": ..., "delta0": 0}; delta0 may be left out.
+/// Reads {"type": "power", "A": ..., "n": ..., "delta0": 0}; delta0 may be left out.
 LawPointer read_power_law(const input::Value& law) {
   law.only({"type", "A", "n", "delta0", "one_sided"});
   const double A = law.at("A").number(input::positive);

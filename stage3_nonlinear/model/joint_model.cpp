@@ -113,8 +113,8 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
   return sides;
 }
 
-/// A half hole stands for a whole one on a line of symmetry, which its disc must not leave; but half a rim pushes it
-/// off.
+/// Refuses a half hole along the normal of its line of symmetry: the whole hole that it stands for stays on that line,
+/// but the bearing of half a rim would push its disc off.
 void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
   for (std::size_t i = 0; i < plate.friction_hole.size(); ++i)
     if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0))

@@ -107,8 +107,8 @@ class Search {
     return true;
   }
 
-  /// Coordinate of the corner that a plane passes first on its way between numbers of corners that it has passed,
-  /// signed where planes bear both ways.
+  /// Coordinate of the next corner of a plane that has passed `from` corners and will have passed `to` of them; the
+  /// coordinate has a sign where planes bear both ways.
   [[nodiscard]] double next_corner(Index plane, int from, int to) const {
     const bool up = to > from;
     const int number = up ? (from >= 0 ? from + 1 : from) : (from > 0 ? from : from - 1);
@@ -212,8 +212,8 @@ class Search {
     return J.partialPivLu().solve(equations_.system.q);
   }
 
-  /// Tells whether the cubics through positions and rates at both ends pass corners that both ends are on the same side
-  /// of.
+  /// Tells whether a plane may pass a corner and come back between two states that have passed the same corners: by the
+  /// cubic through its coordinates and their rates at both.
   [[nodiscard]] bool points_beyond_a_corner(const Sample& a, const Sample& b) const {
     const double length = b.load - a.load;
     const VectorXd rate_a = length * rate(a), rate_b = length * rate(b);

@@ -61,7 +61,7 @@ class Walk {
   const JointEquations& equations_;
   const PathOptions& options_;
   SolveFunction solver_;
-  double rounding_ = 0;  ///< what wide gaps leave of residuals, force
+  double rounding_ = 0;  ///< residual that rounding of wide gaps leaves, force
   double scale_ = 1;     ///< of the load factor that is tried, force
   bool may_snap_;        ///< the solution may be one of several
   std::vector<ExactPath> exact_;

@@ -27,7 +27,7 @@ inline auto view(const gsl_matrix* m) {
   return Strided(m->data, m->size1, m->size2, Eigen::OuterStride<>(m->tda));
 }
 
-/// Data that GSL carries through to the functions below.
+/// The problem as GSL hands it to the functions below, and what they have thrown.
 struct Payload {
   const RootProblem& problem;
   std::exception_ptr thrown;  ///< for the caller to throw on: nothing may be thrown through C

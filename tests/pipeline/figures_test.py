@@ -94,7 +94,7 @@ def check_nisida(folder):
     assert same_pixels(folder / "again.png", example / "out/figure_18.png")
     for row in smooth, rough:
         check_contact(row, radial[row["sheet"]], hoop[row["sheet"]])
-    assert abs(float(smooth["contact half-angle"]) / 87.20 - 1) < 1e-3, smooth
+    assert abs(float(smooth["contact half-angle"]) / 87.19 - 1) < 1e-3, smooth
     assert abs(float(smooth["peak pressure"]) / 1.2045 - 1) < 1e-3, smooth
     assert 3 <= int(smooth["iterations"]) <= 4 and 3 <= int(rough["iterations"]) <= 4
     assert float(rough["peak pressure"]) < float(smooth["peak pressure"])

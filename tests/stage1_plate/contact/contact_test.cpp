@@ -60,7 +60,7 @@ std::string pushed(double force) {
 
 struct Contact {
   test::Plate plate;
-  stage1::ContactState state;
+  stage1::RimContactState state;
 };
 Contact find(const Sheet& sheet) {
   Contact contact{test::make_plate(sheet.json()), {}};
@@ -75,7 +75,7 @@ double peak_ratio(const Contact& contact, double whole_force) {
 TEST(Nisida, ContactAngleAndPeakPressure) {
   const auto contact = find({.rings = 3, .extra = pulled("traction", 0.5)});
   const auto& hole = contact.state.holes[0];
-  EXPECT_NEAR(hole.half_angle / degree, 87.20, 0.001 * 87.20);
+  EXPECT_NEAR(hole.half_angle / degree, 87.19, 0.001 * 87.19);
   EXPECT_NEAR(peak_ratio(contact, 1), 1.2045, 0.001 * 1.2045);
   EXPECT_NEAR(std::abs(hole.peak_angle), pi, 1e-6);
   EXPECT_EQ(hole.iterations, 4);

@@ -54,7 +54,8 @@ std::vector<Scene> scenes() {
           {"own mesh", own_mesh}};
 }
 
-/// S and R by shortcuts (elements and cells condensed, each shape once, no solve) against the straightforward path.
+/// S and R by shortcuts (elements and cells condensed, each congruence class once, no solve) against the
+/// straightforward path.
 TEST(PlateFactor, GivesWhatTheStraightforwardPathGives) {
   for (const auto& [name, json] : scenes()) {
     const auto plate = test::make_plate(json);
