@@ -108,7 +108,8 @@ void datasets(File& file, Result& a) {
   file("converged", a.converged, {steps}, "1", "1 where the increment converged");
   file("iterations", a.iterations, {steps}, "1",
        "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on");
-  file("residual", a.residual, {steps}, "1", "largest residual, relative to the largest force of the increment");
+  file("residual", a.residual, {steps}, "1",
+       "largest residual, relative to the largest force that rigid fasteners carry");
   file("event", a.event, {steps}, "1", "fasteners that close, open, slip or yield exactly there");
   file("fastener/id", a.fastener_id, {any}, "1", "fastener of each shear plane, in the order of the input");
   const Eigen::Index n = a.fastener_id.size();

@@ -28,7 +28,7 @@ void name_datasets(File& file, Matrices& a) {
        "modulus of the springs between disc and sheet, 0 where there are none", or_else(0));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
   file("external/direction", a.external_direction, {a.n_externals()}, "1", "their directions, x or y", or_else("x"));
-  file("traction/id", a.traction_id, {any}, "1", "external boundaries under uniform traction", or_else(""));
+  file("traction/id", a.traction_id, {any}, "1", "external boundaries under a traction", or_else(""));
   file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "their directions, x or y", or_else("x"));
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",

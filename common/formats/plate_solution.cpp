@@ -111,7 +111,7 @@ void name_datasets(File& file, Solution& a) {
   file("stress_p", a.stress_p, {any}, "1", "degrees whose stresses are to be extracted", degrees(pfem::highest_p));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "their directions", axis);
-  file("traction/id", a.traction_id, {any}, "1", "external boundaries under uniform traction");
+  file("traction/id", a.traction_id, {any}, "1", "external boundaries under a traction");
   const Index q = a.traction_id.size();
   file("traction/direction", a.traction_direction, {q}, "1", "their directions", axis);
   file("traction/hole", a.traction_hole, {q}, "1", "hole under cosine pressure, empty for an edge");
@@ -177,7 +177,7 @@ void case_datasets(File& file, const std::string& group, Cases& a, bool stressed
   file(group + "U", a.U.transpose(), {stressed ? nc : 0, n}, "1",
        "plate unknowns per unit displacement of an external or disc");
   file(group + "V", a.V.transpose(), {q, n}, unit(units, 1, -1),
-       "plate unknowns per unit force on a traction boundary");
+       "plate unknowns per unit total force on a traction boundary");
   file(group + "W", a.W.transpose(), {stressed ? h : 0, n}, unit(units, 1, 0),
        "plate unknowns under each unit friction case");
 }
