@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <string>
 
 #include "common/errors.hpp"
@@ -84,6 +85,14 @@ void require_memory(const std::string& what, double need, const std::string& par
   if (const double available = available_memory(); need > available)
     throw InputError(fmt::format("{} takes about {} of memory{}, {} are available; allowed: {}", what, bytes_text(need),
                                  parts, bytes_text(available), allowed));
+}
+
+void require_memory_to_start() {
+  constexpr std::size_t start = 16 << 20;
+  void* block = ::operator new(start, std::nothrow);
+  ::operator delete(block);
+  if (block == nullptr)
+    throw InputError("starting takes about 16 MB of memory, 0 MB are available; allowed: a higher limit (ulimit -v)");
 }
 
 void keep_freed_memory() {

@@ -19,6 +19,9 @@ namespace fastjoint::program {
 /// available.
 void require_memory(const std::string& what, double need, const std::string& parts, const std::string& allowed);
 
+/// Throws InputError if there is too little to begin with: HDF5 crashes where its calls find none.
+void require_memory_to_start();
+
 /// Bytes in words: "63 MB", "1.2 GB".
 [[nodiscard]] std::string bytes_text(double bytes);
 

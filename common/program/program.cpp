@@ -116,8 +116,9 @@ int outcome(const Command& command, int argc, char** argv, const Body& body) {
   Timings timings;
   keep_freed_memory();
   catch_signals(command.name);
-  h5::take_over_error_reporting();
   try {
+    require_memory_to_start();
+    h5::take_over_error_reporting();
     if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);
     return done;
   } catch (const InputError& e) {
