@@ -50,7 +50,7 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
   a.angle = Eigen::Map<const Eigen::VectorXd>(angle.data(), angle.size());
 }
 
-/// Where sections lie, and their areas: net of what the hole takes.
+/// Sets the places of the sections and their areas, net of what the hole takes.
 void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
   const Eigen::Index s = plate.sections.size();
   a.gross_area = Eigen::VectorXd::Zero(s);

@@ -39,7 +39,7 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
 /// Directions of the first hole's discs; every other hole must have the same in the same order, one after the other.
 std::vector<int> disc_axes(const std::string& file, const formats::PlateMatrices& a) {
   const std::vector<int> all = axes_of(file, "disc/direction", a.disc_direction);
-  // Where a direction stands twice, check_once says why.
+  // A direction that stands twice is left to check_once, which says why.
   const std::size_t n = all.size() > 1 && a.disc_hole[1] == a.disc_hole[0] && all[1] != all[0] ? 2 : 1;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (a.disc_hole[i] != a.disc_hole[i - i % n] || all[i] != all[i % n] || all.size() % n != 0)
