@@ -92,7 +92,8 @@ void require_memory_to_start() {
   void* block = ::operator new(start, std::nothrow);
   ::operator delete(block);
   if (block == nullptr)
-    throw InputError("starting takes about 16 MB of memory, 0 MB are available; allowed: a higher limit (ulimit -v)");
+    throw InputError(
+        "starting takes about 16 MB of memory, less than 16 MB are available; allowed: a higher limit (ulimit -v)");
 }
 
 void keep_freed_memory() {
