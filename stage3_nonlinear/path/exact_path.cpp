@@ -122,29 +122,27 @@ class Tracer {
   }
 
   [[nodiscard]] std::optional<Line> line_in_cell() const {
-    const CellEquations cell = joint_.equations(cell_);
-    const Eigen::PartialPivLU<MatrixXd> lu(cell.J);
+    const auto [J, offset] = joint_.equations(cell_);
+    const Eigen::PartialPivLU<MatrixXd> lu(J);
     constexpr double singular = 1e-13;
-    if (!(least_stretch(lu, cell.J) > singular)) return line_without_stiffness(cell);
-    return Line{lu.solve(-cell.offset), lu.solve(q_)};
+    if (least_stretch(lu, J) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
+    return line_without_stiffness(J);
   }
 
   /// Line where some motion meets no stiffness: the shortest way that balances the load, or else that motion itself, in
   /// the sense of the load.
-  [[nodiscard]] std::optional<Line> line_without_stiffness(const CellEquations& cell) const {
+  [[nodiscard]] std::optional<Line> line_without_stiffness(const MatrixXd& J) const {
     constexpr double balanced = 1e-9;
-    const MatrixXd& J = cell.J;
     Eigen::CompleteOrthogonalDecomposition<MatrixXd> shortest;
     shortest.setThreshold(rounding);
     shortest.compute(J);
     const VectorXd rate = shortest.solve(q_);
-    const VectorXd here = c_ + shortest.solve(load_ * q_ - cell.offset - J * c_);  // without the rounding of the way
-    if ((J * rate - q_).norm() <= balanced * q_.norm()) return Line{here - load_ * rate, rate};
+    if ((J * rate - q_).norm() <= balanced * q_.norm()) return Line{c_ - load_ * rate, rate};
     // The rest of the load, projected on the motions without stiffness, drives them (docs/theory.md, section 8.6).
     const VectorXd left = q_ - J * rate;
     const VectorXd motion = left - shortest.solve(J * left);
     if (!(motion.norm() > balanced * left.norm())) return std::nullopt;
-    return Line{here, motion, false};
+    return Line{c_, motion, false};
   }
 
   /// Parameter at which the line ends, and the borders there.
