@@ -39,7 +39,7 @@ void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eig
   forces -= motion * ((motion.transpose() * forces + known) / motion.squaredNorm());
 }
 
-/// Takes out the rounding by which matrices do not balance along a direction in which nothing supports the sheet: in a
+/// Takes out the rounding by which matrices do not balance along a direction in which nothing supports the plate: in a
 /// joint the fasteners would have to carry it.
 void balance(const FreeTranslation& free, Level& level) {
   if (free.motion.isZero(0)) return;

@@ -24,11 +24,11 @@ struct Header {
   std::string digest{};  ///< of the file that this was read from; empty if that carries none
 };
 
-/// A sheet with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,
+/// A plate with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,
 /// m discs (hole x direction), h friction cases (hole, direction, bearing + then -), q tractions.
 struct UnitCases {
   Header header;
-  pfem::Space space = pfem::Space::trunk;                    ///< of a sheet of finite elements
+  pfem::Space space = pfem::Space::trunk;                    ///< of a plate of finite elements
   Eigen::VectorXi p, ndof;                                   ///< (np)
   std::vector<std::string> disc_hole, disc_direction;        ///< (m)
   std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"

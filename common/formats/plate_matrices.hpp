@@ -10,7 +10,7 @@
 
 namespace fastjoint::formats {
 
-/// Stresses of one sheet per unit case, at l degrees (schemas/plate-matrices.md). A sheet from elsewhere has none: l =
+/// Stresses of one plate per unit case, at l degrees (schemas/plate-matrices.md). A plate from elsewhere has none: l =
 /// 0.
 ///
 /// The n_cases unit cases are the e rigid externals (per length), m discs (per length), h friction cases (per stress),
@@ -20,7 +20,7 @@ struct PlateStresses {
   std::vector<std::string> rim_hole;  ///< (r)
   Eigen::MatrixXd rim_center;         ///< (r, 2) length
   Eigen::VectorXd rim_radius;         ///< (r) length
-  Eigen::VectorXd rim_thickness;      ///< (r) mean thickness of the sheet there, length; 0 where the file does not say
+  Eigen::VectorXd rim_thickness;      ///< (r) mean thickness of the plate there, length; 0 where the file does not say
   Eigen::MatrixXd rim_modulus;        ///< (r, 2) mean modulus in tension along x, along y, stress; 0 likewise
   Eigen::MatrixXd bearing_area;       ///< (r, 2) d t of a whole hole, for bearing along x and along y, length^2
   /// (r + 1) first point of each rim
@@ -44,13 +44,13 @@ struct HoleContact {
   double peak_angle;                        ///< where, degrees
 };
 
-/// Everything linear about one sheet, for every degree p (schemas/plate-matrices.md).
+/// Everything linear about one plate, for every degree p (schemas/plate-matrices.md).
 ///
-/// Forces are those that must act on the sheet from outside:
+/// Forces are those that must act on the plate from outside:
 ///   (P, F) = S (D_e, D) + R Lambda + T f.
 struct PlateMatrices : UnitCases {
   std::string plate_digest{};  ///< of the PLATE.h5 that these are of; empty if it has none
-  /// (m) modulus of the distributed springs between disc and sheet, which hold the bearing of the sheet; 0 where the
+  /// (m) modulus of the distributed springs between disc and plate, which hold the bearing of the plate; 0 where the
   /// file does not say, force / length^3.
   Eigen::VectorXd disc_modulus;
   Eigen::VectorXd friction_unit_force;  ///< (h) c: bearing force per unit peak contact stress, length^2

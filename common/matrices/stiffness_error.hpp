@@ -33,10 +33,10 @@ namespace fastjoint::matrices {
 /// Estimated error of the last value of one falling sequence.
 [[nodiscard]] double extrapolated_error(const Eigen::VectorXd& values, const Eigen::VectorXi& p, double fastest = 5);
 
-/// The largest s for sheets of these materials: 3 if one of them couples stretching and shear, else 5.
+/// The largest s for plates of these materials: 3 if one of them couples stretching and shear, else 5.
 [[nodiscard]] double fastest_rate(const std::vector<Eigen::Matrix3d>& elasticity);
 
-/// Matrices of a sheet at each of its degrees: condensed stiffness, reactions to friction, compliance of tractions.
+/// Matrices of a plate at each of its degrees: condensed stiffness, reactions to friction, compliance of tractions.
 struct CondensedLevels {
   std::vector<Eigen::MatrixXd> S, R, C;
   double rounding = 0;  ///< what it may change of S, force / length
@@ -48,7 +48,7 @@ struct RelativeError {
   double value;
 };
 
-/// Errors at the highest degree of those of S, R and C_t that the sheet has, of an S that is zero over the norm of
+/// Errors at the highest degree of those of S, R and C_t that the plate has, of an S that is zero over the norm of
 /// K_cc. R_ij is the energy product of a unit field and that of a friction case, whose traction jumps: where the latter
 /// is rough, above all in the trunk space, R converges more slowly than S (an annulus of two layers: 1.9e-5, S 5e-7).
 /// The norms of its differences are taken to go on as above, and no faster than those of the trace of S. True errors

@@ -11,7 +11,7 @@
 
 namespace fastjoint::stage1 {
 
-/// The sheet as elements, with the names that supports and externals use and the rims of the holes.
+/// The plate as elements, with the names that supports and externals use and the rims of the holes.
 struct PlateMesh {
   pfem::Mesh mesh;
   pfem::Edges edges;

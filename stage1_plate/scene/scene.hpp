@@ -29,7 +29,7 @@ struct EdgeSet {
   std::vector<std::pair<int, int>> edges;
 };
 
-/// A cut across the sheet beside a hole, along edges of the mesh.
+/// A cut across the plate beside a hole, along edges of the mesh.
 struct MeshSection {
   int hole;          ///< index into PlateScene::holes
   std::string side;  ///< on which side of the hole, "+x", "-x", "+y" or "-y"

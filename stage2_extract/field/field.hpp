@@ -9,7 +9,7 @@
 
 namespace fastjoint::stage2 {
 
-/// One state of a sheet at points of every element: (p + 1)^2 points each, in the order of lagrange_nodes, element
+/// One state of a plate at points of every element: (p + 1)^2 points each, in the order of lagrange_nodes, element
 /// after element, none shared, so that what jumps between elements is seen.
 struct Field {
   int p;                          ///< degree of the nodes
@@ -46,7 +46,7 @@ struct Field {
 /// The field as an unstructured grid of VTK (XML, ASCII) of Lagrange quadrilaterals.
 ///
 /// Points: displacement, stress_xx, stress_yy, stress_xy, von_mises, principal_1, principal_2. Cells: thickness. Of the
-/// whole: names of plate, state and units, the holes, and of a joint's state its sheet and increment.
+/// whole: names of plate, state and units, the holes, and of a joint's state its plate there and increment.
 /// VTK File Formats, Kitware, section "XML File Formats", UnstructuredGrid.
 [[nodiscard]] std::string vtu(const formats::PlateSolution& plate, const FieldState& state, const Field& field);
 

@@ -118,18 +118,18 @@ FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   }
 }
 
-/// The sheet of the joint that the request names, else the only one with the plate's cases.
-const PlateHistory& sheet_of(const PlateSolution& plate, const std::string& file, const FieldRequest& request,
-                             const formats::JointResult& joint) {
+/// The plate of the joint that the request names, else the only one with the cases of `plate`.
+const PlateHistory& plate_of_joint(const PlateSolution& plate, const std::string& file, const FieldRequest& request,
+                                   const formats::JointResult& joint) {
   const auto cases = case_names(plate);
   const bool is_named = !request.plate.empty();
   const PlateHistory* found = nullptr;
   std::vector<std::string> all, fitting;
-  for (const auto& sheet : joint.plates) {
-    all.push_back(sheet.name);
-    if (is_named ? sheet.name != request.plate : case_names(sheet) != cases) continue;
-    fitting.push_back(sheet.name);
-    if (!found) found = &sheet;
+  for (const auto& candidate : joint.plates) {
+    all.push_back(candidate.name);
+    if (is_named ? candidate.name != request.plate : case_names(candidate) != cases) continue;
+    fitting.push_back(candidate.name);
+    if (!found) found = &candidate;
   }
   if (!found && is_named)
     throw InputError(
@@ -146,21 +146,21 @@ const PlateHistory& sheet_of(const PlateSolution& plate, const std::string& file
   return *found;
 }
 
-/// The names of the sheet's cases fit, but do its matrices come from this file? One without a digest does not tell.
-void check_digest(const PlateHistory& sheet, const PlateSolution& plate, const std::string& file,
+/// The names of the plate's cases fit, but do its matrices come from this file? One without a digest does not tell.
+void check_digest(const PlateHistory& history, const PlateSolution& plate, const std::string& file,
                   const FieldRequest& request) {
   const std::string& digest = plate.header.digest;
-  if (!sheet.plate_digest.empty() && !digest.empty() && sheet.plate_digest != digest)
+  if (!history.plate_digest.empty() && !digest.empty() && history.plate_digest != digest)
     throw InputError(
         fmt::format("--field: sheet '{}' of {} was made of a PLATE.h5 with the digest {}, {} has {}; allowed: the file "
                     "that it was made of, or stage2_extract and stage3_nonlinear run again for this one",
-                    sheet.name, request.spec, sheet.plate_digest, file, digest));
+                    history.name, request.spec, history.plate_digest, file, digest));
 }
 
 FieldState joint_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {
   const auto joint = formats::read_joint_result(request.spec);
-  const auto& sheet = sheet_of(plate, file, request, joint);
-  check_digest(sheet, plate, file, request);
+  const auto& history = plate_of_joint(plate, file, request, joint);
+  check_digest(history, plate, file, request);
   const auto steps = count_of(joint.load_factor);
   if (steps == 0) throw InputError(fmt::format("--field: {} holds no increment that converged", request.spec));
   if (request.increment > steps)
@@ -168,15 +168,15 @@ FieldState joint_state(const PlateSolution& plate, const std::string& file, cons
                                  request.spec, steps));
   FieldState state;
   state.increment = request.increment != 0 ? request.increment : steps;
-  state.joint_plate = sheet.name;
+  state.joint_plate = history.name;
   state.p = joint.p;
   const auto step = state.increment - 1;
   state.words = fmt::format("{}increment {} of {}, load factor {:g}",
                             joint.header.name.empty() ? "" : fmt::format("{}, ", joint.header.name), state.increment,
                             steps, joint.load_factor[step]);
-  state.amounts.resize(sheet.De.cols() + sheet.D.cols() + sheet.Lambda.cols() + sheet.traction.cols());
-  state.amounts << sheet.De.row(step).transpose(), sheet.D.row(step).transpose(), sheet.Lambda.row(step).transpose(),
-      sheet.traction.row(step).transpose();
+  state.amounts.resize(history.De.cols() + history.D.cols() + history.Lambda.cols() + history.traction.cols());
+  state.amounts << history.De.row(step).transpose(), history.D.row(step).transpose(),
+      history.Lambda.row(step).transpose(), history.traction.row(step).transpose();
   return state;
 }
 

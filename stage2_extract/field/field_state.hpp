@@ -9,12 +9,12 @@
 
 namespace fastjoint::stage2 {
 
-/// A state of a sheet as amounts of its unit cases.
+/// A state of a plate as amounts of its unit cases.
 struct FieldState {
   Eigen::VectorXd amounts;  ///< (nc + h + q) length of externals and discs, stress of frictions, force of tractions
   std::string words;        ///< what it is, for people
   int p = 0;                ///< degree at which the amounts were found, 0 if they belong to none
-  std::string joint_plate;  ///< name of the sheet in the joint, if the state is a joint's
+  std::string joint_plate;  ///< name of the plate in the joint, if the state is a joint's
   int increment = 0;        ///< of the joint, from 1 on
 };
 
@@ -37,7 +37,7 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
 ///
 /// A sum has cases with commas between them, each with "=AMOUNT" or of amount 1: "external:P=0.01,disc:1:x". Ids may
 /// hold commas, colons and equals signs: where one case's name begins another's, the longer one is meant. Of a
-/// RESULT.h5 the sheet is that which the request names, else the only one whose cases have the plate's names; the
+/// RESULT.h5 the plate is that which the request names, else the only one whose cases have the plate's names; the
 /// increment that of the request, else the last.
 /// @param file Name of the plate's file, for messages.
 /// Throws InputError if the request fits neither plate nor joint, FileError for a bad RESULT.h5.

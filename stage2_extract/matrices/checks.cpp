@@ -19,7 +19,7 @@ constexpr double worst_allowed = 1e-7;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
-/// Stiffness that errors of S are compared with: the largest of S, or a share of K_cc where the sheet offers next to
+/// Stiffness that errors of S are compared with: the largest of S, or a share of K_cc where the plate offers next to
 /// none, so that the rounding of K_cc passes.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   constexpr double least = 1e-5;

@@ -18,7 +18,7 @@ namespace {
 /// Every point of every rim.
 using Rims = std::vector<std::vector<RimPoint>>;
 
-/// Names, places, areas and what the sheet is there.
+/// Names, places, areas and what the plate is there.
 void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges, const Rims& rims,
                    formats::PlateStresses& a) {
   const Eigen::Index r = rims.size();

@@ -52,7 +52,7 @@ struct FlexibilityFormula {
   bool uses_rows = false;
 };
 
-FlexibilityTerm of_sheet(double value) { return {false, value}; }
+FlexibilityTerm of_plate(double value) { return {false, value}; }
 FlexibilityTerm of_fastener(double value) { return {true, value}; }
 
 /// C = ((t1 + t2) / (2 d))^a b / n (1 / (t1 E1) + 1 / (n t2 E2) + 1 / (2 t1 E_f) + 1 / (2 n t2 E_f)).
@@ -62,7 +62,7 @@ FlexibilityTerm of_fastener(double value) { return {true, value}; }
 Terms huth(const FastenerGeometry& g, double a, double b) {
   const double n = g.n_shear;
   const double factor = std::pow((g.t[0] + g.t[1]) / (2 * g.d), a) * b / n;
-  return {of_sheet(factor / (g.t[0] * g.E[0])), of_sheet(factor / (n * g.t[1] * g.E[1])),
+  return {of_plate(factor / (g.t[0] * g.E[0])), of_plate(factor / (n * g.t[1] * g.E[1])),
           of_fastener(factor / (2 * g.t[0] * g.E_f)), of_fastener(factor / (2 * n * g.t[1] * g.E_f))};
 }
 
@@ -72,7 +72,7 @@ Terms huth_composite(const FastenerGeometry& g) { return huth(g, 2.0 / 3.0, 4.2)
 
 /// C = 5 / (d E_f) + 0.8 (1 / (t1 E1) + 1 / (t2 E2)); all moduli were equal in the tests behind it.
 Terms swift(const FastenerGeometry& g) {
-  return {of_fastener(5 / (g.d * g.E_f)), of_sheet(0.8 / (g.t[0] * g.E[0])), of_sheet(0.8 / (g.t[1] * g.E[1]))};
+  return {of_fastener(5 / (g.d * g.E_f)), of_plate(0.8 / (g.t[0] * g.E[0])), of_plate(0.8 / (g.t[1] * g.E[1]))};
 }
 
 /// C = sum over the sheets of 2^((t / d)^0.85) / t (1 / E + 3 / (8 E_f)).
@@ -80,7 +80,7 @@ Terms boeing(const FastenerGeometry& g) {
   Terms terms;
   for (std::size_t i = 0; i < 2; ++i) {
     const double factor = std::exp2(std::pow(g.t[i] / g.d, 0.85)) / g.t[i];
-    terms.push_back(of_sheet(factor / g.E[i]));
+    terms.push_back(of_plate(factor / g.E[i]));
     terms.push_back(of_fastener(factor * 3 / (8 * g.E_f)));
   }
   return terms;
@@ -90,8 +90,8 @@ Terms boeing(const FastenerGeometry& g) {
 /// length / force.
 Terms grumman(const FastenerGeometry& g) {
   const double grip = g.t[0] + g.t[1];
-  return {of_fastener(grip * grip / (g.E_f * g.d * g.d * g.d)), of_sheet(3.7 / (g.t[0] * g.E[0])),
-          of_sheet(3.7 / (g.t[1] * g.E[1]))};
+  return {of_fastener(grip * grip / (g.E_f * g.d * g.d * g.d)), of_plate(3.7 / (g.t[0] * g.E[0])),
+          of_plate(3.7 / (g.t[1] * g.E[1]))};
 }
 
 /// Bearing of the sheets and of the fastener, its shear 4 (t1 + t2) / (9 G_f A_f) and its bending
@@ -102,7 +102,7 @@ Terms tate_rosenfeld(const FastenerGeometry& g) {
   const double shear = 4 * (t1 + t2) / (9 * g.E_f / (2 * (1 + g.nu_f)) * pi * d2 / 4);
   const double bending =
       (t1 * t1 * t1 + 5 * t1 * t1 * t2 + 5 * t1 * t2 * t2 + t2 * t2 * t2) / (40 * g.E_f * pi * d2 * d2 / 64);
-  return {of_sheet(1 / (t1 * g.E[0])),   of_sheet(1 / (t2 * g.E[1])), of_fastener(1 / (t1 * g.E_f)),
+  return {of_plate(1 / (t1 * g.E[0])),   of_plate(1 / (t2 * g.E[1])), of_fastener(1 / (t1 * g.E_f)),
           of_fastener(1 / (t2 * g.E_f)), of_fastener(shear),          of_fastener(bending)};
 }
 
@@ -118,8 +118,8 @@ Terms morris(const FastenerGeometry& g) {
   Terms terms;
   for (std::size_t i = 0; i < 2; ++i) {
     const double slender = more.c_f * g.t[i] / (g.d * g.d);
-    terms.push_back(of_sheet(factor * 2.845 / (g.E[i] * g.t[i])));
-    terms.push_back(of_sheet(factor * slender / more.E_z[i]));
+    terms.push_back(of_plate(factor * 2.845 / (g.E[i] * g.t[i])));
+    terms.push_back(of_plate(factor * slender / more.E_z[i]));
     terms.push_back(of_fastener(factor * slender * 0.5 / g.E_f));
   }
   return terms;
@@ -225,7 +225,7 @@ LawPointer read_formula_law(const input::Value& law) {
                  "joint",
                  formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, total, fastener,
                  n_shear == 1 ? "" : ", of both planes together; the law is that of one plane"),
-             .bearing_of_sheet = whole,
+             .bearing_of_plate = whole,
              .t = geometry.t,
              .E = geometry.E,
              .d = geometry.d});

@@ -39,7 +39,7 @@ struct Parameter {
 /// Origin of the numbers of a law that do not stand in the input: a formula for these sheets and this shank.
 struct Source {
   std::string text;       ///< for the summary: formula, who and where
-  bool bearing_of_sheet;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too
+  bool bearing_of_plate;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too
   std::array<double, 2> t{}, E{};  ///< of the sheets: thickness, length; Young's modulus, stress
   double d = 0;                    ///< diameter, length
 };

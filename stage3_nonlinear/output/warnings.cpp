@@ -89,7 +89,7 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& re
   std::set<std::string> said;
   for (const auto& plane : joint.planes) {
     const auto source = plane.law->source();
-    if (!source || !source->bearing_of_sheet) continue;
+    if (!source || !source->bearing_of_plate) continue;
     for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
       if (joint.plates[hole->plate].on_springs[hole->disc / joint.n_directions()] && said.insert(plane.law_name).second)
         result.push_back(

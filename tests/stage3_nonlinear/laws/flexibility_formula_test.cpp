@@ -196,7 +196,7 @@ TEST(FormulaLaw, GivesTheStiffness) {
   const auto whole =
       test::law_of(law("huth bolt", R"("mode": "total", "shear": "single", "E_f": 110000, "one_sided": true)"));
   EXPECT_NEAR(stiffness(whole), 1 / 2.903227e-5, 0.01);
-  EXPECT_TRUE(whole->source()->bearing_of_sheet);
+  EXPECT_TRUE(whole->source()->bearing_of_plate);
   EXPECT_EQ(whole->source()->text,
             "huth bolt in single shear, total: H. Huth, LBF report FB-172, 1984, and ASTM STP 927, 1986; flexibility "
             "2.90323e-05, of which 7.15864e-06 of the fastener, in the units of the joint");
@@ -206,7 +206,7 @@ TEST(FormulaLaw, GivesTheStiffness) {
   const auto part =
       test::law_of(law("tate-rosenfeld", R"("mode": "fastener only", "shear": "single", "E_f": 110000, "nu_f": 0.33)"));
   EXPECT_NEAR(1 / stiffness(part), bending + shear + (1 / 2.0 + 1 / 3.0) / 110000, 1e-17);
-  EXPECT_FALSE(part->source()->bearing_of_sheet);
+  EXPECT_FALSE(part->source()->bearing_of_plate);
   EXPECT_THAT(part->source()->text, HasSubstr("tate-rosenfeld in single shear, fastener only: M. B. Tate"));
 }
 
@@ -225,7 +225,7 @@ TEST(FormulaLaw, IsASpringThatSaysWhereItComesFrom) {
   const Branch on = law->at(1000, 1e4, 0);
   EXPECT_NEAR(on.delta / on.F, 2.903227e-5, 5e-12);
   ASSERT_TRUE(law->source());
-  EXPECT_TRUE(law->source()->bearing_of_sheet);
+  EXPECT_TRUE(law->source()->bearing_of_plate);
   EXPECT_THAT(law->source()->text, HasSubstr("huth bolt in single shear, total"));
   EXPECT_FALSE(test::linear_law(1)->source());
 }
