@@ -16,19 +16,19 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
   const std::string force = unit(units, 0, 1), stress = unit(units, -2, 1);
   file(group + "hole", a.hole, {any}, "1", "holes, open ones included");
   const Eigen::Index r = a.hole.size();
-  file(group + "sections", a.sections, {r}, "1", "how many sections beside the hole the plate has");
+  file(group + "sections", a.sections, {r}, "1", "number of sections across x beside each hole");
   const auto table = [&](const char* name, auto& value, const std::string& unit, const char* meaning,
                          const h5::Allowed& allowed = {}) {
     file(group + name, value, {steps, r}, unit, meaning, allowed);
   };
   table("bearing_load", a.bearing_load, force, "bearing force of the fastener on the plate along x");
-  table("bearing_load_y", a.bearing_load_y, force, "the same along y");
-  table("bearing_stress", a.bearing_stress, stress, "its amount over the projected area d t");
+  table("bearing_load_y", a.bearing_load_y, force, "bearing force of the fastener on the plate along y");
+  table("bearing_stress", a.bearing_stress, stress, "amount of the bearing force over the projected area d t");
   table("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
   table("bypass_error", a.bypass_error, force, "estimated error of the bypass load", h5::infinite_too);
   table("peak_hoop", a.peak_hoop, stress, "largest hoop stress at the rim");
-  table("peak_angle", a.peak_angle, "deg", "where it is, counter-clockwise from x");
-  table("peak_error", a.peak_error, stress, "estimated error of that peak", h5::infinite_too);
+  table("peak_angle", a.peak_angle, "deg", "angle of the largest hoop stress, counter-clockwise from x");
+  table("peak_error", a.peak_error, stress, "estimated error of the largest hoop stress", h5::infinite_too);
   table("gross_concentration", a.gross_concentration, "1", "peak over the stress of the gross section");
   table("net_concentration", a.net_concentration, "1", "peak over the stress of the net section");
 }
@@ -36,20 +36,24 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
 template <class File, class Plate>
 void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units) {
   const std::string group = "plates/" + a.name + "/", length = unit(units, 1, 0), force = unit(units, 0, 1);
-  file(group + "disc/hole", a.disc_hole, {any}, "1", "hole of each disc unknown");
+  file(group + "disc/hole", a.disc_hole, {any}, "1",
+       "hole or point of each disc, once for each direction in which it moves");
   const Eigen::Index m = a.disc_hole.size();
-  file(group + "disc/direction", a.disc_direction, {m}, "1", "direction of each disc unknown");
+  file(group + "disc/direction", a.disc_direction, {m}, "1", "direction of each entry of disc/hole, x or y");
   file(group + "external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   const Eigen::Index e = a.external_id.size();
-  file(group + "D", a.D, {steps, m}, length, "disc displacement");
-  file(group + "De", a.De, {steps, e}, length, "displacement of the external boundary");
-  file(group + "Pe", a.Pe, {steps, e}, force, "force on the external boundary");
+  file(group + "D", a.D, {steps, m}, length, "displacement of each entry of disc/hole");
+  file(group + "De", a.De, {steps, e}, length, "displacement of each entry of external/id");
+  file(group + "Pe", a.Pe, {steps, e}, force, "force on each entry of external/id");
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   const Eigen::Index h = a.friction_hole.size();
-  file(group + "friction/bearing", a.friction_bearing, {h}, "1", "side of the rim that bears");
+  file(group + "friction/bearing", a.friction_bearing, {h}, "1",
+       "side of the rim that bears in each friction case: +x, -x, +y or -y");
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
-  file(group + "traction/id", a.traction_id, {any}, "1", "boundaries under traction");
-  file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "force on each");
+  file(group + "traction/id", a.traction_id, {any}, "1",
+       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
+  file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force,
+       "total force on each entry of traction/id");
   rim_datasets(file, group + "rim/", a.rims, steps, units);
 }
 
@@ -67,10 +71,10 @@ void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen:
   tables("clearance", a.clearance, n, stiffness, "dF by the clearance of each shear plane");
   names("mu_hole", a.mu_hole, any, "plate:hole, each with friction");
   tables("mu", a.mu, std::ssize(a.mu_hole), force, "dF by the coefficient of friction of each hole");
-  names("law_name", a.law_name, any, "law of each number");
+  names("law_name", a.law_name, any, "name of the law that each number belongs to");
   const Eigen::Index l = a.law_name.size();
-  names("law_number", a.law_number, l, "its name in the law");
-  names("law_unit", a.law_unit, l, "unit of the derivative by it");
+  names("law_number", a.law_number, l, "name of each number in its law");
+  names("law_unit", a.law_unit, l, "unit of the derivative by each number");
   tables("law", a.law, l, "law_unit", "dF by each number of the laws");
   names("force_external", a.force_external, any, "plate:external that may carry a force");
   tables("force", a.force, std::ssize(a.force_external), "1", "dF by the force on each at load factor 1");
@@ -110,7 +114,8 @@ void datasets(File& file, Result& a) {
        "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on");
   file("residual", a.residual, {steps}, "1",
        "largest residual, relative to the largest force that rigid fasteners carry");
-  file("event", a.event, {steps}, "1", "fasteners that close, open, slip or yield exactly there");
+  file("event", a.event, {steps}, "1",
+       "fasteners that close, open, slip or yield exactly at this load factor, empty if there are none");
   file("fastener/id", a.fastener_id, {any}, "1", "fastener of each shear plane, in the order of the input");
   const Eigen::Index n = a.fastener_id.size();
   file("fastener/first", a.first_hole, {n}, "1", "plate:hole on its first side");
@@ -130,9 +135,10 @@ void datasets(File& file, Result& a) {
        "plates of the joint; group plates/<name> holds what each did");
   const Eigen::Index plates = a.plates.size();
   file("plate/matrices_digest", Column{a.plates, &PlateHistory::matrices_digest}, {plates}, "1",
-       "digest of each MATRICES.h5, empty without one", h5::or_else(""));
+       "digest of the MATRICES.h5 of each plate, empty if it has none", h5::or_else(""));
   file("plate/plate_digest", Column{a.plates, &PlateHistory::plate_digest}, {plates}, "1",
-       "digest of the PLATE.h5 that each was made of", h5::or_else(""));
+       "digest of the PLATE.h5 that each plate's matrices were extracted from, empty if MATRICES.h5 does not say",
+       h5::or_else(""));
   for (auto& plate : a.plates) plate_datasets(file, plate, steps, units);
   if (auto* sensitivity = file.part("sensitivity", a.sensitivity))
     sensitivity_datasets(file, *sensitivity, steps, n, units);

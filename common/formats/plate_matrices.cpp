@@ -20,19 +20,22 @@ constexpr int minor = 4;
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
-  file("p", a.p, {h5::some}, "1", "polynomial degree", degrees(highest_degree));
-  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at that degree", or_else(0));
-  file("disc/hole", a.disc_hole, {any}, "1", "hole of each disc unknown");
-  file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each disc unknown, x or y");
+  file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(highest_degree));
+  file("ndof", a.ndof, {a.p.size()}, "1", "number of free plate unknowns at each degree of p", or_else(0));
+  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction in which it moves");
+  file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each entry of disc/hole, x or y");
   file("disc/modulus", a.disc_modulus, {a.n_discs()}, unit(a.header.units, -3, 1),
-       "modulus of the springs between disc and sheet, 0 where there are none", or_else(0));
+       "modulus of the distributed springs between disc and sheet, 0 where there are none", or_else(0));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
-  file("external/direction", a.external_direction, {a.n_externals()}, "1", "their directions, x or y", or_else("x"));
-  file("traction/id", a.traction_id, {any}, "1", "external boundaries under a traction", or_else(""));
-  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "their directions, x or y", or_else("x"));
+  file("external/direction", a.external_direction, {a.n_externals()}, "1",
+       "direction of each entry of external/id, x or y", or_else("x"));
+  file("traction/id", a.traction_id, {any}, "1",
+       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
+  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1",
+       "direction of each entry of traction/id, x or y", or_else("x"));
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
-       "side of the rim that bears: +x, -x, +y or -y", h5::one_of(side_names));
+       "side of the rim that bears in each friction case: +x, -x, +y or -y", h5::one_of(side_names));
 }
 
 template <class File, class Matrices>
@@ -68,21 +71,22 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
   file("rim/center", a.rim_center, {r, 2}, length, "x and y of each hole's centre");
   file("rim/radius", a.rim_radius, {r}, length, "radius of each hole");
   file("rim/thickness", a.rim_thickness, {r}, length, "mean thickness of the sheet at the rim", or_else(0));
-  file("rim/modulus", a.rim_modulus, {r, 2}, unit(units, -2, 1), "mean modulus in tension there along x, along y",
-       or_else(0));
-  file("rim/bearing_area", a.bearing_area, {r, 2}, area, "projected area of the rim that bears along x, along y",
+  file("rim/modulus", a.rim_modulus, {r, 2}, unit(units, -2, 1),
+       "mean modulus in tension of the sheet at the rim, along x and along y", or_else(0));
+  file("rim/bearing_area", a.bearing_area, {r, 2}, area, "projected area of the rim for bearing along x and along y",
        h5::positive);
   file("rim/start", a.rim_start, {r + 1}, "1", "first point of each rim, and the number of points");
   file("rim/angle", a.angle, {any}, "deg", "place of each point on its rim, counter-clockwise from x");
   const Eigen::Index k = a.angle.size(), n_cases = l > 0 ? all_cases : 0;
   file("rim/sigma_rr", a.sigma_rr, {l, k, n_cases}, per_case, "radial stress at each point in each unit case");
-  file("rim/sigma_tt", a.sigma_tt, {l, k, n_cases}, per_case, "hoop stress");
-  file("rim/sigma_rt", a.sigma_rt, {l, k, n_cases}, per_case, "shear stress");
+  file("rim/sigma_tt", a.sigma_tt, {l, k, n_cases}, per_case, "hoop stress at each point in each unit case");
+  file("rim/sigma_rt", a.sigma_rt, {l, k, n_cases}, per_case, "shear stress at each point in each unit case");
   file("section/hole", a.section_hole, {any}, "1", "hole that each section lies beside", or_else(""));
   const Eigen::Index s = a.section_hole.size();
-  file("section/side", a.section_side, {s}, "1", "on which side of it", h5::one_of(side_names));
-  file("section/gross_area", a.gross_area, {s}, area, "area of the section");
-  file("section/net_area", a.net_area, {s}, area, "that area less the hole's");
+  file("section/side", a.section_side, {s}, "1", "side of the hole on which each section lies, +x, -x, +y or -y",
+       h5::one_of(side_names));
+  file("section/gross_area", a.gross_area, {s}, area, "area of each section");
+  file("section/net_area", a.net_area, {s}, area, "area of each section less the projected area of the hole");
   file("section/force", a.section_force, {l, s, n_cases}, per_case,
        "normal force over the section in each unit case, tension positive");
 }
@@ -100,19 +104,19 @@ void write_contacts(h5::Writer& file, const PlateMatrices& a) {
   file("contact/hole", Column{contacts, &HoleContact::hole}, {any}, "1",
        "holes whose springs push but do not pull, under the loads of the input");
   file("contact/iterations", Column{contacts, &HoleContact::iterations}, {any}, "1",
-       "until the ends of the arcs in contact stood still");
+       "iterations until the ends of the arcs in contact stood still under the loads of the input");
   file("contact/peak_pressure", Column{contacts, &HoleContact::peak_pressure}, {any}, unit(units, -2, 1),
-       "largest pressure on the rim");
+       "largest pressure on the rim of each of these holes under the loads of the input");
   file("contact/peak_angle", Column{contacts, &HoleContact::peak_angle}, {any}, "deg",
-       "where, counter-clockwise from x");
+       "angle of that pressure, counter-clockwise from x");
   file("contact/arc_hole", arc_hole, {any}, "1", "hole of each arc in contact");
-  file("contact/arc", arcs, {any, 2}, "deg", "where it starts and ends, counter-clockwise from x");
+  file("contact/arc", arcs, {any, 2}, "deg", "start and end of each arc in contact, counter-clockwise from x");
   file("loads/displacement", a.load_displacement, {any, a.n_externals() + a.n_discs()}, unit(units, 1, 0),
        "displacement of each external, then disc, under the loads of the input");
   file("loads/friction", a.load_friction, {any, a.n_friction_cases()}, unit(units, -2, 1),
-       "peak stress of each friction case under them");
+       "peak stress of each friction case under the loads of the input");
   file("loads/traction", a.load_traction, {any, a.n_tractions()}, unit(units, 0, 1),
-       "force of each traction under them");
+       "force of each traction under the loads of the input");
 }
 
 template <class File, class Matrices>

@@ -25,7 +25,7 @@ void mesh_datasets(File& file, Mesh& a, const std::string& length) {
   const h5::Allowed node = h5::index_into(a.n_nodes());
   file("mesh/quads", a.quads.transpose(), {any, 4}, "1", "nodes of each element, counter-clockwise", node);
   file("mesh/arc_nodes", Column{a.arcs, [](auto& arc) { return std::tie(arc.a, arc.b); }}, {any, 2}, "1",
-       "ends of each edge that is an arc", node);
+       "nodes at both ends of each edge that is an arc", node);
   file("mesh/arc_center", Column{a.arcs, &pfem::Arc::center}, {std::ssize(a.arcs), 2}, length, "centre of each arc");
   file("mesh/thickness", a.thickness, {a.n_elements()}, length, "thickness of each element");
   file("mesh/material", a.material, {a.n_elements()}, "1", "material of each element, index into elasticity");
@@ -71,16 +71,17 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
   const Index n = a.hole_id.size();
   file("hole/center", Column{a.hole_rim, &rim::Rim::center}, {n, 2}, length, "x and y of each hole's centre");
   file("hole/radius", Column{a.hole_rim, &rim::Rim::radius}, {n}, length, "radius of each hole");
-  side_dataset(file, "hole/rim", a.hole_rim, &rim::Rim::sides, a.mesh.n_elements(),
-               "sides of elements on rims: hole, element, local edge (0 bottom, then counter-clockwise)");
+  side_dataset(
+      file, "hole/rim", a.hole_rim, &rim::Rim::sides, a.mesh.n_elements(),
+      "each side of an element on a rim: index in hole/id, element, local edge (0 bottom, then counter-clockwise)");
   file("hole/modulus", Column{a.hole_spring, &rim::HoleSpring::modulus}, {n}, unit(a.header.units, -3, 1),
        "modulus of the distributed springs, 0 if none");
   auto arcs = joined(a.hole_spring, &rim::HoleSpring::acts);
   using Arc = Owned<rim::AngleRange>;
-  file("hole/sprung", Column{arcs, &Arc::owner}, {any}, "1", "hole of each arc on which springs act",
-       h5::index_into(n));
+  file("hole/sprung", Column{arcs, &Arc::owner}, {any}, "1",
+       "index in hole/id of the hole of each arc on which springs act", h5::index_into(n));
   file("hole/arc", Column{arcs, [](auto& arc) { return std::tie(arc.item.from, arc.item.to); }}, {std::ssize(arcs), 2},
-       "rad", "where it starts and ends, counter-clockwise");
+       "rad", "start and end of each arc on which springs act, counter-clockwise from x");
   if constexpr (File::reads)
     for (const auto& [hole, range] : arcs) a.hole_spring[hole].acts.push_back(range);
 }
@@ -92,34 +93,38 @@ void geometry_datasets(File& file, Solution& a) {
   file("elasticity", a.elasticity, {any, 3, 3}, unit(a.header.units, -2, 1),
        "stress (x, y, xy) per strain (x, y, engineering xy) of each material");
   file("unknown", a.unknown.transpose(), {h5::some, 2}, "1",
-       "of u_x and u_y of each function: >= 0 plate unknown, -1 zero, -2 - i displacement i");
+       "what u_x and u_y of each function are: >= 0 plate unknown, -1 zero, -2 - i displacement i");
   hole_datasets(file, a, length);
   file("section/hole", Column{a.sections, &rim::Section::hole}, {any}, "1",
        "index in hole/id of the hole that each section lies beside", h5::index_into(std::ssize(a.hole_id)));
   file("section/side", Column{a.sections, &rim::Section::side}, {std::ssize(a.sections)}, "1",
-       "on which side of it: +x, -x, +y or -y", h5::one_of(side_names));
+       "side of the hole on which each section lies: +x, -x, +y or -y", h5::one_of(side_names));
   side_dataset(file, "section/sides", a.sections, &rim::Section::sides, a.mesh.n_elements(),
-               "sides of elements: section, element, local edge");
+               "each side of an element along a section: index in section/hole, element, local edge");
 }
 
 template <class File, class Solution>
 void name_datasets(File& file, Solution& a) {
   file("supported", a.supported, {any}, "1", "directions in which a support holds the plate");
-  file("p", a.p, {h5::some}, "1", "polynomial degree", degrees(pfem::highest_p));
-  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at that degree",
+  file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(pfem::highest_p));
+  file("ndof", a.ndof, {a.p.size()}, "1", "number of free plate unknowns at each degree of p",
        {.text = "numbers that do not fall", .low = 0, .step = 0});
   file("stress_p", a.stress_p, {any}, "1", "degrees whose stresses are to be extracted", degrees(pfem::highest_p));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
-  file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "their directions", axis);
-  file("traction/id", a.traction_id, {any}, "1", "external boundaries under a traction");
+  file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1",
+       "direction of each entry of external/id, x or y", axis);
+  file("traction/id", a.traction_id, {any}, "1",
+       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
   const Index q = a.traction_id.size();
-  file("traction/direction", a.traction_direction, {q}, "1", "their directions", axis);
-  file("traction/hole", a.traction_hole, {q}, "1", "hole under cosine pressure, empty for an edge");
-  file("disc/hole", a.disc_hole, {any}, "1", "hole of each disc unknown");
-  file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc unknown", axis);
+  file("traction/direction", a.traction_direction, {q}, "1", "direction of each entry of traction/id, x or y", axis);
+  file("traction/hole", a.traction_hole, {q}, "1",
+       "open hole that each traction presses on, empty for a traction on an edge");
+  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction in which it moves");
+  file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1",
+       "direction of each entry of disc/hole, x or y", axis);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
-  file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1", "side of the rim that bears",
-       h5::one_of(side_names));
+  file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
+       "side of the rim that bears in each friction case: +x, -x, +y or -y", h5::one_of(side_names));
 }
 
 /// A group of three datasets.
@@ -154,16 +159,18 @@ void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
        "index in hole/id of each hole whose springs push but do not pull", h5::index_into(std::ssize(a.hole_id)));
   const Index n = a.contacts.size();
   file("contact/iterations", Column{a.contacts, &RimContact::iterations}, {n}, "1",
-       "until the ends of its sprung arcs stood still under the loads");
+       "iterations until the ends of the arcs in contact stood still under the loads of the input");
   file("contact/peak_pressure", Column{a.contacts, &RimContact::peak_pressure}, {n}, stress,
-       "largest pressure on its rim under the loads");
+       "largest pressure on the rim of each of these holes under the loads of the input");
   file("contact/peak_angle", Column{a.contacts, &RimContact::peak_angle}, {n}, "rad",
-       "where, counter-clockwise from x");
+       "angle of that pressure, counter-clockwise from x");
   file("loads/displacement", a.load_displacement, {any, nc}, length,
        "displacement of each external, then disc, under the loads of the input");
   const Index l = a.load_displacement.rows();
-  file("loads/friction", a.load_friction, {l, h}, stress, "peak stress of each friction case under them");
-  file("loads/traction", a.load_traction, {l, q}, unit(a.header.units, 0, 1), "force of each traction under them");
+  file("loads/friction", a.load_friction, {l, h}, stress,
+       "peak stress of each friction case under the loads of the input");
+  file("loads/traction", a.load_traction, {l, q}, unit(a.header.units, 0, 1),
+       "force of each traction under the loads of the input");
 }
 
 /// Datasets of one degree with n unknowns. If stresses are wanted, the fields of all cases are there; else those of
@@ -173,7 +180,7 @@ void case_datasets(File& file, const std::string& group, Cases& a, bool stressed
                    const Units& units) {
   file(group + "E_c", a.E_c, {nc, nc}, unit(units, -0.5, 0.5),
        "unit fields of externals and discs in a basis orthonormal in energy");
-  file(group + "E_h", a.E_h, {h, nc}, unit(units, 2.5, -0.5), "the same of unit friction cases");
+  file(group + "E_h", a.E_h, {h, nc}, unit(units, 2.5, -0.5), "fields of unit friction cases in the basis of E_c");
   file(group + "U", a.U.transpose(), {stressed ? nc : 0, n}, "1",
        "plate unknowns per unit displacement of an external or disc");
   file(group + "V", a.V.transpose(), {q, n}, unit(units, 1, -1),
@@ -192,13 +199,17 @@ void datasets(File& file, Solution& a) {
   name_datasets(file, a);
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
   const Index h = a.friction_hole.size(), q = a.traction_id.size();
-  sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness, "couples plate unknowns to externals and discs");
+  sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness,
+                  "stiffness that couples plate unknowns (rows) to externals, then discs (columns)");
   file("K_cc", a.K_cc, {nc, nc}, stiffness, "stiffness among externals and discs with the plate held");
-  sparse_datasets(file, "L_f", a.L_f, n, h, area, "loads of the unit friction cases on the plate unknowns");
-  file("L_c", a.L_c, {nc, h}, area, "loads of the unit friction cases on externals and discs");
-  sparse_datasets(file, "T_f", a.T_f, n, q, "1", "loads of a unit total force on each traction boundary");
-  file("T_c", a.T_c, {nc, q}, "1", "the same on externals and discs");
-  file("shift", a.shift, {nc}, stiffness, "what E_c E_c^T has more than S on its diagonal");
+  sparse_datasets(file, "L_f", a.L_f, n, h, area, "load on plate unknowns (rows) by each unit friction case (columns)");
+  file("L_c", a.L_c, {nc, h}, area, "load on externals, then discs (rows) by each unit friction case (columns)");
+  sparse_datasets(file, "T_f", a.T_f, n, q, "1",
+                  "load on plate unknowns (rows) by a unit total force on each traction boundary (columns)");
+  file("T_c", a.T_c, {nc, q}, "1",
+       "load on externals, then discs (rows) by a unit total force on each traction boundary (columns)");
+  file("shift", a.shift, {nc}, stiffness,
+       "artificial stiffness: what the diagonal of E_c E_c^T has more than that of S");
   load_datasets(file, a, nc, h, q);
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (std::size_t i = 0; i < a.cases.size(); ++i) {
