@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/joint_result.hpp"
 
+#include <array>
+
 namespace fastjoint::formats {
 namespace {
 
@@ -11,26 +13,31 @@ constexpr const char* format = "joint-result";
 constexpr int major = 1;
 constexpr int minor = 4;
 
+using V = RimValues;
+using enum Dimension;
+constexpr auto quantities = std::to_array<RimQuantity>({
+    {"bearing_load", &V::bearing_load, force, "bearing force of the fastener on the plate along x"},
+    {"bearing_load_y", &V::bearing_load_y, force, "bearing force of the fastener on the plate along y"},
+    {"bearing_stress", &V::bearing_stress, stress, "amount of the bearing force over the projected area d t"},
+    {"bypass_load", &V::bypass_load, force, "force along x that passes the fastener by, tension positive", true},
+    {"bypass_error", &V::bypass_error, force, "estimated error of the bypass load", true, true},
+    {"peak_hoop", &V::peak_hoop, stress, "largest hoop stress at the rim"},
+    {"peak_angle", &V::peak_angle, angle, "angle of the largest hoop stress, counter-clockwise from x"},
+    {"peak_error", &V::peak_error, stress, "estimated error of the largest hoop stress", false, true},
+    {"gross_concentration", &V::gross_concentration, ratio, "peak over the stress of the gross section", true},
+    {"net_concentration", &V::net_concentration, ratio, "peak over the stress of the net section", true},
+});
+
 template <class File, class Rims>
 void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index steps, const Units& units) {
-  const std::string force = unit(units, 0, 1), stress = unit(units, -2, 1);
   file(group + "hole", a.hole, {any}, "1", "holes, open ones included");
   const Eigen::Index r = a.hole.size();
   file(group + "sections", a.sections, {r}, "1", "number of sections across x beside each hole");
-  const auto table = [&](const char* name, auto& value, const std::string& unit, const char* meaning,
-                         const h5::Allowed& allowed = {}) {
-    file(group + name, value, {steps, r}, unit, meaning, allowed);
-  };
-  table("bearing_load", a.bearing_load, force, "bearing force of the fastener on the plate along x");
-  table("bearing_load_y", a.bearing_load_y, force, "bearing force of the fastener on the plate along y");
-  table("bearing_stress", a.bearing_stress, stress, "amount of the bearing force over the projected area d t");
-  table("bypass_load", a.bypass_load, force, "force along x that passes the fastener by, tension positive");
-  table("bypass_error", a.bypass_error, force, "estimated error of the bypass load", h5::infinite_too);
-  table("peak_hoop", a.peak_hoop, stress, "largest hoop stress at the rim");
-  table("peak_angle", a.peak_angle, "deg", "angle of the largest hoop stress, counter-clockwise from x");
-  table("peak_error", a.peak_error, stress, "estimated error of the largest hoop stress", h5::infinite_too);
-  table("gross_concentration", a.gross_concentration, "1", "peak over the stress of the gross section");
-  table("net_concentration", a.net_concentration, "1", "peak over the stress of the net section");
+  for (const auto& each : quantities) {
+    const auto row = [&](auto& holes) { return Column{holes, each.value}; };
+    file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
+         each.is_error ? h5::infinite_too : h5::Allowed{});
+  }
 }
 
 template <class File, class Plate>
@@ -39,21 +46,20 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "disc/hole", a.disc_hole, {any}, "1",
        "hole or point of each disc, once for each direction in which it moves");
   const Eigen::Index m = a.disc_hole.size();
-  file(group + "disc/direction", a.disc_direction, {m}, "1", "direction of each entry of disc/hole, x or y");
+  file(group + "disc/direction", a.disc_direction, {m}, "1", "direction of each disc, x or y");
   file(group + "external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   const Eigen::Index e = a.external_id.size();
-  file(group + "D", a.D, {steps, m}, length, "displacement of each entry of disc/hole");
-  file(group + "De", a.De, {steps, e}, length, "displacement of each entry of external/id");
-  file(group + "Pe", a.Pe, {steps, e}, force, "force on each entry of external/id");
+  file(group + "D", a.D, {steps, m}, length, "displacement of each disc");
+  file(group + "De", a.De, {steps, e}, length, "displacement of each external");
+  file(group + "Pe", a.Pe, {steps, e}, force, "force on each external");
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   const Eigen::Index h = a.friction_hole.size();
   file(group + "friction/bearing", a.friction_bearing, {h}, "1",
-       "side of the rim that bears in each friction case: +x, -x, +y or -y");
+       "bearing side of each friction case: +x, -x, +y or -y");
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
   file(group + "traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
-  file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force,
-       "total force on each entry of traction/id");
+  file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
   rim_datasets(file, group + "rim/", a.rims, steps, units);
 }
 
@@ -114,8 +120,7 @@ void datasets(File& file, Result& a) {
        "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on");
   file("residual", a.residual, {steps}, "1",
        "largest residual, relative to the largest force that rigid fasteners carry");
-  file("event", a.event, {steps}, "1",
-       "fasteners that close, open, slip or yield exactly at this load factor, empty if there are none");
+  file("event", a.event, {steps}, "1", "fasteners that close, open, slip or yield exactly at this load factor");
   file("fastener/id", a.fastener_id, {any}, "1", "fastener of each shear plane, in the order of the input");
   const Eigen::Index n = a.fastener_id.size();
   file("fastener/first", a.first_hole, {n}, "1", "plate:hole on its first side");
@@ -137,14 +142,19 @@ void datasets(File& file, Result& a) {
   file("plate/matrices_digest", Column{a.plates, &PlateHistory::matrices_digest}, {plates}, "1",
        "digest of the MATRICES.h5 of each plate, empty if it has none", h5::or_else(""));
   file("plate/plate_digest", Column{a.plates, &PlateHistory::plate_digest}, {plates}, "1",
-       "digest of the PLATE.h5 that each plate's matrices were extracted from, empty if MATRICES.h5 does not say",
-       h5::or_else(""));
+       "digest of the PLATE.h5 that the matrices of each plate were extracted from", h5::or_else(""));
   for (auto& plate : a.plates) plate_datasets(file, plate, steps, units);
   if (auto* sensitivity = file.part("sensitivity", a.sensitivity))
     sensitivity_datasets(file, *sensitivity, steps, n, units);
 }
 
 }  // namespace
+
+std::span<const RimQuantity> rim_quantities() { return quantities; }
+
+std::string unit_of(Dimension dimension, const Units& units) {
+  return dimension == angle ? "deg" : dimension == ratio ? "1" : unit(units, dimension == stress ? -2 : 0, 1);
+}
 
 void write(const std::string& path, const JointResult& a) {
   h5::Writer file(path, format, major, minor);

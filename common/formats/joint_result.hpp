@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,21 +11,34 @@
 
 namespace fastjoint::formats {
 
-/// What engineers read off the holes of a plate, open ones included, one row per increment; all of shape (steps, r).
+/// What engineers read off one hole of a plate at one increment; rim_quantities says what each member is.
+struct RimValues {
+  double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
+  double bypass_load = 0, bypass_error = 0;
+  double peak_hoop = 0, peak_angle = 0, peak_error = 0;
+  double gross_concentration = 0, net_concentration = 0;  ///< by the larger section force; 0 where there is none
+};
+
+enum class Dimension { force, stress, angle, ratio };
+[[nodiscard]] std::string unit_of(Dimension dimension, const Units& units);
+
+/// A member of RimValues as a dataset of RESULT.h5 and as a column of the CSV.
+struct RimQuantity {
+  const char* name;
+  double RimValues::*value;
+  Dimension dimension;
+  const char* meaning;
+  bool needs_section = false;  ///< not known of a hole without a section across x
+  bool is_error = false;       ///< infinite where one degree alone says nothing
+};
+/// All members, in the order of the columns.
+[[nodiscard]] std::span<const RimQuantity> rim_quantities();
+
+/// The holes of a plate, open ones included, at every increment.
 struct RimHistory {
-  std::vector<std::string> hole;   ///< (r); none if the plate's matrices hold no stresses at this degree
-  Eigen::MatrixXd bearing_load;    ///< along x on the plate, 0 of an open hole, force
-  Eigen::MatrixXd bearing_load_y;  ///< along y
-  Eigen::MatrixXd bearing_stress;  ///< |bearing load| / (d t), stress
-  Eigen::MatrixXd peak_hoop;       ///< largest hoop stress, tension positive, stress
-  Eigen::MatrixXd peak_angle;      ///< where, degrees counter-clockwise from x
-  Eigen::MatrixXd peak_error;  ///< estimated error of the peak; infinite where one degree alone says nothing, stress
-  Eigen::VectorXi sections;    ///< (r) how many of the two sections beside the hole across x the plate has
-  // 0 where it has none of them:
-  Eigen::MatrixXd bypass_load;          ///< force that passes the fastener by, tension positive
-  Eigen::MatrixXd bypass_error;         ///< estimated; infinite where one degree alone says nothing
-  Eigen::MatrixXd gross_concentration;  ///< peak over the larger section force per gross area; 0 if that is 0
-  Eigen::MatrixXd net_concentration;    ///< the same per net area
+  std::vector<std::string> hole;               ///< (r); none if the plate's matrices hold no stresses at this degree
+  Eigen::VectorXi sections;                    ///< (r) how many sections across x beside the hole the plate has
+  std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
 };
 
 /// Displacements and forces of one plate of a joint, one row per increment.

@@ -21,21 +21,21 @@ constexpr int minor = 4;
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
   file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(highest_degree));
-  file("ndof", a.ndof, {a.p.size()}, "1", "number of free plate unknowns at each degree of p", or_else(0));
+  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p", or_else(0));
   file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction in which it moves");
-  file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each entry of disc/hole, x or y");
+  file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each disc, x or y");
   file("disc/modulus", a.disc_modulus, {a.n_discs()}, unit(a.header.units, -3, 1),
        "modulus of the distributed springs between disc and sheet, 0 where there are none", or_else(0));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
-  file("external/direction", a.external_direction, {a.n_externals()}, "1",
-       "direction of each entry of external/id, x or y", or_else("x"));
+  file("external/direction", a.external_direction, {a.n_externals()}, "1", "direction of each external, x or y",
+       or_else("x"));
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
-  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1",
-       "direction of each entry of traction/id, x or y", or_else("x"));
+  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "direction of each traction, x or y",
+       or_else("x"));
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
-       "side of the rim that bears in each friction case: +x, -x, +y or -y", h5::one_of(side_names));
+       "bearing side of each friction case: +x, -x, +y or -y", h5::one_of(side_names));
 }
 
 template <class File, class Matrices>
@@ -83,10 +83,9 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
   file("rim/sigma_rt", a.sigma_rt, {l, k, n_cases}, per_case, "shear stress at each point in each unit case");
   file("section/hole", a.section_hole, {any}, "1", "hole that each section lies beside", or_else(""));
   const Eigen::Index s = a.section_hole.size();
-  file("section/side", a.section_side, {s}, "1", "side of the hole on which each section lies, +x, -x, +y or -y",
-       h5::one_of(side_names));
+  file("section/side", a.section_side, {s}, "1", "side of the hole that each section lies on", h5::one_of(side_names));
   file("section/gross_area", a.gross_area, {s}, area, "area of each section");
-  file("section/net_area", a.net_area, {s}, area, "area of each section less the projected area of the hole");
+  file("section/net_area", a.net_area, {s}, area, "area of each section less the hole's projected area");
   file("section/force", a.section_force, {l, s, n_cases}, per_case,
        "normal force over the section in each unit case, tension positive");
 }

@@ -98,7 +98,7 @@ void geometry_datasets(File& file, Solution& a) {
   file("section/hole", Column{a.sections, &rim::Section::hole}, {any}, "1",
        "index in hole/id of the hole that each section lies beside", h5::index_into(std::ssize(a.hole_id)));
   file("section/side", Column{a.sections, &rim::Section::side}, {std::ssize(a.sections)}, "1",
-       "side of the hole on which each section lies: +x, -x, +y or -y", h5::one_of(side_names));
+       "side of the hole that each section lies on", h5::one_of(side_names));
   side_dataset(file, "section/sides", a.sections, &rim::Section::sides, a.mesh.n_elements(),
                "each side of an element along a section: index in section/hole, element, local edge");
 }
@@ -107,24 +107,22 @@ template <class File, class Solution>
 void name_datasets(File& file, Solution& a) {
   file("supported", a.supported, {any}, "1", "directions in which a support holds the plate");
   file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(pfem::highest_p));
-  file("ndof", a.ndof, {a.p.size()}, "1", "number of free plate unknowns at each degree of p",
+  file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p",
        {.text = "numbers that do not fall", .low = 0, .step = 0});
   file("stress_p", a.stress_p, {any}, "1", "degrees whose stresses are to be extracted", degrees(pfem::highest_p));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1",
-       "direction of each entry of external/id, x or y", axis);
+       "direction of each external, x or y", axis);
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
   const Index q = a.traction_id.size();
-  file("traction/direction", a.traction_direction, {q}, "1", "direction of each entry of traction/id, x or y", axis);
-  file("traction/hole", a.traction_hole, {q}, "1",
-       "open hole that each traction presses on, empty for a traction on an edge");
+  file("traction/direction", a.traction_direction, {q}, "1", "direction of each traction, x or y", axis);
+  file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge");
   file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction in which it moves");
-  file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1",
-       "direction of each entry of disc/hole, x or y", axis);
+  file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
-       "side of the rim that bears in each friction case: +x, -x, +y or -y", h5::one_of(side_names));
+       "bearing side of each friction case: +x, -x, +y or -y", h5::one_of(side_names));
 }
 
 /// A group of three datasets.
@@ -200,16 +198,13 @@ void datasets(File& file, Solution& a) {
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
   const Index h = a.friction_hole.size(), q = a.traction_id.size();
   sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness,
-                  "stiffness that couples plate unknowns (rows) to externals, then discs (columns)");
+                  "stiffness that couples plate unknowns to externals, then discs");
   file("K_cc", a.K_cc, {nc, nc}, stiffness, "stiffness among externals and discs with the plate held");
-  sparse_datasets(file, "L_f", a.L_f, n, h, area, "load on plate unknowns (rows) by each unit friction case (columns)");
-  file("L_c", a.L_c, {nc, h}, area, "load on externals, then discs (rows) by each unit friction case (columns)");
-  sparse_datasets(file, "T_f", a.T_f, n, q, "1",
-                  "load on plate unknowns (rows) by a unit total force on each traction boundary (columns)");
-  file("T_c", a.T_c, {nc, q}, "1",
-       "load on externals, then discs (rows) by a unit total force on each traction boundary (columns)");
-  file("shift", a.shift, {nc}, stiffness,
-       "artificial stiffness: what the diagonal of E_c E_c^T has more than that of S");
+  sparse_datasets(file, "L_f", a.L_f, n, h, area, "load on plate unknowns by each unit friction case");
+  file("L_c", a.L_c, {nc, h}, area, "load on externals, then discs, by each unit friction case");
+  sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
+  file("T_c", a.T_c, {nc, q}, "1", "load on externals, then discs, by a unit force of each traction");
+  file("shift", a.shift, {nc}, stiffness, "artificial stiffness: diagonal of E_c E_c^T less that of S");
   load_datasets(file, a, nc, h, q);
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (std::size_t i = 0; i < a.cases.size(); ++i) {

@@ -3,56 +3,46 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+
+#include "common/count.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::Index;
+using formats::Dimension;
 using formats::RimHistory;
 
-using S = RimState;
-using H = RimHistory;
-enum Unit { force, stress, degrees, ratio };
-
 /// Column of the summary's table; its unit, if it has one, stands below the heading.
-struct Heading {
-  const char* text;
+struct Column {
+  double RimState::*value;
+  const char* heading;
   int width;
   const char* format;
   bool has_unit = false;
   const char* unknown = "-";
 };
 
-/// Quantity of a hole: where it comes from and where it goes, to RESULT.h5 and the CSV, to the summary.
-struct Quantity {
-  const char* name;  ///< in the CSV
-  Unit unit;
-  double S::*state;
-  Eigen::MatrixXd H::*history;  ///< none: in the summary alone
-  bool needs_section = false;
-  Heading heading{};  ///< without text: not in the summary
-};
+using S = RimState;
+constexpr auto columns = std::to_array<Column>({
+    {&S::bearing_stress, "bearing stress", 14, "{:.6g}", true},
+    {&S::bypass_load, "bypass", 14, "{:.6g}", true},
+    {&S::peak_hoop, "peak hoop", 14, "{:.6g}", true},
+    {&S::peak_angle, "at [deg]", 9, "{:.1f}"},
+    {&S::peak_error, "+-", 9, "{:.1e}", false, "?"},
+    {&S::gross_concentration, "Kt gross", 8, "{:.3f}"},
+    {&S::net_concentration, "Kt net", 8, "{:.3f}"},
+    {&S::across, "held across", 12, "{:.6g}", true},
+});
 
-constexpr std::array<Quantity, 11> quantities = {{
-    {"bearing_load", force, &S::bearing_load, &H::bearing_load},
-    {"bearing_load_y", force, &S::bearing_load_y, &H::bearing_load_y},
-    {"bearing_stress", stress, &S::bearing_stress, &H::bearing_stress, false, {"bearing stress", 14, "{:.6g}", true}},
-    {"bypass_load", force, &S::bypass_load, &H::bypass_load, true, {"bypass", 14, "{:.6g}", true}},
-    {"bypass_error", force, &S::bypass_error, &H::bypass_error, true},
-    {"peak_hoop", stress, &S::peak_hoop, &H::peak_hoop, false, {"peak hoop", 14, "{:.6g}", true}},
-    {"peak_angle", degrees, &S::peak_angle, &H::peak_angle, false, {"at [deg]", 9, "{:.1f}"}},
-    {"peak_error", stress, &S::peak_error, &H::peak_error, false, {"+-", 9, "{:.1e}", false, "?"}},
-    {"gross_concentration", ratio, &S::gross_concentration, &H::gross_concentration, true, {"Kt gross", 8, "{:.3f}"}},
-    {"net_concentration", ratio, &S::net_concentration, &H::net_concentration, true, {"Kt net", 8, "{:.3f}"}},
-    {"across", force, &S::across, nullptr, false, {"held across", 12, "{:.6g}", true}},
-}};
-
-std::string unit_of(const Quantity& quantity, const Units& units) {
-  if (quantity.unit == ratio) return "";
-  return fmt::format("[{}]", std::array{unit(units, 0, 1), unit(units, -2, 1), std::string("deg")}[quantity.unit]);
+/// What a column shows; only `across`, a force, is no quantity of RESULT.h5.
+formats::RimQuantity shown(const Column& column) {
+  for (const auto& quantity : formats::rim_quantities())
+    if (column.value == quantity.value) return quantity;
+  return {"across", nullptr, Dimension::force, ""};
 }
 
 /// Number of sections across x that the plate has beside the hole.
@@ -63,12 +53,11 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
   return n;
 }
 
-/// @param cell Text of each quantity, which stands to the right.
+/// @param cell Text in each column, which stands to the right.
 template <class Cell>
 std::string row(const std::string& name, Cell cell) {
   std::string text = fmt::format("  {:<24}", name);
-  for (const auto& quantity : quantities)
-    if (quantity.heading.text) text += fmt::format(" {:>{}}", cell(quantity), quantity.heading.width);
+  for (const auto& column : columns) text += fmt::format(" {:>{}}", cell(column), column.width);
   return text + "\n";
 }
 
@@ -77,33 +66,28 @@ std::string row(const std::string& name, Cell cell) {
 RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
   RimHistory rims;
   if (plate.stress_level) rims.hole = plate.stresses.rim_hole;
-  const Index steps = states.size(), r = rims.hole.size();
+  const Index r = rims.hole.size();
   rims.sections.resize(r);
   for (Index i = 0; i < r; ++i) rims.sections[i] = n_sections(plate.stresses, rims.hole[i]);
-  for (const auto& quantity : quantities)
-    if (quantity.history)
-      rims.*quantity.history = Eigen::MatrixXd::NullaryExpr(
-          steps, r, [&](Index step, Index i) { return states[step].plates[at].rims[i].*quantity.state; });
+  for (const auto& state : states) rims.values.emplace_back(state.plates[at].rims.begin(), state.plates[at].rims.end());
   return rims;
 }
 
 std::vector<std::string> rim_csv_heads(const std::string& side, const Units& units) {
   std::vector<std::string> heads;
-  for (const auto& quantity : quantities)
-    if (quantity.history) {
-      const std::string unit = unit_of(quantity, units);
-      heads.push_back(fmt::format("{}_{}{}{}", quantity.name, side, unit.empty() ? "" : " ", unit));
-    }
+  for (const auto& each : formats::rim_quantities()) {
+    heads.push_back(fmt::format("{}_{}", each.name, side));
+    if (each.dimension != Dimension::ratio) heads.back() += fmt::format(" [{}]", unit_of(each.dimension, units));
+  }
   return heads;
 }
 
 std::vector<std::string> rim_csv_fields(const RimHistory& rims, const std::string& hole, Index step) {
-  const Index at = std::find(rims.hole.begin(), rims.hole.end(), hole) - rims.hole.begin();
+  const int at = index_of(rims.hole, hole);
   std::vector<std::string> fields;
-  for (const auto& quantity : quantities) {
-    if (!quantity.history) continue;
-    const bool has = at < std::ssize(rims.hole) && (!quantity.needs_section || rims.sections[at] > 0);
-    const double value = has ? (rims.*quantity.history)(step, at) : std::nan("");
+  for (const auto& each : formats::rim_quantities()) {
+    const bool has = at < count_of(rims.hole) && (!each.needs_section || rims.sections[at] > 0);
+    const double value = has ? rims.values[step][at].*each.value : std::nan("");
     fields.push_back(std::isfinite(value) ? fmt::to_string(value) : "");
   }
   return fields;
@@ -115,18 +99,19 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
     for (std::size_t rim = 0; rim < state.plates[i].rims.size(); ++rim) {
       const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
       const bool sections = n_sections(joint.plates[i].stresses, hole) > 0;
-      const RimState& values = state.plates[i].rims[rim];
-      rows += row(joint.plates[i].name + ":" + hole, [&](const Quantity& quantity) {
-        const double value = values.*quantity.state;
-        const bool unloaded = quantity.unit == ratio && value == 0;
+      rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
+        const double value = state.plates[i].rims[rim].*column.value;
+        const auto quantity = shown(column);
+        const bool unloaded = quantity.dimension == Dimension::ratio && value == 0;
         if (!std::isfinite(value) || unloaded || (quantity.needs_section && !sections))
-          return std::string(quantity.heading.unknown);
-        return fmt::format(fmt::runtime(quantity.heading.format), value == 0 ? 0 : value);
+          return std::string(column.unknown);
+        return fmt::format(fmt::runtime(column.format), value == 0 ? 0 : value);
       });
     }
-  const auto unit_below = [&](const Quantity& each) { return each.heading.has_unit ? unit_of(each, joint.units) : ""; };
-  const auto heading = [](const Quantity& each) { return each.heading.text; };
-  return rows.empty() ? rows : row("hole", heading) + row("", unit_below) + rows;
+  const auto unit_below = [&](const Column& each) {
+    return each.has_unit ? fmt::format("[{}]", unit_of(shown(each).dimension, joint.units)) : "";
+  };
+  return rows.empty() ? rows : row("hole", std::mem_fn(&Column::heading)) + row("", unit_below) + rows;
 }
 
 }  // namespace fastjoint::stage3

@@ -6,21 +6,14 @@
 #include <optional>
 #include <vector>
 
+#include "common/formats/joint_result.hpp"
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 
 namespace fastjoint::stage3 {
 
-/// Loads and stresses of one hole of a plate at one increment.
-struct RimState {
-  double bearing_load = 0;    ///< along x on the plate, force
-  double bearing_load_y = 0;  ///< along y, force
-  double bearing_stress = 0;  ///< |bearing load| / (d t), stress
-  double bypass_load = 0;     ///< force along x that passes the fastener by, tension positive
-  double bypass_error = 0;    ///< its change from the degree below; infinite where there is none, force
-  double peak_hoop = 0;       ///< largest hoop stress, tension positive, stress
-  double peak_angle = 0;      ///< where, degrees counter-clockwise from x
-  double peak_error = 0;      ///< estimated; infinite where there is no degree below, stress
+/// One hole of a plate at one increment: what RESULT.h5 holds, and what only the summary and warnings need.
+struct RimState : formats::RimValues {
   /// The springs pull instead of pushing: they act on the side that does not bear.
   bool pulls = false;
   bool filled = false;  ///< springs act all around
@@ -31,8 +24,7 @@ struct RimState {
   double across_share = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
   /// Friction of both components acts: its stresses are not those of friction along the force.
   bool by_components = false;
-  bool in_tension = false;                                ///< the section of the concentrations
-  double gross_concentration = 0, net_concentration = 0;  ///< over the section stress; 0 where the section is unloaded
+  bool in_tension = false;  ///< the section of the concentrations
 };
 
 /// One plate at one increment.

@@ -70,8 +70,8 @@ TEST_F(Run, ForcesHaveTheSignsThatThePageSays) {
     EXPECT_NEAR(a.transferred_second(0, 0), sign * 50, 1e-9);
     EXPECT_GT(sign * a.delta(0, 0), 0);
     EXPECT_NEAR(a.plates[0].Pe(0, 0), 100, 1e-9);
-    EXPECT_NEAR(a.plates[0].rims.bearing_load(0, 0), -50, 1e-9);
-    EXPECT_NEAR(a.plates[1].rims.bearing_load(0, 0), 50, 1e-9);
+    EXPECT_NEAR(a.plates[0].rims.values[0][0].bearing_load, -50, 1e-9);
+    EXPECT_NEAR(a.plates[1].rims.values[0][0].bearing_load, 50, 1e-9);
     EXPECT_THAT(out_.str(), HasSubstr("  a                         100             -100                    0\n"
                                       "  b                           0              100                 -100\n"));
     EXPECT_THAT(out_.str(),

@@ -95,32 +95,29 @@ class StateOfAJoint : public testing::Test {
  protected:
   static formats::PlateHistory history(const std::string& name, double value) {
     const auto plate = sheet();
-    formats::PlateHistory sheet{.name = name,
-                                .disc_hole = plate.disc_hole,
-                                .disc_direction = plate.disc_direction,
-                                .external_id = plate.external_id,
-                                .traction_id = plate.traction_id,
-                                .friction_hole = plate.friction_hole,
-                                .friction_bearing = plate.friction_bearing,
-                                .D = {},
-                                .De = {},
-                                .Pe = {},
-                                .Lambda = {},
-                                .traction = {},
-                                .rims = {}};
+    formats::PlateHistory result{.name = name,
+                                 .disc_hole = plate.disc_hole,
+                                 .disc_direction = plate.disc_direction,
+                                 .external_id = plate.external_id,
+                                 .traction_id = plate.traction_id,
+                                 .friction_hole = plate.friction_hole,
+                                 .friction_bearing = plate.friction_bearing,
+                                 .D = {},
+                                 .De = {},
+                                 .Pe = {},
+                                 .Lambda = {},
+                                 .traction = {},
+                                 .rims = {}};
     const auto table = [&](Eigen::Index cols, double offset) -> Eigen::MatrixXd {
       return Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(cols, value + offset, value + offset + 0.1);
     };
-    sheet.De = table(1, 1);
-    sheet.Pe = table(1, 2);
-    sheet.D = table(2, 3);
-    sheet.Lambda = table(2, 4);
-    sheet.traction = table(1, 5);
-    for (auto* rims : {&sheet.rims.bearing_load, &sheet.rims.bearing_load_y, &sheet.rims.bearing_stress,
-                       &sheet.rims.peak_hoop, &sheet.rims.peak_angle, &sheet.rims.peak_error, &sheet.rims.bypass_load,
-                       &sheet.rims.bypass_error, &sheet.rims.gross_concentration, &sheet.rims.net_concentration})
-      rims->resize(2, 0);
-    return sheet;
+    result.De = table(1, 1);
+    result.Pe = table(1, 2);
+    result.D = table(2, 3);
+    result.Lambda = table(2, 4);
+    result.traction = table(1, 5);
+    result.rims.values.resize(2);
+    return result;
   }
   std::string joint(const std::vector<std::string>& names) const {
     formats::JointResult result;
