@@ -30,7 +30,7 @@ STAGES = {
         "solvers": [],
         "equations": [""],
         "path": [],
-        "results": ["matrices", "rim", ""],
+        "results": ["formats", "matrices", "rim", ""],
         "output": ["formats", "program", ""],
         "": ["h5", "input", "program", ""],
     },
