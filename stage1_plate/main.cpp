@@ -21,7 +21,8 @@ const program::Command command = {
     "disc and rigid boundary, a unit force on every traction boundary.",
     "PLATE.json",
     "PLATE.h5",
-    {{"--p", "N or A..B", "degree 1..8, or a range of degrees; default: \"p\" of the input, else 1..8"},
+    {{"--p", "N or A..B",
+      fmt::format("degree 1..{0}, or a range of degrees; default: \"p\" of the input, else 1..{0}", pfem::highest_p)},
      {"--accuracy", "A",
       "relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the "
       "input leaves open and the least degree within --p that do, and says so; warns where nothing does"},

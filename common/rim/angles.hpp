@@ -16,6 +16,12 @@ inline constexpr double degree = full_turn / 360;  ///< radians
   return angle - full_turn * std::floor((angle - low) / full_turn);
 }
 
+/// That which lies in [-pi, pi).
+[[nodiscard]] inline double wrapped(double angle) {
+  const double inside = wrapped(angle, -full_turn / 2);
+  return inside < full_turn / 2 ? inside : -full_turn / 2;  // rounding can lift it to pi
+}
+
 /// Part of a rim, radians counter-clockwise from x: from < to <= from + 2 pi.
 struct AngleRange {
   double from, to;

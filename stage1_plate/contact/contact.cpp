@@ -97,7 +97,7 @@ class ContactSearch {
 
   static double half_angle(const rim::AngleRange& arc, double bearing, const std::vector<double>& rim_ends) {
     constexpr double same = 1e-4 * rim::degree;
-    const auto is = [&](double angle, double other) { return std::abs(wrapped(angle - other)) < same; };
+    const auto is = [&](double angle, double other) { return std::abs(rim::wrapped(angle - other)) < same; };
     if (is((arc.from + arc.to) / 2, bearing)) return (arc.to - arc.from) / 2;
     for (const double end : rim_ends)
       if (is(end, bearing) && (is(arc.from, end) || is(arc.to, end))) return arc.to - arc.from;

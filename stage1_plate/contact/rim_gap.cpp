@@ -100,7 +100,7 @@ class RimGap::Trace {
   /// The coordinate of an angle, outside [-1, 1] if the side does not have it.
   [[nodiscard]] double coordinate(double angle) const {
     const double middle = curve_.start_angle() + curve_.sweep() / 2;
-    return 2 * wrapped(angle - middle) / curve_.sweep();
+    return 2 * rim::wrapped(angle - middle) / curve_.sweep();
   }
   double operator()(double s) const {
     const Eigen::Vector2d u = u_ * pfem::integrated_legendre(p_, Eigen::VectorXd::Constant(1, s)).N;
@@ -190,7 +190,7 @@ Arcs RimGap::bearing_half(const Eigen::Vector2d& d) const {
   std::vector<rim::AngleRange> pieces;
   for (const auto& side : plate_.rims[hole_].sides) {
     const auto curve = pfem::edge_curve(plate_.mesh, plate_.edges, side.element, side.local_edge);
-    const double a = wrapped(std::min(curve.start_angle(), curve.start_angle() + curve.sweep()) - middle);
+    const double a = rim::wrapped(std::min(curve.start_angle(), curve.start_angle() + curve.sweep()) - middle);
     const double b = a + std::abs(curve.sweep());
     for (const double turn : {0.0, rim::full_turn}) {  // the side may run over the direction opposite to d
       const double from = std::max(a - turn, -quarter);
@@ -231,7 +231,7 @@ RimGap::Peak RimGap::peak(const Eigen::VectorXd& z) const {
       if (g(s[i]) > g(s[top])) top = i;
     const double inside = highest(g, s[std::max<Eigen::Index>(top - 1, 0)], s[std::min(top + 1, s.size() - 1)]);
     for (const double at : {s[top], inside})  // the top may be an end, which golden section only approaches
-      if (g(at) > best.gap) best = {g(at), wrapped(g.angle(at))};
+      if (g(at) > best.gap) best = {g(at), rim::wrapped(g.angle(at))};
   }
   return best;
 }

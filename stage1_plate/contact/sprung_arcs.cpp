@@ -12,16 +12,10 @@ constexpr double touching = 1e-9;  // radians: ends of neighbouring sides differ
 
 }  // namespace
 
-double wrapped(double angle) {
-  const double half = rim::full_turn / 2;
-  const double inside = rim::wrapped(angle, -half);
-  return inside < half ? inside : -half;  // rounding can lift it to pi
-}
-
 Arcs joined(std::vector<rim::AngleRange> pieces) {
   for (auto& piece : pieces) {
     const double length = piece.to - piece.from;
-    piece.from = wrapped(piece.from + touching) - touching;  // an end at pi is one at -pi
+    piece.from = rim::wrapped(piece.from + touching) - touching;  // an end at pi is one at -pi
     piece.to = piece.from + length;
   }
   std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
@@ -49,7 +43,8 @@ double largest_move(const Arcs& before, const Arcs& after) {
     double nearest =
         std::numeric_limits<double>::infinity();  // an arc that moves over pi changes its place in the list
     for (const auto& old : before)
-      nearest = std::min(nearest, std::max(std::abs(wrapped(arc.from - old.from)), std::abs(wrapped(arc.to - old.to))));
+      nearest = std::min(
+          nearest, std::max(std::abs(rim::wrapped(arc.from - old.from)), std::abs(rim::wrapped(arc.to - old.to))));
     move = std::max(move, nearest);
   }
   return move;

@@ -16,7 +16,4 @@ using Arcs = std::vector<rim::AngleRange>;
 /// How far the farthest end has moved, radians; infinite if the number of arcs differs.
 [[nodiscard]] double largest_move(const Arcs& before, const Arcs& after);
 
-/// The angle's multiple of a full turn away that lies in [-pi, pi).
-[[nodiscard]] double wrapped(double angle);
-
 }  // namespace fastjoint::stage1

@@ -63,7 +63,7 @@ std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& ed
   const Eigen::Vector2d& center = mesh.arcs[arc].center;
   const auto curve = pfem::Curve::arc(a, b, center);
   const Eigen::Vector2d ray = point - center;
-  const double turned = std::remainder(std::atan2(ray.y(), ray.x()) - curve.start_angle(), rim::full_turn);
+  const double turned = rim::wrapped(std::atan2(ray.y(), ray.x()) - curve.start_angle());
   const double radius = (a - center).norm();
   return {turned / curve.sweep(), std::abs(ray.norm() - radius) / (radius * std::abs(curve.sweep()))};
 }

@@ -135,7 +135,7 @@ struct PlateScene {
 };
 
 /// Replaces the scene's degrees by the option's: "8" is that degree alone, "4..8" a range, "" leaves the scene's.
-/// Throws InputError for anything else or outside 1..8.
+/// Throws InputError for anything else or outside 1..highest_p.
 void set_degrees(PlateScene& scene, const std::string& option);
 
 /// Degrees at which the scene is solved, ascending.

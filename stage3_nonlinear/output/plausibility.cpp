@@ -8,6 +8,7 @@
 #include <map>
 #include <set>
 
+#include "common/count.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 
 namespace fastjoint::stage3 {
@@ -34,9 +35,8 @@ std::vector<KnownPlane> known_planes(const JointModel& joint) {
     KnownPlane known{j, std::minmax(first.plate, second.plate), Vector2d::Zero(), {0, 0}, {0, 0}, {0, 0}};
     for (const HoleModel* hole : {&first, &second}) {
       const auto& a = joint.plates[hole->plate].stresses;
-      const auto& name = joint.plates[hole->plate].hole_of(hole->disc);
-      const auto at = std::find(a.rim_hole.begin(), a.rim_hole.end(), name) - a.rim_hole.begin();
-      if (at == std::ssize(a.rim_hole)) continue;
+      const int at = index_of(a.rim_hole, joint.plates[hole->plate].hole_of(hole->disc));
+      if (at == count_of(a.rim_hole)) continue;
       const Index side = hole == &first ? 0 : 1;
       known.offset += (hole->plate == known.plates.first ? 1 : -1) * a.rim_center.row(at).transpose();
       known.t[side] = a.rim_thickness[at];

@@ -32,6 +32,14 @@ Mesh ring() {
   return mesh;
 }
 
+TEST(Angles, AreWrappedToHalfATurnEitherWay) {
+  EXPECT_EQ(wrapped(-pi), -pi);
+  EXPECT_EQ(wrapped(pi), -pi) << "a half-open interval";
+  EXPECT_LT(wrapped(std::nextafter(-pi, -4)), pi);
+  EXPECT_NEAR(wrapped(7 * pi + 0.25), 0.25 - pi, 1e-14);
+  EXPECT_EQ(wrapped(0.5), 0.5);
+}
+
 TEST(Rim, IsFoundByCentreAndRadius) {
   const Mesh mesh = ring();
   const Edges edges = find_edges(mesh);
