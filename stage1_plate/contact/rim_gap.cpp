@@ -13,13 +13,9 @@
 namespace fastjoint::stage1 {
 namespace {
 
-int dof_of(const PlateProblem& problem, const pfem::Side& side, int mode, int component) {
-  return problem.unknowns.dofs(component, problem.numbering.function(mode, side.element));
-}
-
-/// Global shape function per local one.
-double sign(const PlateProblem& problem, const pfem::Side& side, int mode) {
-  return problem.numbering.sign(mode, side.element);
+/// The degrees of freedom of modes of the side's element.
+pfem::ElementDofs dofs_of(const PlateProblem& problem, const pfem::Side& side, const std::vector<int>& modes) {
+  return pfem::element_dofs(problem.numbering, problem.unknowns.dofs, side.element, modes);
 }
 
 /// The zero of f between low and high, where its signs differ, to rounding.
@@ -49,25 +45,26 @@ double highest(const Function& f, double low, double high) {
 
 }  // namespace
 
-int RimUnknowns::place(int dof) const {
+int RimUnknowns::index(int dof) const {
   if (dof == pfem::fixed_dof) return -1;
-  return pfem::is_free(dof) ? position[dof] : count_of(free) + pfem::controlled_index(dof);
+  return pfem::is_free(dof) ? index_in_free[dof] : count_of(free) + pfem::controlled_index(dof);
 }
 
 RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
   RimUnknowns unknowns{{}, {}, problem.unknowns.n_controlled};
-  unknowns.position.assign(problem.unknowns.n_free.back(), -1);
+  unknowns.index_in_free.assign(problem.unknowns.n_free.back(), -1);
   constexpr int on_rim = 0;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     if (!scene.holes[hole].spring || !scene.holes[hole].spring->compression_only) continue;
-    for (const auto& side : plate.rims[hole].sides)
-      for (const int mode : pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p).modes)
-        for (const int component : {0, 1})
-          if (const int to = dof_of(problem, side, mode, component); pfem::is_free(to)) unknowns.position[to] = on_rim;
+    for (const auto& side : plate.rims[hole].sides) {
+      const auto modes = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p).modes;
+      for (const int dof : dofs_of(problem, side, modes).dof)
+        if (pfem::is_free(dof)) unknowns.index_in_free[dof] = on_rim;
+    }
   }
-  for (int i = 0; i < count_of(unknowns.position); ++i)
-    if (unknowns.position[i] == on_rim) {
-      unknowns.position[i] = count_of(unknowns.free);
+  for (int i = 0; i < count_of(unknowns.index_in_free); ++i)
+    if (unknowns.index_in_free[i] == on_rim) {
+      unknowns.index_in_free[i] = count_of(unknowns.free);
       unknowns.free.push_back(i);
     }
   return unknowns;
@@ -82,17 +79,17 @@ class RimGap::Trace {
         u_(Eigen::Matrix2Xd::Zero(2, p_ + 1)),
         disc_(Eigen::Vector2d::Zero()) {
     const auto [first, second] = pfem::natural_ends(side.local_edge);
-    for (int k = 0; k <= p_; ++k) {
-      const int mode = k == 0 ? first : k == 1 ? second : pfem::edge_mode(p_, side.local_edge, k);
-      for (const int component : {0, 1})
-        if (const int place = rim.unknowns_.place(dof_of(rim.problem_, side, mode, component)); place >= 0)
-          u_(component, k) = sign(rim.problem_, side, mode) * z[place];
-    }
+    std::vector<int> modes{first, second};
+    for (int k = 2; k <= p_; ++k) modes.push_back(pfem::edge_mode(p_, side.local_edge, k));
+    const auto [dof, sign] = dofs_of(rim.problem_, side, modes);
+    for (Eigen::Index i = 0; i < dof.size(); ++i)
+      if (const int index = rim.unknowns_.index(dof[i]); index >= 0)
+        u_(i / (p_ + 1), i % (p_ + 1)) = sign[i] * z[index];
     const Unknowns& unknowns = rim.problem_.unknowns;
     const int first_disc = unknowns.disc_of_hole[rim.hole_];
     for (int a = 0; a < unknowns.n_directions; ++a) {
       const int controlled = unknowns.controlled_of_disc(first_disc + a);
-      disc_ += z[rim.unknowns_.place(pfem::controlled_dof(controlled))] * rim::axis(rim.scene_.disc_directions[a]);
+      disc_ += z[rim.unknowns_.index(pfem::controlled_dof(controlled))] * rim::axis(rim.scene_.disc_directions[a]);
     }
   }
 
@@ -129,18 +126,18 @@ RimGap::SideGap RimGap::side_gap(const pfem::Side& side, const pfem::SideRule& r
   const auto n_points = rule.ds.size();
   std::vector<Eigen::RowVectorXd> rows;
   SideGap gap;
-  for (std::size_t i = 0; i < rule.modes.size(); ++i)
-    for (const int component : {0, 1}) {
-      const int place = unknowns_.place(dof_of(problem_, side, rule.modes[i], component));
-      if (place < 0) continue;
-      const double s = sign(problem_, side, rule.modes[i]);
-      gap.place.push_back(place);
-      rows.emplace_back(s * rule.N.row(i).cwiseProduct(rule.normal.row(component)));
-    }
+  const auto [dof, sign] = dofs_of(problem_, side, rule.modes);
+  const int n = count_of(rule.modes);
+  for (Eigen::Index i = 0; i < dof.size(); ++i) {
+    const int index = unknowns_.index(dof[i]);
+    if (index < 0) continue;
+    gap.index.push_back(index);
+    rows.emplace_back(sign[i] * rule.N.row(i % n).cwiseProduct(rule.normal.row(i / n)));
+  }
   const int first_disc = problem_.unknowns.disc_of_hole[hole_];
   for (int a = 0; a < problem_.unknowns.n_directions; ++a) {
     const int controlled = problem_.unknowns.controlled_of_disc(first_disc + a);
-    gap.place.push_back(unknowns_.place(pfem::controlled_dof(controlled)));
+    gap.index.push_back(unknowns_.index(pfem::controlled_dof(controlled)));
     rows.emplace_back(-rim::axis(scene_.disc_directions[a]).transpose() * rule.normal);
   }
   gap.a.resize(rows.size(), n_points);
@@ -156,8 +153,7 @@ Eigen::MatrixXd RimGap::stiffness(const Arcs& arcs) const {
     const SideSprings springs = side_springs(spring, plate_, side, problem_.numbering.p);
     const SideGap gap = side_gap(side, springs.rule);
     const Eigen::MatrixXd K = gap.a * springs.weight.asDiagonal() * gap.a.transpose();
-    for (std::size_t i = 0; i < gap.place.size(); ++i)
-      for (std::size_t j = 0; j < gap.place.size(); ++j) M(gap.place[i], gap.place[j]) += K(i, j);
+    M(gap.index, gap.index) += K;
   }
   return M;
 }

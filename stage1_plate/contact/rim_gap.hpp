@@ -13,13 +13,13 @@ namespace fastjoint::stage1 {
 /// What the gap functions of contact depend on: the n_r free coefficients on the rims of the holes whose springs push
 /// but do not pull, then the nc controlled displacements. z denotes their values, shape (n_r + nc).
 struct RimUnknowns {
-  std::vector<int> free;      ///< (n_r) free plate unknowns, ascending
-  std::vector<int> position;  ///< (n_f) place of a free unknown in `free`, or -1
+  std::vector<int> free;           ///< (n_r) free plate unknowns, ascending
+  std::vector<int> index_in_free;  ///< (n_f) of each free unknown, or -1
   int n_controlled;
 
   [[nodiscard]] int size() const { return count_of(free) + n_controlled; }
   /// Index in z of a degree of freedom, or -1 for a fixed one.
-  [[nodiscard]] int place(int dof) const;
+  [[nodiscard]] int index(int dof) const;
 };
 [[nodiscard]] RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate,
                                             const PlateProblem& problem);
@@ -48,9 +48,9 @@ class RimGap {
   [[nodiscard]] Peak peak(const Eigen::VectorXd& z) const;
 
  private:
-  /// Coefficients of g on one side, over places in z.
+  /// Coefficients of g on one side.
   struct SideGap {
-    std::vector<int> place;  ///< (n)
+    std::vector<int> index;  ///< (n) in z
     Eigen::MatrixXd a;       ///< (n, n_points)
   };
   [[nodiscard]] SideGap side_gap(const pfem::Side& side, const pfem::SideRule& rule) const;
