@@ -43,8 +43,7 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
 template <class File, class Plate>
 void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units) {
   const std::string group = "plates/" + a.name + "/", length = unit(units, 1, 0), force = unit(units, 0, 1);
-  file(group + "disc/hole", a.disc_hole, {any}, "1",
-       "hole or point of each disc, once for each direction in which it moves");
+  file(group + "disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   const Eigen::Index m = a.disc_hole.size();
   file(group + "disc/direction", a.disc_direction, {m}, "1", "direction of each disc, x or y");
   file(group + "external/id", a.external_id, {any}, "1", "external boundaries that move as one");
@@ -54,8 +53,7 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "Pe", a.Pe, {steps, e}, force, "force on each external");
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   const Eigen::Index h = a.friction_hole.size();
-  file(group + "friction/bearing", a.friction_bearing, {h}, "1",
-       "bearing side of each friction case: +x, -x, +y or -y");
+  file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
   file(group + "traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");

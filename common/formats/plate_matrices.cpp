@@ -22,20 +22,18 @@ template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
   file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(highest_degree));
   file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p", or_else(0));
-  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction in which it moves");
+  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each disc, x or y");
   file("disc/modulus", a.disc_modulus, {a.n_discs()}, unit(a.header.units, -3, 1),
        "modulus of the distributed springs between disc and sheet, 0 where there are none", or_else(0));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
-  file("external/direction", a.external_direction, {a.n_externals()}, "1", "direction of each external, x or y",
-       or_else("x"));
+  file("external/direction", a.external_direction, {a.n_externals()}, "1", "x or y, for each external", or_else("x"));
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
-  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "direction of each traction, x or y",
-       or_else("x"));
+  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x or y, for each traction", or_else("x"));
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
-       "bearing side of each friction case: +x, -x, +y or -y", h5::one_of(side_names));
+       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
 }
 
 template <class File, class Matrices>
@@ -113,7 +111,7 @@ void write_contacts(h5::Writer& file, const PlateMatrices& a) {
   file("loads/displacement", a.load_displacement, {any, a.n_externals() + a.n_discs()}, unit(units, 1, 0),
        "displacement of each external, then disc, under the loads of the input");
   file("loads/friction", a.load_friction, {any, a.n_friction_cases()}, unit(units, -2, 1),
-       "peak stress of each friction case under the loads of the input");
+       "peak stress of each friction case under the input's loads");
   file("loads/traction", a.load_traction, {any, a.n_tractions()}, unit(units, 0, 1),
        "force of each traction under the loads of the input");
 }

@@ -111,18 +111,17 @@ void name_datasets(File& file, Solution& a) {
        {.text = "numbers that do not fall", .low = 0, .step = 0});
   file("stress_p", a.stress_p, {any}, "1", "degrees whose stresses are to be extracted", degrees(pfem::highest_p));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
-  file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1",
-       "direction of each external, x or y", axis);
+  file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "x or y, for each external", axis);
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
   const Index q = a.traction_id.size();
-  file("traction/direction", a.traction_direction, {q}, "1", "direction of each traction, x or y", axis);
+  file("traction/direction", a.traction_direction, {q}, "1", "x or y, for each traction", axis);
   file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge");
-  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction in which it moves");
+  file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
-       "bearing side of each friction case: +x, -x, +y or -y", h5::one_of(side_names));
+       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
 }
 
 /// A group of three datasets.
@@ -165,8 +164,7 @@ void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
   file("loads/displacement", a.load_displacement, {any, nc}, length,
        "displacement of each external, then disc, under the loads of the input");
   const Index l = a.load_displacement.rows();
-  file("loads/friction", a.load_friction, {l, h}, stress,
-       "peak stress of each friction case under the loads of the input");
+  file("loads/friction", a.load_friction, {l, h}, stress, "peak stress of each friction case under the input's loads");
   file("loads/traction", a.load_traction, {l, q}, unit(a.header.units, 0, 1),
        "force of each traction under the loads of the input");
 }
@@ -197,8 +195,7 @@ void datasets(File& file, Solution& a) {
   name_datasets(file, a);
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
   const Index h = a.friction_hole.size(), q = a.traction_id.size();
-  sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness,
-                  "stiffness that couples plate unknowns to externals, then discs");
+  sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness, "stiffness between plate unknowns and externals, then discs");
   file("K_cc", a.K_cc, {nc, nc}, stiffness, "stiffness among externals and discs with the plate held");
   sparse_datasets(file, "L_f", a.L_f, n, h, area, "load on plate unknowns by each unit friction case");
   file("L_c", a.L_c, {nc, h}, area, "load on externals, then discs, by each unit friction case");

@@ -6,11 +6,8 @@
 #include <limits>
 
 namespace fastjoint::stage1 {
-namespace {
 
 constexpr double touching = 1e-9;  // radians: ends of neighbouring sides differ by rounding only
-
-}  // namespace
 
 Arcs joined(std::vector<rim::AngleRange> pieces) {
   for (auto& piece : pieces) {
@@ -40,8 +37,7 @@ double largest_move(const Arcs& before, const Arcs& after) {
   if (before.size() != after.size()) return std::numeric_limits<double>::infinity();
   double move = 0;
   for (const auto& arc : after) {
-    double nearest =
-        std::numeric_limits<double>::infinity();  // an arc that moves over pi changes its place in the list
+    double nearest = std::numeric_limits<double>::infinity();  // an arc moved over pi changes its place in the list
     for (const auto& old : before)
       nearest = std::min(
           nearest, std::max(std::abs(rim::wrapped(arc.from - old.from)), std::abs(rim::wrapped(arc.to - old.to))));
