@@ -217,6 +217,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     rims.sections = Eigen::VectorXi::Constant(1, 2);
     rims.values.resize(steps, std::vector<RimValues>(1));
     EXPECT_EQ(rim_quantities().size() * sizeof(double), sizeof(RimValues)) << "each member has its row";
+    for (const auto& one : rim_quantities())
+      EXPECT_EQ(std::ranges::count(rim_quantities(), one.value, &RimQuantity::value), 1) << one.name;
     double number = 0;
     for (const auto& each : rim_quantities())
       for (auto& row : rims.values)
