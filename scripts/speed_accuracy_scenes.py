@@ -67,7 +67,7 @@ class Scene:
 
     @staticmethod
     def cut(scene, path, cut):
-        run("stage1_plate", path, "-o", path.with_suffix(".h5"), "--p", 1, "--loads-only", "--quiet")
+        run("stage1_plate", path, "-o", path.with_suffix(".h5"), "--p", 1, "--quiet")
         with h5py.File(path.with_suffix(".h5")) as plate:
             scene["geometry"] = refined(plate, cut)
         for hole in scene["holes"]:

@@ -43,8 +43,7 @@ def solve_sheet(scene, p, stresses=False):
     """Both stages of a sheet beside its file PLATE.json, at the degrees p ("8" or "1..8"): MATRICES.h5, records."""
     options = [] if stresses else ["--loads-only"]
     plate, matrices = scene.with_suffix(".h5"), scene.with_suffix(".matrices.h5")
-    return matrices, [timed("stage1_plate", scene, plate, "--p", p, *options),
-                      timed("stage2_extract", plate, matrices)]
+    return matrices, [timed("stage1_plate", scene, plate, "--p", p), timed("stage2_extract", plate, matrices, *options)]
 
 
 def read_S_and_R(matrices, level=-1):

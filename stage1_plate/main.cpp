@@ -26,8 +26,7 @@ const program::Command command = {
      {"--accuracy", "A",
       "relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the "
       "input leaves open and the least degree within --p that do, and says so; warns where nothing does"},
-     {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"},
-     {"--loads-only", "", "leave out what only stresses need; stage 2 then extracts none"}}};
+     {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"}}};
 
 /// The worst of several warnings of one kind, and their number.
 struct WorstOfKind {
@@ -109,8 +108,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   if (arguments.flag("--accuracy")) timings.phase("search");
   const auto accuracy = meet_accuracy(scene, arguments);
   if (accuracy) scene = accuracy->scene;
-  const auto wanted = arguments.flag("--loads-only") ? stage1::Wanted::loads : stage1::Wanted::loads_and_stresses;
-  const auto plate = stage1::solve_plate(std::move(scene), wanted, program::generator(command.name), timings);
+  const auto plate = stage1::solve_plate(std::move(scene), program::generator(command.name), timings);
   warn(plate);
   timings.phase("write");
   formats::write(arguments.output, plate.solution);

@@ -77,7 +77,7 @@ void carry_over_contacts(const formats::PlateSolution& plate, formats::PlateMatr
 
 }  // namespace
 
-Extraction extract(const formats::PlateSolution& plate, const std::string& file, const std::string& generator) {
+Extraction extract(const formats::PlateSolution& plate, const std::string& generator, FieldSolver* solver) {
   Extraction result;
   auto& a = result.matrices;
   describe(plate, generator, a);
@@ -98,7 +98,7 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& file,
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
-  a.stresses = extract_stresses(plate, file);
+  a.stresses = extract_stresses(plate, solver);
   carry_over_contacts(plate, a);
   result.errors = matrices::relative_errors(levels, plate.p, plate.K_cc, fastest);
   result.checks = check(plate, a.friction_resultant, solved.back());  // before it is balanced

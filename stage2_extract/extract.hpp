@@ -5,6 +5,7 @@
 #include "common/formats/plate_solution.hpp"
 #include "common/matrices/stiffness_error.hpp"
 #include "stage2_extract/matrices/checks.hpp"
+#include "stage2_extract/stresses/fields.hpp"
 
 namespace fastjoint::stage2 {
 
@@ -15,9 +16,10 @@ struct Extraction {
   Checks checks;
 };
 
-/// @param file      Name of the plate's file, for messages.
 /// @param generator Name and version of the program.
-[[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& file,
-                                 const std::string& generator);
+/// @param solver    Of the plate, if stresses at rims and forces over sections are wanted in every unit case, else
+/// null.
+[[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& generator,
+                                 FieldSolver* solver);
 
 }  // namespace fastjoint::stage2

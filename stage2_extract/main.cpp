@@ -5,8 +5,10 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include "common/h5/whole_file.hpp"
+#include "common/linalg/threads.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
@@ -23,7 +25,8 @@ const program::Command command = {
     "superconvergent, for every degree, with error estimates. With --field: one of its stress fields, for ParaView.",
     "PLATE.h5",
     "MATRICES.h5",
-    {{"--field", "SPEC",
+    {{"--loads-only", "", "leave out the stresses at rims and the forces over sections in every unit case"},
+     {"--field", "SPEC",
       "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, loads (the scene's own), or cases "
       "with amounts, external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
      {"--plate", "NAME", "name of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
@@ -31,9 +34,10 @@ const program::Command command = {
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
 void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate,
-                    program::Timings& timings) {
+                    std::unique_ptr<stage2::FieldSolver> solver, program::Timings& timings) {
   timings.phase("extract");
-  const auto extraction = stage2::extract(plate, arguments.input, program::generator(command.name));
+  const auto extraction = stage2::extract(plate, program::generator(command.name), solver.get());
+  solver.reset();  // its memory is for writing
   stage2::require_good(extraction.checks, arguments.input);
   const auto& a = extraction.matrices;
   timings.phase("write");
@@ -54,11 +58,12 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
   std::cout << stage2::report(extraction.checks) << fmt::format("  digest {}\n", digest);
 }
 
-void write_field(const program::Arguments& arguments, const formats::PlateSolution& plate,
-                 const stage2::FieldRequest& request, program::Timings& timings) {
+void write_field(const program::Arguments& arguments, stage2::FieldSolver& solver, const stage2::FieldRequest& request,
+                 program::Timings& timings) {
+  const auto& plate = solver.plate();
   const auto state = stage2::field_state(plate, arguments.input, request);
   timings.phase("extract");
-  const auto field = stage2::make_field(plate, arguments.input, request, state);
+  const auto field = stage2::make_field(solver, arguments.input, request, state);
   timings.phase("write");
   h5::write_whole_file(arguments.output, stage2::vtu(plate, state, field));
   if (arguments.quiet) return;
@@ -81,21 +86,30 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
 }
 
 void require_memory(const std::string& file, double need) {
-  constexpr double libraries = 24e6;
-  program::require_memory(file + ": this", libraries + need, "",
-                          "a file of a lower p or fewer holes, or of stage1_plate --loads-only");
+  constexpr double libraries = 26e6;
+  program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes, or --loads-only");
 }
 
-/// Bytes of the matrices beside the plate's fields: stresses and condensed matrices stand in memory and in the file
-/// that is written, which HDF5 enlarges by copying it.
-double extraction_need(const formats::PlateSolution& plate, double file_size) {
+/// Bytes of what is made of the plate: condensed matrices as large as the plate's file, stresses, and the file of both,
+/// which HDF5 enlarges by copying it; a factor of the highest degree before that.
+double extraction_need(const formats::PlateSolution& plate, const stage2::FieldSolver* solver, double file_size) {
   constexpr double copies = 4;
-  double fields = 0;
-  for (const auto& each : plate.cases) fields += 8.0 * double(each.U.size() + each.V.size() + each.W.size());
-  return fields + copies * (std::max(file_size - fields, 0.0) + stage2::stress_bytes(plate));
+  const double rows = solver ? stage2::stress_bytes(plate) : 0;
+  const double factor = solver ? solver->factor_bytes(solver->numbering().p) : 0;
+  return file_size + std::max(copies * (file_size + rows), rows + factor);
+}
+
+/// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file, which has
+/// twice as many and is put together of its parts.
+double field_need(const stage2::FieldSolver& solver, double file_size) {
+  constexpr double numbers = 7 * sizeof(double), text = 2 * 14 * 22;
+  const int p = solver.numbering().p;
+  const double n_nodes = solver.plate().mesh.n_elements() * (p + 1) * (p + 1);
+  return file_size + solver.factor_bytes(p) + n_nodes * (numbers + text);
 }
 
 void run(const program::Arguments& arguments, program::Timings& timings) {
+  linalg::set_threads(1);
   timings.phase("read");
   const auto request = field_request(arguments);
   constexpr double of_reading = 3;  // the file's image, and its fields as they are filled
@@ -103,10 +117,15 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   const auto size = double(std::filesystem::file_size(arguments.input, none));
   if (!none) require_memory(arguments.input, of_reading * size);
   const auto plate = formats::read_plate_solution(arguments.input);
-  if (!arguments.flag("--field")) require_memory(arguments.input, extraction_need(plate, size));
+  std::unique_ptr<stage2::FieldSolver> solver;
+  timings.phase("integrate");
+  if (arguments.flag("--field") || !arguments.flag("--loads-only"))
+    solver = std::make_unique<stage2::FieldSolver>(plate, arguments.input);
+  require_memory(arguments.input,
+                 arguments.flag("--field") ? field_need(*solver, size) : extraction_need(plate, solver.get(), size));
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
-  if (!arguments.flag("--field")) return write_matrices(arguments, plate, timings);
-  write_field(arguments, plate, request, timings);
+  if (!arguments.flag("--field")) return write_matrices(arguments, plate, std::move(solver), timings);
+  write_field(arguments, *solver, request, timings);
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
       fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),
                   program::counted(n_steps, "increment"), bytes_text(results)),
       fmt::format("fewer increments, or {}",
-                  with_sensitivities ? "no --sensitivities" : "matrices of stage1_plate --loads-only"));
+                  with_sensitivities ? "no --sensitivities" : "matrices of stage2_extract --loads-only"));
 }
 
 }  // namespace
@@ -100,7 +100,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   check_results_spare(arguments, csv_file, scene);
   warn(log, scene.warnings);
   program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
-                          "matrices of fewer holes, or of stage1_plate --loads-only");
+                          "matrices of fewer holes, or of stage2_extract --loads-only");
   const JointModel joint = load_joint(scene, p);
   if (scene.solver.method == Method::exact_path && joint.n_directions() > 1)
     refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",

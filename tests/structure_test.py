@@ -11,15 +11,14 @@ STAGES = {
     "stage1_plate": {
         "scene": ["input", "pfem", "rim", ""],
         "mesh": ["pfem", "rim", ""],
-        "problem": ["pfem", "rim", ""],
-        "factor": ["linalg", "pfem", ""],
-        "contact": ["pfem", "rim", ""],
-        "run": ["formats", "linalg", "matrices", "program", "rim", ""],
+        "problem": ["pfem", "plate", "rim", ""],
+        "contact": ["pfem", "plate", "rim", ""],
+        "run": ["formats", "linalg", "matrices", "plate", "program", "rim", ""],
         "": ["linalg", "program"],
     },
     "stage2_extract": {
         "matrices": ["formats", ""],
-        "stresses": ["formats", "pfem", "rim", ""],
+        "stresses": ["formats", "pfem", "plate", "rim", ""],
         "field": ["formats", "h5", "pfem", ""],
         "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
     },
@@ -42,12 +41,13 @@ COMMON = {
     "matrices": [""],
     "pfem": ["", "linalg"],
     "rim": ["pfem"],
+    "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
     "formats": ["", "h5", "pfem", "rim"],
     "program": ["", "h5"],
 }
 # Of finite elements the third stage knows the angles of a rim alone; of formats those without a mesh.
-THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg", "common/rim/rim.hpp", "common/rim/bearing.hpp",
+THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg", "common/plate/", "common/rim/rim.hpp", "common/rim/bearing.hpp",
                        "common/formats/plate_solution")
 
 

@@ -15,8 +15,8 @@ using h5::any;
 using h5::Column;
 
 constexpr const char* format = "plate-solution";
-constexpr int major = 3;
-constexpr int minor = 1;
+constexpr int major = 4;
+constexpr int minor = 0;
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
 template <class File, class Mesh>
@@ -76,6 +76,8 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
       "each side of an element on a rim: index in hole/id, element, local edge (0 bottom, then counter-clockwise)");
   file("hole/modulus", Column{a.hole_spring, &rim::HoleSpring::modulus}, {n}, unit(a.header.units, -3, 1),
        "modulus of the distributed springs, 0 if none");
+  file("hole/link", Column{a.hole_spring, &rim::HoleSpring::link}, {n}, unit(a.header.units, -1, 1),
+       "stiffness of the link at each node of the rim, 0 if none");
   auto arcs = joined(a.hole_spring, &rim::HoleSpring::acts);
   using Arc = Owned<rim::AngleRange>;
   file("hole/sprung", Column{arcs, &Arc::owner}, {any}, "1",
@@ -109,7 +111,6 @@ void name_datasets(File& file, Solution& a) {
   file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(pfem::highest_p));
   file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p",
        {.text = "numbers that do not fall", .low = 0, .step = 0});
-  file("stress_p", a.stress_p, {any}, "1", "degrees whose stresses are to be extracted", degrees(pfem::highest_p));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "x or y, for each external", axis);
   file("traction/id", a.traction_id, {any}, "1",
@@ -122,6 +123,14 @@ void name_datasets(File& file, Solution& a) {
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
+  file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1",
+       "vertex of the mesh that each spring of a point holds", h5::index_into(a.mesh.n_nodes()));
+  const Index n_points = a.points.size();
+  file("point/disc", Column{a.points, &PointSpring::disc}, {n_points}, "1",
+       "index in disc/hole of the disc that it holds it to, along the disc's direction",
+       h5::index_into(std::ssize(a.disc_hole)));
+  file("point/stiffness", Column{a.points, &PointSpring::stiffness}, {n_points}, unit(a.header.units, -1, 1),
+       "stiffness of each of these springs");
 }
 
 /// A group of three datasets.
@@ -169,20 +178,15 @@ void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
        "force of each traction under the loads of the input");
 }
 
-/// Datasets of one degree with n unknowns. If stresses are wanted, the fields of all cases are there; else those of
-/// externals, discs and friction are not.
+/// Datasets of one degree with n unknowns.
 template <class File, class Cases>
-void case_datasets(File& file, const std::string& group, Cases& a, bool stressed, Index n, Index nc, Index h, Index q,
+void case_datasets(File& file, const std::string& group, Cases& a, Index n, Index nc, Index h, Index q,
                    const Units& units) {
   file(group + "E_c", a.E_c, {nc, nc}, unit(units, -0.5, 0.5),
        "unit fields of externals and discs in a basis orthonormal in energy");
   file(group + "E_h", a.E_h, {h, nc}, unit(units, 2.5, -0.5), "fields of unit friction cases in the basis of E_c");
-  file(group + "U", a.U.transpose(), {stressed ? nc : 0, n}, "1",
-       "plate unknowns per unit displacement of an external or disc");
   file(group + "V", a.V.transpose(), {q, n}, unit(units, 1, -1),
        "plate unknowns per unit total force on a traction boundary");
-  file(group + "W", a.W.transpose(), {stressed ? h : 0, n}, unit(units, 1, 0),
-       "plate unknowns under each unit friction case");
 }
 
 template <class File, class Solution>
@@ -204,10 +208,8 @@ void datasets(File& file, Solution& a) {
   file("shift", a.shift, {nc}, stiffness, "artificial stiffness: diagonal of E_c E_c^T less that of S");
   load_datasets(file, a, nc, h, q);
   if constexpr (File::reads) a.cases.resize(a.p.size());
-  for (std::size_t i = 0; i < a.cases.size(); ++i) {
-    const bool stressed = std::find(a.stress_p.begin(), a.stress_p.end(), a.p[i]) != a.stress_p.end();
-    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], stressed, a.ndof[i], nc, h, q, units);
-  }
+  for (std::size_t i = 0; i < a.cases.size(); ++i)
+    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], a.ndof[i], nc, h, q, units);
   file("probe/displacement", a.probe.displacement, {nc}, length, "amounts of externals, then discs, in the field u");
   file("probe/friction", a.probe.friction, {h}, unit(units, -2, 1), "amounts of friction cases in the field w");
   file("probe/u", a.probe.u, {n}, length, "plate unknowns of the highest degree under these displacements");
@@ -237,9 +239,6 @@ void check(const h5::Reader& file, const PlateSolution& a) {
   file.check("friction/hole", a.friction_hole, hole);
   hole.words->emplace_back();  // of an edge
   file.check("traction/hole", a.traction_hole, hole);
-  for (const int p : a.stress_p)
-    if (std::find(a.p.begin(), a.p.end(), p) == a.p.end())
-      throw FileError(fmt::format("{}:stress_p: {} is not in p", file.path(), p));
 }
 
 }  // namespace

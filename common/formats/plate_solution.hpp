@@ -17,9 +17,7 @@ struct PlateCases {
   Eigen::MatrixXd E_c;  ///< (nc, nc) coordinates of the unit fields of controlled displacements in a basis that is
                         ///< orthonormal in energy; E_c E_c^T = S + diag(shift), square root of force / length
   Eigen::MatrixXd E_h;  ///< (h, nc) of those of friction cases, as far as they do work on the former: E_c E_h^T = R
-  Eigen::MatrixXd U;    ///< (n_p, nc) plate unknowns per unit of each controlled displacement, or no columns
   Eigen::MatrixXd V;    ///< (n_p, q) plate unknowns per unit total force on each traction boundary
-  Eigen::MatrixXd W;    ///< (n_p, h) under each friction case, or no columns
 };
 
 /// Two fields of the highest degree that are solved on their own, to check S, R and T by them.
@@ -28,6 +26,13 @@ struct Probe {
   Eigen::VectorXd friction;      ///< (h) amount of each friction case in the second, stress
   Eigen::VectorXd u, w;          ///< (n_f) plate unknowns in the first and the second
   double rounding = 0;           ///< what rounding may change of S, estimated by the first, force / length
+};
+
+/// A spring between a vertex of the mesh and a disc of its own, along the disc's direction.
+struct PointSpring {
+  int vertex;
+  int disc;          ///< index into disc_hole
+  double stiffness;  ///< force / length
 };
 
 /// A hole whose springs push but do not pull, under the scene's loads.
@@ -62,8 +67,8 @@ struct PlateSolution : UnitCases {
   Eigen::SparseMatrix<double> T_f;   ///< (n_f, q) loads of the unit tractions
   Eigen::MatrixXd T_c;               ///< (nc, q)
   Eigen::VectorXd shift;             ///< (nc) that E_c E_c^T is larger than S by, on the diagonal, force / length
-  Eigen::VectorXi stress_p;          ///< degrees whose stresses are wanted: those that have U and W
-  std::vector<PlateCases> cases;     ///< one for each p
+  std::vector<PointSpring> points;
+  std::vector<PlateCases> cases;  ///< one for each p
   Probe probe;
   std::vector<RimContact> contacts;
 };

@@ -30,10 +30,11 @@ struct Rim {
 [[nodiscard]] pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,
                                       const std::vector<AngleRange>& ranges = {});
 
-/// Distributed normal springs of a hole.
+/// Normal springs between the rim of a hole and the rigid disc in it: distributed, or links at the nodes of the rim.
 struct HoleSpring {
-  double modulus = 0;            ///< force / length^3; 0 where the rim between links, or all of it, is free
-  std::vector<AngleRange> acts;  ///< the sprung parts of the rim
+  double modulus = 0;                 ///< force / length^3; 0 with links, and of an open hole
+  double link = 0;                    ///< force / length at each node, half of it for either side that ends there
+  std::vector<AngleRange> acts = {};  ///< the sprung parts of the rim
 };
 
 /// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.

@@ -21,8 +21,8 @@ bool has_friction(const std::vector<Load>& loads) {
 std::vector<Load> controlled_loads(const PlateScene& scene, const Unknowns& unknowns) {
   const SceneLoads& given = scene.given_loads();
   std::vector<Load> loads;
-  loads.reserve(unknowns.rigid.size() + given.disc.size());
-  for (const int external : unknowns.rigid) loads.push_back(given.external[external]);
+  loads.reserve(unknowns.n_controlled());
+  for (const int external : rigid_externals(scene)) loads.push_back(given.external[external]);
   loads.insert(loads.end(), given.disc.begin(), given.disc.end());
   return loads;
 }
@@ -36,11 +36,11 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
       rim_(find_rim_unknowns(scene, plate, problem)),
       plate_matrices_(condense_to_rims(problem, rim_, has_friction(scene.given_loads().disc))),
       loads_(controlled_loads(scene, problem.unknowns)),
-      traction_(problem.unknowns.traction.size()),
+      traction_(problem.T_f.cols()),
       side_(loads_.size(), 0),
       whole_(Eigen::MatrixXd::Zero(rim_.size(), rim_.size())) {
-  for (std::size_t i = 0; i < problem.unknowns.traction.size(); ++i)
-    traction_[i] = scene.given_loads().external[problem.unknowns.traction[i]].value;
+  const auto tractions = traction_externals(scene);
+  for (std::size_t i = 0; i < tractions.size(); ++i) traction_[i] = scene.given_loads().external[tractions[i]].value;
   for (int hole = 0; hole < count_of(scene.holes); ++hole) {
     const auto& spring = scene.holes[hole].spring;
     if (!spring || !spring->compression_only) continue;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/contact/rim_condensation.hpp"
 
-#include "stage1_plate/factor/plate_factor.hpp"
+#include "common/plate/plate_factor.hpp"
 
 namespace fastjoint::stage1 {
 
@@ -16,7 +16,7 @@ RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns&
   B.middleCols(nc, q) = Eigen::MatrixXd(problem.T_f);
   for (Eigen::Index i = 0; i < n_r; ++i) B(rim.free[i], nc + q + i) = 1;
   if (with_friction) B.rightCols(h) = Eigen::MatrixXd(problem.L_f);
-  const Eigen::MatrixXd X = PlateFactor(problem, Skeleton(problem), problem.numbering.p).solve(B);
+  const Eigen::MatrixXd X = plate::PlateFactor(problem, plate::Skeleton(problem), problem.numbering.p).solve(B);
   const Eigen::MatrixXd X_r = X(rim.free, Eigen::all);
   const auto U = X.leftCols(nc);
   RimCondensation a;

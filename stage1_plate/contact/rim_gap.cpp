@@ -8,7 +8,6 @@
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/rim/bearing.hpp"
-#include "stage1_plate/problem/springs.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -51,7 +50,7 @@ int RimUnknowns::index(int dof) const {
 }
 
 RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
-  RimUnknowns unknowns{{}, {}, problem.unknowns.n_controlled};
+  RimUnknowns unknowns{{}, {}, problem.unknowns.n_controlled()};
   unknowns.index_in_free.assign(problem.unknowns.n_free.back(), -1);
   constexpr int on_rim = 0;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
@@ -150,7 +149,8 @@ Eigen::MatrixXd RimGap::stiffness(const Arcs& arcs) const {
   Spring spring = scene_.holes[hole_].sprung();
   spring.acts = arcs;
   for (const auto& side : plate_.rims[hole_].sides) {
-    const SideSprings springs = side_springs(spring, plate_, side, problem_.numbering.p);
+    const plate::SideSprings springs =
+        plate::side_springs(spring, plate_.mesh, plate_.edges, side, problem_.numbering.p);
     const SideGap gap = side_gap(side, springs.rule);
     const Eigen::MatrixXd K = gap.a * springs.weight.asDiagonal() * gap.a.transpose();
     M(gap.index, gap.index) += K;

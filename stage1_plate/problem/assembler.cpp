@@ -6,7 +6,7 @@ namespace fastjoint::stage1 {
 Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns)
     : numbering_(numbering),
       unknowns_(unknowns),
-      controlled_(Eigen::MatrixXd::Zero(unknowns.n_controlled, n_columns)) {}
+      controlled_(Eigen::MatrixXd::Zero(unknowns.n_controlled(), n_columns)) {}
 
 void Assembler::add(int dof, int column, double value) {
   if (pfem::is_free(dof)) free_.emplace_back(dof, column, value);

@@ -11,8 +11,8 @@
 namespace fastjoint::stage1 {
 namespace {
 
-std::vector<PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-  std::vector<PointTie> ties;
+std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  std::vector<plate::PointTie> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
     for (int a = 0; a < unknowns.n_directions; ++a) {
       const std::string& direction = scene.disc_directions[a];
@@ -21,7 +21,7 @@ std::vector<PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate
         reject(scene, fmt::format("/points/{}/at", i),
                fmt::format("a support holds the vertex along {}, so that the spring cannot load the plate", direction),
                "vertices that are free to move along every one of \"disc_directions\"");
-      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(unknowns.disc_of_point[i] + a),
+      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a),
                       scene.points[i].stiffness});
     }
   return ties;
@@ -38,7 +38,7 @@ void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assemble
 
 /// Calls visit(hole, element, terms, scale) for every side of a sprung rim.
 template <class Visit>
-void for_each_rim_side(const PlateElements& elements, Visit visit) {
+void for_each_rim_side(const plate::PlateElements& elements, Visit visit) {
   for (int element = 0; element < count_of(elements.class_of); ++element)
     for (const auto& rim : elements.classes[elements.class_of[element]].rims)
       visit(elements.holes[element][rim.hole], element, rim.terms, elements.scale[element]);
@@ -50,7 +50,7 @@ void for_each_rim_side(const PlateElements& elements, Visit visit) {
 void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler& assembler) {
   const Unknowns& unknowns = problem.unknowns;
   std::vector<double> stiffness(scene.holes.size(), 0);
-  for_each_rim_side(problem.elements, [&](int hole, int element, const RimTerms& terms, double scale) {
+  for_each_rim_side(problem.elements, [&](int hole, int element, const plate::RimTerms& terms, double scale) {
     const int first = unknowns.controlled_of_disc(unknowns.disc_of_hole[hole]);
     stiffness[hole] += terms.stiffness;
     assembler.add_stiffness(element, terms.modes, terms.plate, scale);
@@ -73,7 +73,7 @@ void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler
 /// traction cos(theta) on the bearing half of the rim that drags the plate along the bearing direction.
 void add_friction_loads(PlateProblem& problem) {
   Assembler loads(problem.numbering, problem.unknowns, count_of(problem.friction_hole));
-  for_each_rim_side(problem.elements, [&](int hole, int element, const RimTerms& terms, double scale) {
+  for_each_rim_side(problem.elements, [&](int hole, int element, const plate::RimTerms& terms, double scale) {
     const int first = 2 * problem.unknowns.disc_of_hole[hole];  // discs of holes come before those of points
     for (int i = 0; i < terms.friction.cols(); ++i)
       loads.add(element, terms.modes, scale * terms.friction.col(i), first + i);
@@ -123,7 +123,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
 /// Sets T_f and T_c: unit total force on every external that is not rigid, as uniform traction on an edge or as cosine
 /// pressure on an open hole.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
-  const auto& list = problem.unknowns.traction;
+  const auto list = traction_externals(scene);
   Assembler loads(problem.numbering, problem.unknowns, count_of(list));
   for (int column = 0; column < count_of(list); ++column) {
     const External& external = scene.externals[list[column]];
@@ -141,13 +141,37 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   }
 }
 
+double largest(const Eigen::SparseMatrix<double>& A) { return A.nonZeros() > 0 ? A.coeffs().abs().maxCoeff() : 0; }
+
 }  // namespace
+
+plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
+  plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, Eigen::Matrix2Xd(2, scene.disc_directions.size())};
+  for (const auto& hole : scene.holes) sprung.springs.emplace_back(hole.spring);
+  for (int a = 0; a < count_of(scene.disc_directions); ++a) sprung.axes.col(a) = rim::axis(scene.disc_directions[a]);
+  return sprung;
+}
+
+Eigen::VectorXd shift(const PlateProblem& problem) {
+  return problem.K_cc.diagonal().unaryExpr([](double k) { return k > 0 ? k : 1; });
+}
+
+/// The friction cases come last, so that their diagonal changes nothing before them; it must be above L^T K^-1 L
+/// (docs/theory.md, section 4.4).
+Eigen::VectorXd border_diagonal(const PlateProblem& problem) {
+  const auto s = shift(problem);
+  const double L = largest(problem.L_f), large = L > 0 ? 1e30 * L * L / s.maxCoeff() : 1;
+  Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(s.size() + problem.L_f.cols(), large);
+  diagonal.head(s.size()) = s;
+  return diagonal;
+}
 
 PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
-  problem.elements = classify_elements(scene, plate, problem.numbering, problem.unknowns);
+  problem.elements = plate::classify_elements(sprung_mesh(scene, plate), problem.numbering, problem.unknowns);
+  problem.n_tractions = count_of(traction_externals(scene));
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (const auto& hole : scene.holes) {
     if (!hole.spring) continue;
@@ -163,8 +187,8 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   problem.elements.stiffness =
       pfem::integrate(problem.elements.congruent, plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
-  Assembler assembler(problem.numbering, problem.unknowns, problem.unknowns.n_controlled);
-  if (problem.unknowns.n_externals() > 0) add_externals(plate, problem, assembler);
+  Assembler assembler(problem.numbering, problem.unknowns, problem.unknowns.n_controlled());
+  if (problem.unknowns.n_externals > 0) add_externals(plate, problem, assembler);
   add_springs(scene, problem, assembler);
   for (const auto& tie : problem.ties) assembler.add_spring(tie.dof, tie.controlled, tie.stiffness);
   problem.K_fc = assembler.free();

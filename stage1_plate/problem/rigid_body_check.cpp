@@ -10,8 +10,8 @@
 #include <numeric>
 
 #include "common/errors.hpp"
+#include "common/plate/springs.hpp"
 #include "common/rim/bearing.hpp"
-#include "stage1_plate/problem/springs.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -101,7 +101,7 @@ class Ties {
       if (!scene.holes[hole].spring) continue;
       for (const auto& side : plate.rims[hole].sides) {
         const std::size_t part = part_of(plate.mesh.quads(0, side.element));
-        const auto [rule, weight] = side_springs(*scene.holes[hole].spring, plate, side, 1);
+        const auto [rule, weight] = plate::side_springs(*scene.holes[hole].spring, plate.mesh, plate.edges, side, 1);
         for (Eigen::Index q = 0; q < weight.size(); ++q) {
           if (weight[q] == 0) continue;
           const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();
@@ -115,14 +115,14 @@ class Ties {
   }
 
   void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-    for (std::size_t i = 0; i < plate.point_nodes.size(); ++i) {
+    for (int i = 0; i < count_of(plate.point_nodes); ++i) {
       const int node = plate.point_nodes[i];
       const std::size_t part = part_of(node);
       const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
       for (int a = 0; a < unknowns.n_directions; ++a)
         ties_.push_back({part,
                          rim::axis(scene.disc_directions[a]).transpose() * u,
-                         {{unknowns.controlled_of_disc(unknowns.disc_of_point[i] + a), 1}}});
+                         {{unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a), 1}}});
     }
   }
 
@@ -168,7 +168,7 @@ void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns&
 bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   const Ties ties(scene, plate, unknowns);
   const auto first = 3 * ties.parts().size();
-  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(first + unknowns.n_controlled, first + unknowns.n_controlled);
+  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(first + unknowns.n_controlled(), first + unknowns.n_controlled());
   for (const auto& tie : ties.all()) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(held.cols());
     row.segment<3>(3 * tie.part) = tie.a;
@@ -178,7 +178,8 @@ bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const 
   const auto hold = [&](int controlled, const Load& load) {
     if (!load.is_force) held(first + controlled, first + controlled) += 1;
   };
-  for (int i = 0; i < unknowns.n_externals(); ++i) hold(i, scene.loads->external[unknowns.rigid[i]]);
+  const auto rigid = rigid_externals(scene);
+  for (int i = 0; i < unknowns.n_externals; ++i) hold(i, scene.loads->external[rigid[i]]);
   for (int i = 0; i < unknowns.n_discs(); ++i) hold(unknowns.controlled_of_disc(i), scene.loads->disc[i]);
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held, Eigen::EigenvaluesOnly);
   return eigen.eigenvalues()[0] > free_to_move * eigen.eigenvalues()[held.rows() - 1];

@@ -31,9 +31,9 @@ std::vector<int> functions_on(const pfem::Numbering& numbering, const pfem::Side
 }
 
 /// The vertices of its sides move with an external; their edge modes, which would bend it, are zero.
-void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering, int index,
-             Unknowns& unknowns) {
-  const External& external = scene.externals[unknowns.rigid[index]];
+void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering, int external_index,
+             int index, Unknowns& unknowns) {
+  const External& external = scene.externals[external_index];
   for (const auto& side : plate.sets.at(external.on))
     for (const int function : functions_on(numbering, side)) {
       int& dof = unknowns.dofs(component_of(external.direction), function);
@@ -54,20 +54,30 @@ void add_discs(const PlateScene& scene, Unknowns& unknowns) {
     unknowns.disc_of_hole.push_back(hole.spring ? disc : -1);
     if (hole.spring) disc += unknowns.n_directions;
   }
-  for (int i = 0; i < count_of(scene.points); ++i) unknowns.disc_of_point.push_back(disc + i * unknowns.n_directions);
-  unknowns.n_controlled = unknowns.n_externals() + unknowns.n_discs();
 }
 
-void number_free(const pfem::Numbering& numbering, Unknowns& unknowns) {
-  int n_free = 0, i = 0;
-  for (const int n_functions : numbering.n_functions) {
-    for (; i < 2 * n_functions; ++i)
-      if (int& dof = unknowns.dofs(i % 2, i / 2); dof == undecided) dof = n_free++;
-    unknowns.n_free.push_back(n_free);
-  }
+void number_free(Unknowns& unknowns) {
+  int n_free = 0;
+  for (int& dof : unknowns.dofs.reshaped())
+    if (dof == undecided) dof = n_free++;
+}
+
+std::vector<int> externals(const PlateScene& scene, bool rigid) {
+  std::vector<int> list;
+  for (int i = 0; i < count_of(scene.externals); ++i)
+    if ((scene.externals[i].kind == ExternalKind::rigid) == rigid) list.push_back(i);
+  return list;
 }
 
 }  // namespace
+
+std::vector<int> rigid_externals(const PlateScene& scene) { return externals(scene, true); }
+
+std::vector<int> traction_externals(const PlateScene& scene) { return externals(scene, false); }
+
+int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point) {
+  return unknowns.n_discs() - (count_of(scene.points) - point) * unknowns.n_directions;
+}
 
 Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
   Unknowns unknowns;
@@ -77,11 +87,11 @@ Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, cons
       for (const auto& side : plate.sets.at(support.on))
         for (const int function : functions_on(numbering, side))
           unknowns.dofs(component_of(direction), function) = pfem::fixed_dof;
-  for (int i = 0; i < count_of(scene.externals); ++i)
-    (scene.externals[i].kind == ExternalKind::rigid ? unknowns.rigid : unknowns.traction).push_back(i);
-  for (int i = 0; i < unknowns.n_externals(); ++i) control(scene, plate, numbering, i, unknowns);
+  for (const int external : rigid_externals(scene))
+    control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
   add_discs(scene, unknowns);
-  number_free(numbering, unknowns);
+  number_free(unknowns);
+  unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
   return unknowns;
 }
 

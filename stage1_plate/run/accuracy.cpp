@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "common/linalg/condensed.hpp"
-#include "stage1_plate/factor/plate_factor.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/run/memory.hpp"
 
@@ -23,8 +23,8 @@ void raise_degree(Accuracy& model) {
   const PlateMesh plate = make_mesh(model.scene);
   PlateProblem problem = number_unknowns(model.scene, plate);
   check_held(model.scene, plate, problem.unknowns);
-  const Skeleton skeleton(problem);
-  const int nc = problem.unknowns.n_controlled;
+  const plate::Skeleton skeleton(problem);
+  const int nc = problem.unknowns.n_controlled();
   if (nc == 0)
     throw InputError(
         fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
@@ -34,9 +34,9 @@ void raise_degree(Accuracy& model) {
   matrices::CondensedLevels levels;
   for (int p = model.scene.p_low; p <= highest; ++p) {
     const auto alone = Eigen::VectorXi::Constant(1, p);
-    require_memory(model.scene.file, p, memory_need(problem, skeleton, alone, Wanted::loads));
+    require_memory(model.scene.file, p, memory_need(problem, skeleton, alone));
     if (p == model.scene.p_low) integrate(model.scene, plate, problem);
-    const PlateFactor K(problem, skeleton, p);
+    const plate::PlateFactor K(problem, skeleton, p, border_diagonal(problem));
     const Eigen::MatrixXd E = K.energy_rows();
     levels.S.push_back(linalg::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
     levels.R.push_back(E.topRows(nc) * E.bottomRows(E.rows() - nc).transpose());

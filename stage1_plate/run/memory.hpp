@@ -3,18 +3,16 @@
 
 #include <algorithm>
 
-#include "stage1_plate/factor/skeleton.hpp"
+#include "common/plate/plate_factor.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
-
-/// What stage 2 is to extract from the plate.
-enum class Wanted { loads_and_stresses, loads };
 
 /// Bytes that a run takes at its highest degree, known before anything is integrated.
 struct MemoryNeed {
   double elements;  ///< matrices of the classes of elements
   double factor;    ///< the skeleton's stiffness and its factor
-  double fields;    ///< fields of the unit cases, and the file that they go into
+  double fields;    ///< fields of tractions and of the probe, and the file that they go into
   double contact;   ///< fields in the search for contact, which ends before these are solved; 0 without one
   double program;
 
@@ -25,8 +23,8 @@ struct MemoryNeed {
 };
 /// @param problem Result of number_unknowns. @param p Degrees to be solved, ascending. @param n_rim Number of unknowns
 /// on the rims on which contact is looked for, 0 without.
-[[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const Skeleton& skeleton, const Eigen::VectorXi& p,
-                                     Wanted wanted, int n_rim = 0);
+[[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton,
+                                     const Eigen::VectorXi& p, int n_rim = 0);
 
 /// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
 void require_memory(const std::string& file, int p, const MemoryNeed& need);

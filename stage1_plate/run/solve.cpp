@@ -8,24 +8,19 @@
 #include <set>
 
 #include "common/count.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
-#include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
-#include "stage1_plate/problem/springs.hpp"
 
 namespace fastjoint::stage1 {
 
 namespace {
 
-formats::PlateCases solve_degree(const PlateProblem& problem, const PlateFactor& K, int n, bool with_fields) {
+formats::PlateCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int n) {
   const Eigen::MatrixXd E = K.energy_rows();
-  const auto solve = [&](const Eigen::SparseMatrix<double>& loads, bool wanted) -> Eigen::MatrixXd {
-    return wanted ? K.solve(Eigen::MatrixXd(loads.topRows(n))) : Eigen::MatrixXd(n, 0);
-  };
   const auto nc = problem.K_fc.cols();
-  return {E.topRows(nc), E.bottomRows(E.rows() - nc), solve(-problem.K_fc, with_fields), solve(problem.T_f, true),
-          solve(problem.L_f, with_fields)};
+  return {E.topRows(nc), E.bottomRows(E.rows() - nc), K.solve(Eigen::MatrixXd(problem.T_f.topRows(n)))};
 }
 
 /// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
@@ -34,7 +29,7 @@ Eigen::VectorXd amounts(Eigen::Index n_cases) {
   return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
 }
 
-formats::Probe probe(const PlateProblem& problem, const PlateFactor& K) {
+formats::Probe probe(const PlateProblem& problem, const plate::PlateFactor& K) {
   const Eigen::VectorXd displacement = amounts(problem.K_fc.cols()), friction = amounts(problem.L_f.cols());
   Eigen::MatrixXd B(problem.K_fc.rows(), 2);
   B << -(problem.K_fc * displacement), problem.L_f * friction;
@@ -55,14 +50,14 @@ std::string arcs_text(const RimContact& contact) {
 }  // namespace
 
 formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem,
-                                   const std::string& generator, Wanted wanted) {
+                                   const std::string& generator) {
   formats::PlateSolution a;
   a.header = {generator, scene.name, scene.units, scene.text};
   a.mesh = plate.mesh;
   a.elasticity = scene.elasticity;
   for (const auto& hole : scene.holes) {
     a.hole_id.push_back(hole.id);
-    a.hole_spring.push_back(spring_of(hole));
+    a.hole_spring.push_back(hole.spring ? rim::HoleSpring(*hole.spring) : rim::HoleSpring{});
   }
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
@@ -80,9 +75,9 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
       directions.push_back(scene.externals[i].direction);
     }
   };
-  name(unknowns.rigid, a.external_id, a.external_direction);
-  name(unknowns.traction, a.traction_id, a.traction_direction);
-  for (const int i : unknowns.traction) {
+  name(rigid_externals(scene), a.external_id, a.external_direction);
+  name(traction_externals(scene), a.traction_id, a.traction_direction);
+  for (const int i : traction_externals(scene)) {
     const External& external = scene.externals[i];
     a.traction_hole.push_back(external.kind == ExternalKind::bearing ? external.on : "");
   }
@@ -97,8 +92,8 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.T_f = problem.T_f;
   a.T_c = problem.T_c;
   a.shift = shift(problem);
-  constexpr Eigen::Index n_stress_levels = 2;  // their difference estimates the error
-  if (wanted == Wanted::loads_and_stresses) a.stress_p = a.p.tail(std::min(a.p.size(), n_stress_levels));
+  for (const auto& tie : problem.ties)
+    a.points.push_back({tie.vertex, tie.controlled - unknowns.n_externals, tie.stiffness});
   a.load_displacement.resize(0, problem.K_cc.cols());
   a.load_friction.resize(0, problem.L_f.cols());
   a.load_traction.resize(0, problem.T_f.cols());
@@ -113,26 +108,25 @@ void add_contact(const RimContactState& state, formats::PlateSolution& a) {
   a.load_traction = state.traction.transpose();
 }
 
-void solve_cases(const PlateProblem& problem, const Skeleton& skeleton, formats::PlateSolution& a,
+void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a,
                  program::Timings& timings) {
   for (Eigen::Index i = 0; i < a.p.size(); ++i) {
     timings.phase("factorise");
-    const PlateFactor K(problem, skeleton, a.p[i]);
+    const plate::PlateFactor K(problem, skeleton, a.p[i], border_diagonal(problem));
     timings.phase("solve");
-    const bool with_fields = (a.stress_p.array() == a.p[i]).any();
-    a.cases.push_back(solve_degree(problem, K, a.ndof[i], with_fields));
+    a.cases.push_back(solve_degree(problem, K, a.ndof[i]));
     if (i + 1 == a.p.size()) a.probe = probe(problem, K);
   }
 }
 
-SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& generator, program::Timings& timings) {
+SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings) {
   timings.phase("mesh");
   const PlateMesh plate = make_mesh(scene);
   PlateProblem problem = number_unknowns(scene, plate);
   check_held(scene, plate, problem.unknowns);
-  const Skeleton skeleton(problem);  // of vertices and edges, whatever arcs contact finds
+  const plate::Skeleton skeleton(problem);  // of vertices and edges, whatever arcs contact finds
   const int n_rim = scene.loads ? count_of(find_rim_unknowns(scene, plate, problem).free) : 0;
-  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), wanted, n_rim);
+  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), n_rim);
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);
@@ -145,7 +139,7 @@ SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& gene
     problem = assemble(scene, plate);
     check_held(scene, plate, problem.unknowns);
   }
-  auto solution = to_solution(scene, plate, problem, generator, wanted);
+  auto solution = to_solution(scene, plate, problem, generator);
   if (contact) add_contact(*contact, solution);
   solve_cases(problem, skeleton, solution, timings);
   for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);

@@ -13,15 +13,14 @@ namespace fastjoint::stage1 {
 
 /// The scene, the mesh and the problem as stage 2 needs them, without the cases.
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
-                                                 const PlateProblem& problem, const std::string& generator,
-                                                 Wanted wanted);
+                                                 const PlateProblem& problem, const std::string& generator);
 
 /// Sets the contacts and the loads of a scene that has them.
 void add_contact(const RimContactState& state, formats::PlateSolution& solution);
 
-/// Factorises the plate at every degree and solves what stage 2 reads: all fields at the degrees whose stresses are
-/// wanted, elsewhere those of tractions only, and at the highest degree the probe. Phases: factorise, solve.
-void solve_cases(const PlateProblem& problem, const Skeleton& skeleton, formats::PlateSolution& solution,
+/// Factorises the plate at every degree and solves what stage 2 reads: the fields of tractions, and at the highest
+/// degree the probe. Phases: factorise, solve.
+void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution,
                  program::Timings& timings);
 
 /// A scene and what became of it.
@@ -34,8 +33,7 @@ struct SolvedPlate {
 
 /// Mesh, matrices, contact if the scene has loads, unit cases. Phases: mesh, integrate, factorise, solve.
 /// Throws InputError for a scene that does not fit together or into memory, NumericalError for one that moves.
-[[nodiscard]] SolvedPlate solve_plate(PlateScene scene, Wanted wanted, const std::string& generator,
-                                      program::Timings& timings);
+[[nodiscard]] SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings);
 
 /// A line for each hole with contact: the arcs on which its springs push, the iterations, the largest pressure.
 [[nodiscard]] std::string contact_summary(const PlateScene& scene, const RimContactState& state);

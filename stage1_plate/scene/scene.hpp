@@ -47,13 +47,11 @@ struct MeshGeometry {
   std::vector<MeshSection> sections;
 };
 
-/// Springs between the rim of a hole and a rigid disc in it: distributed, or links at the nodes of the rim.
-struct Spring {
-  double modulus = 0;  ///< force / length^3; 0 with links
-  double disk_E = 0;   ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
-  double link = 0;     ///< force / length at each node, half of it for either side that ends there; 0 without links
-  std::vector<rim::AngleRange> acts = {{-rim::full_turn / 2, rim::full_turn / 2}};  ///< the sprung part of the rim
-  bool has_arc = false;           ///< whether the scene says which part
+/// The springs of a hole as the scene has them: all around, unless it says where they act.
+struct Spring : rim::HoleSpring {
+  Spring() : HoleSpring{.acts = {{-rim::full_turn / 2, rim::full_turn / 2}}} {}
+  double disk_E = 0;              ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
+  bool has_arc = false;           ///< whether the scene says on which part of the rim they act
   bool compression_only = false;  ///< under the scene's loads it pushes but does not pull
 };
 

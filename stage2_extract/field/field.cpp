@@ -28,32 +28,31 @@ Eigen::Matrix2Xd lagrange_nodes(int p) {
   return nodes;
 }
 
-Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts) {
-  const auto& mesh = fields.plate().mesh;
-  assert(amounts.size() == fields.n_cases());
+Field at_nodes(const Fields& fields, int p) {
+  const auto& solver = fields.solver();
+  const auto& mesh = solver.plate().mesh;
+  assert(fields.n_states() == 1);
   const Eigen::Matrix2Xd nodes = lagrange_nodes(p);
   const Eigen::VectorXd xi = nodes.row(0), eta = nodes.row(1);
   const Eigen::MatrixXd N = pfem::shape_values(fields.space(), fields.p(), xi, eta).N;
   const Index n = nodes.cols(), n_points = n * mesh.n_elements();
   Field field{p, Eigen::Matrix2Xd(2, n_points), Eigen::Matrix2Xd(2, n_points), Eigen::Matrix3Xd(3, n_points)};
   for (int element = 0; element < mesh.n_elements(); ++element) {
-    const pfem::ElementMap map(mesh, fields.edges(), element);
-    const Eigen::VectorXd c = fields.coefficients(element) * amounts;
+    const pfem::ElementMap map(mesh, solver.edges(), element);
+    const Eigen::VectorXd c = fields.coefficients(element);
     const Eigen::VectorXd strain = pfem::strain_operator(map, fields.space(), fields.p(), xi, eta) * c;
     const Index first = element * n;
     for (Index i = 0; i < n; ++i) field.points.col(first + i) = map.point(xi[i], eta[i]);
     field.displacement.middleCols(first, n) << c.head(N.rows()).transpose() * N, c.tail(N.rows()).transpose() * N;
-    field.stress.middleCols(first, n) = fields.elasticity(element) * strain.reshaped(3, n);
+    field.stress.middleCols(first, n) = solver.elasticity(element) * strain.reshaped(3, n);
   }
   return field;
 }
 
-Field make_field(const formats::PlateSolution& plate, const std::string& file, const FieldRequest& request,
-                 const FieldState& state) {
-  const std::size_t level = field_level(plate, file, request, state);
-  UnitFields fields(plate, file);
-  fields.use(level);
-  Field field = superpose(fields, plate.p[level], state.amounts);
+Field make_field(FieldSolver& solver, const std::string& file, const FieldRequest& request, const FieldState& state) {
+  const int p = field_degree(solver.plate(), file, request, state);
+  solver.factorise(p);
+  Field field = at_nodes(solver.solve(state.amounts), p);
   if (!field.displacement.allFinite() || !von_mises(field.stress).allFinite())
     throw NumericalError(
         fmt::format("{}: --field {}: displacements or stresses are too large for the numbers of this "

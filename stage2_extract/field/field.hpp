@@ -5,7 +5,7 @@
 #include <string>
 
 #include "stage2_extract/field/field_state.hpp"
-#include "stage2_extract/stresses/unit_fields.hpp"
+#include "stage2_extract/stresses/fields.hpp"
 
 namespace fastjoint::stage2 {
 
@@ -23,17 +23,15 @@ struct Field {
 /// VTK, vtkHigherOrderQuadrilateral::PointIndexFromIJK.
 [[nodiscard]] Eigen::Matrix2Xd lagrange_nodes(int p);
 
-/// The unit fields superposed.
-/// @param p Degree of the level that the fields are at.
-/// @param amounts Amount of every case, shape (nc + h + q); those of friction must be 0 where its fields are not
-/// solved.
-[[nodiscard]] Field superpose(const UnitFields& fields, int p, const Eigen::VectorXd& amounts);
+/// A solved state at the nodes of degree p.
+/// @param fields Of one state.
+[[nodiscard]] Field at_nodes(const Fields& fields, int p);
 
-/// The field of a state at the degree that field_level chooses.
+/// The field of a state at the degree that field_degree chooses.
 /// @param file Name of the plate's file, for messages.
 /// Throws InputError and FileError if there is none, NumericalError if amounts are too large.
-[[nodiscard]] Field make_field(const formats::PlateSolution& plate, const std::string& file,
-                               const FieldRequest& request, const FieldState& state);
+[[nodiscard]] Field make_field(FieldSolver& solver, const std::string& file, const FieldRequest& request,
+                               const FieldState& state);
 
 /// Von Mises stress at points, taken as if sigma_z = 0, shape (n_points). In plane strain the elasticity alone does not
 /// tell sigma_z.

@@ -198,20 +198,14 @@ FieldState field_state(const PlateSolution& plate, const std::string& file, cons
   return request.spec == "loads" ? scene_loads(plate, file) : case_sum(plate, request.spec);
 }
 
-std::size_t field_level(const PlateSolution& plate, const std::string& file, const FieldRequest& request,
-                        const FieldState& state) {
+int field_degree(const PlateSolution& plate, const std::string& file, const FieldRequest& request,
+                 const FieldState& state) {
   const int highest = plate.p[plate.p.size() - 1];
   const int p = request.p != 0 ? request.p : state.p != 0 ? state.p : highest;
-  const auto found = std::find(plate.p.begin(), plate.p.end(), p);
-  if (found == plate.p.end())
-    throw InputError(fmt::format("--p: {} is {}not allowed; {} has the degrees {}", p,
-                                 request.p != 0 ? "" : "the degree of the joint and ", file, fmt::join(plate.p, ", ")));
-  if (std::find(plate.stress_p.begin(), plate.stress_p.end(), p) == plate.stress_p.end())
-    throw InputError(
-        fmt::format("{}:stress_p: the fields at p = {} are not in the file; it has those at p = {} (none if "
-                    "stage1_plate was told --loads-only)",
-                    file, p, plate.stress_p.size() > 0 ? fmt::format("{}", fmt::join(plate.stress_p, ", ")) : "none"));
-  return std::distance(plate.p.begin(), found);
+  if (p > highest)
+    throw InputError(fmt::format("--p: {} is {}not allowed; {} has unknowns of the degrees 1 to {}", p,
+                                 request.p != 0 ? "" : "the degree of the joint and ", file, highest));
+  return p;
 }
 
 }  // namespace fastjoint::stage2

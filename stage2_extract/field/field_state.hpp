@@ -44,9 +44,8 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
 [[nodiscard]] FieldState field_state(const formats::PlateSolution& plate, const std::string& file,
                                      const FieldRequest& request);
 
-/// Index into the plate's degrees of the one to look at: the request's, else the state's, else the highest.
-/// Throws InputError if the plate has no such degree, or no fields at this degree.
-[[nodiscard]] std::size_t field_level(const formats::PlateSolution& plate, const std::string& file,
-                                      const FieldRequest& request, const FieldState& state);
+/// Degree to look at: the request's, else the state's, else the plate's highest. Throws InputError if it is above that.
+[[nodiscard]] int field_degree(const formats::PlateSolution& plate, const std::string& file,
+                               const FieldRequest& request, const FieldState& state);
 
 }  // namespace fastjoint::stage2

@@ -71,66 +71,11 @@ RimPoint point_at(const std::vector<SideAngles>& sides, double angle) {
   return point;
 }
 
-/// Displacement and hoop strain at a point of one side in every case.
-struct Trace {
-  Eigen::RowVectorXd u_n;     ///< along the radial direction, length
-  Eigen::RowVectorXd eps_tt;  ///< dimensionless
-};
-
 struct Frame {
   Eigen::Vector2d n, t;  ///< radial and hoop direction
 };
 
 Frame frame_at(double angle) { return {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}}; }
-
-Trace trace(const UnitFields& fields, const OnSide& at, const Frame& frame, double radius) {
-  const auto shape = pfem::integrated_legendre(fields.p(), Eigen::VectorXd::Constant(1, at.s));
-  const Eigen::MatrixXd C = fields.coefficients(at.side.element, pfem::modes_on_edge(fields.p(), at.side.local_edge));
-  const auto n = shape.N.rows();
-  const auto along = [&](const Eigen::Vector2d& e, const Eigen::MatrixXd& values) -> Eigen::RowVectorXd {
-    return values.col(0).transpose() * (e.x() * C.topRows(n) + e.y() * C.bottomRows(n));
-  };
-  return {along(frame.n, shape.N), along(frame.t, shape.dN) * at.ds_dtheta / radius};
-}
-
-/// Amount by which each case moves the disc of a hole along n, shape (n_cases).
-Eigen::RowVectorXd disc_motion(const UnitFields& fields, std::size_t hole, const Eigen::Vector2d& n) {
-  const auto& plate = fields.plate();
-  Eigen::RowVectorXd motion = Eigen::RowVectorXd::Zero(fields.n_cases());
-  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i)
-    if (plate.disc_hole[i] == plate.hole_id[hole])
-      motion[plate.external_id.size() + i] = rim::axis(plate.disc_direction[i]).dot(n);
-  return motion;
-}
-
-Eigen::RowVectorXd radial_stress(const UnitFields& fields, std::size_t hole, double angle, const Eigen::Vector2d& n,
-                                 const Eigen::RowVectorXd& u_n) {
-  const auto& plate = fields.plate();
-  const auto& spring = plate.hole_spring[hole];
-  Eigen::RowVectorXd sigma = Eigen::RowVectorXd::Zero(fields.n_cases());
-  if (rim::covers(spring.acts, angle)) sigma = spring.modulus * (u_n - disc_motion(fields, hole, n));
-  const Eigen::Index q = plate.traction_hole.size();
-  for (Eigen::Index i = 0; i < q; ++i) {
-    if (plate.traction_hole[i] != plate.hole_id[hole]) continue;
-    const Eigen::Vector2d d = rim::axis(plate.traction_direction[i]);
-    sigma[fields.n_cases() - q + i] -= rim::cosine_bearing(n, d).contact /
-                                       rim::bearing(plate.mesh, fields.edges(), plate.hole_rim[hole], d).unit_force;
-  }
-  return sigma;
-}
-
-/// The friction pulls at the plate by sigma . (-n).
-Eigen::RowVectorXd shear_stress(const UnitFields& fields, std::size_t hole, const Frame& frame) {
-  const auto& plate = fields.plate();
-  Eigen::RowVectorXd sigma = Eigen::RowVectorXd::Zero(fields.n_cases());
-  const auto first = plate.K_cc.cols();
-  for (std::size_t i = 0; i < plate.friction_hole.size(); ++i) {
-    if (plate.friction_hole[i] != plate.hole_id[hole]) continue;
-    const auto at = rim::cosine_bearing(frame.n, bearing_direction(plate.friction_bearing[i]));
-    sigma[first + i] = -at.contact * at.tangent.dot(frame.t);
-  }
-  return sigma;
-}
 
 }  // namespace
 
@@ -155,21 +100,110 @@ Eigen::Vector2d bearing_direction(const std::string& side) {
   return side[0] == '+' ? axis : Eigen::Vector2d(-axis);
 }
 
-Eigen::MatrixXd rim_stress(const UnitFields& fields, std::size_t hole, const RimPoint& point) {
-  const Frame frame = frame_at(point.angle);
-  const double radius = fields.plate().hole_rim[hole].radius;
-  const Eigen::Matrix3d to_global = pfem::polar_stress(-point.angle);
-  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, fields.n_cases());
-  for (const auto& at : point.on) {
-    const Trace side = trace(fields, at, frame, radius);
-    const Eigen::Matrix3d compliance = to_global.transpose() * fields.elasticity(at.side.element).inverse() * to_global;
-    Eigen::MatrixXd sigma(3, fields.n_cases());
-    sigma.row(0) = radial_stress(fields, hole, point.angle, frame.n, side.u_n);
-    sigma.row(2) = shear_stress(fields, hole, frame);
-    sigma.row(1) = (side.eps_tt - compliance(1, 0) * sigma.row(0) - compliance(1, 2) * sigma.row(2)) / compliance(1, 1);
-    mean += sigma / count_of(point.on);
+RimStress::RimStress(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points) {
+  for (const auto& side : solver.plate().hole_rim[hole].sides) add_side(solver, hole, side, points);
+  add_tractions(solver, hole, points);
+}
+
+void RimStress::add_side(const FieldSolver& solver, std::size_t hole, const pfem::Side& side,
+                         const std::vector<RimPoint>& points) {
+  const int p = solver.numbering().p;
+  const double radius = solver.plate().hole_rim[hole].radius;
+  const Eigen::Matrix3d compliance = solver.elasticity(side.element).inverse();
+  SidePoints part;
+  std::vector<const OnSide*> on;
+  for (int i = 0; i < count_of(points); ++i)
+    for (const auto& at : points[i].on)
+      if (at.side == side) {
+        part.points.push_back(i);
+        on.push_back(&at);
+      }
+  const std::vector<int> modes = pfem::modes_on_edge(p, side.local_edge);
+  const Eigen::Index n = on.size(), n_modes = solver.numbering().function.rows();
+  Eigen::MatrixXd weights = Eigen::MatrixXd::Zero(2 * n_modes, 2 * n);
+  part.hoop.resize(3, n);
+  part.share.resize(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const RimPoint& point = points[part.points[i]];
+    const Frame frame = frame_at(point.angle);
+    const auto shape = pfem::integrated_legendre(p, Eigen::VectorXd::Constant(1, on[i]->s));
+    for (std::size_t k = 0; k < modes.size(); ++k)
+      for (const int component : {0, 1}) {
+        const auto row = modes[k] + component * n_modes;
+        weights(row, i) = frame.n[component] * shape.N(k, 0);
+        weights(row, n + i) = frame.t[component] * shape.dN(k, 0) * on[i]->ds_dtheta / radius;
+      }
+    const Eigen::Matrix3d to_global = pfem::polar_stress(-point.angle);
+    const Eigen::Vector3d c = (to_global.transpose() * compliance * to_global).row(1);
+    part.hoop.col(i) << -c[0] / c[1], 1 / c[1], -c[2] / c[1];
+    part.share[i] = 1.0 / count_of(point.on);
   }
-  return mean;
+  part.u_n_and_eps_tt = solver.condense(side.element, weights);
+  sides_.push_back(std::move(part));
+}
+
+void RimStress::add_tractions(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points) {
+  const auto& plate = solver.plate();
+  const std::string& id = plate.hole_id[hole];
+  const auto& spring = plate.hole_spring[hole];
+  const Eigen::Index n = points.size();
+  const auto at_points = [&](auto value) {
+    Eigen::RowVectorXd values(n);
+    for (Eigen::Index i = 0; i < n; ++i) values[i] = value(frame_at(points[i].angle), i);
+    return values;
+  };
+  modulus_ = at_points(
+      [&](const Frame&, Eigen::Index i) { return rim::covers(spring.acts, points[i].angle) ? spring.modulus : 0; });
+  const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(n);
+  Eigen::Index unit_case = plate.n_externals();
+  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i, ++unit_case) {
+    if (plate.disc_hole[i] != id) continue;
+    const Eigen::Vector2d e = rim::axis(plate.disc_direction[i]);
+    tractions_.push_back(
+        {unit_case, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }), none});
+  }
+  for (std::size_t i = 0; i < plate.friction_hole.size(); ++i, ++unit_case) {
+    if (plate.friction_hole[i] != id) continue;
+    const Eigen::Vector2d d = bearing_direction(plate.friction_bearing[i]);
+    tractions_.push_back({unit_case, none, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
+                            const auto bearing = rim::cosine_bearing(at.n, d);
+                            return -bearing.contact * bearing.tangent.dot(at.t);
+                          })});
+  }
+  for (std::size_t i = 0; i < plate.traction_hole.size(); ++i, ++unit_case) {
+    if (plate.traction_hole[i] != id) continue;
+    const Eigen::Vector2d d = rim::axis(plate.traction_direction[i]);
+    const double unit_force = rim::bearing(plate.mesh, solver.edges(), plate.hole_rim[hole], d).unit_force;
+    tractions_.push_back({unit_case, at_points([&](const Frame& at, Eigen::Index) {
+                            return -rim::cosine_bearing(at.n, d).contact / unit_force;
+                          }),
+                          none});
+  }
+}
+
+RimStresses RimStress::operator()(const Fields& fields) const {
+  const auto k = fields.n_states(), n = modulus_.size();
+  RimStresses sigma{Eigen::MatrixXd::Zero(k, n), Eigen::MatrixXd::Zero(k, n), Eigen::MatrixXd::Zero(k, n)};
+  for (const auto& each : tractions_) {
+    sigma.rr += fields.amounts().row(each.unit_case).transpose() * each.rr;
+    sigma.rt += fields.amounts().row(each.unit_case).transpose() * each.rt;
+  }
+  std::vector<Eigen::MatrixXd> values;
+  for (const auto& side : sides_) {
+    values.push_back(fields.values(side.u_n_and_eps_tt));
+    for (std::size_t i = 0; i < side.points.size(); ++i) {
+      const int at = side.points[i];
+      sigma.rr.col(at) += side.share[i] * modulus_[at] * values.back().col(i);
+    }
+  }
+  for (std::size_t s = 0; s < sides_.size(); ++s)
+    for (std::size_t i = 0; i < sides_[s].points.size(); ++i) {
+      const int at = sides_[s].points[i];
+      const Eigen::Vector3d hoop = sides_[s].share[i] * sides_[s].hoop.col(i);
+      sigma.tt.col(at) += hoop[0] * sigma.rr.col(at) + hoop[1] * values[s].col(sides_[s].points.size() + i) +
+                          hoop[2] * sigma.rt.col(at);
+    }
+  return sigma;
 }
 
 }  // namespace fastjoint::stage2

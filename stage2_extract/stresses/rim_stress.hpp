@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stage2_extract/stresses/unit_fields.hpp"
+#include "stage2_extract/stresses/fields.hpp"
 
 namespace fastjoint::stage2 {
 
@@ -33,12 +33,41 @@ inline constexpr int n_points_per_turn = 72;
 /// Unit vector of a bearing side, "+x", "-x", "+y" or "-y".
 [[nodiscard]] Eigen::Vector2d bearing_direction(const std::string& side);
 
-/// Stress at one point of the rim of a hole in every unit case, shape (3, n_cases): sigma_rr, sigma_tt, sigma_rt, mean
-/// of the sides that meet there.
+/// Stresses at points of a rim in k states, each of shape (k, n_points).
+struct RimStresses {
+  Eigen::MatrixXd rr, tt, rt;
+};
+
+/// The rim of a hole, ready to take stresses from fields of the degree that the solver has now.
 ///
 /// sigma_rr and sigma_rt are the known tractions of springs, bearing load and friction; sigma_tt follows from them and
 /// the strain along the rim by the material's law, without a derivative across the rim (docs/theory.md, section 11.1).
-/// tests/bench/rim_stress.cpp compares this with three other ways.
-[[nodiscard]] Eigen::MatrixXd rim_stress(const UnitFields& fields, std::size_t hole, const RimPoint& point);
+/// Where two sides meet, it is their mean. tests/bench/rim_stress.cpp compares this with three other ways.
+class RimStress {
+ public:
+  RimStress(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points);
+  [[nodiscard]] RimStresses operator()(const Fields& fields) const;
+
+ private:
+  /// One side with its points.
+  struct SidePoints {
+    std::vector<int> points;
+    plate::CondensedFunctions u_n_and_eps_tt;  ///< radial displacements of all its points, then their hoop strains
+    Eigen::Matrix3Xd hoop;                     ///< what sigma_rr, eps_tt and sigma_rt give of sigma_tt at each
+    Eigen::RowVectorXd share;                  ///< of this side in the mean at each
+  };
+  /// Traction of a unit case at every point.
+  struct CaseTraction {
+    Eigen::Index unit_case;
+    Eigen::RowVectorXd rr, rt;
+  };
+  void add_side(const FieldSolver& solver, std::size_t hole, const pfem::Side& side,
+                const std::vector<RimPoint>& points);
+  void add_tractions(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points);
+
+  std::vector<SidePoints> sides_;
+  std::vector<CaseTraction> tractions_;
+  Eigen::RowVectorXd modulus_;  ///< (points) of the springs, 0 where none act
+};
 
 }  // namespace fastjoint::stage2

@@ -66,89 +66,97 @@ void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& e
   }
 }
 
-/// The side itself, and the same edge seen from the element beyond, if there is one.
-std::vector<pfem::Side> both_sides(const pfem::Edges& edges, const pfem::Side& side) {
-  const int edge = edges.of_element(side.local_edge, side.element);
-  std::vector<pfem::Side> result;
+/// The elements on both sides of every edge of a mesh.
+std::vector<std::vector<pfem::Side>> sides_of_edges(const pfem::Edges& edges) {
+  std::vector<std::vector<pfem::Side>> sides(edges.size());
   for (int element = 0; element < edges.of_element.cols(); ++element)
     for (int local = 0; local < pfem::n_local_edges; ++local)
-      if (edges.of_element(local, element) == edge) result.push_back({element, local});
-  return result;
+      sides[edges.of_element(local, element)].push_back({element, local});
+  return sides;
 }
 
-/// int n.sigma.n t ds over one side of an element; n along x or y.
-Eigen::RowVectorXd side_force(const UnitFields& fields, const pfem::Side& side, Eigen::Index component) {
-  const auto& mesh = fields.plate().mesh;
-  const auto rule = pfem::gauss(fields.p() + 3);  // a rational integrand: see element_stiffness.cpp
-  const pfem::ElementMap map(mesh, fields.edges(), side.element);
-  const auto curve = pfem::edge_curve(mesh, fields.edges(), side.element, side.local_edge);
+/// int n.sigma.n t ds over one side of an element as a function of the element's coefficients; n along x or y.
+Eigen::RowVectorXd side_force(const FieldSolver& solver, const pfem::Side& side, Eigen::Index component) {
+  const auto& mesh = solver.plate().mesh;
+  const auto& [space, p] = std::tie(solver.numbering().space, solver.numbering().p);
+  const auto rule = pfem::gauss(p + 3);  // a rational integrand: see element_stiffness.cpp
+  const pfem::ElementMap map(mesh, solver.edges(), side.element);
+  const auto curve = pfem::edge_curve(mesh, solver.edges(), side.element, side.local_edge);
   const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);
-  const Eigen::MatrixXd B =
-      pfem::strain_operator(map, fields.space(), fields.p(), at.row(0).transpose(), at.row(1).transpose());
+  const Eigen::MatrixXd B = pfem::strain_operator(map, space, p, at.row(0).transpose(), at.row(1).transpose());
   Eigen::RowVectorXd per_coefficient = Eigen::RowVectorXd::Zero(B.cols());
   for (Eigen::Index q = 0; q < rule.x.size(); ++q)
     per_coefficient += rule.w[q] * curve.derivative(rule.x[q]).norm() * mesh.thickness[side.element] *
-                       fields.elasticity(side.element).row(component) * B.middleRows<3>(3 * q);
-  return per_coefficient * fields.coefficients(side.element);
+                       solver.elasticity(side.element).row(component) * B.middleRows<3>(3 * q);
+  return per_coefficient;
 }
 
-/// Normal force over a section in every unit case, shape (n_cases), tension positive: the integral of the stress, mean
-/// of the elements on both sides of the section, force per unit of the case.
-Eigen::RowVectorXd section_force(const UnitFields& fields, const rim::Section& section) {
-  const Eigen::Index component = section.side[1] == 'x' ? 0 : 1;
-  Eigen::RowVectorXd force = Eigen::RowVectorXd::Zero(fields.n_cases());
-  for (const auto& side : section.sides) {
-    const auto sides = both_sides(fields.edges(), side);
-    for (const auto& one : sides) force += side_force(fields, one, component) / count_of(sides);
-  }
-  return force;
-}
-
-void add_level(const UnitFields& fields, const Rims& rims, formats::PlateStresses& a) {
-  Eigen::MatrixXd rr(a.angle.size(), fields.n_cases()), tt(rr), rt(rr);
-  Eigen::Index row = 0;
-  for (std::size_t hole = 0; hole < rims.size(); ++hole)
-    for (const auto& point : rims[hole]) {
-      const Eigen::MatrixXd sigma = rim_stress(fields, hole, point);
-      rr.row(row) = sigma.row(0);
-      tt.row(row) = sigma.row(1);
-      rt.row(row++) = sigma.row(2);
+/// Normal force over every section, tension positive: the integral of the stress, mean of the elements on both sides of
+/// the section.
+std::vector<std::vector<plate::CondensedFunctions>> section_forces(const FieldSolver& solver) {
+  const auto both = sides_of_edges(solver.edges());
+  std::vector<std::vector<plate::CondensedFunctions>> forces;
+  for (const auto& section : solver.plate().sections) {
+    forces.emplace_back();
+    for (const auto& side : section.sides) {
+      const auto& sides = both[solver.edges().of_element(side.local_edge, side.element)];
+      for (const auto& one : sides) {
+        const auto force = side_force(solver, one, section.side[1] == 'x' ? 0 : 1);
+        forces.back().push_back(solver.condense(one.element, force.transpose() / count_of(sides)));
+      }
     }
-  a.sigma_rr.push_back(std::move(rr));
-  a.sigma_tt.push_back(std::move(tt));
-  a.sigma_rt.push_back(std::move(rt));
-  const auto& sections = fields.plate().sections;
-  Eigen::MatrixXd force(sections.size(), fields.n_cases());
-  for (Eigen::Index i = 0; i < force.rows(); ++i) force.row(i) = section_force(fields, sections[i]);
-  a.section_force.push_back(std::move(force));
+  }
+  return forces;
+}
+
+/// Adds the stresses at the rims and the forces over the sections in every unit case at one degree.
+void add_level(const FieldSolver& solver, const Rims& rims, formats::PlateStresses& a) {
+  constexpr Eigen::Index block = 64;  // cases at a time: what an element has of them fits into the cache
+  const auto n_cases = solver.plate().n_cases();
+  std::vector<RimStress> stresses;
+  for (std::size_t hole = 0; hole < rims.size(); ++hole) stresses.emplace_back(solver, hole, rims[hole]);
+  const auto sections = section_forces(solver);
+  for (auto* sigma : {&a.sigma_rr, &a.sigma_tt, &a.sigma_rt}) sigma->emplace_back(a.angle.size(), n_cases);
+  a.section_force.emplace_back(Eigen::MatrixXd::Zero(std::ssize(sections), n_cases));
+  for (Eigen::Index first = 0; first < n_cases; first += block) {
+    const auto columns = Eigen::seqN(first, std::min(block, n_cases - first));
+    const Fields fields = solver.solve(Eigen::MatrixXd::Identity(n_cases, n_cases)(Eigen::all, columns));
+    for (std::size_t i = 0; i < rims.size(); ++i) {
+      const auto points = Eigen::seq(a.rim_start[i], a.rim_start[i + 1] - 1);
+      const auto [rr, tt, rt] = stresses[i](fields);
+      a.sigma_rr.back()(points, columns) = rr.transpose();
+      a.sigma_tt.back()(points, columns) = tt.transpose();
+      a.sigma_rt.back()(points, columns) = rt.transpose();
+    }
+    for (std::size_t i = 0; i < sections.size(); ++i)
+      for (const auto& part : sections[i]) a.section_force.back().row(i)(columns) += fields.values(part).transpose();
+  }
 }
 
 }  // namespace
 
-formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, const std::string& file) {
+formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver) {
   formats::PlateStresses a;
-  a.p = plate.stress_p;
+  constexpr Eigen::Index n_levels = 2;  // their difference estimates the error
+  if (solver) a.p = plate.p.tail(std::min(plate.p.size(), n_levels));
   const auto edges = pfem::find_edges(plate.mesh);
   Rims rims(plate.hole_rim.size());
-  for (std::size_t i = 0; i < rims.size() && a.p.size() > 0; ++i)
-    rims[i] = rim_points(plate.mesh, edges, plate.hole_rim[i]);
+  for (std::size_t i = 0; i < rims.size() && solver; ++i) rims[i] = rim_points(plate.mesh, edges, plate.hole_rim[i]);
   describe_rims(plate, edges, rims, a);
-  if (a.p.size() == 0) return a;
-  UnitFields fields(plate, file);
+  if (!solver) return a;
   describe_sections(plate, edges, a);
   for (const int p : a.p) {
-    fields.use(std::distance(plate.p.begin(), std::find(plate.p.begin(), plate.p.end(), p)));
-    add_level(fields, rims, a);
+    solver->factorise(p);
+    add_level(*solver, rims, a);
   }
   return a;
 }
 
 double stress_bytes(const formats::PlateSolution& plate) {
   constexpr double components = 3;
+  const double levels = std::min(count_of(plate.p), 2);
   const double rows = count_of(plate.hole_rim) * n_points_per_turn;
-  const auto& cases = plate.cases.back();
-  const auto n_cases = cases.E_c.rows() + cases.E_h.rows() + cases.V.cols();
-  return components * rows * sizeof(double) * double(n_cases * plate.stress_p.size());
+  return components * rows * sizeof(double) * double(plate.n_cases()) * levels;
 }
 
 }  // namespace fastjoint::stage2

@@ -2,14 +2,13 @@
 #pragma once
 
 #include "common/formats/plate_matrices.hpp"
-#include "common/formats/plate_solution.hpp"
+#include "stage2_extract/stresses/fields.hpp"
 
 namespace fastjoint::stage2 {
 
-/// Stresses at the rims and forces over the sections beside the holes in every unit case, at the degrees for which the
-/// plate has its friction fields; none if it has no such degree.
-/// @param file Name of the plate's file, for messages.
-[[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, const std::string& file);
+/// Stresses at the rims and forces over the sections beside the holes in every unit case, at the two highest degrees.
+/// @param solver Of the plate; null for what is known without solving alone.
+[[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver);
 
 /// Bytes of the stresses at the rims, which are by far the most of them.
 [[nodiscard]] double stress_bytes(const formats::PlateSolution& plate);

@@ -7,8 +7,8 @@
 
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/threads.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "common/program/program.hpp"
-#include "stage1_plate/factor/plate_factor.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/scene/scene.hpp"
 #include "tests/support/plates.hpp"
@@ -37,7 +37,7 @@ const stage1::External& first_external(const stage1::PlateScene& scene) {
 
 /// Plate unknowns under a unit displacement of the first external, all else held.
 Eigen::VectorXd first_field(const stage1::PlateProblem& problem, int p) {
-  const stage1::PlateFactor K(problem, stage1::Skeleton(problem), p);
+  const plate::PlateFactor K(problem, plate::Skeleton(problem), p);
   return K.solve(-Eigen::MatrixXd(problem.K_fc.col(0)));
 }
 

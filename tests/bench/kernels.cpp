@@ -7,8 +7,8 @@
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "common/rim/rim.hpp"
-#include "stage1_plate/factor/plate_factor.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plates.hpp"
@@ -60,7 +60,7 @@ void condense(State& state) {
   const int p = static_cast<int>(state.range(0));
   for (auto _ : state)
     for (const auto& each : elements.classes)
-      DoNotOptimize(stage1::condense(each, elements.stiffness[each.congruent], plate.problem.numbering, p));
+      DoNotOptimize(plate::condense(each, elements.stiffness[each.congruent], plate.problem.numbering, p));
 }
 BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
@@ -68,15 +68,16 @@ BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 void factorise(State& state) {
   const int n = static_cast<int>(state.range(0));
   const auto plate = test::make_plate(test::panel(n, n));
-  const stage1::Skeleton skeleton(plate.problem);
-  for (auto _ : state) DoNotOptimize(stage1::PlateFactor(plate.problem, skeleton, 8).energy_rows());
+  const plate::Skeleton skeleton(plate.problem);
+  for (auto _ : state)
+    DoNotOptimize(plate::PlateFactor(plate.problem, skeleton, 8, border_diagonal(plate.problem)).energy_rows());
 }
 BENCHMARK(factorise)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
 
 /// The fields of all unit displacements of panel(3, 3) at p = 8.
 void solve(State& state) {
   const auto plate = test::make_plate(test::panel(3, 3));
-  const stage1::PlateFactor K(plate.problem, stage1::Skeleton(plate.problem), 8);
+  const plate::PlateFactor K(plate.problem, plate::Skeleton(plate.problem), 8);
   const Eigen::MatrixXd B = -Eigen::MatrixXd(plate.problem.K_fc);
   for (auto _ : state) DoNotOptimize(K.solve(B));
 }

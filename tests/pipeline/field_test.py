@@ -217,7 +217,6 @@ def check_messages():
     for status, message, *words in (
             (2, "'external:Q' is not a case of the plate", "--field", "external:Q"),
             (2, "--increment: 4 is not allowed; joint.h5 has the increments 1..3", *joint, "--increment", "4"),
-            (2, "--p: 6 is not allowed; center.h5 has the degrees 7, 8", *joint, "--p", "6"),
             (2, "--p: '9' is not allowed", *joint, "--p", "9"),
             (2, "--plate: 'doubler' of joint.h5 is not the sheet of center.h5", *joint, "--plate", "doubler"),
             (2, "--p: goes with --field only", "--p", "8"),

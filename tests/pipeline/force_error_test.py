@@ -37,8 +37,8 @@ def matrices(name, scene, rings, *words):
     for hole in scene["holes"]:
         hole["rings"] = rings
     Path(f"{name}.json").write_text(json.dumps(scene))
-    run("stage1_plate", f"{name}.json", "-o", f"{name}.h5", "--loads-only", *words)
-    run("stage2_extract", f"{name}.h5", "-o", f"{name}.m.h5")
+    run("stage1_plate", f"{name}.json", "-o", f"{name}.h5", *words)
+    run("stage2_extract", f"{name}.h5", "-o", f"{name}.m.h5", "--loads-only")
 
 
 def make(plates):

@@ -60,8 +60,8 @@ def check_lap_joint():
     for path in (ROOT / "examples/lap_joint").glob("*.json"):
         shutil.copy(path, ".")
     for sheet in ("upper", "lower"):
-        run("stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5", "--p", 4, "--loads-only")
-        run("stage2_extract", f"{sheet}.h5", "-o", f"{sheet}.matrices.h5")
+        run("stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5", "--p", 4)
+        run("stage2_extract", f"{sheet}.h5", "-o", f"{sheet}.matrices.h5", "--loads-only")
     scene = json.loads(Path("joint.json").read_text())
     scene["solver"] = {"tolerance": 1e-13}
     for fastener in scene["fasteners"]:

@@ -116,8 +116,9 @@ def check_arc(folder):
 def check_loads_only(folder):
     """Without stresses the summary says what it does not know."""
     for plate in ("upper", "lower"):
-        subprocess.run(["stage1_plate", folder / f"{plate}.json", "-o", folder / f"{plate}.h5", "--quiet", "--loads-only"], check=True)
-        subprocess.run(["stage2_extract", folder / f"{plate}.h5", "-o", folder / f"{plate}.matrices.h5", "--quiet"], check=True)
+        subprocess.run(["stage1_plate", folder / f"{plate}.json", "-o", folder / f"{plate}.h5", "--quiet"], check=True)
+        subprocess.run(["stage2_extract", folder / f"{plate}.h5", "-o", folder / f"{plate}.matrices.h5", "--quiet", "--loads-only"],
+                       check=True)
     run = subprocess.run(["stage3_nonlinear", folder / "joint.json", "-o", folder / "joint.h5"], check=True,
                          capture_output=True, text=True)
     assert run.stdout.count("force that holds the discs of ") == 2, run.stdout

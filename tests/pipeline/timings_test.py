@@ -12,7 +12,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 STAGE1, STAGE2, STAGE3 = "stage1_plate", "stage2_extract", "stage3_nonlinear"
 PLATE_PHASES, EXTRACT_PHASES, JOINT_PHASES = (["read", "mesh", "integrate", "factorise", "solve", "write"],
-                                              ["read", "extract", "write"], ["read", "solve", "write"])
+                                              ["read", "integrate", "extract", "write"], ["read", "solve", "write"])
 # program, input, output, more words, phases, degrees with a number of unknowns
 RUNS = [
     (STAGE1, "upper.json", "upper.h5", ["--p", "3..8"], PLATE_PHASES, "345678"),

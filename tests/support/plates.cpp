@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include "common/linalg/condensed.hpp"
+#include "common/plate/plate_factor.hpp"
 
 namespace fastjoint::test {
 
@@ -15,26 +16,15 @@ Plate make_plate(const std::string& json) {
   return plate;
 }
 
-namespace {
+Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p) {
+  const plate::PlateFactor K(problem, plate::Skeleton(problem), p);
+  return K.solve(-Eigen::MatrixXd(problem.K_fc.topRows(problem.unknowns.n_free[p])));
+}
 
-void solve_cases(const Plate& plate, formats::PlateSolution& solution) {
+formats::PlateSolution solve(const Plate& plate) {
+  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test");
   program::Timings timings;
-  stage1::solve_cases(plate.problem, stage1::Skeleton(plate.problem), solution, timings);
-}
-
-}  // namespace
-
-formats::PlateSolution solve(const Plate& plate, stage1::Wanted wanted) {
-  auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", wanted);
-  solve_cases(plate, solution);
-  return solution;
-}
-
-formats::PlateSolution solve_all_fields(const Plate& plate) {
-  auto solution =
-      stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test", stage1::Wanted::loads_and_stresses);
-  solution.stress_p = solution.p;
-  solve_cases(plate, solution);
+  stage1::solve_cases(plate.problem, plate::Skeleton(plate.problem), solution, timings);
   return solution;
 }
 
@@ -42,8 +32,14 @@ Eigen::MatrixXd stiffness(const formats::PlateSolution& a, std::size_t level) {
   return linalg::condensed_stiffness(a.cases[level].E_c, a.shift, a.K_cc);
 }
 
-stage2::Extraction extract(const std::string& json) {
-  return stage2::extract(solve(make_plate(json)), "plate.h5", "test");
+stage2::Extraction extract(const formats::PlateSolution& solution, bool stresses) {
+  if (!stresses) return stage2::extract(solution, "test", nullptr);
+  stage2::FieldSolver solver(solution, "plate.h5");
+  return stage2::extract(solution, "test", &solver);
+}
+
+stage2::Extraction extract(const std::string& json, bool stresses) {
+  return extract(solve(make_plate(json)), stresses);
 }
 
 std::string grid_scene(const std::vector<double>& x, const std::vector<double>& y, const std::vector<HoleText>& holes,

@@ -22,12 +22,13 @@ struct Plate {
 /// Its S at one of its degrees.
 [[nodiscard]] Eigen::MatrixXd stiffness(const formats::PlateSolution& solution, std::size_t level);
 
+/// Plate unknowns per unit of each controlled displacement at one degree, shape (n_p, nc).
+[[nodiscard]] Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p);
+
 /// Stage 1 to the end, and stage 2 behind it.
-[[nodiscard]] formats::PlateSolution solve(const Plate& plate,
-                                           stage1::Wanted wanted = stage1::Wanted::loads_and_stresses);
-/// Solves for the fields of every degree, not of the two highest only.
-[[nodiscard]] formats::PlateSolution solve_all_fields(const Plate& plate);
-[[nodiscard]] stage2::Extraction extract(const std::string& json);
+[[nodiscard]] formats::PlateSolution solve(const Plate& plate);
+[[nodiscard]] stage2::Extraction extract(const formats::PlateSolution& solution, bool stresses);
+[[nodiscard]] stage2::Extraction extract(const std::string& json, bool stresses = true);
 
 /// A hole in a grid.
 struct HoleText {

@@ -4,7 +4,7 @@
 #include <Eigen/CholmodSupport>
 
 #include "common/pfem/element_stiffness.hpp"
-#include "stage1_plate/problem/springs.hpp"
+#include "common/plate/springs.hpp"
 
 namespace fastjoint::test {
 
@@ -28,10 +28,11 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
     add(element, all,
         stiffness(pfem::ElementMap(mesh.mesh, mesh.edges, element), scene.elasticity[mesh.mesh.material[element]],
                   mesh.mesh.thickness[element]));
+  const auto sprung = stage1::sprung_mesh(scene, mesh);
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     if (!scene.holes[hole].spring) continue;
     for (const auto& side : mesh.rims[hole].sides) {
-      const auto terms = stage1::rim_terms(scene, mesh, hole, side, numbering.p);
+      const auto terms = plate::rim_terms(sprung, hole, side, numbering.p);
       add(side.element, terms.modes, terms.plate);
     }
   }

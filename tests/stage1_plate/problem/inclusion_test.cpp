@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "common/pfem/legendre.hpp"
-#include "stage1_plate/factor/plate_factor.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 #include "stage1_plate/scene/read_parts.hpp"
 #include "tests/support/exact.hpp"
@@ -70,7 +70,7 @@ double exact_work(const test::Plate& plate, const test::SpringInclusion& exact) 
 
 Eigen::VectorXd solve(const test::Plate& plate, const Eigen::VectorXd& load, int p) {
   const int n = plate.problem.unknowns.n_free[p];
-  return stage1::PlateFactor(plate.problem, stage1::Skeleton(plate.problem), p).solve(load.head(n));
+  return plate::PlateFactor(plate.problem, plate::Skeleton(plate.problem), p).solve(load.head(n));
 }
 
 TEST(Exact, SolutionSatisfiesEquilibriumAndItsRim) {

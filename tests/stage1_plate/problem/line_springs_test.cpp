@@ -30,12 +30,13 @@ std::string message(const std::string& json) {
 /// S = K k / (K + k), k the plate's own stiffness at the vertex: the same k from every K.
 TEST(LineSprings, SpringAndPlateAreInSeries) {
   const auto plate_stiffness = [](double K) {
-    const auto a = test::solve(test::make_plate(strip(fmt::format(
+    const auto plate = test::make_plate(strip(fmt::format(
         R"(, "supports": [{{"on": "left", "fix": ["x", "y"]}}], "points": [{{"id": "K1", "at": [2, 1], "stiffness": {}}}])",
-        K))));
-    EXPECT_EQ(a.disc_hole, (std::vector<std::string>{"K1"}));
+        K)));
+    const auto& a = plate.problem;
+    EXPECT_EQ(a.unknowns.disc_hole, (std::vector<std::string>{"K1"}));
     EXPECT_TRUE(a.friction_hole.empty());
-    const double S = (a.K_cc + a.K_fc.transpose() * a.cases.back().U)(0, 0);
+    const double S = (a.K_cc + a.K_fc.transpose() * test::unit_fields(a, a.numbering.p))(0, 0);
     return 1 / (1 / S - 1 / K);
   };
   const double k = plate_stiffness(1e5);
@@ -44,13 +45,14 @@ TEST(LineSprings, SpringAndPlateAreInSeries) {
 }
 
 TEST(LineSprings, DiscsComeAfterThoseOfHoles) {
-  const auto& unknowns = test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
-                                                           R"(, "disc_directions": ["x", "y"],
-    "points": [{"id": "p", "at": [2, 0], "stiffness": 3}, {"id": "q", "at": [2, 1], "stiffness": 5}])"))
-                             .problem.unknowns;
+  const auto plate = test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
+                                                       R"(, "disc_directions": ["x", "y"],
+    "points": [{"id": "p", "at": [2, 0], "stiffness": 3}, {"id": "q", "at": [2, 1], "stiffness": 5}])"));
+  const auto& unknowns = plate.problem.unknowns;
   EXPECT_EQ(unknowns.disc_hole, (std::vector<std::string>{"a", "a", "p", "p", "q", "q"}));
   EXPECT_EQ(unknowns.disc_direction, (std::vector<std::string>{"x", "y", "x", "y", "x", "y"}));
-  EXPECT_EQ(unknowns.disc_of_point, (std::vector<int>{2, 4}));
+  EXPECT_EQ(stage1::disc_of_point(plate.scene, unknowns, 0), 2);
+  EXPECT_EQ(stage1::disc_of_point(plate.scene, unknowns, 1), 4);
 }
 
 TEST(LineSprings, AControlledVertexCouplesDiscAndExternal) {

@@ -9,7 +9,7 @@
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "stage1_plate/factor/plate_factor.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"
@@ -104,7 +104,7 @@ double error(const test::Plate& plate, const Wave& wave) {
   const auto& [scene, mesh, problem] = plate;
   const auto& numbering = problem.numbering;
   const Eigen::VectorXd free =
-      stage1::PlateFactor(problem, stage1::Skeleton(problem), numbering.p).solve(load(plate, wave));
+      plate::PlateFactor(problem, plate::Skeleton(problem), numbering.p).solve(load(plate, wave));
   const Eigen::Matrix2Xd u = test::coefficients(plate, free, {});
   Vector2d worst(0, 0), largest(0, 0);
   for (int element = 0; element < mesh.mesh.n_elements(); ++element) {

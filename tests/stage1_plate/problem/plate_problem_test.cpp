@@ -28,15 +28,16 @@ Eigen::MatrixXd whole(const test::Plate& plate) {
 /// Coefficients of u = direction everywhere, discs and externals along.
 Eigen::VectorXd translation(const test::Plate& plate, int component) {
   const auto& unknowns = plate.problem.unknowns;
-  Eigen::VectorXd u = Eigen::VectorXd::Zero(unknowns.n_free.back() + unknowns.n_controlled);
+  Eigen::VectorXd u = Eigen::VectorXd::Zero(unknowns.n_free.back() + unknowns.n_controlled());
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node) {
     const int dof = unknowns.dofs(component, node);
     if (pfem::is_free(dof)) u[dof] = 1;
   }
-  for (int i = 0; i < unknowns.n_externals(); ++i)
-    u[unknowns.n_free.back() + i] = plate.scene.externals[unknowns.rigid[i]].direction == (component == 0 ? "x" : "y");
+  const auto rigid = stage1::rigid_externals(plate.scene);
+  for (int i = 0; i < unknowns.n_externals; ++i)
+    u[unknowns.n_free.back() + i] = plate.scene.externals[rigid[i]].direction == (component == 0 ? "x" : "y");
   for (int i = 0; i < unknowns.n_discs(); ++i)
-    u[unknowns.n_free.back() + unknowns.n_externals() + i] = unknowns.disc_direction[i] == (component == 0 ? "x" : "y");
+    u[unknowns.n_free.back() + unknowns.n_externals + i] = unknowns.disc_direction[i] == (component == 0 ? "x" : "y");
   return u;
 }
 

@@ -21,7 +21,7 @@ TEST(Unknowns, SupportsAndExternalsTakeAwayTheirs) {
   EXPECT_EQ(held.n_free[8], free.n_free[8] - 2 * (2 + 7));
   const auto rigid = count(R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");
   EXPECT_EQ(rigid.n_free[8], free.n_free[8] - (2 + 7));
-  EXPECT_EQ(rigid.n_controlled, 1);
+  EXPECT_EQ(rigid.n_controlled(), 1);
 }
 
 TEST(Unknowns, OpenHolesHaveNoDisc) {

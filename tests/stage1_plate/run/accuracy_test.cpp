@@ -66,7 +66,7 @@ TEST(Accuracy, IsTrueOfRandomSheets) {
 /// What the program says is what stage 2 says.
 TEST(Accuracy, IsThatOfTheMatrices) {
   const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), 1e-4);
-  const auto extraction = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test");
+  const auto extraction = test::extract(test::solve(plate_of(chosen.scene)), false);
   ASSERT_EQ(extraction.errors.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i)  // quadrature is of p = 8 in the search
     EXPECT_NEAR(extraction.errors[i].value / chosen.errors[i].value, 1, 1e-3);
@@ -125,12 +125,12 @@ TEST(Accuracy, IsThatOfTheComplianceWhereTheStiffnessIsZero) {
   const auto chosen = stage1::meet_accuracy(scene(without_rings(json)), asked);
   EXPECT_TRUE(chosen.is_reached());
   EXPECT_GT(chosen.scene.p_high, 3);
-  const auto extracted = stage2::extract(test::solve(plate_of(chosen.scene)), "plate.h5", "test").matrices;
+  const auto extracted = test::extract(test::solve(plate_of(chosen.scene)), false).matrices;
   EXPECT_EQ(extracted.S_dd.back()(0, 0), 0);
   auto finer = chosen.scene;
   finer.p_high = 8;
   for (auto& hole : finer.holes) hole.rings += 2;
-  const auto exact = stage2::extract(test::solve(plate_of(finer)), "plate.h5", "test").matrices;
+  const auto exact = test::extract(test::solve(plate_of(finer)), false).matrices;
   EXPECT_NEAR(extracted.C_t.back()(0, 0) / exact.C_t.back()(0, 0), 1, asked);
 }
 
@@ -140,7 +140,7 @@ TEST(Accuracy, IsThatOfFriction) {
     const auto chosen = stage1::meet_accuracy(scene(without_rings(test::panel(2, 1))), asked);
     EXPECT_TRUE(chosen.is_reached());
     const auto R = [](const test::Plate& plate) {
-      return stage2::extract(test::solve(plate), "plate.h5", "test").matrices.R_df.back();
+      return test::extract(test::solve(plate), false).matrices.R_df.back();
     };
     const auto exact = R(test::make_plate(test::panel(2, 1, 3, R"(, "space": "product")")));
     EXPECT_LT((R(plate_of(chosen.scene)) - exact).norm(), asked * exact.norm());

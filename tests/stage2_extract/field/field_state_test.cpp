@@ -27,7 +27,6 @@ formats::PlateSolution sheet() {
   plate.traction_id = {"T"};
   plate.K_cc.setZero(3, 3);
   plate.p = Eigen::VectorXi::LinSpaced(3, 1, 3);
-  plate.stress_p = Eigen::VectorXi::Constant(1, 3);
   return plate;
 }
 
@@ -182,34 +181,21 @@ TEST_F(StateOfAJoint, WhatIsRefused) {
               ThrowsMessage<FileError>(HasSubstr("text: is not an HDF5 file")));
 }
 
-TEST(FieldLevel, OfTheRequestTheJointOrTheHighest) {
+TEST(FieldDegree, OfTheRequestTheJointOrTheHighest) {
   auto plate = sheet();
-  plate.stress_p = plate.p;
   stage2::FieldState state{VectorXd::Zero(6), "", 0, "", 0};
-  const auto level = [&](int p) { return stage2::field_level(plate, "plate.h5", {"", "", 0, p}, state); };
-  EXPECT_EQ(level(0), 2);
-  EXPECT_EQ(level(1), 0);
-  EXPECT_THAT([&] { return level(4); },
-              ThrowsMessage<InputError>(HasSubstr("--p: 4 is not allowed; plate.h5 has the degrees 1, 2, 3")));
+  const auto degree = [&](int p) { return stage2::field_degree(plate, "plate.h5", {"", "", 0, p}, state); };
+  EXPECT_EQ(degree(0), 3);
+  EXPECT_EQ(degree(1), 1);
+  EXPECT_THAT(
+      [&] { return degree(4); },
+      ThrowsMessage<InputError>(HasSubstr("--p: 4 is not allowed; plate.h5 has unknowns of the degrees 1 to 3")));
   state.p = 2;
-  EXPECT_EQ(level(0), 1);
-  EXPECT_EQ(level(3), 2);
+  EXPECT_EQ(degree(0), 2);
+  EXPECT_EQ(degree(3), 3);
   state.p = 8;
-  EXPECT_THAT([&] { return level(0); },
+  EXPECT_THAT([&] { return degree(0); },
               ThrowsMessage<InputError>(HasSubstr("--p: 8 is the degree of the joint and not allowed")));
-}
-
-TEST(FieldLevel, MustHaveFields) {
-  auto plate = sheet();
-  stage2::FieldState state{vector({1, 1, 1, 0, 0, 1}), "", 0, "", 0};
-  const auto level = [&](int p) { return stage2::field_level(plate, "plate.h5", {"", "", 0, p}, state); };
-  EXPECT_EQ(level(3), 2);
-  EXPECT_THAT([&] { return level(1); }, ThrowsMessage<InputError>(AllOf(
-                                            HasSubstr("plate.h5:stress_p: the fields at p = 1 are not in the file; it "
-                                                      "has those at p = 3"),
-                                            HasSubstr("stage1_plate was told --loads-only"))));
-  plate.stress_p.resize(0);
-  EXPECT_THAT([&] { return level(3); }, ThrowsMessage<InputError>(HasSubstr("it has those at p = none")));
 }
 
 TEST(FieldOptions, ThatNeedOthers) {
@@ -244,8 +230,9 @@ TEST(MakeField, RefusesAmountsThatOverflow) {
   const auto plate = test::solve(test::make_plate(test::panel(1, 1)));
   const stage2::FieldRequest request = {"external:P=1e305"};
   const auto state = stage2::field_state(plate, "plate.h5", request);
+  stage2::FieldSolver solver(plate, "plate.h5");
   EXPECT_THAT(
-      [&] { return stage2::make_field(plate, "plate.h5", request, state); },
+      [&] { return stage2::make_field(solver, "plate.h5", request, state); },
       ThrowsMessage<NumericalError>(HasSubstr("plate.h5: --field external:P=1e305: displacements or stresses")));
 }
 

@@ -159,7 +159,7 @@ TEST(Checks, SpoiltSolutionsAreFound) {
     auto spoilt = good;
     spoil(spoilt);
     try {
-      stage2::require_good(stage2::extract(spoilt, "plate.h5", "test").checks, "f.h5");
+      stage2::require_good(test::extract(spoilt, false).checks, "f.h5");
     } catch (const NumericalError& e) {
       return e.what();
     }

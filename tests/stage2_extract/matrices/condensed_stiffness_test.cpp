@@ -12,10 +12,10 @@ namespace {
 /// S by coordinates against the energy products (unit field)^T K (unit field), which need the plate's own matrix.
 TEST(CondensedStiffness, IsTheEnergyProductOfUnitFields) {
   const test::Plate plate = test::make_plate(test::panel(2, 1));
-  const auto solution = test::solve_all_fields(plate);
+  const auto solution = test::solve(plate);
   const auto K = test::free_stiffness(plate.scene, plate.mesh, plate.problem);
   for (const std::size_t level : {0U, 3U, 7U}) {
-    const auto& U = solution.cases[level].U;
+    const Eigen::MatrixXd U = test::unit_fields(plate.problem, solution.p[level]);
     const Eigen::MatrixXd K_level = Eigen::MatrixXd(K).topLeftCorner(U.rows(), U.rows());
     const Eigen::MatrixXd UK_fc = U.transpose() * Eigen::MatrixXd(plate.problem.K_fc.topRows(U.rows()));
     const Eigen::MatrixXd energy = U.transpose() * K_level * U + UK_fc + UK_fc.transpose() + plate.problem.K_cc;

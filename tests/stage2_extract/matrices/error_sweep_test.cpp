@@ -18,7 +18,7 @@ using matrices::CondensedLevels;
 
 /// S, R and C_t of every degree.
 CondensedLevels levels(const std::string& json) {
-  const auto a = test::extract(json).matrices;
+  const auto a = test::extract(json, false).matrices;
   const auto nc = a.n_externals() + a.n_discs();
   CondensedLevels result{{}, {}, a.C_t};
   for (std::size_t i = 0; i < a.S_dd.size(); ++i) {

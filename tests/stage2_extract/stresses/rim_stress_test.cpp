@@ -117,23 +117,29 @@ struct Errors {
 };
 Errors errors(const std::string& space, int rings, std::size_t level) {
   const auto strip = [&](int n) {
-    return test::solve_all_fields(test::make_plate(
+    return test::solve(test::make_plate(
         test::grid_scene({0, 0.5, 2}, {0, 0.5}, {{"1", 0, 0, 0.25, n}},
                          R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
              "external": [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}])" +
                              space)));
   };
   const auto fine = strip(5), coarse = strip(rings);
-  stage2::UnitFields exact(fine, "fine"), fields(coarse, "coarse");
-  exact.use(fine.cases.size() - 1);
-  fields.use(level);
-  const auto points = stage2::rim_points(coarse.mesh, fields.edges(), coarse.hole_rim[0]);
+  stage2::FieldSolver exact(fine, "fine"), solver(coarse, "coarse");
+  exact.factorise(8);
+  solver.factorise(fine.p[level]);
+  const auto points = stage2::rim_points(coarse.mesh, solver.edges(), coarse.hole_rim[0]);
   const auto fine_points = stage2::rim_points(fine.mesh, exact.edges(), fine.hole_rim[0]);
+  const auto n_cases = coarse.n_cases();
+  const Eigen::VectorXd traction = Eigen::VectorXd::Unit(n_cases, n_cases - 1);
+  const auto fields = solver.solve(traction);
+  const auto sigma = stage2::RimStress(solver, 0, points)(fields);
+  const auto exact_sigma = stage2::RimStress(exact, 0, fine_points)(exact.solve(traction));
   Errors e;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d right = stage2::rim_stress(exact, 0, fine_points[i]).rightCols<1>();
+    const auto at = [i](const stage2::RimStresses& s) { return Eigen::Vector3d(s.rr(0, i), s.tt(0, i), s.rt(0, i)); };
+    const Eigen::Vector3d right = at(exact_sigma);
     const Eigen::Vector3d plain = (test::plain_rim_stress(fields, points[i]).rightCols<1>() - right).cwiseAbs();
-    const Eigen::Vector3d ours = (stage2::rim_stress(fields, 0, points[i]).rightCols<1>() - right).cwiseAbs();
+    const Eigen::Vector3d ours = (at(sigma) - right).cwiseAbs();
     e = {std::max(e.plain_radial, plain[0]), std::max(e.radial, ours[0]), std::max(e.plain_hoop, plain[1]),
          std::max(e.hoop, ours[1])};
   }
@@ -158,9 +164,8 @@ TEST_P(RimStress, DegreesAreTheTwoHighest) {
 
 TEST_P(RimStress, LoadsOnlyLeavesThemOut) {
   const test::Plate plate = test::make_plate(strap(space()));
-  const auto solution = test::solve(plate, stage1::Wanted::loads);
-  EXPECT_EQ(solution.cases.back().W.cols() + solution.cases.back().U.cols(), 0) << "the probe checks reciprocity";
-  const auto extraction = stage2::extract(solution, "plate.h5", "test");
+  const auto solution = test::solve(plate);
+  const auto extraction = test::extract(solution, false);
   EXPECT_EQ(extraction.matrices.stresses.p.size(), 0);
   const auto& rims = extraction.matrices.stresses;
   EXPECT_EQ(rims.angle.size(), 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/factor/skeleton.hpp"
+#include "common/plate/skeleton.hpp"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 /// Every row once; unknowns inside cells none.
 TEST(Skeleton, HasARowForEachUnknownOnASkeleton) {
   const auto plate = test::make_plate(test::panel(3, 2));
-  const stage1::Skeleton skeleton(plate.problem);
+  const plate::Skeleton skeleton(plate.problem);
   for (const int p : {1, 2, 8}) {
     const auto rows = skeleton.rows(plate.problem, p);
     std::vector<int> found(rows.n_skeleton, 0);
@@ -31,7 +31,7 @@ TEST(Skeleton, HasARowForEachUnknownOnASkeleton) {
 /// The pattern has as many entries as its size says, and a factor has no more than that says.
 TEST(Skeleton, KnowsItsSize) {
   const auto plate = test::make_plate(test::panel(4, 3));
-  const stage1::Skeleton skeleton(plate.problem);
+  const plate::Skeleton skeleton(plate.problem);
   for (const int p : {1, 3, 6}) {
     const auto rows = skeleton.rows(plate.problem, p);
     const auto size = skeleton.size(rows);

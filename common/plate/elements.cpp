@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/problem/elements.hpp"
+#include "common/plate/elements.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +9,7 @@
 #include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 namespace {
 
 /// A side of a rim by hole.
@@ -20,16 +20,15 @@ struct HoleSide {
 
 class ElementClassifier {
  public:
-  ElementClassifier(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
-                    const Unknowns& unknowns)
-      : scene_(scene), plate_(plate), numbering_(numbering), unknowns_(unknowns), rims_(plate.mesh.n_elements()) {}
+  ElementClassifier(const SprungMesh& sprung, const pfem::Numbering& numbering, const Unknowns& unknowns)
+      : sprung_(sprung), numbering_(numbering), unknowns_(unknowns), rims_(sprung.mesh.n_elements()) {}
 
   PlateElements run() {
-    const int n = plate_.mesh.n_elements();
-    result_.congruent = pfem::find_congruent(plate_.mesh, plate_.edges);
+    const int n = sprung_.mesh.n_elements();
+    result_.congruent = pfem::find_congruent(sprung_.mesh, sprung_.edges);
     result_.scale.resize(n);
-    for (int hole = 0; hole < count_of(scene_.holes); ++hole)
-      for (const auto& side : plate_.rims[hole].sides) rims_[side.element].push_back({hole, side});
+    for (int hole = 0; hole < count_of(sprung_.rims); ++hole)
+      for (const auto& side : sprung_.rims[hole].sides) rims_[side.element].push_back({hole, side});
     for (int element = 0; element < n; ++element) add(element);
     return std::move(result_);
   }
@@ -42,14 +41,13 @@ class ElementClassifier {
     const auto [found, is_new] = index_.try_emplace(key(element), count_of(result_.classes));
     if (is_new) add_class(element);
     result_.class_of.push_back(found->second);
-    result_.scale[element] = plate_.mesh.thickness[element] / result_.classes[found->second].thickness;
+    result_.scale[element] = sprung_.mesh.thickness[element] / result_.classes[found->second].thickness;
   }
 
   [[nodiscard]] std::vector<int> sprung_holes(int element) const {
     std::vector<int> holes;
     for (const auto& [hole, side] : rims_[element])
-      if (scene_.holes[hole].spring && std::find(holes.begin(), holes.end(), hole) == holes.end())
-        holes.push_back(hole);
+      if (sprung_.springs[hole] && std::find(holes.begin(), holes.end(), hole) == holes.end()) holes.push_back(hole);
     return holes;
   }
 
@@ -70,11 +68,11 @@ class ElementClassifier {
     const auto bits = [&](double x) { key.push_back(std::bit_cast<std::int64_t>(x)); };
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) key.push_back(is_edge_kept(element, edge));
     for (const auto& [hole, side] : rims_[element]) {
-      const auto& spring = scene_.holes[hole].spring;
+      const auto& spring = sprung_.springs[hole];
       if (!spring) continue;
       key.insert(key.end(), {index_of(result_.holes[element], hole), side.local_edge});
       bits(spring->modulus);
-      bits(spring->link / plate_.mesh.thickness[element]);
+      bits(spring->link / sprung_.mesh.thickness[element]);
       for (const auto& arc : spring->acts) {
         bits(arc.from);
         bits(arc.to);
@@ -84,21 +82,19 @@ class ElementClassifier {
   }
 
   void add_class(int element) {
-    ElementClass added{element, result_.congruent.class_of[element], plate_.mesh.thickness[element], {}, {}};
+    ElementClass added{element, result_.congruent.class_of[element], sprung_.mesh.thickness[element], {}, {}};
     added.kept.assign(numbering_.function.rows(), false);
     std::fill_n(added.kept.begin(), 4, true);
     for (int edge = 0; edge < pfem::n_local_edges; ++edge)
       for (int k = 2; k <= numbering_.p; ++k)
         added.kept[pfem::edge_mode(numbering_.p, edge, k)] = is_edge_kept(element, edge);
     for (const auto& [hole, side] : rims_[element])
-      if (scene_.holes[hole].spring)
-        added.rims.push_back(
-            {index_of(result_.holes[element], hole), rim_terms(scene_, plate_, hole, side, numbering_.p)});
+      if (sprung_.springs[hole])
+        added.rims.push_back({index_of(result_.holes[element], hole), rim_terms(sprung_, hole, side, numbering_.p)});
     result_.classes.push_back(std::move(added));
   }
 
-  const PlateScene& scene_;
-  const PlateMesh& plate_;
+  const SprungMesh& sprung_;
   const pfem::Numbering& numbering_;
   const Unknowns& unknowns_;
   PlateElements result_;
@@ -108,9 +104,8 @@ class ElementClassifier {
 
 }  // namespace
 
-PlateElements classify_elements(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering,
-                                const Unknowns& unknowns) {
-  return ElementClassifier(scene, plate, numbering, unknowns).run();
+PlateElements classify_elements(const SprungMesh& sprung, const pfem::Numbering& numbering, const Unknowns& unknowns) {
+  return ElementClassifier(sprung, numbering, unknowns).run();
 }
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

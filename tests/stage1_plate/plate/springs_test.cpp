@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/problem/springs.hpp"
+#include "common/plate/springs.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -48,7 +48,7 @@ TEST(Springs, AnArcIsIntegratedExactly) {
     const auto plate = test::make_plate(scene(fmt::format(R"("modulus": 1e6, "arc": [{}, {}])", from, to)));
     const Eigen::Matrix2d expected = arc_stiffness(from * pi / 180, to * pi / 180);
     EXPECT_LT((plate.problem.K_cc - expected).norm(), 1e-13 * k * t * r) << from;
-    const auto acts = stage1::spring_of(plate.scene.holes[0]).acts;
+    const auto acts = plate.scene.holes[0].sprung().acts;
     ASSERT_EQ(acts.size(), 1U);
     EXPECT_NEAR(acts[0].from, from * pi / 180, 1e-15);
     EXPECT_NEAR(acts[0].to, to * pi / 180, 1e-15);
@@ -82,7 +82,7 @@ TEST(Springs, LinksAreOneForEachNodeOfTheRim) {
   EXPECT_LT((whole.problem.K_cc - 400 * Eigen::Matrix2d::Identity()).norm(), 1e-11);
   const auto half = test::make_plate(scene(R"("links": 100)", true));
   EXPECT_LT((half.problem.K_cc - 200 * Eigen::Matrix2d::Identity()).norm(), 1e-11);
-  const auto spring = stage1::spring_of(whole.scene.holes[0]);
+  const auto spring = whole.scene.holes[0].sprung();
   EXPECT_EQ(spring.modulus, 0);
   EXPECT_EQ(spring.acts.size(), 1U);
 }

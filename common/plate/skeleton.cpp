@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/factor/skeleton.hpp"
+#include "common/plate/skeleton.hpp"
 
 #include <algorithm>
 #include <iterator>
@@ -8,7 +8,7 @@
 #include "common/linalg/cholesky.hpp"
 #include "common/pfem/shape_functions.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 namespace {
 
 void sort_unique(std::vector<int>& list) {
@@ -17,9 +17,9 @@ void sort_unique(std::vector<int>& list) {
 }
 
 /// First functions of the vertices and edges on the skeleton of an element.
-std::vector<int> on_skeleton_of(const PlateProblem& problem, int element) {
-  const auto& kept = problem.elements.classes[problem.elements.class_of[element]].kept;
-  const auto& numbering = problem.numbering;
+std::vector<int> on_skeleton_of(const PlateStiffness& plate, int element) {
+  const auto& kept = plate.elements.classes[plate.elements.class_of[element]].kept;
+  const auto& numbering = plate.numbering;
   const Eigen::Vector4i vertices = numbering.function.col(element).head<4>();
   std::vector<int> list(vertices.begin(), vertices.end());
   for (int edge = 0; edge < pfem::n_local_edges && numbering.p > 1; ++edge)
@@ -30,42 +30,31 @@ std::vector<int> on_skeleton_of(const PlateProblem& problem, int element) {
 
 /// Columns of the border that share a row with functions of a skeleton, because an external moves them, or that act on
 /// the element.
-std::vector<int> border_beside(const PlateProblem& problem, int element, const std::vector<int>& on_skeleton) {
-  std::vector<int> list = border_of(problem, element);
+std::vector<int> border_beside(const PlateStiffness& plate, int element, const std::vector<int>& on_skeleton) {
+  std::vector<int> list = plate.unknowns.border_of(plate.elements.holes[element]);
   for (const int function : on_skeleton)
-    for (const int dof : problem.unknowns.dofs.col(function))
+    for (const int dof : plate.unknowns.dofs.col(function))
       if (pfem::is_controlled(dof)) list.push_back(pfem::controlled_index(dof));
   return list;
 }
 
 }  // namespace
 
-std::vector<int> border_of(const PlateProblem& problem, int element) {
-  const Unknowns& unknowns = problem.unknowns;
-  std::vector<int> list;
-  for (const int hole : problem.elements.holes[element]) {
-    const int disc = unknowns.disc_of_hole[hole];
-    for (int a = 0; a < unknowns.n_directions; ++a) list.push_back(unknowns.controlled_of_disc(disc + a));
-    for (int c = 0; c < 2 * unknowns.n_directions; ++c) list.push_back(unknowns.n_controlled + 2 * disc + c);
-  }
-  return list;
-}
-
-Skeleton::Skeleton(const PlateProblem& problem) {
+Skeleton::Skeleton(const PlateStiffness& plate) {
   std::vector<Blocks> cliques;
-  const auto n_elements = count_of(problem.elements.class_of);
+  const auto n_elements = count_of(plate.elements.class_of);
   cliques.reserve(n_elements);
-  for (int element = 0; element < n_elements; ++element) cliques.push_back(on_skeleton_of(problem, element));
+  for (int element = 0; element < n_elements; ++element) cliques.push_back(on_skeleton_of(plate, element));
   order(cliques);
   const int first_border = count_of(function_);
-  higher_.resize(function_.size() + problem.unknowns.n_controlled + problem.friction_hole.size());
+  higher_.resize(function_.size() + plate.unknowns.n_controlled() + plate.unknowns.n_friction_cases());
   for (int i = 0; i < n_elements; ++i) {
-    const auto border = border_beside(problem, i, cliques[i]);
+    const auto border = border_beside(plate, i, cliques[i]);
     for (int& block : cliques[i]) block = position_[block];
     for (const int column : border) cliques[i].push_back(first_border + column);
     join(cliques[i]);
   }
-  for (const auto& tie : problem.ties)
+  for (const auto& tie : plate.ties)
     join({pfem::is_free(tie.dof) ? position_[tie.vertex] : first_border + pfem::controlled_index(tie.dof),
           first_border + tie.controlled});
   for (auto& list : higher_) sort_unique(list);
@@ -110,13 +99,13 @@ int Skeleton::Rows::of_dof(int dof) const {
   return pfem::is_controlled(dof) ? n_skeleton + pfem::controlled_index(dof) : -1;
 }
 
-Skeleton::Rows Skeleton::rows(const PlateProblem& problem, int p) const {
-  const auto& n_functions = problem.numbering.n_functions;
+Skeleton::Rows Skeleton::rows(const PlateStiffness& plate, int p) const {
+  const auto& n_functions = plate.numbering.n_functions;
   Rows rows;
-  rows.of_unknown.assign(problem.unknowns.n_free.back(), -1);
+  rows.of_unknown.assign(plate.unknowns.n_free.back(), -1);
   int n = 0;
   const auto number = [&](int function) {
-    for (const int dof : problem.unknowns.dofs.col(function))
+    for (const int dof : plate.unknowns.dofs.col(function))
       if (pfem::is_free(dof)) rows.of_unknown[dof] = n++;
   };
   for (const int function : function_) {
@@ -179,4 +168,4 @@ Eigen::SparseMatrix<double> Skeleton::pattern(const Rows& rows) const {
   return A;
 }
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

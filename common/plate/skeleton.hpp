@@ -4,20 +4,16 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "stage1_plate/problem/plate_problem.hpp"
+#include "common/plate/stiffness.hpp"
 
-namespace fastjoint::stage1 {
-
-/// Columns of the border that act on an element, in the order in which it has them (CondensedElement): of each of its
-/// holes the discs, then the friction cases. Controlled displacements count from 0, friction cases behind them.
-[[nodiscard]] std::vector<int> border_of(const PlateProblem& problem, int element);
+namespace fastjoint::plate {
 
 /// The vertices and edges on the skeletons of the elements as blocks of unknowns, in the order in which they are
 /// eliminated, and behind them the border: the controlled displacements, then the friction cases, each a block. Ordered
 /// once for all degrees.
 class Skeleton {
  public:
-  explicit Skeleton(const PlateProblem& problem);
+  explicit Skeleton(const PlateStiffness& plate);
 
   /// Rows of the bordered skeleton stiffness at one degree.
   struct Rows {
@@ -28,8 +24,8 @@ class Skeleton {
     /// Row of a degree of freedom, or -1 for a fixed one.
     [[nodiscard]] int of_dof(int dof) const;
   };
-  /// @param problem The problem of the constructor, or one with the same unknowns.
-  [[nodiscard]] Rows rows(const PlateProblem& problem, int p) const;
+  /// @param plate That of the constructor, or one with the same unknowns.
+  [[nodiscard]] Rows rows(const PlateStiffness& plate, int p) const;
   /// Entries of the bordered skeleton stiffness, of its factor and of the factor's largest front.
   struct Size {
     double entries, factor, largest_front;
@@ -48,4 +44,4 @@ class Skeleton {
   std::vector<Blocks> higher_;  ///< (blocks) later blocks that share an element with it, ascending
 };
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

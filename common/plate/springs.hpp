@@ -2,14 +2,21 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "common/rim/rim.hpp"
-#include "stage1_plate/mesh/plate_mesh.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 
-/// The springs of a hole as stage 2 reads them: modulus 0 of an open hole, and of links.
-[[nodiscard]] rim::HoleSpring spring_of(const Hole& hole);
+/// A mesh with the rims of its holes and the springs on them. All must outlive this.
+struct SprungMesh {
+  const pfem::Mesh& mesh;
+  const pfem::Edges& edges;
+  const std::vector<rim::Rim>& rims;                    ///< of each hole
+  std::vector<std::optional<rim::HoleSpring>> springs;  ///< of each hole, none in an open one, which has no disc
+  Eigen::Matrix2Xd axes;                                ///< (2, a) directions of every disc
+};
 
 /// Springs on one side of a rim, summed over points: quadrature points, or the two nodes of links.
 struct SideSprings {
@@ -17,7 +24,8 @@ struct SideSprings {
   Eigen::VectorXd weight;  ///< (n_points) stiffness of each point, force / length; 0 where no spring acts
 };
 /// @param p Degree of the plate's space. Arcs are integrated exactly: pieces end where they do.
-[[nodiscard]] SideSprings side_springs(const Spring& spring, const PlateMesh& plate, const pfem::Side& side, int p);
+[[nodiscard]] SideSprings side_springs(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
+                                       const pfem::Side& side, int p);
 
 /// Stiffness of the springs on one side of a sprung hole's rim, and loads of the unit friction cases there, over the
 /// coefficients of the side's modes: first all of u_x, then all of u_y, local signs. a disc directions, n modes.
@@ -30,8 +38,7 @@ struct RimTerms {
   double stiffness;          ///< sum of the springs, force / length; 0 if none acts on the side
 };
 
-/// @param hole Index of a sprung hole of the scene. @param p Degree of the plate's space.
-[[nodiscard]] RimTerms rim_terms(const PlateScene& scene, const PlateMesh& plate, std::size_t hole,
-                                 const pfem::Side& side, int p);
+/// @param hole Index of a sprung hole. @param p Degree of the plate's space.
+[[nodiscard]] RimTerms rim_terms(const SprungMesh& sprung, std::size_t hole, const pfem::Side& side, int p);
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

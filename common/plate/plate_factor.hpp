@@ -7,9 +7,9 @@
 
 #include "common/linalg/cholesky.hpp"
 #include "common/linalg/condensed.hpp"
-#include "stage1_plate/factor/skeleton.hpp"
+#include "common/plate/skeleton.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 
 /// A class of elements at one degree, condensed onto the functions that it shares and onto its border: by hole the
 /// discs, then the friction cases. The border's rows are those of a bordered stiffness [K_ff K_fc -L; . K_cc -L_c], in
@@ -24,16 +24,28 @@ struct CondensedElement {
 [[nodiscard]] CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K,
                                         const pfem::Numbering& numbering, int p);
 
+/// Bytes that a factor takes, known before anything is integrated.
+struct FactorBytes {
+  double elements;  ///< matrices of the congruence classes at the highest degree, condensed ones at the factor's
+  double factor;    ///< the skeleton's stiffness and its factor
+};
+[[nodiscard]] FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool bordered);
+
 /// The plate's stiffness at one degree, factorised: elements are condensed onto their skeletons, each class once; what
-/// is left of all is one sparse system, bordered by the controlled displacements and the friction cases. The problem
-/// must outlive this.
+/// is left of all is one sparse system, bordered by the controlled displacements and the friction cases.
 class PlateFactor {
  public:
+  /// Factorises without the border, for solving alone.
+  /// @param plate Must outlive this.
   /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
-  PlateFactor(const PlateProblem& problem, const Skeleton& skeleton, int p);
+  PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p);
+  /// Factorises with the border.
+  /// @param diagonal What the border has on its diagonal beside the stiffness of discs and ties, (nc + h).
+  PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd& diagonal);
 
   /// Rows of the factor in the border, shape (nc + h, nc): E_c of the controlled displacements, then E_h of the
-  /// friction cases. With s = shift(problem), S = E_c E_c^T - diag(s) and R = E_c E_h^T (docs/theory.md, section 4.4).
+  /// friction cases. With the artificial stiffness s, S = E_c E_c^T - diag(s) and R = E_c E_h^T (docs/theory.md,
+  /// section 4.4). Of a factor with a border only.
   [[nodiscard]] Eigen::MatrixXd energy_rows() const;
   /// Plate unknowns under loads on them, controlled displacements held, shape (n_p, k).
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
@@ -43,18 +55,17 @@ class PlateFactor {
   [[nodiscard]] double rounding(const Eigen::VectorXd& u) const;
 
  private:
+  friend class PlateStates;
+  PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd* diagonal);
   [[nodiscard]] const CondensedElement& condensed(int element) const;
   [[nodiscard]] Eigen::SparseMatrix<double> skeleton_stiffness(const Skeleton& skeleton) const;
 
-  const PlateProblem& problem_;
+  const PlateStiffness& plate_;
   std::vector<CondensedElement> classes_;
   Skeleton::Rows rows_;
   Eigen::VectorXd diagonal_;
+  Eigen::SparseMatrix<double> coupling_;  ///< (nc + h, skeleton) of a factor without a border: its rows
   std::unique_ptr<linalg::Cholesky> factor_;
 };
 
-/// Artificial stiffness of each controlled displacement, shape (nc), force / length: as much as its diagonal entry of
-/// K_cc. It keeps the factor of a floating sheet regular and is subtracted from S again (docs/theory.md, section 4.5).
-[[nodiscard]] Eigen::VectorXd shift(const PlateProblem& problem);
-
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/problem/elements.hpp"
+#include "common/plate/elements.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/factor/plate_factor.hpp"
+#include "common/plate/plate_factor.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "common/count.hpp"
 #include "common/linalg/threads.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 namespace {
 
 /// Adds what a rim brings to the lower triangle of M.
@@ -71,10 +71,10 @@ class SkeletonAssembler {
 class ElementSolution {
  public:
   /// All must outlive this.
-  ElementSolution(const PlateProblem& problem, int element, const CondensedElement& condensed,
+  ElementSolution(const PlateStiffness& plate, int element, const CondensedElement& condensed,
                   const Skeleton::Rows& rows)
-      : dofs_(pfem::element_dofs(problem.numbering, problem.unknowns.dofs, element)),
-        scale_(problem.elements.scale[element]),
+      : dofs_(pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element)),
+        scale_(plate.elements.scale[element]),
         condensed_(condensed),
         rows_(rows) {}
 
@@ -115,8 +115,6 @@ class ElementSolution {
   Eigen::MatrixXd inside_, outside_;  ///< between eliminate and restore
 };
 
-double largest(const Eigen::SparseMatrix<double>& A) { return A.nonZeros() > 0 ? A.coeffs().abs().maxCoeff() : 0; }
-
 }  // namespace
 
 CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K, const pfem::Numbering& numbering,
@@ -141,54 +139,72 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
   return element;
 }
 
-Eigen::VectorXd shift(const PlateProblem& problem) {
-  return problem.K_cc.diagonal().unaryExpr([](double k) { return k > 0 ? k : 1; });
+FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool bordered) {
+  constexpr double number = sizeof(double), entry = sizeof(double) + sizeof(int);
+  const auto square = [](double n) { return n * n; };
+  const auto& function = plate.numbering.function;
+  double elements = count_of(plate.elements.congruent.first) * square(2.0 * double(function.rows()));
+  for (const auto& each : plate.elements.classes)
+    elements += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()));
+  auto rows = skeleton.rows(plate, p);
+  const double entries = skeleton.size(rows).entries;
+  if (!bordered) std::fill(rows.first.end() - rows.n_border - 1, rows.first.end(), rows.n_skeleton);
+  const auto size = skeleton.size(rows);
+  return {number * elements, entry * (entries + size.entries) + number * (size.factor + size.largest_front)};
 }
 
-PlateFactor::PlateFactor(const PlateProblem& problem, const Skeleton& skeleton, int p)
-    : problem_(problem), classes_(problem.elements.classes.size()), rows_(skeleton.rows(problem, p)) {
+PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p)
+    : PlateFactor(plate, skeleton, p, nullptr) {}
+
+PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd& diagonal)
+    : PlateFactor(plate, skeleton, p, &diagonal) {}
+
+PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd* diagonal)
+    : plate_(plate), classes_(plate.elements.classes.size()), rows_(skeleton.rows(plate, p)) {
   linalg::for_each_index(classes_.size(), [&](std::size_t i) {
-    const ElementClass& elements = problem.elements.classes[i];
-    classes_[i] = condense(elements, problem.elements.stiffness[elements.congruent], problem.numbering, p);
+    const ElementClass& elements = plate.elements.classes[i];
+    classes_[i] = condense(elements, plate.elements.stiffness[elements.congruent], plate.numbering, p);
   });
-  const Eigen::SparseMatrix<double> A = skeleton_stiffness(skeleton);
-  diagonal_ = A.diagonal();
-  factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_border);
+  Eigen::SparseMatrix<double> A = skeleton_stiffness(skeleton);
+  diagonal_ = A.diagonal().head(rows_.n_skeleton);
+  if (diagonal) {
+    for (int i = 0; i < rows_.n_border; ++i) A.coeffRef(rows_.n_skeleton + i, rows_.n_skeleton + i) += (*diagonal)[i];
+    factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_border);
+  } else {
+    coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
+    A = A.topLeftCorner(rows_.n_skeleton, rows_.n_skeleton).eval();
+    factor_ = std::make_unique<linalg::Cholesky>(A);
+  }
 }
 
 const CondensedElement& PlateFactor::condensed(int element) const {
-  return classes_[problem_.elements.class_of[element]];
+  return classes_[plate_.elements.class_of[element]];
 }
 
 Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skeleton) const {
   Eigen::SparseMatrix<double> A = skeleton.pattern(rows_);
   SkeletonAssembler assembler(A);
-  for (int element = 0; element < count_of(problem_.elements.class_of); ++element) {
+  for (int element = 0; element < count_of(plate_.elements.class_of); ++element) {
     const CondensedElement& K = condensed(element);
-    const auto dofs = pfem::element_dofs(problem_.numbering, problem_.unknowns.dofs, element);
+    const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, element);
     Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
     sign.head(K.outside.size()) = dofs.sign(K.outside);
     std::vector<int> rows;
     for (const int i : K.outside) rows.push_back(rows_.of_dof(dofs.dof[i]));
-    for (const int column : border_of(problem_, element)) rows.push_back(rows_.n_skeleton + column);
-    assembler.add(rows, sign, problem_.elements.scale[element], K.matrix.outside());
+    for (const int column : plate_.unknowns.border_of(plate_.elements.holes[element]))
+      rows.push_back(rows_.n_skeleton + column);
+    assembler.add(rows, sign, plate_.elements.scale[element], K.matrix.outside());
   }
-  for (const auto& tie : problem_.ties) {
-    const int plate = rows_.of_dof(tie.dof), disc = rows_.n_skeleton + tie.controlled;
-    assembler.add(plate, plate, tie.stiffness);
+  for (const auto& tie : plate_.ties) {
+    const int vertex = rows_.of_dof(tie.dof), disc = rows_.n_skeleton + tie.controlled;
+    assembler.add(vertex, vertex, tie.stiffness);
     assembler.add(disc, disc, tie.stiffness);
-    assembler.add(plate, disc, -tie.stiffness);
+    assembler.add(vertex, disc, -tie.stiffness);
   }
-  // The friction cases come last, so that their diagonal changes nothing before them; it must be large enough for a
-  // factor, that is above L^T K^-1 L (docs/theory.md, section 4.4).
-  const auto s = shift(problem_);
-  const double L = largest(problem_.L_f), large = L > 0 ? 1e30 * L * L / s.maxCoeff() : 1;
-  for (int i = 0; i < rows_.n_border; ++i)
-    assembler.add(rows_.n_skeleton + i, rows_.n_skeleton + i, i < s.size() ? s[i] : large);
   return A;
 }
 
-Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(problem_.K_cc.cols()); }
+Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(plate_.unknowns.n_controlled()); }
 
 double PlateFactor::rounding(const Eigen::VectorXd& u) const {
   double sum = 0;
@@ -201,9 +217,9 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
   constexpr Eigen::Index block = 64;  // right-hand sides at a time: what an element has of them fits into the cache
   Eigen::MatrixXd X(B.rows(), B.cols());
   std::vector<ElementSolution> elements;
-  elements.reserve(problem_.elements.class_of.size());
-  for (int element = 0; element < count_of(problem_.elements.class_of); ++element)
-    elements.emplace_back(problem_, element, condensed(element), rows_);
+  elements.reserve(plate_.elements.class_of.size());
+  for (int element = 0; element < count_of(plate_.elements.class_of); ++element)
+    elements.emplace_back(plate_, element, condensed(element), rows_);
   for (Eigen::Index first = 0; first < B.cols(); first += block) {
     const auto k = std::min(block, B.cols() - first);
     Eigen::MatrixXd skeleton = Eigen::MatrixXd::Zero(rows_.n_skeleton, k);
@@ -220,4 +236,4 @@ Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
   return X;
 }
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

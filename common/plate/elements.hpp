@@ -5,11 +5,10 @@
 #include <vector>
 
 #include "common/pfem/congruent_elements.hpp"
-#include "common/pfem/numbering.hpp"
-#include "stage1_plate/problem/springs.hpp"
-#include "stage1_plate/problem/unknowns.hpp"
+#include "common/plate/springs.hpp"
+#include "common/plate/unknowns.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 
 /// Congruent elements that have equal springs on their rims too: they share one condensed stiffness up to the factor of
 /// thickness (docs/theory.md, section 2.6).
@@ -36,7 +35,7 @@ struct PlateElements {
 };
 
 /// Finds the classes and what rims add to each; integrates no element.
-[[nodiscard]] PlateElements classify_elements(const PlateScene& scene, const PlateMesh& plate,
-                                              const pfem::Numbering& numbering, const Unknowns& unknowns);
+[[nodiscard]] PlateElements classify_elements(const SprungMesh& sprung, const pfem::Numbering& numbering,
+                                              const Unknowns& unknowns);
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/problem/springs.hpp"
+#include "common/plate/springs.hpp"
 
 #include <cmath>
 
 #include "common/pfem/shape_functions.hpp"
 #include "common/rim/bearing.hpp"
 
-namespace fastjoint::stage1 {
+namespace fastjoint::plate {
 namespace {
 
 double angle_of(const Eigen::Vector2d& radial) { return std::atan2(radial.y(), radial.x()); }
 
-SideSprings distributed(const Spring& spring, const PlateMesh& plate, const pfem::Side& side, int p) {
-  SideSprings springs{rim::rim_rule(plate.mesh, plate.edges, side, p, spring.acts), {}};
-  springs.weight = spring.modulus * plate.mesh.thickness[side.element] * springs.rule.ds;
+SideSprings distributed(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
+                        const pfem::Side& side, int p) {
+  SideSprings springs{rim::rim_rule(mesh, edges, side, p, spring.acts), {}};
+  springs.weight = spring.modulus * mesh.thickness[side.element] * springs.rule.ds;
   for (Eigen::Index q = 0; q < springs.weight.size(); ++q)
     if (!rim::covers(spring.acts, angle_of(-springs.rule.normal.col(q)))) springs.weight[q] = 0;
   return springs;
 }
 
 /// Each end of the side has half a link, if springs act on the side there.
-SideSprings links(const Spring& spring, const PlateMesh& plate, const pfem::Side& side) {
+SideSprings links(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
+                  const pfem::Side& side) {
   constexpr double inside = 1e-9;  // of the side: as close as rim::rim_rule takes an arc's end for the side's
-  const pfem::Curve curve = pfem::edge_curve(plate.mesh, plate.edges, side.element, side.local_edge);
+  const pfem::Curve curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
   const auto [first, second] = pfem::natural_ends(side.local_edge);
   SideSprings springs{
       {{first, second}, Eigen::Matrix2d::Identity(), Eigen::Matrix2Xd(2, 2), Eigen::Matrix2Xd(2, 2), {}},
@@ -76,22 +78,16 @@ Eigen::VectorXd friction_load(const pfem::SideRule& rule, double thickness, cons
 
 }  // namespace
 
-rim::HoleSpring spring_of(const Hole& hole) {
-  if (!hole.spring) return {};
-  return {hole.spring->modulus, hole.spring->acts};
+SideSprings side_springs(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
+                         const pfem::Side& side, int p) {
+  return spring.link > 0 ? links(spring, mesh, edges, side) : distributed(spring, mesh, edges, side, p);
 }
 
-SideSprings side_springs(const Spring& spring, const PlateMesh& plate, const pfem::Side& side, int p) {
-  return spring.link > 0 ? links(spring, plate, side) : distributed(spring, plate, side, p);
-}
-
-RimTerms rim_terms(const PlateScene& scene, const PlateMesh& plate, std::size_t hole, const pfem::Side& side, int p) {
-  const auto rule = rim::rim_rule(plate.mesh, plate.edges, side, p);
-  const auto springs = side_springs(scene.holes[hole].sprung(), plate, side, p);
-  const Eigen::Index n = rule.modes.size();
-  const Eigen::Index a = scene.disc_directions.size();
-  Eigen::Matrix2Xd axes(2, a);
-  for (Eigen::Index i = 0; i < a; ++i) axes.col(i) = rim::axis(scene.disc_directions[i]);
+RimTerms rim_terms(const SprungMesh& sprung, std::size_t hole, const pfem::Side& side, int p) {
+  const auto& [mesh, edges, rims, all_springs, axes] = sprung;
+  const auto rule = rim::rim_rule(mesh, edges, side, p);
+  const auto springs = side_springs(all_springs[hole].value(), mesh, edges, side, p);
+  const Eigen::Index n = rule.modes.size(), a = axes.cols();
   RimTerms terms{rule.modes,
                  Eigen::MatrixXd::Zero(2 * n, 2 * n),
                  Eigen::MatrixXd(2 * n, a),
@@ -100,10 +96,10 @@ RimTerms rim_terms(const PlateScene& scene, const PlateMesh& plate, std::size_t 
                  springs.weight.sum()};
   add_springs(springs, axes, terms);
   for (Eigen::Index i = 0; i < a; ++i) {
-    terms.friction.col(2 * i) = friction_load(rule, plate.mesh.thickness[side.element], axes.col(i));
-    terms.friction.col(2 * i + 1) = friction_load(rule, plate.mesh.thickness[side.element], -axes.col(i));
+    terms.friction.col(2 * i) = friction_load(rule, mesh.thickness[side.element], axes.col(i));
+    terms.friction.col(2 * i + 1) = friction_load(rule, mesh.thickness[side.element], -axes.col(i));
   }
   return terms;
 }
 
-}  // namespace fastjoint::stage1
+}  // namespace fastjoint::plate

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+
+#include "common/plate/plate_factor.hpp"
+
+namespace fastjoint::plate {
+
+/// Linear functions of an element's coefficients, by what is left of them when the element is condensed: weights of
+/// what it shares with others and of its border, and of the loads inside it. They are condensed as loads are, since the
+/// stiffness is symmetric.
+struct CondensedFunctions {
+  int element;
+  Eigen::MatrixXd inside, outside;  ///< (n_inside, r), (n_outside, r)
+};
+
+/// Displacements of a plate in k states at one degree: those of the skeleton, from which those inside an element follow
+/// where they are asked for.
+class PlateStates {
+ public:
+  /// @param factor Without a border; must outlive this.
+  /// @param border Amounts of controlled displacements, then friction cases, shape (nc + h, k).
+  /// @param loads  On the plate's unknowns beside, shape (n_p, k); few of them are not zero.
+  PlateStates(const PlateFactor& factor, const Eigen::MatrixXd& border, const Eigen::SparseMatrix<double>& loads);
+
+  [[nodiscard]] Eigen::Index size() const { return skeleton_.rows(); }
+  /// Coefficients of all modes of an element, local signs, shape (2 n_modes, k): first those of u_x; 0 of those above
+  /// the degree.
+  [[nodiscard]] Eigen::MatrixXd coefficients(int element) const;
+
+  /// @param weights Of the coefficients of all modes of an element, shape (2 n_modes, r).
+  [[nodiscard]] static CondensedFunctions condense(const PlateFactor& factor, int element,
+                                                   const Eigen::MatrixXd& weights);
+  /// Values of the functions in every state, shape (k, r).
+  [[nodiscard]] Eigen::MatrixXd values(const CondensedFunctions& functions) const;
+
+ private:
+  /// Takes loads inside elements to the skeleton.
+  void eliminate(const Eigen::SparseMatrix<double>& loads, Eigen::MatrixXd& skeleton);
+  /// What an element shares with others, then what its border has, shape (k, n_outside).
+  [[nodiscard]] Eigen::MatrixXd outside(int element) const;
+
+  const PlateFactor& factor_;
+  Eigen::MatrixXd border_;                 ///< (k, nc + h)
+  Eigen::MatrixXd skeleton_;               ///< (k, skeleton): what an element takes of it lies together
+  std::map<int, Eigen::MatrixXd> inside_;  ///< of the elements with loads inside, eliminated, (n_inside, k)
+};
+
+}  // namespace fastjoint::plate

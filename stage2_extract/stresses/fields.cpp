@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/stresses/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <cassert>
+
+#include "common/errors.hpp"
+#include "common/rim/bearing.hpp"
+
+namespace fastjoint::stage2 {
+namespace {
+
+using formats::PlateSolution;
+
+/// Who moves each degree of freedom, as stage 1 had it.
+plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbering, const std::string& file) {
+  if (a.unknown.cols() != numbering.n_functions.back())
+    throw FileError(fmt::format("{}:unknown: has {} rows, the mesh has {} functions at p = {} of the {} space", file,
+                                a.unknown.cols(), numbering.n_functions.back(), numbering.p,
+                                pfem::name_of(numbering.space)));
+  plate::Unknowns unknowns{
+      a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole, a.disc_direction, 0,
+      {}};
+  for (const auto& name : a.disc_hole) unknowns.n_directions += name == a.disc_hole[0];
+  for (const auto& id : a.hole_id) {
+    const int first = index_of(a.disc_hole, id), n = unknowns.n_directions;
+    const bool is_open = first == unknowns.n_discs();
+    unknowns.disc_of_hole.push_back(is_open ? -1 : first);
+    if (!is_open &&
+        (first + n > unknowns.n_discs() || std::count(&a.disc_hole[first], &a.disc_hole[first] + n, id) != n))
+      throw FileError(
+          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one behind the other, {} as of "
+                      "every hole",
+                      file, id, n));
+  }
+  return unknowns;
+}
+
+plate::SprungMesh sprung_mesh(const PlateSolution& a, const pfem::Edges& edges, const plate::Unknowns& unknowns) {
+  plate::SprungMesh sprung{a.mesh, edges, a.hole_rim, {}, Eigen::Matrix2Xd(2, unknowns.n_directions)};
+  for (std::size_t i = 0; i < a.hole_id.size(); ++i)
+    sprung.springs.push_back(unknowns.disc_of_hole[i] < 0 ? std::nullopt : std::optional(a.hole_spring[i]));
+  for (int i = 0; i < unknowns.n_directions; ++i) sprung.axes.col(i) = rim::axis(a.disc_direction[i]);
+  return sprung;
+}
+
+plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& edges, const std::string& file) {
+  plate::PlateStiffness K;
+  K.numbering = pfem::number_by_degree(a.mesh, edges, a.space, a.p[a.p.size() - 1]);
+  K.unknowns = unknowns_of(a, K.numbering, file);
+  K.elements = plate::classify_elements(sprung_mesh(a, edges, K.unknowns), K.numbering, K.unknowns);
+  K.elements.stiffness = pfem::integrate(K.elements.congruent, a.mesh, edges, a.elasticity, a.space, K.numbering.p);
+  for (const auto& point : a.points) {
+    const int axis = a.disc_direction[point.disc] == "x" ? 0 : 1;
+    K.ties.push_back(
+        {point.vertex, a.unknown(axis, point.vertex), K.unknowns.controlled_of_disc(point.disc), point.stiffness});
+  }
+  return K;
+}
+
+}  // namespace
+
+FieldSolver::FieldSolver(const PlateSolution& plate, const std::string& file)
+    : plate_(plate),
+      edges_(pfem::find_edges(plate.mesh)),
+      stiffness_(stiffness_of(plate, edges_, file)),
+      skeleton_(stiffness_) {}
+
+double FieldSolver::factor_bytes(int p) const {
+  const auto [elements, factor] = plate::factor_bytes(stiffness_, skeleton_, p, false);
+  return elements + factor;
+}
+
+void FieldSolver::factorise(int p) {
+  factor_.reset();  // its memory first
+  factor_ = std::make_unique<plate::PlateFactor>(stiffness_, skeleton_, p);
+  n_free_ = stiffness_.unknowns.n_free[p];
+}
+
+Fields FieldSolver::solve(Eigen::MatrixXd amounts) const {
+  assert(amounts.rows() == plate_.n_cases());
+  const Eigen::SparseMatrix<double> tractions = amounts.bottomRows(plate_.n_tractions()).sparseView();
+  plate::PlateStates states(*factor_, amounts.topRows(amounts.rows() - tractions.rows()),
+                            plate_.T_f.topRows(n_free_) * tractions);
+  return {*this, std::move(amounts), std::move(states)};
+}
+
+const Eigen::Matrix3d& FieldSolver::elasticity(int element) const {
+  return plate_.elasticity[plate_.mesh.material[element]];
+}
+
+}  // namespace fastjoint::stage2

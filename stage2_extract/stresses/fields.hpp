@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <vector>
+
+#include "common/formats/plate_solution.hpp"
+#include "common/plate/plate_states.hpp"
+
+namespace fastjoint::stage2 {
+
+class Fields;
+
+/// A plate of which any state can be solved at any degree up to that of its file: its elements are integrated again
+/// from the file's mesh and springs, and factorised at one degree after another (docs/performance.md says why the file
+/// holds neither fields nor factor).
+class FieldSolver {
+ public:
+  /// @param plate Must outlive this. @param file Its name, for messages.
+  /// Throws FileError if the map of unknowns or the discs do not fit the mesh and its holes.
+  FieldSolver(const formats::PlateSolution& plate, const std::string& file);
+  FieldSolver(const FieldSolver&) = delete;
+  FieldSolver& operator=(const FieldSolver&) = delete;
+
+  /// Bytes that a factor at this degree takes.
+  [[nodiscard]] double factor_bytes(int p) const;
+  /// Factorises at this degree: that of all solutions from now on.
+  void factorise(int p);
+  /// Solves for states given as amounts of the unit cases, shape (n_cases, k); this must outlive the result.
+  [[nodiscard]] Fields solve(Eigen::MatrixXd amounts) const;
+
+  [[nodiscard]] const formats::PlateSolution& plate() const { return plate_; }
+  [[nodiscard]] const pfem::Edges& edges() const { return edges_; }
+  [[nodiscard]] const pfem::Numbering& numbering() const { return stiffness_.numbering; }
+  [[nodiscard]] const Eigen::Matrix3d& elasticity(int element) const;
+  /// What is left of functions of an element's coefficients at the degree of the factor.
+  /// @param weights Shape (2 n_modes, r).
+  [[nodiscard]] plate::CondensedFunctions condense(int element, const Eigen::MatrixXd& weights) const {
+    return plate::PlateStates::condense(*factor_, element, weights);
+  }
+
+ private:
+  const formats::PlateSolution& plate_;
+  pfem::Edges edges_;
+  plate::PlateStiffness stiffness_;
+  plate::Skeleton skeleton_;
+  std::unique_ptr<plate::PlateFactor> factor_;
+  int n_free_ = 0;  ///< at the degree of the factor
+};
+
+/// Displacement fields of k states of a plate at one degree, element by element.
+class Fields {
+ public:
+  /// @param solver  Must outlive this.
+  /// @param amounts Of every unit case, (n_cases, k): nc controlled displacements (externals, discs), h friction cases,
+  ///                q tractions.
+  Fields(const FieldSolver& solver, Eigen::MatrixXd amounts, plate::PlateStates states)
+      : solver_(solver), amounts_(std::move(amounts)), states_(std::move(states)) {}
+
+  [[nodiscard]] const FieldSolver& solver() const { return solver_; }
+  [[nodiscard]] const Eigen::MatrixXd& amounts() const { return amounts_; }
+  [[nodiscard]] Eigen::Index n_states() const { return states_.size(); }
+  /// Degree of the shape functions by which coefficients count; those of higher degree than the fields' are zero.
+  [[nodiscard]] int p() const { return solver_.numbering().p; }
+  [[nodiscard]] pfem::Space space() const { return solver_.numbering().space; }
+
+  /// Coefficients of all local modes of an element, local signs, shape (2 n_modes, k): first those of u_x.
+  [[nodiscard]] Eigen::MatrixXd coefficients(int element) const { return states_.coefficients(element); }
+  /// Values of functions of an element's coefficients in every state, shape (k, r).
+  [[nodiscard]] Eigen::MatrixXd values(const plate::CondensedFunctions& functions) const {
+    return states_.values(functions);
+  }
+
+ private:
+  const FieldSolver& solver_;
+  Eigen::MatrixXd amounts_;
+  plate::PlateStates states_;
+};
+
+}  // namespace fastjoint::stage2
