@@ -31,7 +31,7 @@ STAGES = {
         "path": [],
         "results": ["formats", "matrices", "rim", ""],
         "output": ["formats", "program", ""],
-        "": ["h5", "input", "program", ""],
+        "": ["h5", "input", "linalg", "program", ""],
     },
 }
 COMMON = {
@@ -44,11 +44,12 @@ COMMON = {
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
     "formats": ["", "h5", "pfem", "rim"],
-    "program": ["", "h5"],
+    "program": ["", "h5", "linalg"],
 }
-# Of finite elements the third stage knows the angles of a rim alone; of formats those without a mesh.
-THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg", "common/plate/", "common/rim/rim.hpp", "common/rim/bearing.hpp",
-                       "common/formats/plate_solution")
+# Of finite elements the third stage knows the angles of a rim alone; of formats those without a mesh; of linear algebra
+# the threads, while all else there takes CHOLMOD.
+THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg/cholesky.hpp", "common/linalg/condensed.hpp", "common/plate/",
+                       "common/rim/rim.hpp", "common/rim/bearing.hpp", "common/formats/plate_solution")
 
 
 def folder_of(path):

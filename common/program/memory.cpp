@@ -13,6 +13,7 @@
 #include <string>
 
 #include "common/errors.hpp"
+#include "common/linalg/threads.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -42,8 +43,7 @@ double number(const std::string& path) {
 double left_in_address_space() {
   rlimit limit{};
   if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  constexpr double blas = 1 << 27;  // OpenBLAS reserves it for its work, and asks for ever where it cannot
-  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:", 0) - blas;
+  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:", 0);
 }
 
 }  // namespace
@@ -91,9 +91,16 @@ void require_memory_to_start() {
   constexpr std::size_t start = 16 << 20;
   void* block = ::operator new(start, std::nothrow);
   ::operator delete(block);
-  if (block == nullptr)
+  // OpenBLAS reserves memory for each thread, and asks for ever where it cannot: all of it must be there at once.
+  constexpr double of_thread = 1 << 27;
+  const int n_threads = linalg::blas_threads();
+  const std::string need = bytes_text(start + n_threads * of_thread);
+  if (block == nullptr || left_in_address_space() < n_threads * of_thread)
     throw InputError(
-        "starting takes about 16 MB of memory, less than 16 MB are available; allowed: a higher limit (ulimit -v)");
+        fmt::format("starting takes about {} of memory, less than {} are available; allowed: a higher limit (ulimit "
+                    "-v), or a lower OPENBLAS_NUM_THREADS than {}",
+                    need, need, n_threads));
+  linalg::reserve_blas_memory();
 }
 
 void keep_freed_memory() {

@@ -75,7 +75,7 @@ def check_refusal():
     assert re.fullmatch(r"stage1_plate: error: panel20.json: at p = 8 this takes about [\d.]+ MB of memory \(shapes .*\), "
                         r"\d+ MB are available; allowed: a lower p, or fewer holes\n", result.stderr), result
     assert not Path("plate.h5").exists() and not result.stdout
-    own = 400 - int(re.search(r"(\d+) MB are available", result.stderr)[1])
+    own = 400 - int(re.search(r"(\d+) MB are available", result.stderr)[1]) + 1  # which is rounded
     assert stage1(panel(3, []), megabytes=400).returncode == 0
     return own
 
@@ -84,10 +84,11 @@ def check_end_without_threads():
     """Where memory is too short for the threads of BLAS, whose ending then waits for them, or for HDF5, which then crashes,
     the program says so and ends."""
     scene = panel(6, [])
-    for kilobytes in range(90_000, 320_000, 4_000):
+    for kilobytes in range(90_000, 420_000, 5_000):
         result = subprocess.run(["bash", "-c", f"ulimit -v {kilobytes}; OPENBLAS_NUM_THREADS=2 stage1_plate {scene} -o plate.h5 "
                                  "--accuracy 1e-6"], capture_output=True, text=True, timeout=60)
-        assert result.returncode == 2 and re.search(r"MB are available; allowed: ", result.stderr), (kilobytes, result)
+        refused = result.returncode == 2 and re.search(r"MB are available; allowed: ", result.stderr)
+        assert refused or kilobytes > 320_000, (kilobytes, result)
 
 
 def check_refusals(words, output, told, own):
