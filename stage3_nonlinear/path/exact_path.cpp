@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/path/exact_path.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
@@ -10,6 +9,8 @@
 #include <limits>
 #include <optional>
 #include <set>
+
+#include "stage3_nonlinear/path/cell_lines.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -20,12 +21,6 @@ using Eigen::VectorXd;
 
 constexpr double rounding = 1e-12;  // relative, of solved rates and places
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// A straight line of solutions in a cell: c = offset + t rate, where t is |lambda|, or at constant load a length.
-struct Line {
-  VectorXd offset, rate;
-  bool loads = true;  ///< t is |lambda|
-};
 
 /// A place where cells meet: a corner of a plane's curve, or b = 0 at a shared rim. Planes come first.
 struct Border {
@@ -38,10 +33,13 @@ struct Border {
 class Tracer {
  public:
   Tracer(const JointEquations& equations, double target)
-      : joint_(equations), cell_(joint_.start()), target_(std::abs(target)), path_{target < 0 ? -1.0 : 1.0, {}} {
-    c_ = VectorXd::Zero(equations.n_unknowns());
-    q_ = path_.sign * equations.system.q;
-  }
+      : joint_(equations),
+        cell_(joint_.start()),
+        target_(std::abs(target)),
+        path_{target < 0 ? -1.0 : 1.0, {}},
+        c_(VectorXd::Zero(equations.n_unknowns())),
+        q_(path_.sign * equations.system.q),
+        lines_(joint_, q_) {}
 
   ExactPath trace() {
     std::set<Border> tied = borders_near(c_, rounding);
@@ -121,12 +119,9 @@ class Tracer {
     return std::nullopt;
   }
 
-  [[nodiscard]] std::optional<Line> line_in_cell() const {
-    const auto [J, offset] = joint_.equations(cell_);
-    const Eigen::PartialPivLU<MatrixXd> lu(J);
-    constexpr double singular = 1e-13;
-    if (least_stretch(lu, J) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
-    return line_without_stiffness(J);
+  [[nodiscard]] std::optional<Line> line_in_cell() {
+    auto line = lines_.in(cell_);
+    return line ? line : line_without_stiffness(joint_.equations(cell_).J);
   }
 
   /// Line where some motion meets no stiffness: the shortest way that balances the load, or else that motion itself, in
@@ -192,6 +187,7 @@ class Tracer {
   double target_;
   ExactPath path_;
   VectorXd c_, q_;
+  CellLines lines_;
   double load_ = 0;  ///< |lambda|
 };
 

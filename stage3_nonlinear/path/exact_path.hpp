@@ -28,6 +28,9 @@ struct Cell {
   std::vector<int> side;           ///< (f) 1 or -1: of each rim that friction acts on, the side that bears
 };
 
+/// Column of a plane in the equations of a cell, and its part of their offset, (n, 2).
+using CellColumn = Eigen::MatrixX2d;
+
 /// The equations in a cell: J c + offset = lambda q.
 struct CellEquations {
   Eigen::MatrixXd J;
@@ -48,6 +51,11 @@ class PiecewiseJoint {
   /// The cell at no load, c = 0.
   [[nodiscard]] Cell start() const;
   [[nodiscard]] CellEquations equations(const Cell& cell) const;
+  [[nodiscard]] CellColumn column(const Cell& cell, Eigen::Index plane) const;
+  /// Planes whose columns differ in two cells, ascending.
+  [[nodiscard]] std::vector<Eigen::Index> changed(const Cell& from, const Cell& to) const;
+  /// J c + share offset, without the matrix.
+  [[nodiscard]] Eigen::VectorXd forces(const Cell& cell, const Eigen::VectorXd& c, double share) const;
   /// Bearing force b on a rim, linear in c: value at c and change along `rate`.
   [[nodiscard]] double rim_force(const Cell& cell, Eigen::Index rim, const Eigen::VectorXd& c) const;
   [[nodiscard]] double rim_rate(const Cell& cell, Eigen::Index rim, const Eigen::VectorXd& rate) const;
@@ -59,6 +67,11 @@ class PiecewiseJoint {
   using Rim = std::vector<std::pair<Eigen::Index, double>>;
   [[nodiscard]] const CurvePiece& piece(const Cell& cell, Eigen::Index plane) const {
     return curves_[plane].pieces[cell.piece[plane]];
+  }
+  /// Forces of friction on the planes per force b on a rim, on the side that bears, (n).
+  [[nodiscard]] Eigen::VectorXd friction(const Cell& cell, Eigen::Index rim) const {
+    if (cell.side[rim] > 0) return system_->H_plus.col(rim);
+    return -system_->H_minus.col(rim);
   }
   const CondensedSystem* system_;
   std::vector<CornerCurve> curves_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <set>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -85,19 +86,50 @@ void PiecewiseJoint::follow_signs(Cell& cell) const {
   }
 }
 
+CellColumn PiecewiseJoint::column(const Cell& cell, Index plane) const {
+  VectorXd by_force = VectorXd::Unit(std::ssize(curves_), plane);
+  for (std::size_t at = 0; at < rims_.size(); ++at)
+    if (const double sign = system_->E(at, plane); sign != 0) by_force += sign * friction(cell, at);
+  const auto& [F0, dF, delta0, ddelta, sign] = piece(cell, plane);
+  const auto by_delta = system_->S_ud.col(plane);
+  CellColumn column(by_force.size(), 2);
+  column << ddelta * by_delta + dF * by_force, delta0 * by_delta + F0 * by_force;
+  return column;
+}
+
 CellEquations PiecewiseJoint::equations(const Cell& cell) const {
   const Index n = curves_.size();
-  Eigen::MatrixXd on_forces = Eigen::MatrixXd::Identity(n, n);
+  CellEquations result{Eigen::MatrixXd(n, n), VectorXd::Zero(n)};
+  for (Index j = 0; j < n; ++j) {
+    const CellColumn column = this->column(cell, j);
+    result.J.col(j) = column.col(0);
+    result.offset += column.col(1);
+  }
+  return result;
+}
+
+std::vector<Index> PiecewiseJoint::changed(const Cell& from, const Cell& to) const {
+  std::set<Index> planes;
+  for (std::size_t j = 0; j < curves_.size(); ++j)
+    if (from.piece[j] != to.piece[j]) planes.insert(j);
   for (std::size_t at = 0; at < rims_.size(); ++at)
-    for (const auto& [plane, sign] : rims_[at]) {
-      const bool plus = cell.side[at] > 0;
-      on_forces.col(plane) += (plus ? sign : -sign) * (plus ? system_->H_plus : system_->H_minus).col(at);
-    }
-  const auto of = [&](double CurvePiece::*value) {
-    return VectorXd(VectorXd::NullaryExpr(n, [&](Index j) { return piece(cell, j).*value; }));
-  };
-  return {system_->S_ud * of(&CurvePiece::ddelta).asDiagonal() + on_forces * of(&CurvePiece::dF).asDiagonal(),
-          system_->S_ud * of(&CurvePiece::delta0) + on_forces * of(&CurvePiece::F0)};
+    if (from.side[at] != to.side[at])
+      for (const auto& [plane, sign] : rims_[at]) planes.insert(plane);
+  return {planes.begin(), planes.end()};
+}
+
+VectorXd PiecewiseJoint::forces(const Cell& cell, const VectorXd& c, double share) const {
+  const Index n = curves_.size();
+  VectorXd F(n), delta(n);
+  for (Index j = 0; j < n; ++j) {
+    const CurvePiece& at = piece(cell, j);
+    F[j] = share * at.F0 + at.dF * c[j];
+    delta[j] = share * at.delta0 + at.ddelta * c[j];
+  }
+  VectorXd sum = F + system_->S_ud * delta;
+  for (std::size_t at = 0; at < rims_.size(); ++at)
+    for (const auto& [plane, sign] : rims_[at]) sum += sign * F[plane] * friction(cell, at);
+  return sum;
 }
 
 double PiecewiseJoint::rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const {

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/path/cell_lines.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <random>
+
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using test::ground;
+
+/// A row of n fasteners that yield, between equal sheets, three of four loose; plate a has no other hold.
+JointEquations row_of(int n, double friction) {
+  std::mt19937 random(7);
+  constexpr double k = 1e5;
+  test::Lap lap{test::chain(n, 1, k, {{n - 1, n, k}}), test::chain(n, 0, k, {{0, ground, k}}), 1000.0 * n};
+  test::add_friction(lap.a, random);
+  test::add_friction(lap.b, random);
+  auto joint = test::joint_of(lap, test::bilinear_law(2e4, 900, 4e3));
+  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+    if (j % 4 != 0) joint.planes[j].clearance = std::uniform_real_distribution<double>(0.001, 0.1)(random);
+    if (friction > 0) test::set_friction(joint, j, friction);
+  }
+  return make_equations(joint);
+}
+
+class RowOfFasteners : public testing::TestWithParam<double> {};
+
+TEST_P(RowOfFasteners, HasInHundredsOfCellsTheLineOfTheirOwnFactor) {
+  constexpr int n = 160, n_cells = 400;
+  const JointEquations equations = row_of(n, GetParam());
+  const PiecewiseJoint joint(equations);
+  CellLines lines(joint, equations.system.q);
+  Cell cell = joint.start();
+  std::mt19937 random(3);
+  for (int i = 0; i < n_cells; ++i) {
+    const std::size_t plane = std::uniform_int_distribution<std::size_t>(0, n - 1)(random);
+    auto& piece = cell.piece[plane];
+    piece = piece + 1 < joint.curve(plane).pieces.size() ? piece + 1 : piece - 1;
+    joint.follow_signs(cell);
+    const auto line = lines.in(cell), own = CellLines(joint, equations.system.q).in(cell);
+    ASSERT_TRUE(line && own) << i;
+    ASSERT_LT((line->rate - own->rate).norm(), 1e-10 * own->rate.norm()) << i;
+    ASSERT_LT((line->offset - own->offset).norm(), 1e-10 * own->offset.norm()) << i;
+  }
+  EXPECT_LE(lines.n_factors(), 8 * n_cells / n + 1) << "one for an eighth of the columns";
+}
+
+TEST_P(RowOfFasteners, HasThePathThatTheSolversFind) {
+  const JointEquations equations = row_of(160, GetParam());
+  const LoadPath exact = follow(equations, {0.3, 1}, {});
+  const LoadPath solved = test::follow_nonlinear(equations, {0.3, 1}, {{}, {.tolerance = 1e-13}});
+  ASSERT_FALSE(exact.failure || solved.failure);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_TRUE(exact.steps[i].exact && !solved.steps[i].exact);
+    EXPECT_GT(exact.steps[i].iterations, 20) << "pieces, which one factor for 20 columns serves";
+    EXPECT_LT((exact.steps[i].F - solved.steps[i].F).norm(), 1e-10 * solved.steps[i].F.norm());
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Friction, RowOfFasteners, testing::Values(0.0, 0.2));
+
+TEST(CellLines, AreNoneWhereNothingHoldsAPlateThoughTheNeighbourCellIsHeld) {
+  JointEquations equations = row_of(40, 0);
+  for (Contact& contact : equations.contacts) contact.clearance = 0.1;
+  const PiecewiseJoint joint(equations);
+  CellLines lines(joint, equations.system.q);
+  const Cell free = joint.start();
+  Cell held = free;
+  ++held.piece[0];
+  EXPECT_FALSE(lines.in(free)) << "by its own factor";
+  EXPECT_TRUE(lines.in(held));
+  EXPECT_FALSE(lines.in(free)) << "by that of the other cell";
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3
