@@ -159,12 +159,14 @@ std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
 
 Slopes implicit_slopes(const CondensedSystem& system, const ContactState& state, const MatrixXd& residual) {
   MatrixXd J = tangent(system, state);
-  MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
   const VectorXd scale = scale_columns(J);
-  F_c *= scale.cwiseInverse().asDiagonal();
   const Eigen::PartialPivLU<MatrixXd> lu(J);
-  if (least_stretch(lu, J) > singular_tangent) return {-F_c * lu.solve(residual), {}, {}};
-  return solve_singular(J, F_c, -residual);
+  if (least_stretch(lu, J) > singular_tangent) {
+    const MatrixXd dc = scale.cwiseInverse().asDiagonal() * lu.solve(residual);
+    return {-state.times(dc.transpose(), state.dF).transpose(), {}, {}};  // the blocks are symmetric
+  }
+  const MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
+  return solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(), -residual);
 }
 
 void bear(const JointEquations& equations, ContactState& state) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
@@ -64,8 +65,12 @@ void check_symmetric(const std::string& file, const char* dataset, const MatrixX
 
 void check_not_negative(const std::string& file, const MatrixXd& S) {
   if (S.size() == 0) return;
+  const double allowed = symmetry_tolerance * S.cwiseAbs().maxCoeff();
+  MatrixXd lifted = S;
+  lifted.diagonal().array() += allowed;
+  if (Eigen::LLT<MatrixXd>(lifted).info() == Eigen::Success) return;
   const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues()[0];
-  if (!(least >= -symmetry_tolerance * S.cwiseAbs().maxCoeff()))
+  if (!(least >= -allowed))
     throw FileError(
         fmt::format("{}:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue {:.6g}, expected none "
                     "below zero: a plate cannot give energy",
