@@ -38,12 +38,12 @@ double rounded(double force, double largest) {
 }
 
 /// Name of what solved the increments.
-std::string method(const JointScene& scene, const LoadPath& path) {
+std::string method(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   if (path.linear) return "linear";
   const auto is_exact = [](const PathStep& step) { return step.exact; };
   const std::size_t exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
-  const bool newton = scene.solver.method == Method::damped_newton;
-  const std::string iterative = newton ? "damped newton" : "hybridsj";
+  const Method chosen = iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions());
+  const std::string& iterative = method_names[static_cast<std::size_t>(chosen) - 1];
   if (exact == 0) return iterative;
   return exact == path.n_increments ? "exact path" : "exact path, " + iterative;
 }
@@ -65,7 +65,7 @@ std::string title(const JointScene& scene, const JointModel& joint, const LoadPa
   std::string text =
       fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
                   program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
-                  joint.p, method(scene, path));
+                  joint.p, method(scene, joint, path));
   for (const auto& [name, law] : scene.laws)
     if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)

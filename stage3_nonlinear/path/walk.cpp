@@ -44,7 +44,8 @@ double force_scale(const CondensedSystem& system, double load_factor) {
 Walk::Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact)
     : equations_(equations),
       options_(options),
-      solver_(options.solver.method == Method::damped_newton ? newton_root : hybridsj_root),
+      solver_(iterative_method(options.solver.method, equations.n_unknowns()) == Method::damped_newton ? newton_root
+                                                                                                       : hybridsj_root),
       may_snap_(!planes_that_may_snap(equations).empty()),
       exact_(std::move(exact)),
       here_{0, VectorXd::Zero(equations.n_unknowns())} {

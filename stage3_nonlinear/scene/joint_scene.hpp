@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <optional>
@@ -56,7 +57,7 @@ struct InitialScene {
 };
 
 enum class Method {
-  fitting,  ///< unless the input says otherwise: the exact path where it applies, else hybridsj
+  fitting,  ///< unless the input says otherwise: the exact path where it applies, else iterative_method
   hybridsj,
   damped_newton,
   exact_path,
@@ -74,6 +75,14 @@ struct SolverScene {
 /// True if an exact path is taken where there is one.
 [[nodiscard]] inline bool may_be_exact(Method method) {
   return method == Method::fitting || method == Method::exact_path;
+}
+
+/// What solves the increments that no exact path reaches: unless the input says which, hybridsj up to the number of
+/// unknowns beyond which damped Newton takes less time, since GSL factorises without blocks (docs/solvers.md).
+[[nodiscard]] inline Method iterative_method(Method method, std::ptrdiff_t n_unknowns) {
+  constexpr std::ptrdiff_t most_for_hybridsj = 64;
+  if (method == Method::hybridsj || method == Method::damped_newton) return method;
+  return n_unknowns <= most_for_hybridsj ? Method::hybridsj : Method::damped_newton;
 }
 
 /// JOINT.json as it stands (schemas/joint.schema.json).

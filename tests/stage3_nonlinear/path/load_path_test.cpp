@@ -280,5 +280,20 @@ TEST_F(FloatingInItsGaps, OneSidedFastenersCannotHoldItBack) {
   EXPECT_GE(path.failure->reached, 0) << "there is no equilibrium below zero load";
 }
 
+TEST(LoadPath, OfManyFastenersIsThatOfDampedNewton) {
+  constexpr double k = 1e5;
+  const auto iterations = [&](int n, Method method) {
+    const JointEquations equations = make_equations(
+        test::joint_of({test::chain(n, 1, k, {{n - 1, n, k}}), test::chain(n, 0, k, {{0, ground, k}}), 1e5},
+                       test::power_law(3e4, 0.6)));
+    PathOptions options;
+    options.solver.method = method;
+    return follow(equations, {1}, options).steps.at(0).iterations;
+  };
+  EXPECT_EQ(iterations(65, Method::fitting), iterations(65, Method::damped_newton));
+  EXPECT_EQ(iterations(64, Method::fitting), iterations(64, Method::hybridsj));
+  for (const int n : {64, 65}) EXPECT_NE(iterations(n, Method::hybridsj), iterations(n, Method::damped_newton));
+}
+
 }  // namespace
 }  // namespace fastjoint::stage3

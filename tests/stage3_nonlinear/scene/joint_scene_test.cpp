@@ -98,6 +98,16 @@ TEST(JointScene, HasDefaults) {
   EXPECT_EQ(read({{"initial", R"("equal")"}}).initial.guess, Guess::equal);
 }
 
+TEST(JointScene, TakesDampedNewtonForManyUnknownsUnlessTheInputSaysOtherwise) {
+  for (const Method by_itself : {Method::fitting, Method::exact_path}) {
+    EXPECT_EQ(iterative_method(by_itself, 64), Method::hybridsj);
+    EXPECT_EQ(iterative_method(by_itself, 65), Method::damped_newton);
+  }
+  for (const int n_unknowns : {1, 1000})
+    for (const Method chosen : {Method::hybridsj, Method::damped_newton})
+      EXPECT_EQ(iterative_method(chosen, n_unknowns), chosen);
+}
+
 TEST(JointScene, WarnsOfDoubtfulLaws) {
   EXPECT_THAT(read({{"laws", R"({"lin": {"type": "power", "A": 1, "n": 0.2}})"}}).warnings,
               ElementsAre(HasSubstr("folder/joint.json: /laws/lin: n = 0.2 is below")));
