@@ -111,10 +111,12 @@ TEST_F(ExitStatus, DamagedAndForeignFiles) {
          HasSubstr("center.m.h5: is a 'plate-matrices' file, expected 'plate-solution'"));
   joint(bolts("doubler.m.h5", "doubler.h5"), 3,
         HasSubstr("doubler.h5: is a 'plate-solution' file, expected 'plate-matrices'"));
-  h5::Writer newer(folder_->path("newer.h5"), "plate-solution", 4, 0);
-  newer.commit();
-  expect(test::stage2(*folder_, "newer.h5 -o out.h5"), 3,
-         HasSubstr("newer.h5: format version 4.0, this program reads 3.x; use a newer program"));
+  for (const auto& [name, version, remedy] :
+       {std::tuple("newer.h5", 5, "use a newer program"), {"older.h5", 3, "run the earlier stage again"}}) {
+    h5::Writer(folder_->path(name), "plate-solution", version, 0).commit();
+    expect(test::stage2(*folder_, fmt::format("{} -o out.h5", name)), 3,
+           HasSubstr(fmt::format("{}: format version {}.0, this program reads 4.x; {}", name, version, remedy)));
+  }
 }
 
 TEST_F(ExitStatus, Joints) {
