@@ -42,7 +42,7 @@ struct RimStresses {
 ///
 /// sigma_rr and sigma_rt are the known tractions of springs, bearing load and friction; sigma_tt follows from them and
 /// the strain along the rim by the material's law, without a derivative across the rim (docs/theory.md, section 11.1).
-/// Where two sides meet, it is their mean. tests/bench/rim_stress.cpp compares this with three other ways.
+/// The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other ways.
 class RimStress {
  public:
   RimStress(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points);

@@ -36,7 +36,7 @@ class CellLines {
     Eigen::PartialPivLU<Eigen::MatrixXd> lu;
     double stretch;  ///< least_stretch
     Line line;
-    /// By plane: its column in the last cell in which it differed, and the solution for the difference.
+    /// Column of each plane in the last cell in which it differed, and the solution for the difference.
     std::map<Eigen::Index, std::pair<CellColumn, CellColumn>> changes;
   };
 
