@@ -18,7 +18,7 @@ STAGES = {
     },
     "stage2_extract": {
         "matrices": ["formats", ""],
-        "stresses": ["formats", "pfem", "plate", "rim", ""],
+        "stresses": ["formats", "pfem", "plate", "rim", "stresses", ""],
         "field": ["formats", "h5", "pfem", ""],
         "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
     },
@@ -29,7 +29,7 @@ STAGES = {
         "solvers": [],
         "equations": [""],
         "path": [],
-        "results": ["formats", "matrices", "rim", ""],
+        "results": ["matrices", "stresses", ""],
         "output": ["formats", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],
     },
@@ -44,6 +44,7 @@ COMMON = {
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
     "formats": ["", "h5", "pfem", "rim"],
+    "stresses": ["", "formats", "rim"],
     "program": ["", "h5", "linalg"],
 }
 # Of finite elements the third stage knows the angles of a rim alone; of formats those without a mesh; of linear algebra

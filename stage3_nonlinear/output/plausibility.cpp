@@ -78,6 +78,8 @@ std::string unlike(const Source& formula, const KnownPlane& known, double cleara
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
+using stresses::RimState;
+
 /// A doubt about rims: how much of it a rim gives cause for, 0 or NaN if none, and what to say where that is most.
 struct RimDoubt {
   double (*amount)(const RimState&, bool loose);

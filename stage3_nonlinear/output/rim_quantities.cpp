@@ -15,6 +15,7 @@ namespace {
 using Eigen::Index;
 using formats::Dimension;
 using formats::RimHistory;
+using stresses::RimState;
 
 /// Column of the summary's table; its unit, if it has one, stands below the heading.
 struct Column {

@@ -84,7 +84,12 @@ PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& 
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
   amounts << state.De, state.D, state.Lambda, state.traction;
-  state.rims = rim_states(plate, amounts, state.bearing, state.friction);
+  if (plate.stress_level) {
+    const auto superposed = [&](const Eigen::MatrixXd& of_cases) -> VectorXd { return of_cases * amounts; };
+    state.rims =
+        stresses::rim_states(plate.stresses, stresses::state_stresses(plate.stresses, *plate.stress_level, superposed),
+                             {plate.holes, plate.axes, state.bearing, state.friction});
+  }
   worst_row = std::max(worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff());
   for (Index i = 0; i < state.Pe.size(); ++i) {
     if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "stage3_nonlinear/results/joint_state.hpp"
+#include "common/stresses/rim_state.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {
@@ -33,7 +33,7 @@ class RandomSheet {
     friction_ = uniform(0, 0.5);
   }
 
-  [[nodiscard]] std::vector<stage3::RimState> rims(int rings, int p) const {
+  [[nodiscard]] std::vector<stresses::RimState> rims(int rings, int p) const {
     auto holes = holes_;
     for (auto& hole : holes) hole.rings = rings;
     const auto a = test::extract(test::grid_scene(
@@ -47,8 +47,12 @@ class RandomSheet {
     amounts[m] = friction_;  // of the first hole, bearing to +x
     amounts.tail(1).setOnes();
     friction[0] = friction_;
-    return stage3::rim_states(stage3::make_plate("sheet", "sheet.h5", a.matrices, p), amounts, Eigen::VectorXd::Zero(m),
-                              friction);
+    const auto superposed = [&](const Eigen::MatrixXd& cases) -> Eigen::VectorXd { return cases * amounts; };
+    std::vector<std::string> names;
+    for (const auto& hole : holes) names.push_back(hole.id);
+    const auto& its = a.matrices.stresses;
+    return stresses::rim_states(its, stresses::state_stresses(its, its.p.size() - 1, superposed),
+                                {names, {0}, Eigen::VectorXd::Zero(m), friction});
   }
 
  private:

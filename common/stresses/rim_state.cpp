@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/stresses/rim_state.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -7,9 +9,8 @@
 
 #include "common/count.hpp"
 #include "common/rim/angles.hpp"
-#include "stage3_nonlinear/results/joint_state.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stresses {
 namespace {
 
 using Eigen::Index;
@@ -42,8 +43,9 @@ class Rim {
     for (const double angle : angle_) allowed_.push_back(!jumps(angle, 0) && !jumps(angle, 1));
   }
 
-  [[nodiscard]] VectorXd stress(const Eigen::MatrixXd& sigma, const VectorXd& amounts) const {
-    return sigma.middleRows(first_, angle_.size()) * amounts;
+  /// The rows of its points.
+  [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& sigma) const {
+    return sigma.middleRows(first_, angle_.size());
   }
 
   /// Largest value, at the top of the parabola through it and its neighbours; none if all points are left out.
@@ -101,15 +103,13 @@ class Rim {
   std::vector<bool> allowed_;  ///< (n) not close to the jump
 };
 
-void read_peak(const formats::PlateStresses& a, const Rim& rim, std::size_t level, const VectorXd& amounts,
-               RimState& state) {
-  const VectorXd hoop = rim.stress(a.sigma_tt[level], amounts);
-  const auto peak = rim.peak(hoop);
+/// @param hoop Stress at the rim's points, beside it that at the degree below if there is one, (n, 1 or 2).
+void read_peak(const Rim& rim, const Eigen::MatrixXd& hoop, RimState& state) {
+  const auto peak = rim.peak(hoop.col(0));
   if (!peak) return;
   state.peak_hoop = peak->value;
   state.peak_angle = peak->angle;
-  state.peak_error =
-      level > 0 ? rim.change_around(peak->at, hoop - rim.stress(a.sigma_tt[level - 1], amounts)) : unknown;
+  state.peak_error = hoop.cols() > 1 ? rim.change_around(peak->at, hoop.col(0) - hoop.col(1)) : unknown;
 }
 
 /// @param forces  Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or 2).
@@ -144,23 +144,19 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
 
 }  // namespace
 
-std::vector<RimState> rim_states(const PlateModel& plate, const VectorXd& amounts, const VectorXd& all_bearing,
-                                 const VectorXd& all_friction) {
+std::vector<RimState> rim_states(const formats::PlateStresses& a, const StateStresses& all, const DiscForces& discs) {
   std::vector<RimState> states;
-  const formats::PlateStresses& a = plate.stresses;
-  if (!plate.stress_level) return states;
-  const std::size_t level = *plate.stress_level;
-  Eigen::MatrixXd forces(a.section_hole.size(), level > 0 ? 2 : 1);
-  for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * amounts;
-  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
+  const auto& [holes, axes, all_bearing, all_friction] = discs;
+  const double largest =
+      std::max(all.section_force.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
     RimState state;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
-    const int hole = index_of(plate.holes, a.rim_hole[i]);
-    const bool is_open = hole == count_of(plate.holes);
-    for (std::size_t d = 0; d < plate.axes.size() && !is_open; ++d) {
-      bearing[plate.axes[d]] = all_bearing[hole * plate.axes.size() + d];
-      friction[plate.axes[d]] = all_friction[hole * plate.axes.size() + d];
+    const int hole = index_of(holes, a.rim_hole[i]);
+    const bool is_open = hole == count_of(holes);
+    for (std::size_t d = 0; d < axes.size() && !is_open; ++d) {
+      bearing[axes[d]] = all_bearing[hole * axes.size() + d];
+      friction[axes[d]] = all_friction[hole * axes.size() + d];
     }
     state.bearing_load = bearing[0];
     state.bearing_load_y = bearing[1];
@@ -171,20 +167,20 @@ std::vector<RimState> rim_states(const PlateModel& plate, const VectorXd& amount
     const Eigen::Vector2d jumps = (friction.array().abs() > 0.01 / 2 * bearing.norm()).select(friction, 0);
     state.by_components = jumps[0] != 0 && jumps[1] != 0;
     const Rim points(a, i, jumps);
-    read_peak(a, points, level, amounts, state);
-    const VectorXd radial = points.stress(a.sigma_rr[level], amounts);
+    read_peak(points, points.of(all.sigma_tt), state);
+    const VectorXd radial = points.of(all.sigma_rr);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();
     state.filled = double(touched) > (1 - hardly) * double(radial.size());
     if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
-    if (const int across = 1 - plate.axes[0]; plate.axes.size() == 1 && !is_open)
+    if (const int across = 1 - axes[0]; axes.size() == 1 && !is_open)
       state.across = points.force(radial, across, a.bearing_area(i, across));
     state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
-    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);
+    read_sections(a, a.rim_hole[i], all.section_force, bearing[0] + friction[0], largest, state);
     states.push_back(state);
   }
   return states;
 }
 
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stresses

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/joint_state.hpp"
+#include "common/stresses/rim_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,19 +8,24 @@
 #include <limits>
 #include <numbers>
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stresses {
 namespace {
 
 using Eigen::Index;
 
 constexpr double degree = std::numbers::pi / 180;
 
+struct Plate {
+  std::vector<std::string> holes;
+  std::vector<int> axes;
+  formats::PlateStresses stresses;
+  std::size_t level;
+};
+
 /// A plate with the disc "1" and two cases; the hoop stress of the first case is `hoop` at the higher degree and 1 %
 /// more below; sections carry 3 (right) and 5 (left) times the second case.
-PlateModel plate(double from, double to, const std::function<double(double)>& hoop) {
-  PlateModel model;
-  model.holes = {"1"};
-  model.axes = {0};
+Plate plate(double from, double to, const std::function<double(double)>& hoop) {
+  Plate model{{"1"}, {0}, {}, 1};
   formats::PlateStresses& a = model.stresses;
   a.p = Eigen::VectorXi::LinSpaced(2, 7, 8);
   a.rim_hole = {"1"};
@@ -39,15 +44,20 @@ PlateModel plate(double from, double to, const std::function<double(double)>& ho
   a.gross_area = Eigen::Vector2d(2, 2);
   a.net_area = Eigen::Vector2d(1.5, 1.5);
   a.section_force = {Eigen::MatrixXd{{0, 3}, {0, 5}}, Eigen::MatrixXd{{0, 3}, {0, 5}}};
-  model.stress_level = 1;
   return model;
 }
 
-RimState state(const PlateModel& model, double bearing, double friction) {
-  const auto states = rim_states(model, Eigen::Vector2d(2, 1), Eigen::VectorXd::Constant(1, bearing),
-                                 Eigen::VectorXd::Constant(1, friction));
+/// The state in which the first case acts twice, the second once.
+RimState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::VectorXd& friction) {
+  const auto of = [](const Eigen::MatrixXd& cases) -> Eigen::VectorXd { return cases * Eigen::Vector2d(2, 1); };
+  const auto states = rim_states(model.stresses, state_stresses(model.stresses, model.level, of),
+                                 {model.holes, model.axes, bearing, friction});
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
+}
+
+RimState state(const Plate& model, double bearing, double friction) {
+  return state(model, Eigen::VectorXd::Constant(1, bearing), Eigen::VectorXd::Constant(1, friction));
 }
 
 /// The top of cos 2 (theta - theta0) between points, for any theta0: the parabola finds it to 1e-4.
@@ -93,14 +103,14 @@ TEST(RimState, NeverReportsTheJumpOfFriction) {
 }
 
 /// A plate as above whose disc also moves along y.
-PlateModel plane_plate(const std::function<double(double)>& hoop) {
-  PlateModel model = plate(0, 360, hoop);
+Plate plane_plate(const std::function<double(double)>& hoop) {
+  Plate model = plate(0, 360, hoop);
   model.axes = {0, 1};
   return model;
 }
 
-RimState plane_state(const PlateModel& model, const Eigen::Vector2d& bearing, double friction_share) {
-  return rim_states(model, Eigen::Vector2d(2, 1), bearing, friction_share * bearing).at(0);
+RimState plane_state(const Plate& model, const Eigen::Vector2d& bearing, double friction_share) {
+  return state(model, bearing, friction_share * bearing);
 }
 
 TEST(RimState, BearingLoadsOfBothDirections) {
@@ -112,7 +122,7 @@ TEST(RimState, BearingLoadsOfBothDirections) {
 
 /// Bypass is along x: what the fastener takes along y leaves over no section across x.
 TEST(RimState, BypassLeavesOutTheForceAlongY) {
-  PlateModel one = plane_plate([](double) { return 4.0; });
+  Plate one = plane_plate([](double) { return 4.0; });
   EXPECT_DOUBLE_EQ(plane_state(one, {2, 7}, 0).bypass_load, 3);
   EXPECT_DOUBLE_EQ(plane_state(one, {0, 7}, 0).bypass_load, 4);
   one.stresses.section_side[0] = "+y";
@@ -137,7 +147,7 @@ TEST(RimState, FrictionJumpsAtBothBearingDirections) {
 
 /// A force along x but for rounding, or nearly, has its peak beside the hole, where y would bear.
 TEST(RimState, HardlyAnyFrictionHidesNoPeak) {
-  const PlateModel model = plane_plate([](double t) { return std::sin(t) * std::sin(t); });
+  const Plate model = plane_plate([](double t) { return std::sin(t) * std::sin(t); });
   for (const double y : {0.0, 1e-14, -1e-14, 0.03})
     EXPECT_DOUBLE_EQ(std::abs(plane_state(model, {1, y}, 0.1).peak_angle), 90) << y;
   EXPECT_NEAR(plane_state(model, {1, 0.2}, 0.1).peak_angle, -90, 1e-9) << "the other side";
@@ -148,7 +158,7 @@ TEST(RimState, BypassIsWhatLeavesOnTheBearingSide) {
   EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), 2, 0).bypass_load, 3);
   EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), -2, 0).bypass_load, 5);
   EXPECT_DOUBLE_EQ(state(plate(0, 360, flat), 0, 0).bypass_load, 4);
-  PlateModel one = plate(0, 360, flat);
+  Plate one = plate(0, 360, flat);
   one.stresses.section_side[0] = "+y";  // only the left one is left
   EXPECT_DOUBLE_EQ(state(one, 1.5, 0.5).bypass_load, 5 - 2) << "less what the fastener takes, friction included";
   EXPECT_DOUBLE_EQ(state(one, -1.5, -0.5).bypass_load, 5);
@@ -164,7 +174,7 @@ TEST(RimState, BearingStressAndConcentrations) {
 
 /// Springs on the right half alone: right for a fastener that pushes to +x, not for one to -x.
 TEST(RimState, SpringsOnTheWrongArcPull) {
-  PlateModel model = plate(0, 360, [](double) { return 4.0; });
+  Plate model = plate(0, 360, [](double) { return 4.0; });
   const auto radial = [&](const std::function<double(double)>& sigma) {
     for (Index i = 0; i < model.stresses.angle.size(); ++i)
       model.stresses.sigma_rr[1](i, 0) = sigma(std::cos(model.stresses.angle[i] * degree));
@@ -180,8 +190,8 @@ TEST(RimState, SpringsOnTheWrongArcPull) {
 }
 
 /// A plate whose radial stress in the first case is `sigma` of the angle.
-PlateModel pressed(double from, double to, const std::function<double(double)>& sigma) {
-  PlateModel model = plate(from, to, [](double) { return 4.0; });
+Plate pressed(double from, double to, const std::function<double(double)>& sigma) {
+  Plate model = plate(from, to, [](double) { return 4.0; });
   model.stresses.sigma_rr.assign(2, Eigen::MatrixXd::Zero(model.stresses.angle.size(), 2));
   for (Index i = 0; i < model.stresses.angle.size(); ++i)
     model.stresses.sigma_rr[1](i, 0) = sigma(model.stresses.angle[i] * degree);
@@ -196,7 +206,7 @@ TEST(RimState, ForceAcrossIsThatOfThePressure) {
   const auto s = state(pressed(0, 360, sigma), along, 0);
   EXPECT_NEAR(s.across, 0.2 * along, 1e-12);
   EXPECT_NEAR(s.across_share, 0.2, 1e-12);
-  PlateModel y = pressed(0, 360, sigma);
+  Plate y = pressed(0, 360, sigma);
   y.axes = {1};
   EXPECT_NEAR(state(y, 0.2 * along, 0).across, along, 1e-12);
 }
@@ -204,10 +214,10 @@ TEST(RimState, ForceAcrossIsThatOfThePressure) {
 TEST(RimState, NothingIsKnownToHoldADiscAcrossOnALineOfSymmetryOrInThePlane) {
   const auto sigma = [](double t) { return -std::sin(t); };
   EXPECT_TRUE(std::isnan(state(pressed(0, 180, sigma), 1, 0).across)) << "symmetry holds it";
-  PlateModel both = pressed(0, 360, sigma);
+  Plate both = pressed(0, 360, sigma);
   both.axes = {0, 1};
   EXPECT_TRUE(std::isnan(plane_state(both, {1, 0}, 0).across)) << "it moves";
-  PlateModel open = pressed(0, 360, sigma);
+  Plate open = pressed(0, 360, sigma);
   open.stresses.rim_hole = {"open"};
   EXPECT_TRUE(std::isnan(state(open, 1, 0).across)) << "no disc";
 }
@@ -223,23 +233,17 @@ TEST(RimState, SpringsAllAroundPullOnTheSideThatDoesNotBear) {
 }
 
 TEST(RimState, NoConcentrationOnAnUnloadedSection) {
-  PlateModel model = plate(0, 360, [](double) { return 4.0; });
+  Plate model = plate(0, 360, [](double) { return 4.0; });
   model.stresses.section_force[1].setZero();
   EXPECT_EQ(state(model, 1, 0).gross_concentration, 0);
   EXPECT_TRUE(std::isfinite(state(model, 0, 0).net_concentration));
 }
 
 TEST(RimState, OneDegreeAloneKnowsNoError) {
-  PlateModel model = plate(0, 360, [](double) { return 4.0; });
-  model.stress_level = 0;
+  Plate model = plate(0, 360, [](double) { return 4.0; });
+  model.level = 0;
   EXPECT_EQ(state(model, 1, 0).peak_error, std::numeric_limits<double>::infinity());
 }
 
-TEST(RimState, NoStressesNoRims) {
-  PlateModel model = plate(0, 360, [](double) { return 4.0; });
-  model.stress_level.reset();
-  EXPECT_TRUE(rim_states(model, Eigen::Vector2d(2, 1), Eigen::VectorXd::Ones(1), Eigen::VectorXd::Zero(1)).empty());
-}
-
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stresses

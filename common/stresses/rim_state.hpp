@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "common/formats/joint_result.hpp"
+#include "common/formats/plate_matrices.hpp"
+
+namespace fastjoint::stresses {
+
+/// One hole of a plate at one increment: what RESULT.h5 holds, and what only the summary and warnings need.
+struct RimState : formats::RimValues {
+  /// The springs pull instead of pushing: they act on the side that does not bear.
+  bool pulls = false;
+  bool filled = false;  ///< springs act all around
+  double pull = 0;      ///< largest tension of springs all around; 0 of those on an arc, stress
+  /// Force that holds the disc across its one direction: the integral of the pressure around a whole circle. NaN of a
+  /// part of one, whose disc a line of symmetry holds, and of discs that move along x and y.
+  double across = std::numeric_limits<double>::quiet_NaN();
+  double across_share = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
+  /// Friction of both components acts: its stresses are not those of friction along the force.
+  bool by_components = false;
+  bool in_tension = false;  ///< the section of the concentrations
+};
+
+/// Stresses at the k points of all rims and forces over the s sections in one state of a plate; a second column is that
+/// of the degree below, if there is one.
+struct StateStresses {
+  Eigen::VectorXd sigma_rr;       ///< (k)
+  Eigen::MatrixXd sigma_tt;       ///< (k, 1 or 2)
+  Eigen::MatrixXd section_force;  ///< (s, 1 or 2)
+};
+
+/// The stresses of a state at one level of `a`.
+/// @param of The state's column of a matrix of `a` at one level, as a function of the matrix.
+template <class Of>
+[[nodiscard]] StateStresses state_stresses(const formats::PlateStresses& a, std::size_t level, const Of& of) {
+  const auto two_levels = [&](const std::vector<Eigen::MatrixXd>& levels) {
+    Eigen::MatrixXd columns(levels[level].rows(), level > 0 ? 2 : 1);
+    for (Eigen::Index i = 0; i < columns.cols(); ++i) columns.col(i) = of(levels[level - i]);
+    return columns;
+  };
+  return {of(a.sigma_rr[level]), two_levels(a.sigma_tt), two_levels(a.section_force)};
+}
+
+/// What fasteners do to the m discs of a plate, hole after hole.
+struct DiscForces {
+  const std::vector<std::string>& holes;  ///< (m / a)
+  const std::vector<int>& axes;           ///< (a) directions of each hole's discs: 0 x, 1 y
+  Eigen::VectorXd bearing, friction;      ///< (m) resultants on the rim along each disc's direction, force
+};
+
+/// States of all holes of a plate.
+///
+/// The error of the peak is the largest change of the hoop stress from the degree below within 45 degrees of it
+/// (tests/pipeline/peak_error_test.cpp). Points within 7.5 degrees of a jump of friction are no candidates for the peak
+/// if the jump is more than 1 % of the bearing stress. The bypass load is the section force along x on the side of the
+/// hole that bears (docs/theory.md, sections 11.2 to 11.4).
+/// @param a Says what the rims and sections are; its stresses are not used.
+[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, const StateStresses& state,
+                                               const DiscForces& discs);
+
+}  // namespace fastjoint::stresses
