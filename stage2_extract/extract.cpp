@@ -2,7 +2,6 @@
 #include "stage2_extract/extract.hpp"
 
 #include "common/count.hpp"
-#include "common/linalg/condensed.hpp"
 #include "common/rim/bearing.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 #include "stage2_extract/stresses/stresses.hpp"
@@ -84,11 +83,10 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   matrices::CondensedLevels levels;
   std::vector<Level> solved;
   for (const auto& each : plate.cases) {
-    const auto n_p = each.V.rows();
-    levels.S.push_back(linalg::condensed_stiffness(each.E_c, plate.shift, plate.K_cc));
-    levels.R.push_back(linalg::product_transposed(each.E_c, each.E_h));
-    solved.push_back({levels.S.back(), levels.R.back(), plate.K_fc.topRows(n_p).transpose() * each.V - plate.T_c});
-    a.C_t.push_back(plate.T_f.topRows(n_p).transpose() * each.V);
+    levels.S.push_back(each.S);
+    levels.R.push_back(each.R);
+    solved.push_back({each.S, each.R, each.T});
+    a.C_t.push_back(each.C_t);
   }
   levels.C = a.C_t;
   levels.rounding = plate.probe.rounding;
@@ -100,7 +98,7 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, solver);
   carry_over_contacts(plate, a);
-  result.errors = matrices::relative_errors(levels, plate.p, plate.K_cc, fastest);
+  result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
   result.checks = check(plate, a.friction_resultant, solved.back());  // before it is balanced
   for (const auto& free : free_translations(plate, a.friction_resultant))
     for (auto& level : solved) balance(free, level);

@@ -178,43 +178,42 @@ void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
        "force of each traction under the loads of the input");
 }
 
-/// Datasets of one degree with n unknowns.
+/// Datasets of one degree.
 template <class File, class Cases>
-void case_datasets(File& file, const std::string& group, Cases& a, Index n, Index nc, Index h, Index q,
-                   const Units& units) {
-  file(group + "E_c", a.E_c, {nc, nc}, unit(units, -0.5, 0.5),
-       "unit fields of externals and discs in a basis orthonormal in energy");
-  file(group + "E_h", a.E_h, {h, nc}, unit(units, 2.5, -0.5), "fields of unit friction cases in the basis of E_c");
-  file(group + "V", a.V.transpose(), {q, n}, unit(units, 1, -1),
-       "plate unknowns per unit total force on a traction boundary");
+void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Index h, Index q, const Units& units) {
+  file(group + "S", a.S, {nc, nc}, unit(units, -1, 1),
+       "force on externals, then discs, per unit displacement of each, before rounding is taken out");
+  file(group + "R", a.R, {nc, h}, unit(units, 2, 0), "force on externals, then discs, by each unit friction case");
+  file(group + "T", a.T, {nc, q}, "1", "force on externals, then discs, by a unit force of each traction");
+  file(group + "C_t", a.C_t, {q, q}, unit(units, 1, -1),
+       "mean displacement of each traction boundary by a unit force of each");
 }
 
 template <class File, class Solution>
 void datasets(File& file, Solution& a) {
   header(file, a.header);
   const Units& units = a.header.units;
-  const std::string length = unit(units, 1, 0), area = unit(units, 2, 0), stiffness = unit(units, -1, 1);
+  const std::string length = unit(units, 1, 0), force = unit(units, 0, 1);
+  const std::string stress = unit(units, -2, 1), stiffness = unit(units, -1, 1);
   space(file, a.space);
   geometry_datasets(file, a);
   name_datasets(file, a);
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
   const Index h = a.friction_hole.size(), q = a.traction_id.size();
-  sparse_datasets(file, "K_fc", a.K_fc, n, nc, stiffness, "stiffness between plate unknowns and externals, then discs");
-  file("K_cc", a.K_cc, {nc, nc}, stiffness, "stiffness among externals and discs with the plate held");
-  sparse_datasets(file, "L_f", a.L_f, n, h, area, "load on plate unknowns by each unit friction case");
-  file("L_c", a.L_c, {nc, h}, area, "load on externals, then discs, by each unit friction case");
+  file("held_stiffness", a.held_stiffness, {nc}, stiffness,
+       "stiffness of each external, then disc, with all of the plate held");
   sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
-  file("T_c", a.T_c, {nc, q}, "1", "load on externals, then discs, by a unit force of each traction");
-  file("shift", a.shift, {nc}, stiffness, "artificial stiffness: diagonal of E_c E_c^T less that of S");
   load_datasets(file, a, nc, h, q);
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (std::size_t i = 0; i < a.cases.size(); ++i)
-    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], a.ndof[i], nc, h, q, units);
-  file("probe/displacement", a.probe.displacement, {nc}, length, "amounts of externals, then discs, in the field u");
-  file("probe/friction", a.probe.friction, {h}, unit(units, -2, 1), "amounts of friction cases in the field w");
-  file("probe/u", a.probe.u, {n}, length, "plate unknowns of the highest degree under these displacements");
-  file("probe/w", a.probe.w, {n}, length, "plate unknowns of the highest degree under these friction cases");
-  file("probe/rounding", a.probe.rounding, {1}, stiffness, "what rounding may change of S, estimated by the field u",
+    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, h, q, units);
+  file("probe/displacement", a.probe.displacement, {nc}, length,
+       "amounts of externals, then discs, in a state that is solved on its own to check S and T");
+  file("probe/friction", a.probe.friction, {h}, stress, "amounts of friction cases in another, to check R");
+  file("probe/force", a.probe.force, {nc}, force, "force on externals, then discs, in the first");
+  file("probe/friction_force", a.probe.friction_force, {nc}, force, "force on externals, then discs, in the second");
+  file("probe/traction_work", a.probe.traction_work, {q}, length, "work of each unit traction in the first");
+  file("probe/rounding", a.probe.rounding, {1}, stiffness, "what rounding may change of S, estimated by the first",
        h5::or_else(0));
 }
 
@@ -234,7 +233,7 @@ void check_rims(const h5::Reader& file, const PlateSolution& a) {
 void check(const h5::Reader& file, const PlateSolution& a) {
   check_rims(file, a);
   file.check("mesh/material", a.mesh.material, h5::index_into(std::ssize(a.elasticity)));
-  file.check("unknown", a.unknown, h5::integers(-1 - a.K_cc.rows(), a.ndof[a.ndof.size() - 1] - 1));
+  file.check("unknown", a.unknown, h5::integers(-1 - a.held_stiffness.size(), a.ndof[a.ndof.size() - 1] - 1));
   h5::Allowed hole{.text = "names in hole/id", .words = a.hole_id};
   file.check("friction/hole", a.friction_hole, hole);
   hole.words->emplace_back();  // of an edge

@@ -12,20 +12,23 @@
 
 namespace fastjoint::formats {
 
-/// Solutions of one degree p, with all controlled displacements (rigid externals, then discs) held but one.
+/// What the unit cases of one degree p need and do, with all controlled displacements (rigid externals, then discs)
+/// held but one (docs/theory.md, section 4). Rounding has not been taken out yet: stage 2 checks and balances.
 struct PlateCases {
-  Eigen::MatrixXd E_c;  ///< (nc, nc) coordinates of the unit fields of controlled displacements in a basis that is
-                        ///< orthonormal in energy; E_c E_c^T = S + diag(shift), square root of force / length
-  Eigen::MatrixXd E_h;  ///< (h, nc) of those of friction cases, as far as they do work on the former: E_c E_h^T = R
-  Eigen::MatrixXd V;    ///< (n_p, q) plate unknowns per unit total force on each traction boundary
+  Eigen::MatrixXd S;    ///< (nc, nc) forces on externals and discs per unit displacement of each, force / length
+  Eigen::MatrixXd R;    ///< (nc, h) forces on them under unit friction cases, length^2
+  Eigen::MatrixXd T;    ///< (nc, q) forces on them under a unit total force on each traction boundary
+  Eigen::MatrixXd C_t;  ///< (q, q) mean displacement of the traction boundaries under these, length / force
 };
 
-/// Two fields of the highest degree that are solved on their own, to check S, R and T by them.
+/// Two states of the highest degree that are solved on their own, to check S, R and T by them.
 struct Probe {
-  Eigen::VectorXd displacement;  ///< (nc) amount of each controlled displacement in the first, length
-  Eigen::VectorXd friction;      ///< (h) amount of each friction case in the second, stress
-  Eigen::VectorXd u, w;          ///< (n_f) plate unknowns in the first and the second
-  double rounding = 0;           ///< what rounding may change of S, estimated by the first, force / length
+  Eigen::VectorXd displacement;    ///< (nc) amount of each controlled displacement in the first, length
+  Eigen::VectorXd friction;        ///< (h) amount of each friction case in the second, stress
+  Eigen::VectorXd force;           ///< (nc) that must act on externals and discs in the first
+  Eigen::VectorXd friction_force;  ///< (nc) the same in the second
+  Eigen::VectorXd traction_work;   ///< (q) of each unit traction on the displacements of the first, length
+  double rounding = 0;             ///< what rounding may change of S, estimated by the first, force / length
 };
 
 /// A spring between a vertex of the mesh and a disc of its own, along the disc's direction.
@@ -45,8 +48,8 @@ struct RimContact {
 
 /// What stage 1 hands to stage 2 (schemas/plate-solution.md).
 ///
-/// nc = e + m controlled displacements: e rigid externals, then m discs. Unknowns are ordered by degree: the rows of
-/// the couplings and loads for degree p are the first ndof(p).
+/// nc = e + m controlled displacements: e rigid externals, then m discs. Unknowns are ordered by degree: the
+/// rows of loads for degree p are the first ndof(p).
 struct PlateSolution : UnitCases {
   pfem::Mesh mesh;
   std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
@@ -59,14 +62,9 @@ struct PlateSolution : UnitCases {
   std::vector<rim::Section> sections;
   std::vector<std::string> supported;  ///< directions that a support fixes somewhere
   std::vector<std::string>
-      traction_hole;                 ///< (q) the hole under cosine pressure, "" for an edge under uniform traction
-  Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc), force / length
-  Eigen::MatrixXd K_cc;              ///< (nc, nc), force / length
-  Eigen::SparseMatrix<double> L_f;   ///< (n_f, h) loads of the unit friction cases, length^2
-  Eigen::MatrixXd L_c;               ///< (nc, h) what of them acts on the controlled displacements directly
-  Eigen::SparseMatrix<double> T_f;   ///< (n_f, q) loads of the unit tractions
-  Eigen::MatrixXd T_c;               ///< (nc, q)
-  Eigen::VectorXd shift;             ///< (nc) that E_c E_c^T is larger than S by, on the diagonal, force / length
+      traction_hole;                ///< (q) the hole under cosine pressure, "" for an edge under uniform traction
+  Eigen::VectorXd held_stiffness;   ///< (nc) of each controlled displacement with all of the plate held, force / length
+  Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of the unit tractions on the plate unknowns
   std::vector<PointSpring> points;
   std::vector<PlateCases> cases;  ///< one for each p
   Probe probe;

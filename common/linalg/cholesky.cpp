@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/linalg/cholesky.hpp"
 
+#include <cblas.h>
 #include <cholmod.h>
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cassert>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 
 namespace fastjoint::linalg {
@@ -74,43 +76,124 @@ void check_memory(int status) {
     throw NumericalError("the stiffness matrix is too large for 32-bit indices; use fewer elements or a lower p");
 }
 
+/// Columns [first, last) of L and their rows, ascending, the columns themselves first; entry (i, j) is at i + j ld.
+struct Supernode {
+  int first, last, ld;
+  const int* row;
+  const double* value;
+
+  Supernode(const cholmod_factor& L, int i) {
+    const int* columns = static_cast<const int*>(L.super) + i;
+    const int* rows = static_cast<const int*>(L.pi) + i;
+    first = columns[0], last = columns[1], ld = rows[1] - rows[0];
+    row = static_cast<const int*>(L.s) + rows[0];
+    value = static_cast<const double*>(L.x) + static_cast<const int*>(L.px)[i];
+  }
+  [[nodiscard]] int size() const { return last - first; }
+  [[nodiscard]] int n_below() const { return ld - size(); }
+  [[nodiscard]] const int* below() const { return row + size(); }
+};
+
+/// Forward elimination of the rows of a sparse matrix C, each from the first supernode that it has an entry in up the
+/// tree of supernodes, no further aside (Liu, SIAM Review 34, 82, 1992).
+class RowElimination {
+ public:
+  RowElimination(const cholmod_factor& L, const Eigen::SparseMatrix<double>& C, Eigen::Index k)
+      : L_(L),
+        C_(C),
+        k_(k),
+        supernode_of_(C.cols()),
+        index_in_(C.cols()),
+        index_of_(C.rows()),
+        passed_(L.nsuper),
+        products_(Eigen::MatrixXd::Zero(k, C.rows())) {
+    for (int i = 0; i < count_of(passed_); ++i) {
+      const Supernode s(L, i);
+      std::fill_n(supernode_of_.begin() + s.first, s.size(), i);
+    }
+  }
+
+  Eigen::MatrixXd run() {
+    for (int i = 0; i < count_of(passed_); ++i) eliminate(i);
+    return std::move(products_);
+  }
+
+ private:
+  /// What elimination up to a supernode leaves of rows of C, over the rows below it.
+  struct Rest {
+    Supernode from;
+    std::vector<int> of;   ///< (r) rows of C, ascending
+    Eigen::MatrixXd left;  ///< (rows below, r)
+  };
+
+  void eliminate(int i) {
+    const Supernode s(L_, i);
+    Rest rest{s, reaching(s, passed_[i]), {}};
+    const int r = count_of(rest.of);
+    if (r == 0) return;
+    Eigen::MatrixXd Y = gather(rest, passed_[i]);
+    std::vector<Rest>().swap(passed_[i]);
+    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, s.size(), r, 1, s.value, s.ld,
+                Y.data(), s.ld);
+    add_products(rest.of, Y.topRows(s.size()));
+    if (s.n_below() == 0) return;
+    rest.left = Y.bottomRows(s.n_below());
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s.n_below(), r, s.size(), -1, s.value + s.size(), s.ld,
+                Y.data(), s.ld, 1, rest.left.data(), s.n_below());
+    passed_[supernode_of_[*s.below()]].push_back(std::move(rest));
+  }
+
+  /// Rows of C with entries in the supernode, and those that its children pass on.
+  [[nodiscard]] std::vector<int> reaching(const Supernode& s, const std::vector<Rest>& passed) const {
+    std::vector<int> list(C_.innerIndexPtr() + C_.outerIndexPtr()[s.first],
+                          C_.innerIndexPtr() + C_.outerIndexPtr()[s.last]);
+    for (const auto& rest : passed) list.insert(list.end(), rest.of.begin(), rest.of.end());
+    std::sort(list.begin(), list.end());
+    list.erase(std::unique(list.begin(), list.end()), list.end());
+    return list;
+  }
+
+  /// These rows of C over the rows of the supernode, (ld, r).
+  [[nodiscard]] Eigen::MatrixXd gather(const Rest& at, const std::vector<Rest>& passed) {
+    const Supernode& s = at.from;
+    for (int i = 0; i < count_of(at.of); ++i) index_of_[at.of[i]] = i;
+    for (int i = 0; i < s.ld; ++i) index_in_[s.row[i]] = i;
+    Eigen::MatrixXd Y = Eigen::MatrixXd::Zero(s.ld, std::ssize(at.of));
+    for (int j = s.first; j < s.last; ++j)
+      for (Eigen::SparseMatrix<double>::InnerIterator entry(C_, j); entry; ++entry)
+        Y(j - s.first, index_of_[entry.row()]) = entry.value();
+    for (const auto& rest : passed)
+      for (int b = 0; b < count_of(rest.of); ++b)
+        for (int a = 0; a < rest.from.n_below(); ++a)
+          Y(index_in_[rest.from.below()[a]], index_of_[rest.of[b]]) += rest.left(a, b);
+    return Y;
+  }
+
+  void add_products(const std::vector<int>& of, const Eigen::Ref<const Eigen::MatrixXd>& Y) {
+    const auto n_left = std::lower_bound(of.begin(), of.end(), k_) - of.begin();
+    const Eigen::MatrixXd product = Y.leftCols(n_left).transpose() * Y;
+    for (Eigen::Index b = 0; b < product.cols(); ++b)
+      for (Eigen::Index a = 0; a < n_left; ++a) products_(of[a], of[b]) += product(a, b);
+  }
+
+  const cholmod_factor& L_;
+  const Eigen::SparseMatrix<double>& C_;
+  Eigen::Index k_;
+  std::vector<int> supernode_of_;          ///< (n) of each column of L
+  std::vector<int> index_in_;              ///< (n) of rows within the present supernode's
+  std::vector<int> index_of_;              ///< (m) of rows of C among those that have reached it
+  std::vector<std::vector<Rest>> passed_;  ///< to each supernode, from its children
+  Eigen::MatrixXd products_;
+};
+
 }  // namespace
 
 struct Cholesky::Impl {
   Context context;  // first member, destroyed last
   Factor factor{nullptr, {&context.c}};
-  Eigen::Index n = 0, n_border = 0;
-
-  /// Columns [first, last) of L and their rows, ascending, the columns themselves first; entry (i, j) is at i + j ld.
-  struct Supernode {
-    int first, last, ld;
-    const int* row;
-    const double* value;
-  };
-  template <class Visit>
-  void for_each_supernode(Visit visit) const {
-    const cholmod_factor* L = factor.get();
-    const int* super = static_cast<const int*>(L->super);
-    const int* row = static_cast<const int*>(L->pi);
-    const int* value = static_cast<const int*>(L->px);
-    for (std::size_t s = 0; s < L->nsuper; ++s)
-      visit(Supernode{super[s], super[s + 1], row[s + 1] - row[s], static_cast<const int*>(L->s) + row[s],
-                      static_cast<const double*>(L->x) + value[s]});
-  }
-
-  Eigen::MatrixXd half_solve(int system, const Eigen::MatrixXd& B) {
-    auto& c = context.c;
-    cholmod_dense b = view(B);
-    const Dense x(cholmod_solve(system, factor.get(), &b, &c), {&c});
-    check_memory(c.status);
-    if (!x) throw NumericalError("solving with the factorised stiffness matrix failed");
-    return Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(x->x), B.rows(), B.cols());
-  }
 };
 
-Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_border) : impl_(std::make_unique<Impl>()) {
-  impl_->n = lower.rows();
-  impl_->n_border = n_border;
+Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_unique<Impl>()) {
   auto& c = impl_->context.c;
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_NATURAL;
@@ -125,8 +208,9 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_bord
   if (c.status == CHOLMOD_NOT_POSDEF || L->minor < L->n)
     throw NumericalError(fmt::format(
         "the stiffness matrix is not positive definite: pivot of row {} of {} is not positive", L->minor, L->n));
-  impl_->for_each_supernode([&](const Impl::Supernode& s) {
-    for (int j = s.first; j < s.last && j < impl_->n - n_border; ++j) {
+  for (int i = 0; i < static_cast<int>(L->nsuper); ++i) {
+    const Supernode s(*L, i);
+    for (int j = s.first; j < s.last; ++j) {
       const double pivot = s.value[(j - s.first) * (s.ld + 1)];
       if (const double left = pivot * pivot / lower.coeff(j, j); !(left > least_left))
         throw NumericalError(
@@ -134,28 +218,24 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_bord
                         "diagonal entry of row {} of {}",
                         left, j, L->n));
     }
-  });
+  }
 }
 
 Cholesky::~Cholesky() = default;
 
-Eigen::MatrixXd Cholesky::border(Eigen::Index k) const {
-  const auto first = impl_->n - impl_->n_border;
-  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(impl_->n_border, k);
-  impl_->for_each_supernode([&](const Impl::Supernode& s) {
-    for (auto j = std::max<Eigen::Index>(s.first, first); j < std::min<Eigen::Index>(s.last, first + k); ++j)
-      for (auto i = j - s.first; i < s.ld; ++i) L(s.row[i] - first, j - first) = s.value[i + (j - s.first) * s.ld];
-  });
-  return L;
+Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd B) const {
+  if (B.size() == 0) return B;
+  auto& c = impl_->context.c;
+  const cholmod_factor* L = impl_->factor.get();
+  Eigen::MatrixXd rows(L->maxesize, B.cols());  // what CHOLMOD gathers of the rows below a supernode
+  cholmod_dense x = view(B), e = view(rows);
+  if (!cholmod_super_lsolve(impl_->factor.get(), &x, &e, &c) || !cholmod_super_ltsolve(impl_->factor.get(), &x, &e, &c))
+    throw NumericalError("solving with the factorised stiffness matrix failed");
+  return B;
 }
 
-Eigen::MatrixXd Cholesky::solve(const Eigen::MatrixXd& B) const {
-  if (B.size() == 0) return B;
-  Eigen::MatrixXd x(impl_->n, B.cols());
-  x << B, Eigen::MatrixXd::Zero(impl_->n_border, B.cols());
-  x = impl_->half_solve(CHOLMOD_L, x);
-  x.bottomRows(impl_->n_border).setZero();
-  return impl_->half_solve(CHOLMOD_Lt, x).topRows(B.rows());
+Eigen::MatrixXd Cholesky::products(const Eigen::SparseMatrix<double>& C, Eigen::Index k) const {
+  return RowElimination(*impl_->factor, C, k).run();
 }
 
 std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph) {

@@ -8,25 +8,23 @@
 
 namespace fastjoint::linalg {
 
-/// Supernodal Cholesky factor L of a sparse symmetric positive definite matrix (CHOLMOD), in the order in which the
-/// matrix comes: elimination_order finds a good one. The last rows and columns may be a border: what is left of it when
-/// the rest is eliminated, its Schur complement, stands in L.
+/// Supernodal Cholesky factor of a sparse symmetric positive definite matrix (CHOLMOD), in the order in which the
+/// matrix comes: elimination_order finds a good one.
 class Cholesky {
  public:
   /// @param lower Lower triangle of the matrix, compressed, shape (n, n).
-  /// @param n_border Number of its last rows and columns that are the border.
-  /// Throws NumericalError if the matrix is not positive definite, and if it, without its border, is singular to
-  /// working precision.
-  explicit Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n_border = 0);
+  /// Throws NumericalError if the matrix is not positive definite, or singular to working precision.
+  explicit Cholesky(const Eigen::SparseMatrix<double>& lower);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  /// Solution with the border held at zero for all columns of B at once, shape of B: (n - n_border, k).
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-  /// L within the border, its first k columns, shape (n_border, k): the Schur complement of these rows and columns is
-  /// their product with their transpose.
-  [[nodiscard]] Eigen::MatrixXd border(Eigen::Index k) const;
+  /// Solution for all columns of B at once, shape (n, k).
+  [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd B) const;
+  /// C_k A^-1 C^T, shape (k, m), where C_k is the first k rows of C: the products in energy of the solutions for rows
+  /// of C. A row is taken no further than where elimination carries it (Liu, SIAM Review 34, 82, 1992).
+  /// @param C Shape (m, n), compressed, rows ascending in every column.
+  [[nodiscard]] Eigen::MatrixXd products(const Eigen::SparseMatrix<double>& C, Eigen::Index k) const;
 
  private:
   struct Impl;

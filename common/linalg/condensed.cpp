@@ -49,22 +49,4 @@ void Condensed::restore(Eigen::MatrixXd& inside, const Eigen::MatrixXd& outside)
               leading(inside));
 }
 
-Eigen::MatrixXd product_transposed(const Eigen::MatrixXd& A, const Eigen::MatrixXd& B) {
-  assert(A.cols() == B.cols());
-  Eigen::MatrixXd C(A.rows(), B.rows());
-  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, to_int(A.rows()), to_int(B.rows()), to_int(A.cols()), 1,
-              A.data(), leading(A), B.data(), leading(B), 0, C.data(), leading(C));
-  return C;
-}
-
-Eigen::MatrixXd condensed_stiffness(const Eigen::MatrixXd& E_c, const Eigen::VectorXd& shift,
-                                    const Eigen::MatrixXd& K_cc) {
-  Eigen::MatrixXd S = product_transposed(E_c, E_c);
-  S.diagonal() -= shift;
-  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();  // a product by blocks is symmetric but for its last digits
-  constexpr double rounding = 1e-12;
-  if (S.size() > 0 && S.cwiseAbs().maxCoeff() < rounding * K_cc.cwiseAbs().maxCoeff()) S.setZero();
-  return S;
-}
-
 }  // namespace fastjoint::linalg

@@ -72,11 +72,11 @@ Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eig
 }
 
 std::vector<RelativeError> relative_errors(const CondensedLevels& a, const Eigen::VectorXi& p,
-                                           const Eigen::MatrixXd& K_cc, double fastest) {
+                                           const Eigen::VectorXd& held_stiffness, double fastest) {
   std::vector<RelativeError> errors;
   if (const auto& S = a.S.back(); S.size() > 0)
-    errors.push_back(
-        {"S", stiffness_error(a.S, p, fastest).cwiseMax(a.rounding).norm() / (S.isZero(0) ? K_cc : S).norm()});
+    errors.push_back({"S", stiffness_error(a.S, p, fastest).cwiseMax(a.rounding).norm() /
+                               (S.isZero(0) ? held_stiffness.norm() : S.norm())});
   if (const auto& R = a.R.back(); R.size() > 0 && !R.isZero(0)) {
     // `path` falls by the norms of R's differences
     Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size()), path = energy;

@@ -55,7 +55,7 @@ struct RelativeError {
 /// are up to 3.4 times as large, in 1 of 100 cases more than 1.5 times, mostly in the trunk space, in slender laminates
 /// and at p = 4; those of C_t up to twice, in 1 of 1000 cases more than 1.5 times.
 [[nodiscard]] std::vector<RelativeError> relative_errors(const CondensedLevels& levels, const Eigen::VectorXi& p,
-                                                         const Eigen::MatrixXd& K_cc, double fastest);
+                                                         const Eigen::VectorXd& held_stiffness, double fastest);
 [[nodiscard]] double largest(const std::vector<RelativeError>& errors);
 /// "error of S about 6.10e-05, of R about 1.20e-04, of C_t below 1e-10".
 [[nodiscard]] std::string to_text(const std::vector<RelativeError>& errors);

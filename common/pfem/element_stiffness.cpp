@@ -6,8 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "common/linalg/condensed.hpp"
-
 namespace fastjoint::pfem {
 
 GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
@@ -88,9 +86,9 @@ Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen:
     Nx.col(q) = table.shape.dN_dxi.col(q) * to_physical(0, 0) + table.shape.dN_deta.col(q) * to_physical(1, 0);
     Ny.col(q) = table.shape.dN_dxi.col(q) * to_physical(0, 1) + table.shape.dN_deta.col(q) * to_physical(1, 1);
   }
-  const Eigen::MatrixXd XX = linalg::product_transposed(Nx, Nx);
-  const Eigen::MatrixXd XY = linalg::product_transposed(Nx, Ny);
-  const Eigen::MatrixXd YY = linalg::product_transposed(Ny, Ny);
+  const Eigen::MatrixXd XX = Nx * Nx.transpose();
+  const Eigen::MatrixXd XY = Nx * Ny.transpose();
+  const Eigen::MatrixXd YY = Ny * Ny.transpose();
   const Eigen::MatrixXd YX = XY.transpose();
   Eigen::MatrixXd K(2 * n, 2 * n);
   K.topLeftCorner(n, n) = D(0, 0) * XX + D(0, 2) * (XY + YX) + D(2, 2) * YY;

@@ -2,9 +2,8 @@
 #include "common/plate/plate_factor.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numeric>
+#include <set>
 
 #include "common/count.hpp"
 #include "common/linalg/threads.hpp"
@@ -66,54 +65,13 @@ class SkeletonAssembler {
   std::vector<int> order_;
 };
 
-/// One element while the plate is solved: loads inside it are eliminated before the skeleton is solved, displacements
-/// inside it follow from those of the skeleton.
-class ElementSolution {
- public:
-  /// All must outlive this.
-  ElementSolution(const PlateStiffness& plate, int element, const CondensedElement& condensed,
-                  const Skeleton::Rows& rows)
-      : dofs_(pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element)),
-        scale_(plate.elements.scale[element]),
-        condensed_(condensed),
-        rows_(rows) {}
-
-  /// @param B Loads on the plate's unknowns, (n_p, k).
-  void eliminate(const Eigen::Ref<const Eigen::MatrixXd>& B) {
-    inside_.resize(condensed_.inside.size(), B.cols());
-    for (Eigen::Index i = 0; i < inside_.rows(); ++i)
-      inside_.row(i) = dofs_.sign[condensed_.inside[i]] * B.row(dofs_.dof[condensed_.inside[i]]);
-    outside_.setZero(condensed_.matrix.n_outside(), B.cols());
-    if (inside_.isZero(0)) return;
-    condensed_.matrix.eliminate(inside_, outside_);
-    inside_ /= scale_;
-  }
-
-  /// Adds what they do to the loads on the skeleton.
-  void add_to(Eigen::MatrixXd& skeleton) const {
-    for (std::size_t i = 0; i < condensed_.outside.size(); ++i)
-      if (const int dof = dofs_.dof[condensed_.outside[i]]; pfem::is_free(dof))
-        skeleton.row(rows_.of_unknown[dof]) += dofs_.sign[condensed_.outside[i]] * outside_.row(i);
-  }
-
-  /// @param skeleton Displacements of the skeleton. @param X (n_p, k) gets those inside the element.
-  void restore(const Eigen::MatrixXd& skeleton, Eigen::Ref<Eigen::MatrixXd> X) {
-    outside_.setZero();
-    for (std::size_t i = 0; i < condensed_.outside.size(); ++i)
-      if (const int dof = dofs_.dof[condensed_.outside[i]]; pfem::is_free(dof))
-        outside_.row(i) = dofs_.sign[condensed_.outside[i]] * skeleton.row(rows_.of_unknown[dof]);
-    condensed_.matrix.restore(inside_, outside_);
-    for (Eigen::Index i = 0; i < inside_.rows(); ++i)
-      X.row(dofs_.dof[condensed_.inside[i]]) = dofs_.sign[condensed_.inside[i]] * inside_.row(i);
-  }
-
- private:
-  pfem::ElementDofs dofs_;
-  double scale_;
-  const CondensedElement& condensed_;
-  const Skeleton::Rows& rows_;
-  Eigen::MatrixXd inside_, outside_;  ///< between eliminate and restore
-};
+/// What elimination of an element's inside takes off a diagonal entry.
+double eliminated(const std::vector<int>& rows, const Eigen::VectorXd& sign, int row, const linalg::Condensed& matrix) {
+  Eigen::RowVectorXd x = Eigen::RowVectorXd::Zero(matrix.n_inside());
+  for (int i = 0; i < count_of(rows); ++i)
+    if (rows[i] == row) x += sign[i] * matrix.eliminated().row(i);
+  return x.squaredNorm();
+}
 
 }  // namespace
 
@@ -139,7 +97,7 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
   return element;
 }
 
-FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool bordered) {
+FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p) {
   constexpr double number = sizeof(double), entry = sizeof(double) + sizeof(int);
   const auto square = [](double n) { return n * n; };
   const auto& function = plate.numbering.function;
@@ -148,44 +106,36 @@ FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, 
     elements += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()));
   auto rows = skeleton.rows(plate, p);
   const double entries = skeleton.size(rows).entries;
-  if (!bordered) std::fill(rows.first.end() - rows.n_border - 1, rows.first.end(), rows.n_skeleton);
+  std::fill(rows.first.end() - rows.n_border - 1, rows.first.end(), rows.n_skeleton);
   const auto size = skeleton.size(rows);
   return {number * elements, entry * (entries + size.entries) + number * (size.factor + size.largest_front)};
 }
 
 PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p)
-    : PlateFactor(plate, skeleton, p, nullptr) {}
-
-PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd& diagonal)
-    : PlateFactor(plate, skeleton, p, &diagonal) {}
-
-PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd* diagonal)
     : plate_(plate), classes_(plate.elements.classes.size()), rows_(skeleton.rows(plate, p)) {
   linalg::for_each_index(classes_.size(), [&](std::size_t i) {
     const ElementClass& elements = plate.elements.classes[i];
     classes_[i] = condense(elements, plate.elements.stiffness[elements.congruent], plate.numbering, p);
   });
-  Eigen::SparseMatrix<double> A = skeleton_stiffness(skeleton);
-  diagonal_ = A.diagonal().head(rows_.n_skeleton);
-  if (diagonal) {
-    for (int i = 0; i < rows_.n_border; ++i) A.coeffRef(rows_.n_skeleton + i, rows_.n_skeleton + i) += (*diagonal)[i];
-    factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_border);
-  } else {
-    coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
-    A = A.topLeftCorner(rows_.n_skeleton, rows_.n_skeleton).eval();
-    factor_ = std::make_unique<linalg::Cholesky>(A);
-  }
+  Eigen::SparseMatrix<double> A = bordered_stiffness(skeleton);
+  const int n_controlled = plate.unknowns.n_controlled();
+  coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
+  const Eigen::SparseMatrix<double> lower = A.bottomRightCorner(rows_.n_border, rows_.n_border);
+  border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>()).topRows(n_controlled);
+  held_ += lower.diagonal().head(n_controlled);
+  A = A.topLeftCorner(rows_.n_skeleton, rows_.n_skeleton).eval();
+  diagonal_ = A.diagonal();
+  factor_ = std::make_unique<linalg::Cholesky>(A);
 }
 
-const CondensedElement& PlateFactor::condensed(int element) const {
-  return classes_[plate_.elements.class_of[element]];
-}
+const CondensedElement& PlateFactor::element(int element) const { return classes_[plate_.elements.class_of[element]]; }
 
-Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skeleton) const {
+Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skeleton) {
   Eigen::SparseMatrix<double> A = skeleton.pattern(rows_);
   SkeletonAssembler assembler(A);
+  held_ = Eigen::VectorXd::Zero(plate_.unknowns.n_controlled());
   for (int element = 0; element < count_of(plate_.elements.class_of); ++element) {
-    const CondensedElement& K = condensed(element);
+    const CondensedElement& K = this->element(element);
     const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, element);
     Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
     sign.head(K.outside.size()) = dofs.sign(K.outside);
@@ -193,7 +143,11 @@ Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skel
     for (const int i : K.outside) rows.push_back(rows_.of_dof(dofs.dof[i]));
     for (const int column : plate_.unknowns.border_of(plate_.elements.holes[element]))
       rows.push_back(rows_.n_skeleton + column);
-    assembler.add(rows, sign, plate_.elements.scale[element], K.matrix.outside());
+    const double scale = plate_.elements.scale[element];
+    assembler.add(rows, sign, scale, K.matrix.outside());
+    for (const int row : std::set<int>(rows.begin(), rows.end()))
+      if (const auto i = row - rows_.n_skeleton; i >= 0 && i < held_.size())
+        held_[i] += scale * eliminated(rows, sign, row, K.matrix);
   }
   for (const auto& tie : plate_.ties) {
     const int vertex = rows_.of_dof(tie.dof), disc = rows_.n_skeleton + tie.controlled;
@@ -204,36 +158,14 @@ Eigen::SparseMatrix<double> PlateFactor::skeleton_stiffness(const Skeleton& skel
   return A;
 }
 
-Eigen::MatrixXd PlateFactor::energy_rows() const { return factor_->border(plate_.unknowns.n_controlled()); }
-
-double PlateFactor::rounding(const Eigen::VectorXd& u) const {
-  double sum = 0;
-  for (Eigen::Index i = 0; i < u.size(); ++i)
-    if (const int row = rows_.of_unknown[i]; row >= 0) sum += diagonal_[row] * u[i] * u[i];
-  return std::numeric_limits<double>::epsilon() * sum;
-}
-
-Eigen::MatrixXd PlateFactor::solve(const Eigen::MatrixXd& B) const {
-  constexpr Eigen::Index block = 64;  // right-hand sides at a time: what an element has of them fits into the cache
-  Eigen::MatrixXd X(B.rows(), B.cols());
-  std::vector<ElementSolution> elements;
-  elements.reserve(plate_.elements.class_of.size());
-  for (int element = 0; element < count_of(plate_.elements.class_of); ++element)
-    elements.emplace_back(plate_, element, condensed(element), rows_);
-  for (Eigen::Index first = 0; first < B.cols(); first += block) {
-    const auto k = std::min(block, B.cols() - first);
-    Eigen::MatrixXd skeleton = Eigen::MatrixXd::Zero(rows_.n_skeleton, k);
-    for (Eigen::Index i = 0; i < B.rows(); ++i)
-      if (const int row = rows_.of_unknown[i]; row >= 0) skeleton.row(row) = B.row(i).segment(first, k);
-    linalg::for_each_index(elements.size(), [&](std::size_t i) { elements[i].eliminate(B.middleCols(first, k)); });
-    for (const auto& element : elements) element.add_to(skeleton);
-    skeleton = factor_->solve(skeleton);
-    linalg::for_each_index(elements.size(),
-                           [&](std::size_t i) { elements[i].restore(skeleton, X.middleCols(first, k)); });
-    for (Eigen::Index i = 0; i < X.rows(); ++i)
-      if (const int row = rows_.of_unknown[i]; row >= 0) X.row(i).segment(first, k) = skeleton.row(row);
-  }
-  return X;
+Eigen::MatrixXd PlateFactor::condensed() const {
+  constexpr double rounding = 1e-12;
+  const auto nc = border_.rows();
+  Eigen::MatrixXd forces = Eigen::MatrixXd(border_) - factor_->products(coupling_, nc);
+  auto S = forces.leftCols(nc);
+  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();  // products are symmetric but for their last digits
+  if (nc > 0 && S.cwiseAbs().maxCoeff() < rounding * held_.maxCoeff()) S.setZero();
+  return forces;
 }
 
 }  // namespace fastjoint::plate

@@ -29,42 +29,37 @@ struct FactorBytes {
   double elements;  ///< matrices of the congruence classes at the highest degree, condensed ones at the factor's
   double factor;    ///< the skeleton's stiffness and its factor
 };
-[[nodiscard]] FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool bordered);
+[[nodiscard]] FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p);
 
-/// The plate's stiffness at one degree, factorised: elements are condensed onto their skeletons, each class once; what
-/// is left of all is one sparse system, bordered by the controlled displacements and the friction cases.
+/// The plate's stiffness at one degree, factorised with all controlled displacements held: elements are condensed onto
+/// their skeletons, each class once; what is left of all is one sparse system. It is bordered by the controlled
+/// displacements and the friction cases, which are eliminated with it (condensed) or given (PlateStates).
 class PlateFactor {
  public:
-  /// Factorises without the border, for solving alone.
   /// @param plate Must outlive this.
   /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
   PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p);
-  /// Factorises with the border.
-  /// @param diagonal What the border has on its diagonal beside the stiffness of discs and ties, (nc + h).
-  PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd& diagonal);
 
-  /// Rows of the factor in the border, shape (nc + h, nc): E_c of the controlled displacements, then E_h of the
-  /// friction cases. With the artificial stiffness s, S = E_c E_c^T - diag(s) and R = E_c E_h^T (docs/theory.md,
-  /// section 4.4). Of a factor with a border only.
-  [[nodiscard]] Eigen::MatrixXd energy_rows() const;
-  /// Plate unknowns under loads on them, controlled displacements held, shape (n_p, k).
-  [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& B) const;
-
-  /// Change of the energy of a field u that rounding of the plate's stiffness may make: times the machine's precision,
-  /// the sum of the squares of its unknowns on skeletons, each with its diagonal entry.
-  [[nodiscard]] double rounding(const Eigen::VectorXd& u) const;
+  /// [S R], shape (nc, nc + h): forces that must act on the controlled displacements per unit of each of them, then per
+  /// unit friction case, as products in energy of the unit fields, which makes them superconvergent (docs/theory.md,
+  /// section 4.4). S is zero where rounding is all that is left of its terms, as in a sheet held by one disc alone.
+  [[nodiscard]] Eigen::MatrixXd condensed() const;
+  /// Stiffness of each controlled displacement with all of the plate held, shape (nc): the diagonal of K_cc.
+  [[nodiscard]] const Eigen::VectorXd& held_stiffness() const { return held_; }
 
  private:
   friend class PlateStates;
-  PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, const Eigen::VectorXd* diagonal);
-  [[nodiscard]] const CondensedElement& condensed(int element) const;
-  [[nodiscard]] Eigen::SparseMatrix<double> skeleton_stiffness(const Skeleton& skeleton) const;
+  [[nodiscard]] const CondensedElement& element(int element) const;
+  /// Stiffness of the skeleton and its border, lower triangle.
+  [[nodiscard]] Eigen::SparseMatrix<double> bordered_stiffness(const Skeleton& skeleton);
 
   const PlateStiffness& plate_;
   std::vector<CondensedElement> classes_;
   Skeleton::Rows rows_;
-  Eigen::VectorXd diagonal_;
-  Eigen::SparseMatrix<double> coupling_;  ///< (nc + h, skeleton) of a factor without a border: its rows
+  Eigen::VectorXd held_;
+  Eigen::VectorXd diagonal_;              ///< of the skeleton's stiffness
+  Eigen::SparseMatrix<double> coupling_;  ///< (nc + h, skeleton) between border and skeleton
+  Eigen::SparseMatrix<double> border_;    ///< (nc, nc + h) of the border with the skeleton held
   std::unique_ptr<linalg::Cholesky> factor_;
 };
 

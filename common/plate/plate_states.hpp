@@ -25,6 +25,14 @@ class PlateStates {
   /// @param loads  On the plate's unknowns beside, shape (n_p, k); few of them are not zero.
   PlateStates(const PlateFactor& factor, const Eigen::MatrixXd& border, const Eigen::SparseMatrix<double>& loads);
 
+  /// Forces that must act on the controlled displacements in every state beside those of the loads on them, (nc, k).
+  [[nodiscard]] Eigen::MatrixXd forces() const;
+  /// Work of the loads of every state on the displacements of each, shape (k, k).
+  [[nodiscard]] Eigen::MatrixXd work() const;
+  /// Change of the energy of every state that rounding of the plate's stiffness may make, (k): times the machine's
+  /// precision, the sum of the squares of the displacements on skeletons, each with its diagonal entry.
+  [[nodiscard]] Eigen::VectorXd rounding() const;
+
   [[nodiscard]] Eigen::Index size() const { return skeleton_.rows(); }
   /// Coefficients of all modes of an element, local signs, shape (2 n_modes, k): first those of u_x; 0 of those above
   /// the degree.
@@ -37,15 +45,16 @@ class PlateStates {
   [[nodiscard]] Eigen::MatrixXd values(const CondensedFunctions& functions) const;
 
  private:
-  /// Takes loads inside elements to the skeleton.
-  void eliminate(const Eigen::SparseMatrix<double>& loads, Eigen::MatrixXd& skeleton);
+  /// Takes loads inside elements to the skeleton and the border.
+  void eliminate(const Eigen::SparseMatrix<double>& loads);
   /// What an element shares with others, then what its border has, shape (k, n_outside).
   [[nodiscard]] Eigen::MatrixXd outside(int element) const;
 
   const PlateFactor& factor_;
-  Eigen::MatrixXd border_;                 ///< (k, nc + h)
-  Eigen::MatrixXd skeleton_;               ///< (k, skeleton): what an element takes of it lies together
-  std::map<int, Eigen::MatrixXd> inside_;  ///< of the elements with loads inside, eliminated, (n_inside, k)
+  Eigen::MatrixXd border_;                         ///< (k, nc + h)
+  Eigen::MatrixXd skeleton_;                       ///< (k, skeleton): what an element takes of it lies together
+  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (skeleton, k), (nc + h, k); empty if there are no loads
+  std::map<int, Eigen::MatrixXd> inside_;          ///< of the elements with loads inside, eliminated, (n_inside, k)
 };
 
 }  // namespace fastjoint::plate

@@ -13,10 +13,6 @@
 namespace fastjoint::stage1 {
 namespace {
 
-bool has_friction(const std::vector<Load>& loads) {
-  return std::any_of(loads.begin(), loads.end(), [](const Load& load) { return load.friction > 0; });
-}
-
 /// The load on each controlled displacement.
 std::vector<Load> controlled_loads(const PlateScene& scene, const Unknowns& unknowns) {
   const SceneLoads& given = scene.given_loads();
@@ -34,9 +30,9 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
       plate_(plate),
       problem_(problem),
       rim_(find_rim_unknowns(scene, plate, problem)),
-      plate_matrices_(condense_to_rims(problem, rim_, has_friction(scene.given_loads().disc))),
+      plate_matrices_(condense_to_rims(problem, rim_)),
       loads_(controlled_loads(scene, problem.unknowns)),
-      traction_(problem.T_f.cols()),
+      traction_(problem.T_c.cols()),
       side_(loads_.size(), 0),
       whole_(Eigen::MatrixXd::Zero(rim_.size(), rim_.size())) {
   const auto tractions = traction_externals(scene);
@@ -57,8 +53,8 @@ ContactSystem::State ContactSystem::solve_whole() {
   return solve(arcs);
 }
 
-/// Solves the system of docs/theory.md, section 6.2, for x = (u_r, D, P / kappa), kappa the largest entry of K_cc. Its
-/// three rows of blocks are the rim's displacements, the forces and the given values.
+/// Solves the system of docs/theory.md, section 6.2, for x = (u_r, D, P / kappa), kappa the largest stiffness of the
+/// springs. Its three rows of blocks are the rim's displacements, the forces and the given values.
 ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   PlateScene sprung = scene_;
   for (std::size_t i = 0; i < arcs.size(); ++i)
@@ -69,7 +65,7 @@ ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   const Eigen::Index n_r = rim_.free.size();
   const auto& [C, U_r, V_r, W_r, S, T, R] = plate_matrices_;
   const Eigen::MatrixXd A = friction_per_force();
-  const double kappa = problem_.K_cc.cwiseAbs().maxCoeff();
+  const double kappa = whole_.diagonal().maxCoeff();
   Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_r + 2 * rim_.n_controlled, n_r + 2 * rim_.n_controlled);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(K.rows());
   K.topLeftCorner(n_r, n_r + rim_.n_controlled) = C * dM.topRows(n_r);
@@ -102,7 +98,7 @@ ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
 /// A of Lambda = A P, shape (h, nc): mu / c on the side that bears.
 Eigen::MatrixXd ContactSystem::friction_per_force() const {
   const Unknowns& unknowns = problem_.unknowns;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(problem_.L_f.cols(), rim_.n_controlled);
+  Eigen::MatrixXd A = Eigen::MatrixXd::Zero(unknowns.n_friction_cases(), rim_.n_controlled);
   for (int disc = 0; disc < unknowns.n_discs(); ++disc) {
     const int controlled = unknowns.controlled_of_disc(disc);
     const double friction = loads_[controlled].friction;

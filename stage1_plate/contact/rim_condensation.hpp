@@ -18,7 +18,7 @@ struct RimCondensation {
   Eigen::MatrixXd R;    ///< (nc, h) length^2
 };
 
-/// One factorisation at the highest degree, n_r + nc + q right-hand sides, and h with friction.
-[[nodiscard]] RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns& rim, bool with_friction);
+/// One factorisation at the highest degree, n_r + q + nc + h right-hand sides.
+[[nodiscard]] RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns& rim);
 
 }  // namespace fastjoint::stage1

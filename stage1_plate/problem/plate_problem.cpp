@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <numeric>
-
 #include "common/rim/bearing.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 
@@ -27,39 +25,12 @@ std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh
   return ties;
 }
 
-/// Adds what elements at rigid externals contribute to K_fc and K_cc.
-void add_externals(const PlateMesh& plate, const PlateProblem& problem, Assembler& assembler) {
-  std::vector<int> modes(problem.numbering.function.rows());
-  std::iota(modes.begin(), modes.end(), 0);
-  for (int element = 0; element < plate.mesh.n_elements(); ++element)
-    assembler.add_stiffness(element, modes, problem.elements.stiffness[problem.elements.congruent.class_of[element]],
-                            plate.mesh.thickness[element]);
-}
-
-/// Calls visit(hole, element, terms, scale) for every side of a sprung rim.
-template <class Visit>
-void for_each_rim_side(const plate::PlateElements& elements, Visit visit) {
+/// Refuses an arc on which no spring acts.
+void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
+  std::vector<double> stiffness(scene.holes.size(), 0);
   for (int element = 0; element < count_of(elements.class_of); ++element)
     for (const auto& rim : elements.classes[elements.class_of[element]].rims)
-      visit(elements.holes[element][rim.hole], element, rim.terms, elements.scale[element]);
-}
-
-/// Adds the normal springs between every rim and its rigid disc, equation (6), as far as controlled displacements feel
-/// them: -int k t (u.n)(e.n) ds between plate and disc, int k t (e.n)(e'.n) ds of the disc, and what a rim that ends on
-/// a rigid external has of int k t (v.n)(u.n) ds; sums over nodes for links.
-void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler& assembler) {
-  const Unknowns& unknowns = problem.unknowns;
-  std::vector<double> stiffness(scene.holes.size(), 0);
-  for_each_rim_side(problem.elements, [&](int hole, int element, const plate::RimTerms& terms, double scale) {
-    const int first = unknowns.controlled_of_disc(unknowns.disc_of_hole[hole]);
-    stiffness[hole] += terms.stiffness;
-    assembler.add_stiffness(element, terms.modes, terms.plate, scale);
-    for (int a = 0; a < unknowns.n_directions; ++a) {
-      assembler.add_coupling(element, terms.modes, scale * terms.coupling.col(a), first + a);
-      for (int b = 0; b < unknowns.n_directions; ++b)
-        assembler.add(pfem::controlled_dof(first + a), first + b, scale * terms.disc(a, b));
-    }
-  });
+      stiffness[elements.holes[element][rim.hole]] += rim.terms.stiffness;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     const auto& spring = scene.holes[hole].spring;
     if (spring && spring->has_arc && stiffness[hole] == 0)
@@ -67,19 +38,6 @@ void add_springs(const PlateScene& scene, const PlateProblem& problem, Assembler
              fmt::format("the rim of hole \"{}\" that the model has is nowhere in this arc", scene.holes[hole].id),
              "an arc that covers a part of the rim, in degrees counter-clockwise from x");
   }
-}
-
-/// Sets L_f and L_c: unit friction cases of every disc of a hole, direction inner, bearing side + then -, tangential
-/// traction cos(theta) on the bearing half of the rim that drags the plate along the bearing direction.
-void add_friction_loads(PlateProblem& problem) {
-  Assembler loads(problem.numbering, problem.unknowns, count_of(problem.friction_hole));
-  for_each_rim_side(problem.elements, [&](int hole, int element, const plate::RimTerms& terms, double scale) {
-    const int first = 2 * problem.unknowns.disc_of_hole[hole];  // discs of holes come before those of points
-    for (int i = 0; i < terms.friction.cols(); ++i)
-      loads.add(element, terms.modes, scale * terms.friction.col(i), first + i);
-  });
-  problem.L_f = loads.free();
-  problem.L_c = loads.controlled();
 }
 
 /// Uniform traction of unit total force on an edge.
@@ -141,8 +99,6 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   }
 }
 
-double largest(const Eigen::SparseMatrix<double>& A) { return A.nonZeros() > 0 ? A.coeffs().abs().maxCoeff() : 0; }
-
 }  // namespace
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
@@ -152,26 +108,14 @@ plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
   return sprung;
 }
 
-Eigen::VectorXd shift(const PlateProblem& problem) {
-  return problem.K_cc.diagonal().unaryExpr([](double k) { return k > 0 ? k : 1; });
-}
-
-/// The friction cases come last, so that their diagonal changes nothing before them; it must be above L^T K^-1 L
-/// (docs/theory.md, section 4.4).
-Eigen::VectorXd border_diagonal(const PlateProblem& problem) {
-  const auto s = shift(problem);
-  const double L = largest(problem.L_f), large = L > 0 ? 1e30 * L * L / s.maxCoeff() : 1;
-  Eigen::VectorXd diagonal = Eigen::VectorXd::Constant(s.size() + problem.L_f.cols(), large);
-  diagonal.head(s.size()) = s;
-  return diagonal;
-}
-
 PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   problem.elements = plate::classify_elements(sprung_mesh(scene, plate), problem.numbering, problem.unknowns);
-  problem.n_tractions = count_of(traction_externals(scene));
+  const Eigen::Index n_tractions = traction_externals(scene).size();
+  problem.T_f.resize(problem.unknowns.n_free.back(), n_tractions);
+  problem.T_c = Eigen::MatrixXd::Zero(problem.unknowns.n_controlled(), n_tractions);
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (const auto& hole : scene.holes) {
     if (!hole.spring) continue;
@@ -187,13 +131,7 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   problem.elements.stiffness =
       pfem::integrate(problem.elements.congruent, plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
-  Assembler assembler(problem.numbering, problem.unknowns, problem.unknowns.n_controlled());
-  if (problem.unknowns.n_externals > 0) add_externals(plate, problem, assembler);
-  add_springs(scene, problem, assembler);
-  for (const auto& tie : problem.ties) assembler.add_spring(tie.dof, tie.controlled, tie.stiffness);
-  problem.K_fc = assembler.free();
-  problem.K_cc = assembler.controlled();
-  add_friction_loads(problem);
+  check_arcs(scene, problem.elements);
   add_traction_loads(scene, plate, problem);
 }
 

@@ -6,10 +6,9 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "common/linalg/condensed.hpp"
-#include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 #include "stage1_plate/run/memory.hpp"
+#include "stage1_plate/run/solve.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -24,8 +23,7 @@ void raise_degree(Accuracy& model) {
   PlateProblem problem = number_unknowns(model.scene, plate);
   check_held(model.scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
-  const int nc = problem.unknowns.n_controlled();
-  if (nc == 0)
+  if (problem.unknowns.n_controlled() == 0)
     throw InputError(
         fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
                     "missing; allowed: a scene with a disc or a rigid external",
@@ -36,15 +34,14 @@ void raise_degree(Accuracy& model) {
     const auto alone = Eigen::VectorXi::Constant(1, p);
     require_memory(model.scene.file, p, memory_need(problem, skeleton, alone));
     if (p == model.scene.p_low) integrate(model.scene, plate, problem);
-    const plate::PlateFactor K(problem, skeleton, p, border_diagonal(problem));
-    const Eigen::MatrixXd E = K.energy_rows();
-    levels.S.push_back(linalg::condensed_stiffness(E.topRows(nc), shift(problem), problem.K_cc));
-    levels.R.push_back(E.topRows(nc) * E.bottomRows(E.rows() - nc).transpose());
-    const Eigen::MatrixXd T = problem.T_f.topRows(problem.unknowns.n_free[p]);
-    levels.C.push_back(T.transpose() * K.solve(T));
+    const plate::PlateFactor K(problem, skeleton, p);
+    auto cases = solve_degree(problem, K, p).cases;
+    levels.S.push_back(std::move(cases.S));
+    levels.R.push_back(std::move(cases.R));
+    levels.C.push_back(std::move(cases.C_t));
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
     model.errors =
-        matrices::relative_errors(levels, degrees, problem.K_cc, matrices::fastest_rate(model.scene.elasticity));
+        matrices::relative_errors(levels, degrees, K.held_stiffness(), matrices::fastest_rate(model.scene.elasticity));
     model.scene.p_high = p;
     if (model.is_reached()) return;
   }

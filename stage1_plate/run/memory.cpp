@@ -18,9 +18,9 @@ double square(double n) { return n * n; }
 
 MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p,
                        int n_rim) {
-  const auto [elements, factor] = plate::factor_bytes(problem, skeleton, p[p.size() - 1], true);
+  const auto [elements, factor] = plate::factor_bytes(problem, skeleton, p[p.size() - 1]);
   const double nc = problem.unknowns.n_controlled(), h = count_of(problem.friction_hole);
-  const double q = problem.n_tractions, r = n_rim;
+  const double q = double(problem.T_c.cols()), r = n_rim;
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   const double rows_of_E = count_of(p) * (nc + h) * nc;
   // The file is built in memory, which grows there by copying, and copied once more before it is written.

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "common/count.hpp"
-#include "common/plate/plate_factor.hpp"
+#include "common/plate/plate_states.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
@@ -17,25 +17,10 @@ namespace fastjoint::stage1 {
 
 namespace {
 
-formats::PlateCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int n) {
-  const Eigen::MatrixXd E = K.energy_rows();
-  const auto nc = problem.K_fc.cols();
-  return {E.topRows(nc), E.bottomRows(E.rows() - nc), K.solve(Eigen::MatrixXd(problem.T_f.topRows(n)))};
-}
-
 /// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
 Eigen::VectorXd amounts(Eigen::Index n_cases) {
   const auto n = double(n_cases);
   return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
-}
-
-formats::Probe probe(const PlateProblem& problem, const plate::PlateFactor& K) {
-  const Eigen::VectorXd displacement = amounts(problem.K_fc.cols()), friction = amounts(problem.L_f.cols());
-  Eigen::MatrixXd B(problem.K_fc.rows(), 2);
-  B << -(problem.K_fc * displacement), problem.L_f * friction;
-  const Eigen::MatrixXd X = K.solve(B);
-  return {displacement, friction, X.col(0), X.col(1),
-          K.rounding(X.col(0)) / std::max(displacement.squaredNorm(), 1e-300)};
 }
 
 std::string arcs_text(const RimContact& contact) {
@@ -85,17 +70,11 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.disc_direction = unknowns.disc_direction;
   a.friction_hole = problem.friction_hole;
   a.friction_bearing = problem.friction_bearing;
-  a.K_fc = problem.K_fc;
-  a.K_cc = problem.K_cc;
-  a.L_f = problem.L_f;
-  a.L_c = problem.L_c;
   a.T_f = problem.T_f;
-  a.T_c = problem.T_c;
-  a.shift = shift(problem);
   for (const auto& tie : problem.ties)
     a.points.push_back({tie.vertex, tie.controlled - unknowns.n_externals, tie.stiffness});
-  a.load_displacement.resize(0, problem.K_cc.cols());
-  a.load_friction.resize(0, problem.L_f.cols());
+  a.load_displacement.resize(0, unknowns.n_controlled());
+  a.load_friction.resize(0, unknowns.n_friction_cases());
   a.load_traction.resize(0, problem.T_f.cols());
   return a;
 }
@@ -108,14 +87,34 @@ void add_contact(const RimContactState& state, formats::PlateSolution& a) {
   a.load_traction = state.traction.transpose();
 }
 
+/// The states solved for are the unit tractions, then the two of the probe.
+SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p) {
+  const Eigen::Index nc = problem.unknowns.n_controlled(), h = problem.unknowns.n_friction_cases();
+  const Eigen::Index q = problem.T_c.cols();
+  const Eigen::VectorXd displacement = amounts(nc), friction = amounts(h);
+  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(nc + h, q + 2);
+  border.col(q).head(nc) = displacement;
+  border.col(q + 1).tail(h) = friction;
+  Eigen::SparseMatrix<double> loads = problem.T_f.topRows(problem.unknowns.n_free[p]);
+  loads.conservativeResize(loads.rows(), q + 2);
+  const plate::PlateStates states(K, border, loads);
+  const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed();
+  return {{SR.leftCols(nc), SR.rightCols(h), forces.leftCols(q) - problem.T_c, work.topLeftCorner(q, q)},
+          {displacement, friction, forces.col(q), forces.col(q + 1),
+           work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
+           states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
+}
+
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a,
                  program::Timings& timings) {
-  for (Eigen::Index i = 0; i < a.p.size(); ++i) {
+  for (const int p : a.p) {
     timings.phase("factorise");
-    const plate::PlateFactor K(problem, skeleton, a.p[i], border_diagonal(problem));
+    const plate::PlateFactor K(problem, skeleton, p);
     timings.phase("solve");
-    a.cases.push_back(solve_degree(problem, K, a.ndof[i]));
-    if (i + 1 == a.p.size()) a.probe = probe(problem, K);
+    auto [cases, probe] = solve_degree(problem, K, p);
+    a.cases.push_back(std::move(cases));
+    a.probe = std::move(probe);
+    a.held_stiffness = K.held_stiffness();
   }
 }
 

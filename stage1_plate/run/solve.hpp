@@ -18,8 +18,14 @@ namespace fastjoint::stage1 {
 /// Sets the contacts and the loads of a scene that has them.
 void add_contact(const RimContactState& state, formats::PlateSolution& solution);
 
-/// Factorises the plate at every degree and solves what stage 2 reads: the fields of tractions, and at the highest
-/// degree the probe. Phases: factorise, solve.
+/// The unit cases at one degree, and the probe that checks them.
+struct SolvedCases {
+  formats::PlateCases cases;
+  formats::Probe probe;
+};
+[[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p);
+
+/// Solves the unit cases at every degree, and at the highest the probe. Phases: factorise, solve.
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution,
                  program::Timings& timings);
 

@@ -19,34 +19,28 @@ constexpr double worst_allowed = 1e-7;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
-/// Stiffness that errors of S are compared with: the largest of S, or a share of K_cc where the plate offers next to
-/// none, so that the rounding of K_cc passes.
+/// Stiffness that errors of S are compared with: the largest of S, or a share of the springs' where the plate offers
+/// next to none, so that their rounding passes.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   constexpr double least = 1e-5;
-  return std::max(largest(S), least * largest(plate.K_cc));
+  return std::max(largest(S), least * largest(plate.held_stiffness));
 }
 
-/// Forces that the probe's displacements need, by its field, against those by S.
+/// Forces that the probe's displacements need, by its own solution, against those by S.
 std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   if (S.size() == 0) return std::nullopt;
-  const auto& probe = plate.probe;
-  const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.u + plate.K_cc * probe.displacement;
-  return ratio(largest(solved - S * probe.displacement), scale_of(plate, S));
+  return ratio(largest(plate.probe.force - S * plate.probe.displacement), scale_of(plate, S));
 }
 
-/// Forces of friction and tractions on externals and discs, by the probe's fields, against R and T.
+/// Forces of friction and tractions on externals and discs, by the probe's solutions, against R and T.
 std::optional<double> reciprocity(const PlateSolution& plate, const Level& level) {
   const auto& probe = plate.probe;
-  if (plate.K_cc.size() == 0 || plate.L_c.cols() + plate.T_c.cols() == 0) return std::nullopt;
+  if (level.R.size() + level.T.size() == 0) return std::nullopt;
   double worst = 0;
-  if (plate.L_c.cols() > 0) {
-    const Eigen::VectorXd solved = plate.K_fc.transpose() * probe.w - plate.L_c * probe.friction;
-    worst = ratio(largest(solved - level.R * probe.friction), largest(level.R));
-  }
-  if (plate.T_c.cols() > 0) {
-    const Eigen::VectorXd solved = -(plate.T_f.transpose() * probe.u + plate.T_c.transpose() * probe.displacement);
+  if (level.R.size() > 0) worst = ratio(largest(probe.friction_force - level.R * probe.friction), largest(level.R));
+  if (level.T.size() > 0) {
     const double scale = std::max(largest(level.T), 1e-3);
-    worst = std::max(worst, ratio(largest(solved - level.T.transpose() * probe.displacement), scale));
+    worst = std::max(worst, ratio(largest(probe.traction_work + level.T.transpose() * probe.displacement), scale));
   }
   return worst;
 }

@@ -68,7 +68,7 @@ FieldSolver::FieldSolver(const PlateSolution& plate, const std::string& file)
       skeleton_(stiffness_) {}
 
 double FieldSolver::factor_bytes(int p) const {
-  const auto [elements, factor] = plate::factor_bytes(stiffness_, skeleton_, p, false);
+  const auto [elements, factor] = plate::factor_bytes(stiffness_, skeleton_, p);
   return elements + factor;
 }
 

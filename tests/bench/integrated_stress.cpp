@@ -37,8 +37,9 @@ const stage1::External& first_external(const stage1::PlateScene& scene) {
 
 /// Plate unknowns under a unit displacement of the first external, all else held.
 Eigen::VectorXd first_field(const stage1::PlateProblem& problem, int p) {
-  const plate::PlateFactor K(problem, plate::Skeleton(problem), p);
-  return K.solve(-Eigen::MatrixXd(problem.K_fc.col(0)));
+  const int n_border = problem.unknowns.n_controlled() + problem.unknowns.n_friction_cases();
+  return test::fields(problem, p, Eigen::VectorXd::Unit(n_border, 0),
+                      Eigen::VectorXd::Zero(problem.unknowns.n_free[p]));
 }
 
 void run(const program::Arguments& arguments, program::Timings& timings) {
@@ -50,13 +51,13 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("mesh");
   auto mesh = stage1::make_mesh(scene);
   timings.phase("integrate");
-  auto problem = stage1::assemble(scene, mesh);
+  auto problem = test::assemble(scene, mesh);
   stage1::check_held(scene, mesh, problem.unknowns);
   timings.set_unknowns(scene.p_high, problem.unknowns.n_free.back());
   timings.phase("solve");
   const Eigen::VectorXd u = first_field(problem, scene.p_high);
   timings.phase("extract");
-  const Eigen::VectorXd controlled = Eigen::VectorXd::Unit(problem.K_fc.cols(), 0);
+  const Eigen::VectorXd controlled = Eigen::VectorXd::Unit(problem.K_cc.cols(), 0);
   const test::Plate plate{std::move(scene), std::move(mesh), std::move(problem)};
   const double S_ee = test::integrated_force(plate, test::coefficients(plate, u, controlled), edge);
   timings.phase("write");

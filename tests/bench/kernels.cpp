@@ -64,13 +64,12 @@ void condense(State& state) {
 }
 BENCHMARK(condense)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
-/// panel(n, n) at p = 8, from its integrated elements to the last rows of the factor.
+/// panel(n, n) at p = 8, from its integrated elements to S and R.
 void factorise(State& state) {
   const int n = static_cast<int>(state.range(0));
   const auto plate = test::make_plate(test::panel(n, n));
   const plate::Skeleton skeleton(plate.problem);
-  for (auto _ : state)
-    DoNotOptimize(plate::PlateFactor(plate.problem, skeleton, 8, border_diagonal(plate.problem)).energy_rows());
+  for (auto _ : state) DoNotOptimize(plate::PlateFactor(plate.problem, skeleton, 8).condensed());
 }
 BENCHMARK(factorise)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
 
@@ -78,8 +77,10 @@ BENCHMARK(factorise)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
 void solve(State& state) {
   const auto plate = test::make_plate(test::panel(3, 3));
   const plate::PlateFactor K(plate.problem, plate::Skeleton(plate.problem), 8);
-  const Eigen::MatrixXd B = -Eigen::MatrixXd(plate.problem.K_fc);
-  for (auto _ : state) DoNotOptimize(K.solve(B));
+  const auto nc = plate.problem.K_cc.cols(), h = plate.problem.L_f.cols();
+  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(nc + h, nc);
+  const Eigen::SparseMatrix<double> none(plate.problem.K_fc.rows(), nc);
+  for (auto _ : state) DoNotOptimize(plate::PlateStates(K, unit, none));
 }
 BENCHMARK(solve)->Unit(benchmark::kMillisecond);
 

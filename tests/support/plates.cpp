@@ -4,21 +4,96 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "common/linalg/condensed.hpp"
-#include "common/plate/plate_factor.hpp"
+#include <tuple>
+
+#include "common/plate/plate_states.hpp"
 
 namespace fastjoint::test {
+
+Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh) {
+  Problem a{stage1::assemble(scene, mesh), {}, {}, {}, {}};
+  const auto& unknowns = a.unknowns;
+  const int n = unknowns.n_free.back(), nc = unknowns.n_controlled(), h = unknowns.n_friction_cases();
+  std::vector<Eigen::Triplet<double>> K, L;
+  a.K_cc = Eigen::MatrixXd::Zero(nc, nc);
+  a.L_c = Eigen::MatrixXd::Zero(nc, h);
+  const auto add = [](int dof, int column, double value, auto& free, Eigen::MatrixXd& controlled) {
+    if (pfem::is_free(dof)) free.emplace_back(dof, column, value);
+    if (pfem::is_controlled(dof)) controlled(pfem::controlled_index(dof), column) += value;
+  };
+  const auto add_pair = [&](int dof, int other, double value) {
+    if (pfem::is_controlled(other)) add(dof, pfem::controlled_index(other), value, K, a.K_cc);
+  };
+  const auto add_matrix = [&](const pfem::ElementDofs& at, const Eigen::MatrixXd& M, double scale) {
+    for (Eigen::Index i = 0; i < at.dof.size(); ++i)
+      for (Eigen::Index j = 0; j < at.dof.size(); ++j)
+        add_pair(at.dof[i], at.dof[j], scale * at.sign[i] * at.sign[j] * M(i, j));
+  };
+  for (int element = 0; element < mesh.mesh.n_elements(); ++element) {
+    const auto all = pfem::element_dofs(a.numbering, unknowns.dofs, element);
+    add_matrix(all, a.elements.stiffness[a.elements.congruent.class_of[element]], mesh.mesh.thickness[element]);
+    for (const auto& [of_element, terms] : a.elements.classes[a.elements.class_of[element]].rims) {
+      const auto at = pfem::element_dofs(a.numbering, unknowns.dofs, element, terms.modes);
+      const int disc = unknowns.disc_of_hole[a.elements.holes[element][of_element]];
+      const double scale = a.elements.scale[element];
+      add_matrix(at, terms.plate, scale);
+      for (int d = 0; d < unknowns.n_directions; ++d) {
+        const int moved = pfem::controlled_dof(unknowns.controlled_of_disc(disc + d));
+        for (Eigen::Index i = 0; i < at.dof.size(); ++i) {
+          add_pair(at.dof[i], moved, scale * at.sign[i] * terms.coupling(i, d));
+          add_pair(moved, at.dof[i], scale * at.sign[i] * terms.coupling(i, d));
+        }
+        for (int e = 0; e < unknowns.n_directions; ++e)
+          add_pair(pfem::controlled_dof(unknowns.controlled_of_disc(disc + e)), moved, scale * terms.disc(e, d));
+      }
+      for (int c = 0; c < terms.friction.cols(); ++c)
+        for (Eigen::Index i = 0; i < at.dof.size(); ++i)
+          add(at.dof[i], 2 * disc + c, scale * at.sign[i] * terms.friction(i, c), L, a.L_c);
+    }
+  }
+  for (const auto& tie : a.ties) {
+    const int disc = pfem::controlled_dof(tie.controlled);
+    for (const auto& [i, j, sign] :
+         {std::tuple(tie.dof, tie.dof, 1), {disc, disc, 1}, {tie.dof, disc, -1}, {disc, tie.dof, -1}})
+      add_pair(i, j, sign * tie.stiffness);
+  }
+  a.K_fc.resize(n, nc);
+  a.K_fc.setFromTriplets(K.begin(), K.end());
+  a.L_f.resize(n, h);
+  a.L_f.setFromTriplets(L.begin(), L.end());
+  return a;
+}
 
 Plate make_plate(const std::string& json) {
   Plate plate{stage1::read_scene(input::parse("plate.json", json)), {}, {}};
   plate.mesh = stage1::make_mesh(plate.scene);
-  plate.problem = stage1::assemble(plate.scene, plate.mesh);
+  plate.problem = test::assemble(plate.scene, plate.mesh);
   return plate;
 }
 
-Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p) {
+Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& border,
+                       const Eigen::MatrixXd& loads) {
   const plate::PlateFactor K(problem, plate::Skeleton(problem), p);
-  return K.solve(-Eigen::MatrixXd(problem.K_fc.topRows(problem.unknowns.n_free[p])));
+  const plate::PlateStates states(K, border, loads.sparseView());
+  Eigen::MatrixXd X(problem.unknowns.n_free[p], border.cols());
+  for (int element = 0; element < count_of(problem.elements.class_of); ++element) {
+    const auto [dof, sign] = pfem::element_dofs(problem.numbering, problem.unknowns.dofs, element);
+    const Eigen::MatrixXd C = states.coefficients(element);
+    for (Eigen::Index i = 0; i < dof.size(); ++i)
+      if (pfem::is_free(dof[i]) && dof[i] < X.rows()) X.row(dof[i]) = sign[i] * C.row(i);
+  }
+  return X;
+}
+
+Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p) {
+  const int nc = problem.unknowns.n_controlled();
+  return fields(problem, p, Eigen::MatrixXd::Identity(nc + problem.unknowns.n_friction_cases(), nc),
+                Eigen::MatrixXd::Zero(problem.unknowns.n_free[p], nc));
+}
+
+Eigen::MatrixXd fields_under(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& loads) {
+  const int n_border = problem.unknowns.n_controlled() + problem.unknowns.n_friction_cases();
+  return fields(problem, p, Eigen::MatrixXd::Zero(n_border, loads.cols()), loads);
 }
 
 formats::PlateSolution solve(const Plate& plate) {
@@ -26,10 +101,6 @@ formats::PlateSolution solve(const Plate& plate) {
   program::Timings timings;
   stage1::solve_cases(plate.problem, plate::Skeleton(plate.problem), solution, timings);
   return solution;
-}
-
-Eigen::MatrixXd stiffness(const formats::PlateSolution& a, std::size_t level) {
-  return linalg::condensed_stiffness(a.cases[level].E_c, a.shift, a.K_cc);
 }
 
 stage2::Extraction extract(const formats::PlateSolution& solution, bool stresses) {

@@ -11,19 +11,31 @@
 
 namespace fastjoint::test {
 
+/// A problem with what couples its plate unknowns to externals, discs and friction cases, assembled the plain way.
+struct Problem : stage1::PlateProblem {
+  Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc)
+  Eigen::MatrixXd K_cc;              ///< (nc, nc) with all of the plate held
+  Eigen::SparseMatrix<double> L_f;   ///< (n_f, h) loads of the unit friction cases
+  Eigen::MatrixXd L_c;               ///< (nc, h)
+};
+[[nodiscard]] Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh);
+
 /// A scene with its mesh and matrices, as stage 1 has them before solving.
 struct Plate {
   stage1::PlateScene scene;
   stage1::PlateMesh mesh;
-  stage1::PlateProblem problem;
+  Problem problem;
 };
 [[nodiscard]] Plate make_plate(const std::string& json);
 
-/// Its S at one of its degrees.
-[[nodiscard]] Eigen::MatrixXd stiffness(const formats::PlateSolution& solution, std::size_t level);
-
+/// Plate unknowns at one degree under amounts of externals, discs and friction cases, (nc + h, k), and loads on them,
+/// (n_p, k); shape (n_p, k).
+[[nodiscard]] Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& border,
+                                     const Eigen::MatrixXd& loads);
 /// Plate unknowns per unit of each controlled displacement at one degree, shape (n_p, nc).
 [[nodiscard]] Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p);
+/// Plate unknowns under loads on them, (n_p, k), with discs and externals held.
+[[nodiscard]] Eigen::MatrixXd fields_under(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& loads);
 
 /// Stage 1 to the end, and stage 2 behind it.
 [[nodiscard]] formats::PlateSolution solve(const Plate& plate);

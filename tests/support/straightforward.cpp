@@ -44,7 +44,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
   return K;
 }
 
-PlainMatrices plain_matrices(const Sparse& K_ff, const stage1::PlateProblem& problem, int p) {
+PlainMatrices plain_matrices(const Sparse& K_ff, const Problem& problem, int p) {
   const int n = problem.unknowns.n_free[p];
   const Eigen::CholmodSupernodalLLT<Sparse> factor(K_ff.block(0, 0, n, n));
   const Sparse K_fc = problem.K_fc.topRows(n);

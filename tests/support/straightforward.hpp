@@ -3,7 +3,7 @@
 
 #include <Eigen/SparseCore>
 
-#include "stage1_plate/problem/plate_problem.hpp"
+#include "tests/support/plates.hpp"
 
 namespace fastjoint::test {
 
@@ -17,7 +17,6 @@ namespace fastjoint::test {
 struct PlainMatrices {
   Eigen::MatrixXd S, R;
 };
-[[nodiscard]] PlainMatrices plain_matrices(const Eigen::SparseMatrix<double>& K_ff, const stage1::PlateProblem& problem,
-                                           int p);
+[[nodiscard]] PlainMatrices plain_matrices(const Eigen::SparseMatrix<double>& K_ff, const Problem& problem, int p);
 
 }  // namespace fastjoint::test

@@ -85,29 +85,29 @@ Eigen::MatrixXd sparse_matrix(int n) {
 
 Sparse lower(const Eigen::MatrixXd& A) { return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView(); }
 
-TEST(Cholesky, BorderIsTheFactorOfTheSchurComplement) {
-  for (const int n : {3, 20, 90})
-    for (const int n_border : {0, 1, 2, n}) {
-      const Eigen::MatrixXd A = sparse_matrix(n);
-      const int m = n - n_border;
-      const Cholesky factor(lower(A), n_border);
-      const Eigen::MatrixXd L = factor.border(n_border);
-      const Eigen::MatrixXd B = A.topRightCorner(m, n_border);
-      Eigen::MatrixXd schur = A.bottomRightCorner(n_border, n_border);
-      if (m > 0 && n_border > 0) schur -= B.transpose() * A.topLeftCorner(m, m).llt().solve(B);
-      EXPECT_LT((L * L.transpose() - schur).norm(), 1e-12 * A.norm()) << n << " " << n_border;
-      EXPECT_EQ(factor.border(n_border / 2), L.leftCols(n_border / 2));
-      const Eigen::MatrixXd b = Eigen::MatrixXd::Random(m, 3);
-      EXPECT_LT((A.topLeftCorner(m, m) * factor.solve(b) - b).norm(), 1e-11 * A.norm()) << n << " " << n_border;
-    }
+TEST(Cholesky, SolvesForManyColumnsAtOnce) {
+  for (const int n : {1, 3, 20, 90}) {
+    const Eigen::MatrixXd A = sparse_matrix(n), B = Eigen::MatrixXd::Random(n, 70);
+    EXPECT_LT((A * Cholesky(lower(A)).solve(B) - B).norm(), 1e-11 * A.norm() * B.norm()) << n;
+    EXPECT_EQ(Cholesky(lower(A)).solve(Eigen::MatrixXd(n, 0)).size(), 0);
+  }
 }
 
-/// However large the last diagonal entry of the border is, what stands before it keeps its digits.
-TEST(Cholesky, TheBorderMayBeMadeLarge) {
-  Eigen::MatrixXd A = sparse_matrix(30);
-  const Eigen::MatrixXd L = Cholesky(lower(A), 4).border(2);
-  A.diagonal().tail(2).setConstant(1e30);
-  EXPECT_LT((Cholesky(lower(A), 4).border(2) - L).norm(), 1e-14 * L.norm());
+/// Rows that start at the first column, within and at the last, and an empty one; more rows than columns.
+TEST(Cholesky, ProductsAreThoseOfTheSolutions) {
+  for (const int n : {1, 3, 20, 90, 300})
+    for (const int m : {0, 1, 7, 120}) {
+      const Eigen::MatrixXd A = sparse_matrix(n);
+      Eigen::MatrixXd C = Eigen::MatrixXd::Random(m, n);
+      C = (C.array().abs() > 0.95).select(C, 0);
+      for (int i = 0; i < m; i += 5) C.row(i).setZero();
+      const Eigen::MatrixXd all = C * A.inverse() * C.transpose();
+      for (const int k : {0, m / 2, m}) {
+        const Eigen::MatrixXd products = Cholesky(lower(A)).products(C.sparseView(), k);
+        ASSERT_EQ(products.rows(), k);
+        EXPECT_LE((products - all.topRows(k)).norm(), 1e-13 * all.norm()) << n << " " << m << " " << k;
+      }
+    }
 }
 
 TEST(EliminationOrder, FillsAnArrowLittle) {

@@ -51,12 +51,5 @@ TEST(Condensed, NeedsAPositiveDefiniteInside) {
   EXPECT_NO_THROW(Condensed(M, 1)) << "what is left may be singular";
 }
 
-TEST(ProductTransposed, IsTheProduct) {
-  const MatrixXd A = MatrixXd::Random(4, 9), B = MatrixXd::Random(3, 9);
-  EXPECT_LT((product_transposed(A, B) - A * B.transpose()).norm(), 1e-14);
-  EXPECT_EQ(product_transposed(MatrixXd(2, 0), MatrixXd(3, 0)), MatrixXd::Zero(2, 3));
-  EXPECT_EQ(product_transposed(MatrixXd(0, 9), B).size(), 0);
-}
-
 }  // namespace
 }  // namespace fastjoint::linalg

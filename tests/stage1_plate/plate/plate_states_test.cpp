@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/SparseCholesky>
+
 #include "tests/support/plate_scenes.hpp"
+#include "tests/support/straightforward.hpp"
 
 namespace fastjoint {
 namespace {
 
 /// Loads by the states' amounts on the plate's unknowns of one degree, as the problem has them.
-Eigen::MatrixXd loads(const stage1::PlateProblem& problem, int n, const Eigen::MatrixXd& border) {
+Eigen::MatrixXd loads(const test::Problem& problem, int n, const Eigen::MatrixXd& border) {
   const auto nc = problem.K_fc.cols();
   return problem.L_f.topRows(n) * border.bottomRows(border.rows() - nc) - problem.K_fc.topRows(n) * border.topRows(nc);
 }
@@ -20,19 +23,23 @@ Eigen::SparseMatrix<double> a_few(Eigen::Index n, Eigen::Index k) {
   return loads;
 }
 
-/// Coefficients of every element against the solution for all unknowns, with loads on the border and beside.
+/// Coefficients of every element, forces and work against the solution for all unknowns by a sparse factor, with loads
+/// on the border and beside.
 TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
   for (const auto& [name, json] : test::plate_scenes()) {
     const auto plate = test::make_plate(json);
     const auto& problem = plate.problem;
     const plate::Skeleton skeleton(problem);
+    const auto K_ff = test::free_stiffness(plate.scene, plate.mesh, problem);
+    const auto nc = problem.K_cc.rows();
     for (const int p : {1, 2, 5, 8}) {
       const plate::PlateFactor K(problem, skeleton, p);
       const int n = problem.unknowns.n_free[p];
-      const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.K_fc.cols() + problem.L_f.cols(), 3);
+      const Eigen::MatrixXd border = Eigen::MatrixXd::Random(nc + problem.L_f.cols(), 3);
       const auto beside = a_few(n, 3);
       const plate::PlateStates states(K, border, beside);
-      const Eigen::MatrixXd X = K.solve(loads(problem, n, border) + Eigen::MatrixXd(beside));
+      const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(K_ff.block(0, 0, n, n));
+      const Eigen::MatrixXd X = factor.solve(loads(problem, n, border) + Eigen::MatrixXd(beside));
       for (int element = 0; element < plate.mesh.mesh.n_elements(); ++element) {
         const auto [dof, sign] = pfem::element_dofs(problem.numbering, problem.unknowns.dofs, element);
         Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(dof.size(), 3);
@@ -43,6 +50,12 @@ TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
         EXPECT_LT((states.coefficients(element) - expected).norm(), 1e-10 * (X.norm() + border.norm()))
             << name << ", p = " << p << ", element " << element;
       }
+      const Eigen::MatrixXd D = border.topRows(nc), Lambda = border.bottomRows(border.rows() - nc);
+      const Eigen::MatrixXd forces = problem.K_fc.topRows(n).transpose() * X + problem.K_cc * D - problem.L_c * Lambda;
+      const double scale = problem.K_fc.norm() * X.norm() + problem.K_cc.norm() * D.norm();
+      EXPECT_LT((states.forces() - forces).norm(), 1e-11 * scale) << name << ", p = " << p;
+      EXPECT_LT((states.work() - beside.transpose() * X).norm(), 1e-10 * beside.norm() * X.norm())
+          << name << ", p = " << p;
     }
   }
 }

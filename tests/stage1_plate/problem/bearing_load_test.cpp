@@ -53,7 +53,7 @@ TEST(BearingLoad, IsAColumnOfTheTractions) {
   EXPECT_EQ(solution.traction_id, (std::vector<std::string>{"T", "pin"}));
   EXPECT_EQ(solution.traction_hole, (std::vector<std::string>{"", "o"}));
   EXPECT_EQ(solution.traction_direction, (std::vector<std::string>{"y", "x"}));
-  EXPECT_EQ(solution.cases.back().V.cols(), 2);
+  EXPECT_EQ(solution.cases.back().T.cols(), 2);
 }
 
 TEST(BearingLoad, HalfAHoleTakesItWhole) {

@@ -50,7 +50,7 @@ Errors measure(Space space, int p_low, int p_high) {
     u.head(solution.ndof[p - 1]) = test::unit_fields(plate.problem, p).col(0);
     const Eigen::VectorXd e = u - finest;
     errors.energy.push_back(std::sqrt(e.dot(K * e)));
-    errors.stiffness.push_back(std::abs(test::stiffness(solution, level)(0, 0) - panel_S(0, 0)));
+    errors.stiffness.push_back(std::abs(solution.cases[level].S(0, 0) - panel_S(0, 0)));
     const auto coefficients = test::coefficients(plate, u, Eigen::Vector2d::UnitX());
     errors.by_stress.push_back(std::abs(test::integrated_force(plate, coefficients, "right") - panel_S(0, 0)));
   }
@@ -72,7 +72,7 @@ TEST(Convergence, StiffnessFromIntegratedStressesConvergesVisiblySlower) {
 }
 
 Eigen::MatrixXd stiffness(const std::string& scene, std::size_t level) {
-  return test::stiffness(test::solve(test::make_plate(scene)), level);
+  return test::solve(test::make_plate(scene)).cases[level].S;
 }
 
 TEST(Convergence, PanelReachesTheReferenceOfTwoOtherCodes) {
@@ -96,8 +96,8 @@ TEST(Convergence, TheProductSpaceIsNeverWorse) {
   const auto product = test::solve(test::make_plate(test::panel(1, 1, 0, test::in_space(Space::product))));
   const auto trunk = test::solve(test::make_plate(test::panel(1, 1)));
   for (std::size_t level = 0; level < 8; ++level) {
-    const Eigen::Matrix2d of_product = test::stiffness(product, level) - panel_S;
-    const Eigen::Matrix2d of_trunk = test::stiffness(trunk, level) - panel_S;
+    const Eigen::Matrix2d of_product = product.cases[level].S - panel_S;
+    const Eigen::Matrix2d of_trunk = trunk.cases[level].S - panel_S;
     if (level == 0) {
       EXPECT_LT((of_product - of_trunk).norm(), 1e-13 * panel_S.norm());
     } else {
@@ -113,7 +113,7 @@ TEST(Convergence, EnergiesFallMonotonically) {
     const auto solution = test::solve(test::make_plate(test::panel(2, 1, 0, test::in_space(space))));
     Eigen::VectorXd previous = Eigen::VectorXd::Constant(3, 1e300);
     for (std::size_t level = 0; level < 8; ++level) {
-      const Eigen::VectorXd energies = test::stiffness(solution, level).diagonal();
+      const Eigen::VectorXd energies = solution.cases[level].S.diagonal();
       EXPECT_TRUE((energies.array() < previous.array()).all()) << pfem::name_of(space) << " p=" << level + 1;
       previous = energies;
     }

@@ -87,12 +87,12 @@ class PlateProblemIn : public testing::TestWithParam<pfem::Space> {};
 TEST_P(PlateProblemIn, ALowerDegreeIsALeadingBlock) {
   test::Plate high = test::make_plate(floating);
   high.scene.space = GetParam();
-  high.problem = stage1::assemble(high.scene, high.mesh);
+  high.problem = test::assemble(high.scene, high.mesh);
   const Eigen::MatrixXd K_high = test::free_stiffness(high.scene, high.mesh, high.problem);
   for (const int p : {1, 3, 5}) {
     auto scene = high.scene;
     scene.p_high = p;
-    const auto low = stage1::assemble(scene, high.mesh);
+    const auto low = test::assemble(scene, high.mesh);
     const auto n = low.K_fc.rows();
     ASSERT_EQ(n, high.problem.unknowns.n_free[p]);
     // the lower degree is integrated with fewer points; the rim's springs and loads to rounding

@@ -22,13 +22,13 @@ std::string without_rings(std::string json) {
 
 test::Plate plate_of(const stage1::PlateScene& chosen) {
   test::Plate plate{chosen, stage1::make_mesh(chosen), {}};
-  plate.problem = stage1::assemble(plate.scene, plate.mesh);
+  plate.problem = test::assemble(plate.scene, plate.mesh);
   return plate;
 }
 
 Eigen::MatrixXd last_stiffness(const test::Plate& plate) {
   const auto solution = test::solve(plate);
-  return test::stiffness(solution, solution.cases.size() - 1);
+  return solution.cases.back().S;
 }
 
 TEST(Accuracy, IsReachedByTheLeastDegree) {

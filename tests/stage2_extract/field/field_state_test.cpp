@@ -25,7 +25,7 @@ formats::PlateSolution sheet() {
   plate.friction_hole = {"1", "0,0"};
   plate.friction_bearing = {"+x", "+x"};
   plate.traction_id = {"T"};
-  plate.K_cc.setZero(3, 3);
+  plate.held_stiffness.setZero(3);
   plate.p = Eigen::VectorXi::LinSpaced(3, 1, 3);
   return plate;
 }
