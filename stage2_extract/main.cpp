@@ -90,13 +90,13 @@ void require_memory(const std::string& file, double need) {
   program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes, or --loads-only");
 }
 
-/// Bytes of what is made of the plate: condensed matrices as large as the plate's file, stresses, and the file of both,
-/// which HDF5 enlarges by copying it; a factor of the highest degree before that.
+/// Bytes of what is made of the plate: condensed matrices, each as large as the plate's file, stresses, and the factor
+/// of the highest degree that they come from.
 double extraction_need(const formats::PlateSolution& plate, const stage2::FieldSolver* solver, double file_size) {
-  constexpr double copies = 4;
+  constexpr double copies = 3, gaps = 1.15;  // what the allocator cannot use between them
   const double rows = solver ? stage2::stress_bytes(plate) : 0;
   const double factor = solver ? solver->factor_bytes(solver->numbering().p) : 0;
-  return file_size + std::max(copies * (file_size + rows), rows + factor);
+  return gaps * (copies * file_size + rows + factor);
 }
 
 /// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file, which has

@@ -64,7 +64,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
   using program::bytes_text;
   const JointNumbers numbers = joint_numbers(joint, equations.system);
   const double n = double(joint.n_planes());
-  double of_plane = with_csv ? 37 : 12;
+  double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities)
     of_plane +=
         n + double(numbers.friction.size() + numbers.law.size() + numbers.force.size() + numbers.displacement.size());
@@ -77,7 +77,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
   }
   const double read = matrices_need(scene);
   const std::size_t n_steps = std::max(scene.load_factors.size(), std::size_t{1});  // how many events is not known yet
-  constexpr double copies = 4.5;  // in the states, in the tables, in the file and in its image
+  constexpr double copies = 2.5;                                                    // in the states and in the tables
   const double results = copies * number * of_step * double(n_steps);
   program::require_memory(
       scene.file + ": this", read + solving + results,

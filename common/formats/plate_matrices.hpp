@@ -10,6 +10,9 @@
 
 namespace fastjoint::formats {
 
+/// Rows lie in memory as they do in the file, since they may be large.
+using StressRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 /// Stresses of one plate per unit case, at l degrees (schemas/plate-matrices.md). A plate from elsewhere has none: l =
 /// 0.
 ///
@@ -25,11 +28,11 @@ struct PlateStresses {
   Eigen::MatrixXd bearing_area;       ///< (r, 2) d t of a whole hole, for bearing along x and along y, length^2
   /// (r + 1) first point of each rim
   Eigen::VectorXi rim_start = Eigen::VectorXi::Zero(1);
-  Eigen::VectorXd angle;                                      ///< (k) of each point, degrees counter-clockwise from x
-  std::vector<Eigen::MatrixXd> sigma_rr, sigma_tt, sigma_rt;  ///< l x (k, n_cases)
-  std::vector<std::string> section_hole, section_side;        ///< (s)
-  Eigen::VectorXd gross_area, net_area;                       ///< (s) length^2
-  std::vector<Eigen::MatrixXd> section_force;                 ///< l x (s, n_cases), tension positive
+  Eigen::VectorXd angle;                                 ///< (k) of each point, degrees counter-clockwise from x
+  std::vector<StressRows> sigma_rr, sigma_tt, sigma_rt;  ///< l x (k, n_cases)
+  std::vector<std::string> section_hole, section_side;   ///< (s)
+  Eigen::VectorXd gross_area, net_area;                  ///< (s) length^2
+  std::vector<StressRows> section_force;                 ///< l x (s, n_cases), tension positive
 };
 
 /// Highest degree of matrices: they may come from elsewhere than stage 2.

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 #include <concepts>
 #include <functional>
+#include <ranges>
+#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -36,6 +38,9 @@ concept Matrix = requires(const T& a) {
 };
 template <class T>
 concept RowMajor = Matrix<T> &&(bool(T::IsRowMajor) || bool(T::IsVectorAtCompileTime));
+template <class T>
+concept Stack = !Matrix<T> && std::ranges::range<T> && RowMajor<std::ranges::range_value_t<T>> &&
+                std::ranges::range_value_t<T>::SizeAtCompileTime == Eigen::Dynamic;
 template <class T>
 concept ColumnOfList = requires(const T& a) {
   a.member;
@@ -83,6 +88,19 @@ auto entry_of() {
 /// Type of the entries of a value: double, int or std::string.
 template <class T>
 using EntryOf = decltype(entry_of<std::remove_cvref_t<T>>());
+
+/// The memory of a value that lies there as it does in the file: a row-major matrix, a list of some (one span for
+/// each), or a list of numbers or texts.
+template <class Scalar, class T>
+std::vector<std::span<Scalar>> spans(T& value) {
+  if constexpr (Stack<T>) {
+    std::vector<std::span<Scalar>> result;
+    for (auto& item : value) result.emplace_back(item.data(), item.size());
+    return result;
+  } else {
+    return {{value.data(), static_cast<std::size_t>(value.size())}};
+  }
+}
 
 /// First extent of a value of one extent or more.
 template <class T>

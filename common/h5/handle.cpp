@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/h5/handle.hpp"
 
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+#include <vector>
+
 #include "common/h5/library.hpp"
 
 namespace fastjoint::h5 {
@@ -18,7 +23,21 @@ std::string last_error() {
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep, &deepest);
   H5Eclear2(H5E_DEFAULT);
+  constexpr std::string_view number = "errno = ";  // of a system call, amid addresses and times that help nobody
+  if (const auto at = deepest.find(number); at != deepest.npos)
+    return std::strerror(std::atoi(deepest.c_str() + at + number.size()));
   return deepest.empty() ? "unknown reason" : deepest;
+}
+
+Space select_part(const Space& whole, std::size_t k, std::size_t n) {
+  if (n == 1) return Space(H5Scopy(whole.get()));
+  const int rank = H5Sget_simple_extent_ndims(whole.get());
+  std::vector<hsize_t> extents(rank), start(rank, 0);
+  H5Sget_simple_extent_dims(whole.get(), extents.data(), nullptr);
+  extents[0] /= n;
+  start[0] = k * extents[0];
+  H5Sselect_hyperslab(whole.get(), H5S_SELECT_SET, start.data(), nullptr, extents.data(), nullptr);
+  return Space(H5Screate_simple(rank, extents.data(), nullptr));
 }
 
 Type utf8_string() {

@@ -9,7 +9,8 @@
 
 namespace fastjoint::h5 {
 
-/// Deepest description on HDF5's error stack, which is then cleared; "unknown reason" if it is empty.
+/// Deepest description on HDF5's error stack, which is then cleared: the system's reason if a call of it failed,
+/// "unknown reason" if the stack is empty.
 [[nodiscard]] std::string last_error();
 
 /// Owns one HDF5 identifier and closes it with CloseFn.
@@ -28,6 +29,8 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) CloseFn(id_);
   }
+  /// Whether what it owned could be closed.
+  [[nodiscard]] bool close() { return CloseFn(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
   [[nodiscard]] hid_t get() const { return id_; }
   [[nodiscard]] explicit operator bool() const { return id_ >= 0; }
 
@@ -42,6 +45,9 @@ using Attribute = Handle<H5Aclose>;
 using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
+
+/// Selects in the space of a dataset the k-th of n equal parts along the first extent, and returns that part's space.
+[[nodiscard]] Space select_part(const Space& whole, std::size_t k, std::size_t n);
 
 /// Variable-length UTF-8 string, which h5py shows as str.
 [[nodiscard]] Type utf8_string();

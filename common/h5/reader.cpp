@@ -48,10 +48,6 @@ std::string shape_text(const Shape& shape) {
   return fmt::format("({})", fmt::join(extents, ", "));
 }
 
-std::size_t count(const Shape& shape) {
-  return std::accumulate(shape.begin(), shape.end(), Eigen::Index{1}, std::multiplies<>());
-}
-
 }  // namespace
 
 struct Reader::Impl {
@@ -88,13 +84,16 @@ struct Reader::Impl {
     if (found != expected) fail(name, fmt::format("unit is '{}', expected '{}'", found, expected));
   }
 
-  void read(const Dataset& set, const std::string& name, hid_t memory_type, void* into) const {
-    if (H5Dread(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, into) < 0)
+  /// Reads the k-th of n equal parts.
+  void read(const Dataset& set, const std::string& name, hid_t memory_type, void* into, std::size_t k = 0,
+            std::size_t n = 1) const {
+    const Space space(H5Dget_space(set.get())), part = select_part(space, k, n);
+    if (H5Dread(set.get(), memory_type, part.get(), space.get(), H5P_DEFAULT, into) < 0)
       fail(name, fmt::format("cannot be read: {}", last_error()));
   }
 
   /// Texts of either kind.
-  void read_texts(const Dataset& set, const std::string& name, hid_t type, std::vector<std::string>& texts) const {
+  void read_texts(const Dataset& set, const std::string& name, hid_t type, std::span<std::string> texts) const {
     if (H5Tis_variable_str(type) > 0) {
       std::vector<char*> chars(texts.size(), nullptr);
       read(set, name, type, static_cast<void*>(chars.data()));
@@ -187,8 +186,8 @@ int Reader::integer_attribute(const std::string& name) const {
 }
 
 template <class Scalar>
-Shape Reader::get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
-                  std::vector<Scalar>& entries) const {
+void Reader::get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
+                 const MakeRoom<Scalar>& make_room) const {
   constexpr bool is_text = std::is_same_v<Scalar, std::string>, is_integer = std::is_same_v<Scalar, int>;
   std::optional<Scalar> stand_in;
   if constexpr (is_text)
@@ -199,27 +198,28 @@ Shape Reader::get(const std::string& name, const Shape& expected, const std::str
   if (stand_in && !has(name)) {
     Shape shape = expected;
     for (auto& extent : shape) extent = std::max<Eigen::Index>(extent, 0);
-    entries.assign(count(shape), *stand_in);
-    return shape;
+    for (const auto& entries : make_room(shape)) std::fill(entries.begin(), entries.end(), *stand_in);
+    return;
   }
   const auto set = impl_->open(name);
   const Type type(H5Dget_type(set.get()));
   if (H5Tget_class(type.get()) != (is_text ? H5T_STRING : is_integer ? H5T_INTEGER : H5T_FLOAT))
     impl_->fail(name, fmt::format("type is not {}", is_text ? "string" : is_integer ? "integer" : "floating point"));
-  Shape found = impl_->shape(set, name, expected);
+  const Shape found = impl_->shape(set, name, expected);
   impl_->check_unit(set, name, unit);
-  entries.resize(count(found));
-  if (entries.empty()) return found;
-  if constexpr (is_text)
-    impl_->read_texts(set, name, type.get(), entries);
-  else
-    impl_->read(set, name, is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, entries.data());
-  check_entries(name, entries, allowed);
-  return found;
+  const auto parts = make_room(found);
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    if (parts[k].empty()) return;
+    if constexpr (is_text)
+      impl_->read_texts(set, name, type.get(), parts[k]);
+    else
+      impl_->read(set, name, is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, parts[k].data(), k, parts.size());
+    check_entries<Scalar>(name, parts[k], allowed);
+  }
 }
 
 template <class Scalar>
-void Reader::check_entries(const std::string& name, const std::vector<Scalar>& entries, const Allowed& allowed) const {
+void Reader::check_entries(const std::string& name, std::span<const Scalar> entries, const Allowed& allowed) const {
   const auto refuse = [&](const std::string& what) {
     impl_->fail(name, fmt::format("holds {}, expected {}", what, allowed.text));
   };
@@ -236,14 +236,14 @@ void Reader::check_entries(const std::string& name, const std::vector<Scalar>& e
   }
 }
 
-template Shape Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
-                           std::vector<double>&) const;
-template Shape Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
-                           std::vector<int>&) const;
-template Shape Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
-                           std::vector<std::string>&) const;
-template void Reader::check_entries(const std::string&, const std::vector<double>&, const Allowed&) const;
-template void Reader::check_entries(const std::string&, const std::vector<int>&, const Allowed&) const;
-template void Reader::check_entries(const std::string&, const std::vector<std::string>&, const Allowed&) const;
+template void Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
+                          const MakeRoom<double>&) const;
+template void Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
+                          const MakeRoom<int>&) const;
+template void Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
+                          const MakeRoom<std::string>&) const;
+template void Reader::check_entries(const std::string&, std::span<const double>, const Allowed&) const;
+template void Reader::check_entries(const std::string&, std::span<const int>, const Allowed&) const;
+template void Reader::check_entries(const std::string&, std::span<const std::string>, const Allowed&) const;
 
 }  // namespace fastjoint::h5

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <numeric>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -55,27 +58,42 @@ class Reader {
   template <class T>
   void operator()(const std::string& name, T&& value, const Shape& expected, const std::string& unit,
                   const std::string& /*meaning*/, const Allowed& allowed = {}) const {
-    std::vector<EntryOf<T>> entries;
-    resize(value, get(name, expected, unit, allowed, entries));
-    auto next = entries.begin();
-    for_each_entry(value, [&](auto& entry) { entry = std::move(*next++); });
+    using Scalar = EntryOf<T>;
+    if constexpr (RowMajor<std::remove_cvref_t<T>> || Stack<std::remove_cvref_t<T>>) {  // no copy of what may be large
+      get<Scalar>(name, expected, unit, allowed, [&](const Shape& shape) {
+        resize(value, shape);
+        return spans<Scalar>(value);
+      });
+    } else {
+      std::vector<Scalar> entries;
+      get<Scalar>(name, expected, unit, allowed, [&](const Shape& shape) {
+        resize(value, shape);
+        entries.resize(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
+        return spans<Scalar>(entries);
+      });
+      auto next = entries.begin();
+      for_each_entry(value, [&](auto& entry) { entry = std::move(*next++); });
+    }
   }
   /// Checks entries of a dataset by what only later ones say.
   template <class T>
   void check(const std::string& name, const T& value, const Allowed& allowed) const {
     std::vector<EntryOf<T>> entries;
     for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
-    check_entries(name, entries, allowed);
+    check_entries<EntryOf<T>>(name, entries, allowed);
   }
 
  private:
   struct Impl;
+  /// Makes room for the entries of a dataset of a shape, of which each span takes an equal part.
+  template <class Scalar>
+  using MakeRoom = std::function<std::vector<std::span<Scalar>>(const Shape&)>;
   // Scalar is double, int or std::string.
   template <class Scalar>
-  Shape get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
-            std::vector<Scalar>& entries) const;
+  void get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
+           const MakeRoom<Scalar>& make_room) const;
   template <class Scalar>
-  void check_entries(const std::string& name, const std::vector<Scalar>& entries, const Allowed& allowed) const;
+  void check_entries(const std::string& name, std::span<const Scalar> entries, const Allowed& allowed) const;
 
   std::unique_ptr<Impl> impl_;
 };

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 namespace fastjoint::h5 {
 
-/// Digest of bytes, 16 hexadecimal digits: XXH3 of xxHash, 64 bits (https://xxhash.com).
-[[nodiscard]] std::string digest(std::string_view bytes);
+/// Digest of the first n bytes of a file, or of all if it has fewer, 16 hexadecimal digits: XXH3 of xxHash, 64 bits
+/// (https://xxhash.com). Throws FileError if it cannot be opened.
+[[nodiscard]] std::string digest(const std::string& path, std::size_t n = std::string::npos);
 
 /// Line that follows the HDF5 bytes of our files and holds their digest. HDF5 ignores what stands behind its end of
 /// file, and drops it when somebody edits the file.

@@ -28,44 +28,6 @@ constexpr std::string_view ending = ".partial";
 /// Path of the temporary file that is being written, or null.
 std::atomic<const char*> unfinished = nullptr;
 
-/// A temporary file beside a target, removed unless it was renamed. It is locked as long as its writer lives.
-struct Temporary {
-  std::string path;
-  int file = -1;
-  bool renamed = false;
-
-  explicit Temporary(const std::string& target) {
-    struct stat status {};
-    do {  // again if another process has taken it for one left behind before it was locked
-      if (file >= 0) ::close(file);
-      unfinished = nullptr;
-      path = fmt::format("{}.{:08x}{}", target, std::random_device()(), ending);
-      unfinished = path.c_str();  // before it exists: a signal may come as soon as it does
-      file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-      if (file < 0) {
-        unfinished = nullptr;
-        fail(target, errno);
-      }
-    } while (::flock(file, LOCK_EX) == 0 && ::fstat(file, &status) == 0 && status.st_nlink == 0);
-  }
-  Temporary(const Temporary&) = delete;
-  Temporary& operator=(const Temporary&) = delete;
-  ~Temporary() {
-    unfinished = nullptr;
-    if (!renamed) ::unlink(path.c_str());
-    ::close(file);
-  }
-};
-
-void write_all(int fd, std::string_view bytes, const std::string& path) {
-  while (!bytes.empty()) {
-    const ssize_t written = ::write(fd, bytes.data(), bytes.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail(path, errno);
-    bytes.remove_prefix(written);
-  }
-}
-
 std::string folder_of(const std::string& path) {
   const auto parent = fs::path(path).parent_path();
   return parent.empty() ? "." : parent.string();
@@ -112,19 +74,52 @@ bool same_file(const std::string& a, const std::string& b) {
   return !first.empty() && first == full(b);
 }
 
-void write_whole_file(const std::string& path, std::string_view bytes) {
-  check_can_write(path);
-  const std::string target = resolved(path);
-  remove_left_behind(target);
-  Temporary temporary(target);
-  write_all(temporary.file, bytes, path);
-  if (::fsync(temporary.file) != 0) fail(path, errno);
-  if (::rename(temporary.path.c_str(), target.c_str()) != 0) fail(path, errno);
-  temporary.renamed = true;
-  const int folder = ::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+WholeFile::WholeFile(std::string path) : path_(std::move(path)), target_(resolved(path_)) {
+  check_can_write(path_);
+  remove_left_behind(target_);
+  struct stat status {};
+  do {  // again if another process has taken it for one left behind before it was locked
+    if (file_ >= 0) ::close(file_);
+    unfinished = nullptr;
+    temporary_ = fmt::format("{}.{:08x}{}", target_, std::random_device()(), ending);
+    unfinished = temporary_.c_str();  // before it exists: a signal may come as soon as it does
+    file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
+    if (file_ < 0) {
+      unfinished = nullptr;
+      fail(path_, errno);
+    }
+  } while (::flock(file_, LOCK_EX) == 0 && ::fstat(file_, &status) == 0 && status.st_nlink == 0);
+}
+
+WholeFile::~WholeFile() {
+  unfinished = nullptr;
+  if (!renamed_) ::unlink(temporary_.c_str());
+  ::close(file_);
+}
+
+void WholeFile::append(std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(file_, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail(path_, errno);
+    bytes.remove_prefix(written);
+  }
+}
+
+void WholeFile::finish() {
+  if (::fsync(file_) != 0) fail(path_, errno);
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, errno);
+  renamed_ = true;
+  const int folder = ::open(folder_of(target_).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
   if (folder < 0) return;
   ::fsync(folder);
   ::close(folder);
+}
+
+void write_whole_file(const std::string& path, std::string_view bytes) {
+  WholeFile file(path);
+  file.append(bytes);
+  file.finish();
 }
 
 void remove_unfinished() noexcept {

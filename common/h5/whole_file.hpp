@@ -6,9 +6,31 @@
 
 namespace fastjoint::h5 {
 
-/// Puts `bytes` at `path` whole or not at all: a temporary file beside it, fsync, rename. Removes those that killed
-/// programs have left beside it.
-/// What was at `path` before survives every failure. Throws FileError with the path and the reason.
+/// A file that appears at its path whole or not at all: a temporary file beside it, fsync, rename.
+///
+/// Removes those that killed programs have left beside it. What was at the path before survives every failure. The
+/// temporary file is locked as long as its writer lives, and removed unless it was finished. Throws FileError with the
+/// path and the reason.
+class WholeFile {
+ public:
+  explicit WholeFile(std::string path);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  [[nodiscard]] const std::string& unfinished_path() const { return temporary_; }
+  /// Adds bytes at the end of the temporary file.
+  void append(std::string_view bytes);
+  /// Puts the file at its path.
+  void finish();
+
+ private:
+  std::string path_, target_, temporary_;
+  int file_ = -1;
+  bool renamed_ = false;
+};
+
+/// A WholeFile of given bytes.
 void write_whole_file(const std::string& path, std::string_view bytes);
 
 /// Removes the temporary file that is being written, if there is one; a handler of signals may call this.

@@ -17,7 +17,10 @@
 namespace fastjoint::h5 {
 struct Writer::Impl {
   std::string path;
+  WholeFile target;
   File file;
+
+  explicit Impl(const std::string& at) : path(at), target(at) {}
 
   [[noreturn]] void fail(const std::string& what) const {
     throw FileError(fmt::format("{}: {} cannot be written: {}", path, what, last_error()));
@@ -54,8 +57,8 @@ struct Writer::Impl {
     if (!attribute || H5Awrite(attribute.get(), H5T_NATIVE_INT, values.data()) < 0) fail("attribute " + name);
   }
 
-  void dataset(const std::string& name, const Shape& shape, hid_t file_type, hid_t memory_type, const void* data,
-               const std::string& unit, const std::string& meaning) const {
+  void dataset(const std::string& name, const Shape& shape, hid_t file_type, hid_t memory_type,
+               const std::vector<const void*>& parts, const std::string& unit, const std::string& meaning) const {
     make_groups(name);
     const std::vector<hsize_t> extents(shape.begin(), shape.end());
     const Space space(H5Screate_simple(count_of(extents), extents.data(), nullptr));
@@ -64,20 +67,20 @@ struct Writer::Impl {
         H5Dcreate2(file.get(), name.c_str(), file_type, space.get(), H5P_DEFAULT, list.get(), H5P_DEFAULT));
     if (!set) fail(name);
     const bool empty = H5Sget_simple_extent_npoints(space.get()) == 0;
-    if (!empty && H5Dwrite(set.get(), memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(name);
+    for (std::size_t k = 0; k < parts.size() && !empty; ++k) {
+      const Space part = select_part(space, k, parts.size());
+      if (H5Dwrite(set.get(), memory_type, part.get(), space.get(), H5P_DEFAULT, parts[k]) < 0) fail(name);
+    }
     text_attribute(set.get(), "unit", unit);
     text_attribute(set.get(), "description", meaning);
   }
 };
 
-Writer::Writer(std::string path, const std::string& format, int major, int minor) : impl_(std::make_unique<Impl>()) {
-  impl_->path = std::move(path);
+Writer::Writer(const std::string& path, const std::string& format, int major, int minor)
+    : impl_(std::make_unique<Impl>(path)) {
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  constexpr std::size_t increment = 1 << 20;
-  H5Pset_fapl_core(access.get(), increment, false);
-  // The library would first read a file of this name into memory, whole; no file has this one.
-  const std::string name = impl_->path + ".in-memory";
-  impl_->file = File(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
+  H5Pset_file_locking(access.get(), false, true);  // the target holds a lock
+  impl_->file = File(H5Fcreate(impl_->target.unfinished_path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
   if (!impl_->file) impl_->fail("file");
   attribute("format", format);
   impl_->integer_attribute("version", {major, minor}, false);
@@ -92,45 +95,45 @@ void Writer::attribute(const std::string& name, const std::string& text) {
 void Writer::attribute(const std::string& name, int value) { impl_->integer_attribute(name, {value}, true); }
 
 template <class Scalar>
-void Writer::put(const std::string& name, const Shape& shape, std::span<const Scalar> entries, const std::string& unit,
-                 const std::string& meaning) {
-  const auto n = std::accumulate(shape.begin(), shape.end(), Eigen::Index{1}, std::multiplies<>());
-  if (n != std::ssize(entries))
-    throw std::logic_error(fmt::format("{}:{}: {} entries do not make the shape ({})", impl_->path, name,
-                                       entries.size(), fmt::join(shape, ", ")));
+void Writer::put(const std::string& name, const Shape& shape, const std::vector<std::span<const Scalar>>& parts,
+                 const std::string& unit, const std::string& meaning) {
+  const auto n = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
+  std::size_t n_given = 0;
+  std::vector<const void*> data;
+  for (const auto& part : parts) {
+    n_given += part.size();
+    data.push_back(part.data());
+  }
+  if (n != n_given || (n > 0 && n % parts.size() != 0))
+    throw std::logic_error(fmt::format("{}:{}: {} entries do not make the shape ({})", impl_->path, name, n_given,
+                                       fmt::join(shape, ", ")));
   if constexpr (std::is_same_v<Scalar, std::string>) {
     std::vector<const char*> chars;
-    for (const auto& text : entries) chars.push_back(text.c_str());
+    for (const auto& text : parts[0]) chars.push_back(text.c_str());
     const auto type = utf8_string();
-    impl_->dataset(name, shape, type.get(), type.get(), chars.data(), unit, meaning);
+    impl_->dataset(name, shape, type.get(), type.get(), {chars.data()}, unit, meaning);
   } else if constexpr (std::is_same_v<Scalar, int>) {
-    impl_->dataset(name, shape, H5T_STD_I32LE, H5T_NATIVE_INT, entries.data(), unit, meaning);
+    impl_->dataset(name, shape, H5T_STD_I32LE, H5T_NATIVE_INT, data, unit, meaning);
   } else {
-    if (Eigen::Map<const Eigen::ArrayXd>(entries.data(), n).isNaN().any())
-      throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
-    impl_->dataset(name, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, entries.data(), unit, meaning);
+    for (const auto& part : parts)
+      if (Eigen::Map<const Eigen::ArrayXd>(part.data(), std::ssize(part)).isNaN().any())
+        throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
+    impl_->dataset(name, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data, unit, meaning);
   }
 }
 
-template void Writer::put(const std::string&, const Shape&, std::span<const double>, const std::string&,
-                          const std::string&);
-template void Writer::put(const std::string&, const Shape&, std::span<const int>, const std::string&,
-                          const std::string&);
-template void Writer::put(const std::string&, const Shape&, std::span<const std::string>, const std::string&,
-                          const std::string&);
+template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const double>>&,
+                          const std::string&, const std::string&);
+template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const int>>&,
+                          const std::string&, const std::string&);
+template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const std::string>>&,
+                          const std::string&, const std::string&);
 
 std::string Writer::commit() {
-  if (H5Fflush(impl_->file.get(), H5F_SCOPE_GLOBAL) < 0) impl_->fail("file");
-  const ssize_t n_bytes = H5Fget_file_image(impl_->file.get(), nullptr, 0);
-  if (n_bytes <= 0) impl_->fail("file");
-  std::string image;
-  constexpr std::size_t room_for_seal = 64;
-  image.reserve(n_bytes + room_for_seal);
-  image.resize(n_bytes);
-  if (H5Fget_file_image(impl_->file.get(), image.data(), image.size()) < 0) impl_->fail("file");
-  std::string found = digest(image);
-  image += seal(found);
-  write_whole_file(impl_->path, image);
+  if (!impl_->file.close()) impl_->fail("file");
+  std::string found = digest(impl_->target.unfinished_path());
+  impl_->target.append(seal(found));
+  impl_->target.finish();
   return found;
 }
 

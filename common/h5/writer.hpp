@@ -14,7 +14,7 @@
 
 namespace fastjoint::h5 {
 
-/// An HDF5 file that is built in memory and appears whole or not at all (commit).
+/// An HDF5 file that appears whole or not at all (commit).
 ///
 /// Writer and Reader are called alike, so that one function template names the datasets of a format for both.
 /// Groups on the way to a dataset are made as needed. Equal calls give equal bytes. Arrays are row-major in
@@ -23,7 +23,7 @@ class Writer {
  public:
   static constexpr bool reads = false;
 
-  Writer(std::string path, const std::string& format, int major, int minor);
+  Writer(const std::string& path, const std::string& format, int major, int minor);
   ~Writer();
   Writer(const Writer&) = delete;
   Writer& operator=(const Writer&) = delete;
@@ -41,13 +41,13 @@ class Writer {
                   const std::string& meaning, const Allowed& /*of a reader*/ = {}) {
     using Scalar = EntryOf<T>;
     if (!shape.empty() && shape[0] < 0) shape[0] = first_extent(value);
-    if constexpr (RowMajor<T>) {  // no copy of what may be large
-      put(name, shape, std::span<const Scalar>(value.data(), value.size()), unit, meaning);
+    if constexpr (RowMajor<T> || Stack<T>) {  // no copy of what may be large
+      put(name, shape, spans<const Scalar>(value), unit, meaning);
     } else {
       std::vector<Scalar> entries;
       entries.reserve(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
       for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
-      put(name, shape, std::span<const Scalar>(entries), unit, meaning);
+      put(name, shape, spans<const Scalar>(entries), unit, meaning);
     }
   }
   /// What the file gets of a value that may be missing; null if it is.
@@ -56,15 +56,15 @@ class Writer {
     return value ? &*value : nullptr;
   }
 
-  /// Flushes, puts the file at its path and returns its digest.
+  /// Puts the file at its path and returns its digest.
   std::string commit();
 
  private:
   struct Impl;
   // Scalar is double, int or std::string.
   template <class Scalar>
-  void put(const std::string& name, const Shape& shape, std::span<const Scalar> entries, const std::string& unit,
-           const std::string& meaning);
+  void put(const std::string& name, const Shape& shape, const std::vector<std::span<const Scalar>>& parts,
+           const std::string& unit, const std::string& meaning);
 
   std::unique_ptr<Impl> impl_;
 };

@@ -38,7 +38,7 @@ struct StateStresses {
 /// @param of The state's column of a matrix of `a` at one level, as a function of the matrix.
 template <class Of>
 [[nodiscard]] StateStresses state_stresses(const formats::PlateStresses& a, std::size_t level, const Of& of) {
-  const auto two_levels = [&](const std::vector<Eigen::MatrixXd>& levels) {
+  const auto two_levels = [&](const std::vector<formats::StressRows>& levels) {
     Eigen::MatrixXd columns(levels[level].rows(), level > 0 ? 2 : 1);
     for (Eigen::Index i = 0; i < columns.cols(); ++i) columns.col(i) = of(levels[level - i]);
     return columns;

@@ -23,8 +23,7 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
   const double q = double(problem.T_c.cols()), r = n_rim;
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   const double rows_of_E = count_of(p) * (nc + h) * nc;
-  // The file is built in memory, which grows there by copying, and copied once more before it is written.
-  const double fields = 4 * n_p * (q + 2) + 3 * rows_of_E;
+  const double fields = 2 * (n_p * (q + 2) + rows_of_E);  // the second as they are turned to the order of the file
   const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
   const double contact = r > 0 ? r * n_cases + std::max(2 * n_p * n_cases, 5 * square(r + 2 * nc)) : 0;
   constexpr double libraries = 26e6;

@@ -12,7 +12,7 @@ namespace fastjoint::stage1 {
 struct MemoryNeed {
   double elements;  ///< matrices of the classes of elements
   double factor;    ///< the skeleton's stiffness and its factor
-  double fields;    ///< fields of tractions and of the probe, and the file that they go into
+  double fields;    ///< fields of tractions and of the probe, and what is made of them for the file
   double contact;   ///< fields in the search for contact, which ends before these are solved; 0 without one
   double program;
 

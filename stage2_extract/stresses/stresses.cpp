@@ -15,6 +15,9 @@
 namespace fastjoint::stage2 {
 namespace {
 
+/// Number of cases at a time: what an element has of them fits into the cache.
+constexpr Eigen::Index block = 64;
+
 /// Every point of every rim.
 using Rims = std::vector<std::vector<RimPoint>>;
 
@@ -111,7 +114,6 @@ std::vector<std::vector<plate::CondensedFunctions>> section_forces(const FieldSo
 
 /// Adds the stresses at the rims and the forces over the sections in every unit case at one degree.
 void add_level(const FieldSolver& solver, const Rims& rims, formats::PlateStresses& a) {
-  constexpr Eigen::Index block = 64;  // cases at a time: what an element has of them fits into the cache
   const auto n_cases = solver.plate().n_cases();
   std::vector<RimStress> stresses;
   for (std::size_t hole = 0; hole < rims.size(); ++hole) stresses.emplace_back(solver, hole, rims[hole]);
@@ -156,7 +158,8 @@ double stress_bytes(const formats::PlateSolution& plate) {
   constexpr double components = 3;
   const double levels = std::min(count_of(plate.p), 2);
   const double rows = count_of(plate.hole_rim) * n_points_per_turn;
-  return components * rows * sizeof(double) * double(plate.n_cases()) * levels;
+  const double unknowns = plate.ndof[plate.ndof.size() - 1];
+  return sizeof(double) * (components * rows * double(plate.n_cases()) * levels + block * unknowns);
 }
 
 }  // namespace fastjoint::stage2

@@ -10,7 +10,7 @@ namespace fastjoint::stage2 {
 /// @param solver Of the plate; null for what is known without solving alone.
 [[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver);
 
-/// Bytes of the stresses at the rims, which are by far the most of them.
+/// Bytes of the stresses at the rims, which are by far the most of them, and of the fields that they are taken from.
 [[nodiscard]] double stress_bytes(const formats::PlateSolution& plate);
 
 }  // namespace fastjoint::stage2

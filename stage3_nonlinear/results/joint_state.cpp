@@ -85,7 +85,7 @@ PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& 
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
   amounts << state.De, state.D, state.Lambda, state.traction;
   if (plate.stress_level) {
-    const auto superposed = [&](const Eigen::MatrixXd& of_cases) -> VectorXd { return of_cases * amounts; };
+    const auto superposed = [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; };
     state.rims =
         stresses::rim_states(plate.stresses, stresses::state_stresses(plate.stresses, *plate.stress_level, superposed),
                              {plate.holes, plate.axes, state.bearing, state.friction});

@@ -30,6 +30,9 @@ TEST(Hdf5, ReadsBackWhatWasWritten) {
   file("B", transposed, {3, 2}, "1", "");
   EXPECT_EQ(transposed, A.transpose());
   file("item/range", folded, {2, 2}, "1", "");
+  Stack columns;
+  file("row_stack", columns, {2, 2, 3}, "1", "");
+  EXPECT_EQ(columns, (Stack{2 * A, A})) << "row-major in the file, as all are";
   EXPECT_EQ(folded, (Eigen::Matrix2d() << 2, 3, 8, 9).finished()) << "the last index is the innermost";
   EXPECT_TRUE(file.has("group/A"));
   EXPECT_FALSE(file.has("group/Z"));

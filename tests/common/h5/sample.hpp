@@ -16,6 +16,8 @@
 
 namespace fastjoint::h5 {
 
+using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
 inline const Eigen::MatrixXd A = (Eigen::MatrixXd(2, 3) << 1, 2, 3, 4, 5, 6).finished();
 
 /// Every kind of value that a dataset can be.
@@ -34,6 +36,7 @@ struct Sample {
   Eigen::VectorXi integers;
   Eigen::MatrixXi integer_matrix;
   std::vector<Eigen::MatrixXd> stack, nothing;
+  std::vector<Rows> row_stack, no_rows;
   std::vector<Eigen::Matrix2d> fixed;
   std::vector<std::string> names;
   std::string text;
@@ -53,6 +56,8 @@ void datasets(File& file, AnySample& a) {
   file("I", a.integer_matrix, {2, 2}, "1", "integer matrix");
   file("stack", a.stack, {any, 2, 3}, "1", "two matrices");
   file("nothing", a.nothing, {any, 4, 2}, "1", "no matrices");
+  file("row_stack", a.row_stack, {any, 2, 3}, "1", "two matrices that are row-major");
+  file("no_rows", a.no_rows, {any, 4, 2}, "1", "no matrices");
   file("fixed", a.fixed, {any, 2, 2}, "1", "matrices of fixed size");
   file("B", a.transpose.transpose(), {3, 2}, "1", "A transposed");
   file("folded", a.folded, {2, 3, 1}, "1", "a matrix of three extents");
@@ -77,6 +82,7 @@ inline Sample sample() {
   a.integers = Eigen::VectorXi::LinSpaced(2, 7, 8);
   a.integer_matrix = (Eigen::Matrix2i() << 1, 2, 3, 4).finished();
   a.stack = {A, 2 * A};
+  a.row_stack = {2 * A, A};
   a.fixed = {A.leftCols(2), A.rightCols(2)};
   a.names = {"one", "", "dr\u00fci"};
   a.text = "{}";

@@ -12,7 +12,7 @@
 #include <filesystem>
 
 #include "common/errors.hpp"
-#include "tests/support/files.hpp"
+#include "tests/common/h5/sample.hpp"
 
 namespace fastjoint::h5 {
 namespace {
@@ -33,21 +33,52 @@ TEST(WholeFile, ReplacesWhatWasThereAndLeavesNothingElse) {
   EXPECT_EQ(n_files(folder), 1);
 }
 
-/// A limit on the file's size fails the write as a full disk would.
+/// A limit on the size of files while it lives, which fails a write as a full disk would.
+class FullDisk {
+ public:
+  explicit FullDisk(rlim_t size) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit small{size, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &small);
+  }
+  ~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, SIG_DFL);
+  }
+
+ private:
+  rlimit before_{};
+};
+
 TEST(WholeFile, AFailedWriteKeepsTheOldFile) {
   const test::TemporaryFolder folder;
   write_whole_file(folder.path("a"), "old");
-  rlimit before{};
-  getrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{1000, before.rlim_max};
-  setrlimit(RLIMIT_FSIZE, &small);
-  EXPECT_THAT([&] { write_whole_file(folder.path("a"), std::string(100000, 'x')); },
-              ThrowsMessage<FileError>(HasSubstr("cannot be written: File too large")));
-  setrlimit(RLIMIT_FSIZE, &before);
-  std::signal(SIGXFSZ, SIG_DFL);
+  {
+    const FullDisk disk(1000);
+    EXPECT_THAT([&] { write_whole_file(folder.path("a"), std::string(100000, 'x')); },
+                ThrowsMessage<FileError>(HasSubstr("cannot be written: File too large")));
+  }
   EXPECT_EQ(test::read_file(folder.path("a")), "old");
   EXPECT_EQ(n_files(folder), 1);
+}
+
+/// Wherever HDF5 finds the disk full: among its own structures, in numbers, at the end, or at the seal behind it.
+TEST(WholeFile, AnHdf5FileThatFailsAnywhereKeepsTheOldFile) {
+  const test::TemporaryFolder folder;
+  write_sample(folder.path("a"));
+  const std::string old = test::read_file(folder.path("a"));
+  for (rlim_t size = 0; size < old.size(); size += size + 997 < old.size() ? 997 : 97) {
+    {
+      const FullDisk disk(size);
+      EXPECT_THAT([&] { write_sample(folder.path("a"), 3); },
+                  ThrowsMessage<FileError>(testing::MatchesRegex(".*/a: .*cannot be written: File too large")));
+    }
+    ASSERT_EQ(test::read_file(folder.path("a")), old) << size;
+    ASSERT_EQ(n_files(folder), 1) << size;
+  }
+  write_sample(folder.path("a"), 3);
+  EXPECT_NE(test::read_file(folder.path("a")), old);
 }
 
 /// What killed programs leave, by their number or a random one, and what only looks like it.
