@@ -219,10 +219,10 @@ void datasets(File& file, Solution& a) {
 
 /// Refuses a rim that is not the one that the mesh has around that hole.
 void check_rims(const h5::Reader& file, const PlateSolution& a) {
-  const auto edges = pfem::find_edges(a.mesh);
+  const rim::RimFinder find_rim(a.mesh, pfem::find_edges(a.mesh));
   for (std::size_t hole = 0; hole < a.hole_rim.size(); ++hole) {
     const rim::Rim& rim = a.hole_rim[hole];
-    if (!(rim.sides == rim::find_rim(a.mesh, edges, rim.center, rim.radius).sides))
+    if (!(rim.sides == find_rim(rim.center, rim.radius).sides))
       throw FileError(fmt::format(
           "{}:hole/rim: the sides of hole \"{}\" are not those arcs of the mesh that have its centre and its radius {}",
           file.path(), a.hole_id[hole], rim.radius));

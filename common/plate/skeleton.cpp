@@ -132,12 +132,17 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
     for (const int block : blocks) n += n_rows(block);
     return n;
   };
+  bool is_dense = false;
   for (std::size_t a = 0; a < joined.size(); ++a) {
     const double own = n_rows(a), below = n_rows_of(joined[a]);
     size.entries += own * (own + 1) / 2 + own * n_rows_of(higher_[a]);
+    if (is_dense) continue;
     size.factor += own * own + own * below;
     size.largest_front = std::max(size.largest_front, below * below);
-    if (joined[a].empty()) continue;
+    // The border, of single rows: once one of them is joined to all others, so is each behind it.
+    is_dense = a >= function_.size() && a + joined[a].size() + 1 == joined.size();
+    if (is_dense) size.factor += below * (below + 1) / 2;
+    if (is_dense || joined[a].empty()) continue;
     Blocks& parent = joined[joined[a].front()];
     Blocks both;
     std::set_union(parent.begin(), parent.end(), joined[a].begin() + 1, joined[a].end(), std::back_inserter(both));

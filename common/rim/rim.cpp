@@ -19,15 +19,25 @@ bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector
 
 }  // namespace
 
-Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center, double radius) {
-  Rim rim{center, radius, {}};
+RimFinder::RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges) : mesh_(mesh) {
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) {
       const std::size_t global = edges.of_element(edge, element);
       const int arc = edges.arc[global];
-      if (arc >= 0 && edges.n_elements[global] == 1 && on_circle(mesh, mesh.arcs[arc], center, radius))
-        rim.sides.push_back({element, edge});
+      if (arc < 0 || edges.n_elements[global] != 1) continue;
+      const Eigen::Vector2d& center = mesh.arcs[arc].center;
+      arcs_[center.x()][center.y()].push_back({{element, edge}, arc});
     }
+}
+
+Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius) const {
+  Rim rim{center, radius, {}};
+  const Eigen::Array2d low = center.array() - tolerance * radius, high = center.array() + tolerance * radius;
+  for (auto x = arcs_.lower_bound(low.x()); x != arcs_.end() && x->first <= high.x(); ++x)
+    for (auto y = x->second.lower_bound(low.y()); y != x->second.end() && y->first <= high.y(); ++y)
+      for (const auto& [side, arc] : y->second)
+        if (on_circle(mesh_, mesh_.arcs[arc], center, radius)) rim.sides.push_back(side);
+  std::ranges::sort(rim.sides, {}, [](const pfem::Side& side) { return std::pair(side.element, side.local_edge); });
   return rim;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/pfem/boundary.hpp"
@@ -18,9 +20,18 @@ struct Rim {
   std::vector<pfem::Side> sides;
 };
 
-/// Sides of elements that lie on a circle, in the order of the elements.
-[[nodiscard]] Rim find_rim(const pfem::Mesh& mesh, const pfem::Edges& edges, const Eigen::Vector2d& center,
-                           double radius);
+/// The arcs on the boundary of a mesh by their centres, among which each rim is found without a look at the others.
+class RimFinder {
+ public:
+  /// The mesh must outlive this.
+  RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges);
+  /// Sides of elements that lie on a circle, in the order of the elements.
+  [[nodiscard]] Rim operator()(const Eigen::Vector2d& center, double radius) const;
+
+ private:
+  const pfem::Mesh& mesh_;
+  std::map<double, std::map<double, std::vector<std::pair<pfem::Side, int>>>> arcs_;  ///< by x and y of the centre
+};
 
 /// Angle that the rim covers, radians.
 [[nodiscard]] double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);

@@ -31,9 +31,10 @@ void check_elements(const PlateScene& scene, const PlateMesh& plate) {
 }
 
 void find_rims(const PlateScene& scene, PlateMesh& plate) {
+  const rim::RimFinder find_rim(plate.mesh, plate.edges);
   for (std::size_t i = 0; i < scene.holes.size(); ++i) {
     const Hole& hole = scene.holes[i];
-    plate.rims.push_back(rim::find_rim(plate.mesh, plate.edges, hole.center, hole.radius));
+    plate.rims.push_back(find_rim(hole.center, hole.radius));
     const double covered = rim::covered_angle(plate.mesh, plate.edges, plate.rims.back()) / rim::degree;
     bool known = false;
     for (const double whole : {90.0, 180.0, 360.0}) known = known || std::abs(covered - whole) < 1e-4;

@@ -29,7 +29,7 @@ std::vector<RimPoint> points_of(const std::vector<rim::AngleRange>& sectors) {
     mesh.arcs.push_back({first + 1, first + 2, Eigen::Vector2d::Zero()});
   }
   const auto edges = pfem::find_edges(mesh);
-  return rim_points(mesh, edges, rim::find_rim(mesh, edges, Eigen::Vector2d::Zero(), 1));
+  return rim_points(mesh, edges, rim::RimFinder(mesh, edges)(Eigen::Vector2d::Zero(), 1));
 }
 
 void expect_from_end_to_end(const std::vector<RimPoint>& points, double from, double to, std::size_t n) {
