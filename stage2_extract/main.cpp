@@ -6,18 +6,26 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
+#include "common/count.hpp"
+#include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
 #include "stage2_extract/field/field.hpp"
+#include "stage2_extract/stresses/joint_sheet.hpp"
+#include "stage2_extract/stresses/rim_stress.hpp"
 #include "stage2_extract/stresses/stresses.hpp"
 
 namespace {
 
 using namespace fastjoint;
+
+/// Bytes of stresses in every unit case beyond which MATRICES.h5 goes without them.
+constexpr double most_of_rows = 512e6;
 
 const program::Command command = {
     "stage2_extract",
@@ -25,7 +33,11 @@ const program::Command command = {
     "superconvergent, for every degree, with error estimates. With --field: one of its stress fields, for ParaView.",
     "PLATE.h5",
     "MATRICES.h5",
-    {{"--loads-only", "", "leave out the stresses at rims and the forces over sections in every unit case"},
+    {{"--loads-only", "",
+      "leave out the stresses at rims and the forces over sections in every unit case, as above 512 MB of them"},
+     {"--stresses", "RESULT.h5",
+      "write instead RESULT.h5 of a joint with the stresses at this sheet's rims at every increment; -o may be the "
+      "same"},
      {"--field", "SPEC",
       "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, loads (the scene's own), or cases "
       "with amounts, external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
@@ -35,6 +47,7 @@ const program::Command command = {
 
 void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate,
                     std::unique_ptr<stage2::FieldSolver> solver, program::Timings& timings) {
+  const bool left_out = !solver && !arguments.flag("--loads-only");
   timings.phase("extract");
   const auto extraction = stage2::extract(plate, program::generator(command.name), solver.get());
   solver.reset();  // its memory is for writing
@@ -56,6 +69,20 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
                                ? matrices::to_text(extraction.errors)
                                : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks) << fmt::format("  digest {}\n", digest);
+  if (left_out)
+    std::cout << fmt::format(
+        "  stresses in every unit case, {}, are left out; those of a joint: stage2_extract {} "
+        "--stresses RESULT.h5 -o RESULT.h5\n",
+        program::bytes_text(stage2::stress_bytes(plate, plate.n_cases())), arguments.input);
+}
+
+void write_stresses(const program::Arguments& arguments, stage2::FieldSolver& solver, stage2::JointSheet& sheet,
+                    program::Timings& timings) {
+  timings.phase("extract");
+  stage2::set_rims(sheet, solver, arguments.input, arguments.text("--stresses"));
+  timings.phase("write");
+  formats::write(arguments.output, sheet.joint);
+  if (!arguments.quiet) std::cout << arguments.output << ": " << stage2::rim_summary(sheet);
 }
 
 void write_field(const program::Arguments& arguments, stage2::FieldSolver& solver, const stage2::FieldRequest& request,
@@ -78,10 +105,15 @@ void write_field(const program::Arguments& arguments, stage2::FieldSolver& solve
 /// Options are checked before a large file is read.
 stage2::FieldRequest field_request(const program::Arguments& arguments) {
   constexpr int most_increments = 1000000;
-  stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
+  const bool field = arguments.flag("--field"), stresses = arguments.flag("--stresses");
+  if (stresses && (field || arguments.flag("--loads-only")))
+    throw InputError("--stresses: goes neither with --field nor with --loads-only");
+  if (h5::same_file(arguments.text("--stresses"), arguments.timings))
+    throw InputError(fmt::format("--timings {}: is the file of --stresses; choose another name", arguments.timings));
+  stage2::FieldRequest request = {arguments.text("--field"), stresses ? "" : arguments.text("--plate"),
                                   arguments.integer("--increment", 1, most_increments, 0),
                                   arguments.integer("--p", 1, pfem::highest_p, 0)};
-  stage2::check_field_options(request, arguments.flag("--field"), arguments.output, arguments.timings);
+  stage2::check_field_options(request, field, arguments.output, arguments.timings);
   return request;
 }
 
@@ -94,7 +126,8 @@ void require_memory(const std::string& file, double need) {
 /// of the highest degree that they come from.
 double extraction_need(const formats::PlateSolution& plate, const stage2::FieldSolver* solver, double file_size) {
   constexpr double copies = 3, gaps = 1.15;  // what the allocator cannot use between them
-  const double rows = solver ? stage2::stress_bytes(plate) : 0;
+  const auto n = plate.n_cases();
+  const double rows = solver ? stage2::stress_bytes(plate, n) + stage2::block_bytes(plate, n) : 0;
   const double factor = solver ? solver->factor_bytes(solver->numbering().p) : 0;
   return gaps * (copies * file_size + rows + factor);
 }
@@ -108,24 +141,46 @@ double field_need(const stage2::FieldSolver& solver, double file_size) {
   return file_size + solver.factor_bytes(p) + n_nodes * (numbers + text);
 }
 
+/// Bytes of the stresses of a joint's increments: a factor of the highest degree, the fields of a block of them and
+/// what solving copies, the two functions of an element's coefficients at every point, stresses and results.
+double stresses_need(const stage2::FieldSolver& solver, const stage2::JointSheet& sheet, double file_size) {
+  constexpr double copies = 3;
+  const auto& plate = solver.plate();
+  const auto n = sheet.amounts.cols();
+  const double points = count_of(plate.hole_rim) * stage2::n_points_per_turn;
+  const double functions = 2 * points * 2 * double(solver.numbering().function.rows()) * sizeof(double);
+  return copies * (file_size + stage2::block_bytes(plate, n)) + solver.factor_bytes(solver.numbering().p) + functions +
+         stage2::stress_bytes(plate, n);
+}
+
 void run(const program::Arguments& arguments, program::Timings& timings) {
   linalg::set_threads(1);
   timings.phase("read");
   const auto request = field_request(arguments);
   constexpr double of_reading = 3;  // the file's image, and its fields as they are filled
-  std::error_code none;
-  const auto size = double(std::filesystem::file_size(arguments.input, none));
-  if (!none) require_memory(arguments.input, of_reading * size);
+  const auto size_of = [](const std::string& file) {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(file, none);
+    return none ? 0 : double(bytes);
+  };
+  const double size = size_of(arguments.input) + size_of(arguments.text("--stresses"));
+  require_memory(arguments.input, of_reading * size);
   const auto plate = formats::read_plate_solution(arguments.input);
+  std::optional<stage2::JointSheet> sheet;
+  if (arguments.flag("--stresses"))
+    sheet = stage2::read_joint_sheet(plate, arguments.input, arguments.text("--stresses"), arguments.text("--plate"));
+  const bool rows = !arguments.flag("--loads-only") && stage2::stress_bytes(plate, plate.n_cases()) <= most_of_rows;
   std::unique_ptr<stage2::FieldSolver> solver;
   timings.phase("integrate");
-  if (arguments.flag("--field") || !arguments.flag("--loads-only"))
+  if (arguments.flag("--field") || sheet || rows)
     solver = std::make_unique<stage2::FieldSolver>(plate, arguments.input);
-  require_memory(arguments.input,
-                 arguments.flag("--field") ? field_need(*solver, size) : extraction_need(plate, solver.get(), size));
+  require_memory(arguments.input, arguments.flag("--field") ? field_need(*solver, size)
+                                  : sheet                   ? stresses_need(*solver, *sheet, size)
+                                                            : extraction_need(plate, solver.get(), size));
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
-  if (!arguments.flag("--field")) return write_matrices(arguments, plate, std::move(solver), timings);
-  write_field(arguments, *solver, request, timings);
+  if (arguments.flag("--field")) return write_field(arguments, *solver, request, timings);
+  if (sheet) return write_stresses(arguments, *solver, *sheet, timings);
+  write_matrices(arguments, plate, std::move(solver), timings);
 }
 
 }  // namespace

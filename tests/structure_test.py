@@ -18,7 +18,7 @@ STAGES = {
     },
     "stage2_extract": {
         "matrices": ["formats", ""],
-        "stresses": ["formats", "pfem", "plate", "rim", "stresses", ""],
+        "stresses": ["formats", "pfem", "plate", "program", "rim", "stresses", ""],
         "field": ["formats", "h5", "pfem", ""],
         "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
     },

@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 4;
+constexpr int minor = 5;
 
 using V = RimValues;
 using enum Dimension;
@@ -46,6 +46,10 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   const Eigen::Index m = a.disc_hole.size();
   file(group + "disc/direction", a.disc_direction, {m}, "1", "direction of each disc, x or y");
+  if (auto* forces = file.part(group + "disc/bearing", a.disc_forces)) {
+    file(group + "disc/bearing", forces->bearing, {steps, m}, force, "bearing force of the fastener on each disc");
+    file(group + "disc/friction", forces->friction, {steps, m}, force, "resultant of its friction along each disc");
+  }
   file(group + "external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   const Eigen::Index e = a.external_id.size();
   file(group + "D", a.D, {steps, m}, length, "displacement of each disc");

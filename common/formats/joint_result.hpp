@@ -41,6 +41,11 @@ struct RimHistory {
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
 };
 
+/// What fasteners do to the m discs of a plate: resultants on its rims along the discs' directions, force.
+struct DiscForces {
+  Eigen::MatrixXd bearing, friction;  ///< (steps, m)
+};
+
 /// Displacements and forces of one plate of a joint, one row per increment.
 struct PlateHistory {
   std::string name;
@@ -52,6 +57,7 @@ struct PlateHistory {
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
   RimHistory rims;
+  std::optional<DiscForces> disc_forces{};        ///< none in files before version 1.5
   std::string matrices_digest{}, plate_digest{};  ///< of its MATRICES.h5, and of its PLATE.h5; empty if unknown
 };
 

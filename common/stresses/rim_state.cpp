@@ -144,11 +144,18 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
 
 }  // namespace
 
-std::vector<RimState> rim_states(const formats::PlateStresses& a, const StateStresses& all, const DiscForces& discs) {
+std::vector<RimState> rim_states(const formats::PlateStresses& a, std::size_t level, const InState& in_state,
+                                 const LoadedDiscs& discs) {
   std::vector<RimState> states;
   const auto& [holes, axes, all_bearing, all_friction] = discs;
-  const double largest =
-      std::max(all.section_force.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
+  const auto with_lower_degree = [&](const std::vector<formats::StressRows>& levels) {
+    Eigen::MatrixXd columns(levels[level].rows(), level > 0 ? 2 : 1);
+    for (Index i = 0; i < columns.cols(); ++i) columns.col(i) = in_state(levels[level - i]);
+    return columns;
+  };
+  const Eigen::MatrixXd hoop = with_lower_degree(a.sigma_tt), forces = with_lower_degree(a.section_force);
+  const VectorXd all_radial = in_state(a.sigma_rr[level]);
+  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
   for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
     RimState state;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
@@ -167,20 +174,35 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, const StateStr
     const Eigen::Vector2d jumps = (friction.array().abs() > 0.01 / 2 * bearing.norm()).select(friction, 0);
     state.by_components = jumps[0] != 0 && jumps[1] != 0;
     const Rim points(a, i, jumps);
-    read_peak(points, points.of(all.sigma_tt), state);
-    const VectorXd radial = points.of(all.sigma_rr);
+    read_peak(points, points.of(hoop), state);
+    const VectorXd radial = points.of(all_radial);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();
     state.filled = double(touched) > (1 - hardly) * double(radial.size());
     if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
-    if (const int across = 1 - axes[0]; axes.size() == 1 && !is_open)
+    if (axes.size() == 1 && !is_open) {
+      const int across = 1 - axes[0];
       state.across = points.force(radial, across, a.bearing_area(i, across));
+    }
     state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
-    read_sections(a, a.rim_hole[i], all.section_force, bearing[0] + friction[0], largest, state);
+    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);
     states.push_back(state);
   }
   return states;
+}
+
+int n_sections(const formats::PlateStresses& a, const std::string& hole) {
+  int n = 0;
+  for (std::size_t i = 0; i < a.section_hole.size(); ++i)
+    n += a.section_hole[i] == hole && a.section_side[i].back() == 'x';
+  return n;
+}
+
+formats::RimHistory rims_of(const formats::PlateStresses& a) {
+  formats::RimHistory rims{a.rim_hole, Eigen::VectorXi(std::ssize(a.rim_hole)), {}};
+  for (Index i = 0; i < rims.sections.size(); ++i) rims.sections[i] = n_sections(a, rims.hole[i]);
+  return rims;
 }
 
 }  // namespace fastjoint::stresses

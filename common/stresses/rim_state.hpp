@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <limits>
 #include <string>
 #include <vector>
@@ -26,32 +27,14 @@ struct RimState : formats::RimValues {
   bool in_tension = false;  ///< the section of the concentrations
 };
 
-/// Stresses at the k points of all rims and forces over the s sections in one state of a plate; a second column is that
-/// of the degree below, if there is one.
-struct StateStresses {
-  Eigen::VectorXd sigma_rr;       ///< (k)
-  Eigen::MatrixXd sigma_tt;       ///< (k, 1 or 2)
-  Eigen::MatrixXd section_force;  ///< (s, 1 or 2)
-};
-
-/// The stresses of a state at one level of `a`.
-/// @param of The state's column of a matrix of `a` at one level, as a function of the matrix.
-template <class Of>
-[[nodiscard]] StateStresses state_stresses(const formats::PlateStresses& a, std::size_t level, const Of& of) {
-  const auto two_levels = [&](const std::vector<formats::StressRows>& levels) {
-    Eigen::MatrixXd columns(levels[level].rows(), level > 0 ? 2 : 1);
-    for (Eigen::Index i = 0; i < columns.cols(); ++i) columns.col(i) = of(levels[level - i]);
-    return columns;
-  };
-  return {of(a.sigma_rr[level]), two_levels(a.sigma_tt), two_levels(a.section_force)};
-}
-
 /// What fasteners do to the m discs of a plate, hole after hole.
-struct DiscForces {
+struct LoadedDiscs {
   const std::vector<std::string>& holes;  ///< (m / a)
   const std::vector<int>& axes;           ///< (a) directions of each hole's discs: 0 x, 1 y
   Eigen::VectorXd bearing, friction;      ///< (m) resultants on the rim along each disc's direction, force
 };
+
+using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;
 
 /// States of all holes of a plate.
 ///
@@ -59,8 +42,15 @@ struct DiscForces {
 /// (tests/pipeline/peak_error_test.cpp). Points within 7.5 degrees of a jump of friction are no candidates for the peak
 /// if the jump is more than 1 % of the bearing stress. The bypass load is the section force along x on the side of the
 /// hole that bears (docs/theory.md, sections 11.2 to 11.4).
-/// @param a Says what the rims and sections are; its stresses are not used.
-[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, const StateStresses& state,
-                                               const DiscForces& discs);
+/// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
+/// @param in_state Makes of a matrix of `a`, (k, n) or (s, n), its column in the state.
+[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, std::size_t level,
+                                               const InState& in_state, const LoadedDiscs& discs);
+
+/// Number of sections across x that the plate has beside a hole.
+[[nodiscard]] int n_sections(const formats::PlateStresses& a, const std::string& hole);
+
+/// The holes of a plate; their values at every increment are left to the caller.
+[[nodiscard]] formats::RimHistory rims_of(const formats::PlateStresses& a);
 
 }  // namespace fastjoint::stresses

@@ -2,7 +2,6 @@
 #include "stage2_extract/field/field_state.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,38 +11,13 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/formats/joint_result.hpp"
 #include "common/h5/whole_file.hpp"
+#include "stage2_extract/stresses/joint_sheet.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
 
-using formats::PlateHistory;
 using formats::PlateSolution;
-
-/// Names of unit cases: "external:P", "disc:1:x", "friction:1:+x", "traction:T"; shape (nc + h + q).
-/// @param a Anything with the names of a plate's cases: PlateSolution, PlateHistory.
-template <class Plate>
-std::vector<std::string> case_names(const Plate& a) {
-  std::vector<std::string> names;
-  names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
-  for (const auto& id : a.external_id) names.push_back("external:" + id);
-  for (std::size_t i = 0; i < a.disc_hole.size(); ++i)
-    names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
-  for (std::size_t i = 0; i < a.friction_hole.size(); ++i)
-    names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
-  for (const auto& id : a.traction_id) names.push_back("traction:" + id);
-  return names;
-}
-
-/// Names in a row for a message, the first dozen of a longer list.
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 12;
-  const auto shown = std::min(names.size(), most);
-  const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
-  if (shown == names.size()) return names.empty() ? "none" : text;
-  return fmt::format("{} and {} more", text, names.size() - shown);
-}
 
 bool starts_as_case(const std::string& spec) {
   constexpr std::string_view kinds[] = {"external:", "disc:", "friction:", "traction:"};
@@ -118,65 +92,21 @@ FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   }
 }
 
-/// The plate of the joint that the request names, else the only one with the cases of `plate`.
-const PlateHistory& plate_of_joint(const PlateSolution& plate, const std::string& file, const FieldRequest& request,
-                                   const formats::JointResult& joint) {
-  const auto cases = case_names(plate);
-  const bool is_named = !request.plate.empty();
-  const PlateHistory* found = nullptr;
-  std::vector<std::string> all, fitting;
-  for (const auto& candidate : joint.plates) {
-    all.push_back(candidate.name);
-    if (is_named ? candidate.name != request.plate : case_names(candidate) != cases) continue;
-    fitting.push_back(candidate.name);
-    if (!found) found = &candidate;
-  }
-  if (!found && is_named)
-    throw InputError(
-        fmt::format("--plate: '{}' is not a sheet of {}; allowed: {}", request.plate, request.spec, listed(all)));
-  if (!found)
-    throw InputError(fmt::format("--field: no sheet of {} ({}) has the cases of {}: {}", request.spec, listed(all),
-                                 file, listed(cases)));
-  if (is_named && case_names(*found) != cases)
-    throw InputError(fmt::format("--plate: '{}' of {} is not the sheet of {}: its cases are {}, those of the sheet {}",
-                                 found->name, request.spec, file, listed(case_names(*found)), listed(cases)));
-  if (!is_named && fitting.size() > 1)
-    throw InputError(fmt::format("--field: {} sheets of {} could be that of {}; tell which by --plate: {}",
-                                 fitting.size(), request.spec, file, listed(fitting)));
-  return *found;
-}
-
-/// The names of the plate's cases fit, but do its matrices come from this file? One without a digest does not tell.
-void check_digest(const PlateHistory& history, const PlateSolution& plate, const std::string& file,
-                  const FieldRequest& request) {
-  const std::string& digest = plate.header.digest;
-  if (!history.plate_digest.empty() && !digest.empty() && history.plate_digest != digest)
-    throw InputError(
-        fmt::format("--field: sheet '{}' of {} was made of a PLATE.h5 with the digest {}, {} has {}; allowed: the file "
-                    "that it was made of, or stage2_extract and stage3_nonlinear run again for this one",
-                    history.name, request.spec, history.plate_digest, file, digest));
-}
-
 FieldState joint_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {
-  const auto joint = formats::read_joint_result(request.spec);
-  const auto& history = plate_of_joint(plate, file, request, joint);
-  check_digest(history, plate, file, request);
-  const auto steps = count_of(joint.load_factor);
-  if (steps == 0) throw InputError(fmt::format("--field: {} holds no increment that converged", request.spec));
+  const auto sheet = read_joint_sheet(plate, file, request.spec, request.plate);
+  const auto steps = count_of(sheet.joint.load_factor);
   if (request.increment > steps)
     throw InputError(fmt::format("--increment: {} is not allowed; {} has the increments 1..{}", request.increment,
                                  request.spec, steps));
   FieldState state;
   state.increment = request.increment != 0 ? request.increment : steps;
-  state.joint_plate = history.name;
-  state.p = joint.p;
+  state.joint_plate = sheet.joint.plates[sheet.at].name;
+  state.p = sheet.joint.p;
   const auto step = state.increment - 1;
-  state.words = fmt::format("{}increment {} of {}, load factor {:g}",
-                            joint.header.name.empty() ? "" : fmt::format("{}, ", joint.header.name), state.increment,
-                            steps, joint.load_factor[step]);
-  state.amounts.resize(history.De.cols() + history.D.cols() + history.Lambda.cols() + history.traction.cols());
-  state.amounts << history.De.row(step).transpose(), history.D.row(step).transpose(),
-      history.Lambda.row(step).transpose(), history.traction.row(step).transpose();
+  const std::string& name = sheet.joint.header.name;
+  state.words = fmt::format("{}increment {} of {}, load factor {:g}", name.empty() ? "" : fmt::format("{}, ", name),
+                            state.increment, steps, sheet.joint.load_factor[step]);
+  state.amounts = sheet.amounts.col(step);
   return state;
 }
 
@@ -186,7 +116,7 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
                          const std::string& timings) {
   if (!wanted && request.p != 0) throw InputError("--p: goes with --field only; matrices are of all degrees");
   const bool of_joint = wanted && names_a_file(request.spec);
-  if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 only");
+  if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 or --stresses only");
   if (!of_joint && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
   for (const auto& [option, path] : {std::pair("-o", output), std::pair("--timings", timings)})
     if (wanted && h5::same_file(request.spec, path))

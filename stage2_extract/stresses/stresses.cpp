@@ -15,7 +15,7 @@
 namespace fastjoint::stage2 {
 namespace {
 
-/// Number of cases at a time: what an element has of them fits into the cache.
+/// Number of states at a time: what an element has of them fits into the cache.
 constexpr Eigen::Index block = 64;
 
 /// Every point of every rim.
@@ -112,17 +112,18 @@ std::vector<std::vector<plate::CondensedFunctions>> section_forces(const FieldSo
   return forces;
 }
 
-/// Adds the stresses at the rims and the forces over the sections in every unit case at one degree.
-void add_level(const FieldSolver& solver, const Rims& rims, formats::PlateStresses& a) {
-  const auto n_cases = solver.plate().n_cases();
+/// Adds the stresses at the rims and the forces over the sections at one degree in states given as amounts of the unit
+/// cases, (n_cases, k).
+void add_level(const FieldSolver& solver, const Rims& rims, const Eigen::MatrixXd& amounts, formats::PlateStresses& a) {
+  const auto n_states = amounts.cols();
   std::vector<RimStress> stresses;
   for (std::size_t hole = 0; hole < rims.size(); ++hole) stresses.emplace_back(solver, hole, rims[hole]);
   const auto sections = section_forces(solver);
-  for (auto* sigma : {&a.sigma_rr, &a.sigma_tt, &a.sigma_rt}) sigma->emplace_back(a.angle.size(), n_cases);
-  a.section_force.emplace_back(Eigen::MatrixXd::Zero(std::ssize(sections), n_cases));
-  for (Eigen::Index first = 0; first < n_cases; first += block) {
-    const auto columns = Eigen::seqN(first, std::min(block, n_cases - first));
-    const Fields fields = solver.solve(Eigen::MatrixXd::Identity(n_cases, n_cases)(Eigen::all, columns));
+  for (auto* sigma : {&a.sigma_rr, &a.sigma_tt, &a.sigma_rt}) sigma->emplace_back(a.angle.size(), n_states);
+  a.section_force.emplace_back(Eigen::MatrixXd::Zero(std::ssize(sections), n_states));
+  for (Eigen::Index first = 0; first < n_states; first += block) {
+    const auto columns = Eigen::seqN(first, std::min(block, n_states - first));
+    const Fields fields = solver.solve(amounts(Eigen::all, columns));
     for (std::size_t i = 0; i < rims.size(); ++i) {
       const auto points = Eigen::seq(a.rim_start[i], a.rim_start[i + 1] - 1);
       const auto [rr, tt, rt] = stresses[i](fields);
@@ -138,28 +139,39 @@ void add_level(const FieldSolver& solver, const Rims& rims, formats::PlateStress
 }  // namespace
 
 formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver) {
+  const auto n = plate.n_cases();
+  if (solver) return extract_stresses(*solver, plate.p[plate.p.size() - 1], Eigen::MatrixXd::Identity(n, n));
   formats::PlateStresses a;
+  describe_rims(plate, pfem::find_edges(plate.mesh), Rims(plate.hole_rim.size()), a);
+  return a;
+}
+
+formats::PlateStresses extract_stresses(FieldSolver& solver, int p, const Eigen::MatrixXd& amounts) {
   constexpr Eigen::Index n_levels = 2;  // their difference estimates the error
-  if (solver) a.p = plate.p.tail(std::min(plate.p.size(), n_levels));
-  const auto edges = pfem::find_edges(plate.mesh);
-  Rims rims(plate.hole_rim.size());
-  for (std::size_t i = 0; i < rims.size() && solver; ++i) rims[i] = rim_points(plate.mesh, edges, plate.hole_rim[i]);
-  describe_rims(plate, edges, rims, a);
-  if (!solver) return a;
-  describe_sections(plate, edges, a);
-  for (const int p : a.p) {
-    solver->factorise(p);
-    add_level(*solver, rims, a);
+  const auto& plate = solver.plate();
+  const Eigen::Index up_to_p = std::upper_bound(plate.p.begin(), plate.p.end(), p) - plate.p.begin();
+  formats::PlateStresses a;
+  a.p = plate.p.head(up_to_p).tail(std::min(up_to_p, n_levels));
+  Rims rims;
+  for (const auto& rim : plate.hole_rim) rims.push_back(rim_points(plate.mesh, solver.edges(), rim));
+  describe_rims(plate, solver.edges(), rims, a);
+  describe_sections(plate, solver.edges(), a);
+  for (const int degree : a.p) {
+    solver.factorise(degree);
+    add_level(solver, rims, amounts, a);
   }
   return a;
 }
 
-double stress_bytes(const formats::PlateSolution& plate) {
+double stress_bytes(const formats::PlateSolution& plate, Eigen::Index n_states) {
   constexpr double components = 3;
   const double levels = std::min(count_of(plate.p), 2);
   const double rows = count_of(plate.hole_rim) * n_points_per_turn;
-  const double unknowns = plate.ndof[plate.ndof.size() - 1];
-  return sizeof(double) * (components * rows * double(plate.n_cases()) * levels + block * unknowns);
+  return components * rows * sizeof(double) * double(n_states) * levels;
+}
+
+double block_bytes(const formats::PlateSolution& plate, Eigen::Index n_states) {
+  return sizeof(double) * plate.ndof[plate.ndof.size() - 1] * double(std::min(block, n_states));
 }
 
 }  // namespace fastjoint::stage2

@@ -10,7 +10,14 @@ namespace fastjoint::stage2 {
 /// @param solver Of the plate; null for what is known without solving alone.
 [[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver);
 
-/// Bytes of the stresses at the rims, which are by far the most of them, and of the fields that they are taken from.
-[[nodiscard]] double stress_bytes(const formats::PlateSolution& plate);
+/// The same in other states instead of unit cases, at degree p and the one below that the plate has.
+/// @param amounts Of the unit cases, shape (n_cases, k).
+[[nodiscard]] formats::PlateStresses extract_stresses(FieldSolver& solver, int p, const Eigen::MatrixXd& amounts);
+
+/// Bytes of the stresses at the rims, which are by far the most of them, in a number of states.
+[[nodiscard]] double stress_bytes(const formats::PlateSolution& plate, Eigen::Index n_states);
+
+/// Bytes of the fields that they are taken from, as many as are solved at a time.
+[[nodiscard]] double block_bytes(const formats::PlateSolution& plate, Eigen::Index n_states);
 
 }  // namespace fastjoint::stage2

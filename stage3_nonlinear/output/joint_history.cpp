@@ -38,7 +38,12 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
   history.Lambda = rows(&PlateState::Lambda, plate.friction_unit_force.size());
   history.traction = rows(&PlateState::traction, plate.traction_force.size());
-  history.rims = rim_history(plate, states, at);
+  history.disc_forces = {rows(&PlateState::bearing, plate.n_discs()), rows(&PlateState::friction, plate.n_discs())};
+  if (plate.stress_level) history.rims = stresses::rims_of(plate.stresses);
+  for (const auto& state : states) {
+    const auto& rims = state.plates[at].rims;
+    history.rims.values.emplace_back(rims.begin(), rims.end());
+  }
   return history;
 }
 

@@ -56,10 +56,6 @@ using Doubt = std::pair<double, std::string>;
 /// Appends the worst warning of one kind about several fasteners or holes, with the number of the others.
 void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind);
 
-/// Quantities of the holes of one plate, one row per step.
-[[nodiscard]] formats::RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states,
-                                              std::size_t at);
-
 /// Heads of the CSV's columns for one side of a shear plane, "first" or "second".
 [[nodiscard]] std::vector<std::string> rim_csv_heads(const std::string& side, const Units& units);
 

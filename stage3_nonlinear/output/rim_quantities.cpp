@@ -46,14 +46,6 @@ formats::RimQuantity shown(const Column& column) {
   return {"across", nullptr, Dimension::force, ""};
 }
 
-/// Number of sections across x that the plate has beside the hole.
-int n_sections(const formats::PlateStresses& a, const std::string& hole) {
-  int n = 0;
-  for (std::size_t i = 0; i < a.section_hole.size(); ++i)
-    n += a.section_hole[i] == hole && a.section_side[i].back() == 'x';
-  return n;
-}
-
 /// @param cell Text in each column, which stands to the right.
 template <class Cell>
 std::string row(const std::string& name, Cell cell) {
@@ -63,16 +55,6 @@ std::string row(const std::string& name, Cell cell) {
 }
 
 }  // namespace
-
-RimHistory rim_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
-  RimHistory rims;
-  if (plate.stress_level) rims.hole = plate.stresses.rim_hole;
-  const Index r = rims.hole.size();
-  rims.sections.resize(r);
-  for (Index i = 0; i < r; ++i) rims.sections[i] = n_sections(plate.stresses, rims.hole[i]);
-  for (const auto& state : states) rims.values.emplace_back(state.plates[at].rims.begin(), state.plates[at].rims.end());
-  return rims;
-}
 
 std::vector<std::string> rim_csv_heads(const std::string& side, const Units& units) {
   std::vector<std::string> heads;
@@ -99,7 +81,7 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
     for (std::size_t rim = 0; rim < state.plates[i].rims.size(); ++rim) {
       const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
-      const bool sections = n_sections(joint.plates[i].stresses, hole) > 0;
+      const bool sections = stresses::n_sections(joint.plates[i].stresses, hole) > 0;
       rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
         const double value = state.plates[i].rims[rim].*column.value;
         const auto quantity = shown(column);

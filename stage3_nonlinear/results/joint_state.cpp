@@ -84,12 +84,11 @@ PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& 
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
   amounts << state.De, state.D, state.Lambda, state.traction;
-  if (plate.stress_level) {
-    const auto superposed = [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; };
+  if (plate.stress_level)
     state.rims =
-        stresses::rim_states(plate.stresses, stresses::state_stresses(plate.stresses, *plate.stress_level, superposed),
+        stresses::rim_states(plate.stresses, *plate.stress_level,
+                             [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
                              {plate.holes, plate.axes, state.bearing, state.friction});
-  }
   worst_row = std::max(worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff());
   for (Index i = 0; i < state.Pe.size(); ++i) {
     if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];

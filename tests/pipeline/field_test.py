@@ -113,7 +113,7 @@ def check_provenance():
     for path, digest in ("center.h5", of_plate), ("out/center.matrices.h5", of_matrices):
         assert Path(path).read_bytes()[-17:-1].decode() == digest, (path, digest)
     other = Path("other.h5").read_bytes()[-17:-1].decode()
-    assert (f"--field: sheet 'center' of joint.h5 was made of a PLATE.h5 with the digest {of_plate}, other.h5 has {other}; "
+    assert (f"joint.h5: sheet 'center' was made of a PLATE.h5 with the digest {of_plate}, other.h5 has {other}; "
             "allowed: the file that it was made of, or stage2_extract and stage3_nonlinear run again") in result.stderr, result
     summary = done("stage2_extract", "other.h5", "-o", "out/other.matrices.h5")
     printed = re.search(r"^  digest ([0-9a-f]{16})$", summary, re.MULTILINE)[1]

@@ -14,6 +14,8 @@ MB = 1e6
 # squares each way, options of make_panel, of stage1_plate
 RUNS = [(1, [], []), (5, ["--rings", "2"], []), (10, [], ["--p", "8"]), (6, ["--space", "product"], ["--p", "8"]),
         (14, ["--p", "5..6"], [])]
+OF_STAGE2 = (r"^stage2_extract: error: plate.h5: this takes about (\d+) MB of memory, (\d+) MB are available; allowed: "
+             r"a file of a lower p or fewer holes, or --loads-only\n$")
 
 
 def panel(n, words):
@@ -120,16 +122,15 @@ def check_search(scene, accuracy, own):
 
 def check_stage2(own):
     """What reading takes is known by the size of the file, what is made of it by its cases and degrees."""
-    told = (r"^stage2_extract: error: plate.h5: this takes about (\d+) MB of memory, (\d+) MB are available; allowed: "
-            r"a file of a lower p or fewer holes, or --loads-only\n$")
     for n, of_stage1, words in ((8, ["--p", "8"], []), (8, ["--p", "8"], ["--field", "external:P"]),
                                 (10, ["--p", "2..3"], []), (14, [], ["--loads-only"])):
         assert stage1(panel(n, []), *of_stage1).returncode == 0
-        check_refusals(("stage2_extract", "plate.h5", *words), "field.vtu" if "--field" in words else "matrices.h5", told, own)
+        check_refusals(("stage2_extract", "plate.h5", *words), "field.vtu" if "--field" in words else "matrices.h5",
+                       OF_STAGE2, own)
 
 
-def check_stage3(n, p, of_stage2, friction, increments, words, own):
-    """A joint of two sheets: the matrices are known by the size of their files, all else before the path is walked."""
+def make_joint(n, p, of_stage2, friction, increments):
+    """Two sheets of one panel."""
     assert stage1(panel(n, []), "--p", p).returncode == 0
     for sheet in "ab":
         assert run("stage2_extract", "plate.h5", "-o", f"{sheet}.h5", *of_stage2).returncode == 0
@@ -139,6 +140,18 @@ def check_stage3(n, p, of_stage2, friction, increments, words, own):
         "laws": {"bolt": {"type": "linear", "k": 1e6}}, "loads": [{"external": "a:P", "force": 1000}],
         "fasteners": [{"id": hole, "between": [f"a:{hole}", f"b:{hole}"], "law": "bolt", "friction": friction}
                       for hole in holes], "increments": increments}))
+
+
+def check_stresses(n, p, increments, own):
+    """The stresses of a joint's increments take what their number asks for beside a factor."""
+    make_joint(n, p, ["--loads-only"], 0, increments)
+    assert run("stage3_nonlinear", "joint.json", "-o", "result.h5").returncode == 0
+    check_refusals(("stage2_extract", "plate.h5", "--stresses", "result.h5", "--plate", "a"), "stresses.h5", OF_STAGE2, own)
+
+
+def check_stage3(n, p, of_stage2, friction, increments, words, own):
+    """The matrices are known by the size of their files, all else before the path is walked."""
+    make_joint(n, p, of_stage2, friction, increments)
     parts = rf" \(matrices \d+ MB, solving \d+ MB, results of {increments} increments \d+ MB\)"
     other = "no --sensitivities" if "--sensitivities" in words else "matrices of stage2_extract --loads-only"
     told = (rf"^stage3_nonlinear: error: joint.json: (?:reading its plates' matrices|this) takes about (\d+) MB of memory"
@@ -162,6 +175,9 @@ def main():
         check_search(panel(3, []), "1e-9", own)
         check_search(irregular_panel(5), "1e-2", own)
         check_stage2(own)
+        check_stresses(8, "7..8", 2, own)
+        check_stresses(5, "4..5", 1000, own)
+        check_stresses(14, "6..7", 80, own)
         check_stage3(7, "7..8", [], 0, 2, [], own)
         check_stage3(5, "2..3", [], 0.2, 1000, ["--csv", "result.csv"], own)
         check_stage3(7, "2..3", ["--loads-only"], 0.2, 300, ["--sensitivities"], own)

@@ -47,11 +47,11 @@ class RandomSheet {
     amounts[m] = friction_;  // of the first hole, bearing to +x
     amounts.tail(1).setOnes();
     friction[0] = friction_;
-    const auto superposed = [&](const Eigen::MatrixXd& cases) -> Eigen::VectorXd { return cases * amounts; };
     std::vector<std::string> names;
     for (const auto& hole : holes) names.push_back(hole.id);
     const auto& its = a.matrices.stresses;
-    return stresses::rim_states(its, stresses::state_stresses(its, its.p.size() - 1, superposed),
+    return stresses::rim_states(its, its.p.size() - 1,
+                                [&](const formats::StressRows& cases) { return cases * amounts; },
                                 {names, {0}, Eigen::VectorXd::Zero(m), friction});
   }
 

@@ -49,9 +49,10 @@ Plate plate(double from, double to, const std::function<double(double)>& hoop) {
 
 /// The state in which the first case acts twice, the second once.
 RimState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::VectorXd& friction) {
-  const auto of = [](const Eigen::MatrixXd& cases) -> Eigen::VectorXd { return cases * Eigen::Vector2d(2, 1); };
-  const auto states = rim_states(model.stresses, state_stresses(model.stresses, model.level, of),
-                                 {model.holes, model.axes, bearing, friction});
+  const auto states =
+      rim_states(model.stresses, model.level,
+                 [](const formats::StressRows& cases) -> Eigen::VectorXd { return cases * Eigen::Vector2d(2, 1); },
+                 {model.holes, model.axes, bearing, friction});
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
 }

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/stresses/joint_sheet.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "common/count.hpp"
+#include "common/errors.hpp"
+#include "common/program/program.hpp"
+#include "common/stresses/rim_state.hpp"
+#include "stage2_extract/stresses/stresses.hpp"
+
+namespace fastjoint::stage2 {
+namespace {
+
+using formats::PlateHistory;
+using formats::PlateSolution;
+
+/// @param a Anything with the names of a plate's cases: PlateSolution, PlateHistory.
+template <class Plate>
+std::vector<std::string> names_of_cases(const Plate& a) {
+  std::vector<std::string> names;
+  names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
+  for (const auto& id : a.external_id) names.push_back("external:" + id);
+  for (std::size_t i = 0; i < a.disc_hole.size(); ++i)
+    names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
+  for (std::size_t i = 0; i < a.friction_hole.size(); ++i)
+    names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
+  for (const auto& id : a.traction_id) names.push_back("traction:" + id);
+  return names;
+}
+
+std::size_t sheet_of_joint(const PlateSolution& plate, const std::string& file, const std::string& result_file,
+                           const std::string& name, const formats::JointResult& joint) {
+  const auto cases = case_names(plate);
+  std::vector<std::string> all, fitting;
+  for (const auto& sheet : joint.plates) {
+    all.push_back(sheet.name);
+    if (names_of_cases(sheet) == cases) fitting.push_back(sheet.name);
+  }
+  if (name.empty() && fitting.empty())
+    throw InputError(
+        fmt::format("{}: no sheet ({}) has the cases of {}: {}", result_file, listed(all), file, listed(cases)));
+  if (name.empty() && fitting.size() > 1)
+    throw InputError(fmt::format("{}: {} sheets could be that of {}; tell which by --plate: {}", result_file,
+                                 fitting.size(), file, listed(fitting)));
+  const int found = index_of(all, name.empty() ? fitting[0] : name);
+  if (found == count_of(all))
+    throw InputError(fmt::format("--plate: '{}' is not a sheet of {}; allowed: {}", name, result_file, listed(all)));
+  if (index_of(fitting, all[found]) == count_of(fitting))
+    throw InputError(fmt::format("--plate: '{}' of {} is not the sheet of {}: its cases are {}, those of the sheet {}",
+                                 name, result_file, file, listed(names_of_cases(joint.plates[found])), listed(cases)));
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> case_names(const PlateSolution& plate) { return names_of_cases(plate); }
+
+std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t most = 12;
+  const auto shown = std::min(names.size(), most);
+  const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
+  if (shown == names.size()) return names.empty() ? "none" : text;
+  return fmt::format("{} and {} more", text, names.size() - shown);
+}
+
+JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file, const std::string& result_file,
+                            const std::string& name) {
+  JointSheet result{formats::read_joint_result(result_file), 0, {}};
+  result.at = sheet_of_joint(plate, file, result_file, name, result.joint);
+  const auto& sheet = result.joint.plates[result.at];
+  const std::string& digest = plate.header.digest;
+  // The names of the cases fit, but do the sheet's matrices come from this file? One without a digest does not tell.
+  if (!sheet.plate_digest.empty() && !digest.empty() && sheet.plate_digest != digest)
+    throw InputError(
+        fmt::format("{}: sheet '{}' was made of a PLATE.h5 with the digest {}, {} has {}; allowed: the file that it "
+                    "was made of, or stage2_extract and stage3_nonlinear run again for this one",
+                    result_file, sheet.name, sheet.plate_digest, file, digest));
+  if (result.joint.load_factor.size() == 0)
+    throw InputError(fmt::format("{}: holds no increment that converged", result_file));
+  result.amounts.resize(plate.n_cases(), result.joint.load_factor.size());
+  result.amounts << sheet.De.transpose(), sheet.D.transpose(), sheet.Lambda.transpose(), sheet.traction.transpose();
+  return result;
+}
+
+void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, const std::string& result_file) {
+  const auto& plate = solver.plate();
+  const int p = sheet.joint.p;
+  auto& history = sheet.joint.plates[sheet.at];
+  if (std::find(plate.p.begin(), plate.p.end(), p) == plate.p.end())
+    throw InputError(fmt::format("{}: is of degree p = {}, which {} does not have; allowed: {}", result_file, p, file,
+                                 fmt::join(plate.p, ", ")));
+  if (!history.disc_forces)
+    throw InputError(
+        fmt::format("{}:plates/{}/disc/bearing: is missing; allowed: a file of version 1.5 or later, "
+                    "which stage3_nonlinear run again writes",
+                    result_file, history.name));
+  const auto a = extract_stresses(solver, p, sheet.amounts);
+  std::vector<int> axes;
+  for (std::size_t i = 0; i < plate.disc_hole.size() && plate.disc_hole[i] == plate.disc_hole[0]; ++i)
+    axes.push_back(plate.disc_direction[i] == "x" ? 0 : 1);
+  std::vector<std::string> holes;
+  for (std::size_t i = 0; i < plate.disc_hole.size(); i += axes.size()) holes.push_back(plate.disc_hole[i]);
+  history.rims = stresses::rims_of(a);
+  for (Eigen::Index step = 0; step < sheet.amounts.cols(); ++step) {
+    const auto states = stresses::rim_states(
+        a, a.p.size() - 1, [&](const formats::StressRows& of_states) { return of_states.col(step); },
+        {holes, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)});
+    history.rims.values.emplace_back(states.begin(), states.end());
+  }
+}
+
+std::string rim_summary(const JointSheet& sheet) {
+  const auto& [joint, at, amounts] = sheet;
+  const auto& [name, rims] = std::tie(joint.plates[at].name, joint.plates[at].rims);
+  std::string text = fmt::format("sheet \"{}\", {}, {}, p = {}\n", name, program::counted(rims.hole.size(), "hole"),
+                                 program::counted(rims.values.size(), "increment"), joint.p);
+  formats::RimValues largest{.peak_hoop = -h5::infinite};
+  std::string where;
+  for (std::size_t step = 0; step < rims.values.size(); ++step)
+    for (std::size_t hole = 0; hole < rims.hole.size(); ++hole)
+      if (rims.values[step][hole].peak_hoop > largest.peak_hoop) {
+        largest = rims.values[step][hole];
+        where = fmt::format("hole \"{}\", increment {}", rims.hole[hole], step + 1);
+      }
+  if (where.empty()) return text;
+  return text + fmt::format("  largest hoop stress {:.6g} +- {:.1g} {} at {:.1f} deg of {}\n", largest.peak_hoop,
+                            largest.peak_error, unit(joint.header.units, -2, 1), largest.peak_angle, where);
+}
+
+}  // namespace fastjoint::stage2

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "common/formats/joint_result.hpp"
+#include "common/formats/plate_solution.hpp"
+#include "stage2_extract/stresses/fields.hpp"
+
+namespace fastjoint::stage2 {
+
+/// Names of a plate's unit cases: "external:P", "disc:1:x", "friction:1:+x", "traction:T"; shape (n_cases).
+[[nodiscard]] std::vector<std::string> case_names(const formats::PlateSolution& plate);
+
+/// Names in a row for a message, the first dozen of a longer list.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names);
+
+/// The result of a joint, and which of its sheets a plate is.
+struct JointSheet {
+  formats::JointResult joint;
+  std::size_t at;           ///< of joint.plates
+  Eigen::MatrixXd amounts;  ///< (n_cases, steps) of the plate's unit cases at every increment
+};
+
+/// Reads a RESULT.h5, in which the plate is the sheet of that name or, without a name, the only one whose cases have
+/// the plate's names.
+/// @param file Name of the plate's file, for messages.
+/// Throws InputError if no sheet or increment fits or the sheet is of another PLATE.h5, FileError for a bad RESULT.h5.
+[[nodiscard]] JointSheet read_joint_sheet(const formats::PlateSolution& plate, const std::string& file,
+                                          const std::string& result_file, const std::string& name);
+
+/// Solves for all increments at the joint's degree and the one below, and sets what the result says of the sheet's
+/// holes, as stage 3 does where MATRICES.h5 has stresses in every unit case.
+/// @param result_file Name of the joint's file, for messages.
+/// Throws InputError if the plate does not have the joint's degree or the result not the forces on the sheet's discs.
+void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, const std::string& result_file);
+
+/// The summary of the sheet's holes: the largest hoop stress of all increments.
+[[nodiscard]] std::string rim_summary(const JointSheet& sheet);
+
+}  // namespace fastjoint::stage2
