@@ -118,7 +118,7 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
 }
 
 void require_memory(const std::string& file, double need) {
-  constexpr double libraries = 30e6;  // and what is left of the factor
+  constexpr double libraries = 23e6;  // and what is left of the factor
   program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes, or --loads-only");
 }
 

@@ -50,7 +50,7 @@ void warn(std::ostream& log, const std::vector<std::string>& sentences) {
 
 /// Bytes of the program and of the plates' matrices.
 double matrices_need(const JointScene& scene) {
-  double bytes = 26e6;  // of the program
+  double bytes = 20e6;  // of the program
   for (const auto& plate : scene.plates) {
     std::error_code none;
     if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 1.25 * double(size);

@@ -26,7 +26,7 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
   const double fields = 2 * (n_p * (q + 2) + rows_of_E);  // the second as they are turned to the order of the file
   const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
   const double contact = r > 0 ? r * n_cases + std::max(2 * n_p * n_cases, 5 * square(r + 2 * nc)) : 0;
-  constexpr double libraries = 26e6;
+  constexpr double libraries = 20e6;
   return {(n_rim > 0 ? 2 : 1) * elements, factor, number * fields, number * contact, libraries};
 }
 
