@@ -130,6 +130,19 @@ def bolt_group():
     return {name: example(f"bolt_group/{name}") for name in ("bracket", "web")}, joint
 
 
+def check_disc_forces():
+    """Along one direction bearing and friction of a hole are what its shear plane transfers, with the sign of the side."""
+    with h5py.File("loads/result.h5") as result:
+        for side, sign in (0, -1), (1, 1):
+            for plane, name in enumerate(result[("fastener/first", "fastener/second")[side]].asstr()):
+                sheet, hole = name.split(":")
+                disc = result[f"plates/{sheet}/disc"]
+                at = list(disc["hole"].asstr()).index(hole)
+                np.testing.assert_allclose(disc["bearing"][:, at] + disc["friction"][:, at],
+                                           sign * result["transferred"][:, plane, side], rtol=1e-12)
+                assert disc["friction"][-1, at] != 0
+
+
 def check_degrees(joint):
     """At a degree below the sheet's highest, rows know no error or nothing at all; a solve has the degree below it."""
     solve(joint, "--p", "4")
@@ -196,6 +209,7 @@ def main(folder):
         scenes, joint = lap_joint()
         make_sheets(scenes, "3..5")
         check(joint)
+        check_disc_forces()
         check(joint | {"solver": {"method": "damped newton"}, "increments": 70})  # two blocks of right-hand sides
         check(joint | {"laws": {"rivet": {"type": "linear", "k": 9000}}, "solver": {"method": "exact path"}, "increments": "events"})
         check_degrees(joint)
