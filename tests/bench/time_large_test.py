@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""scripts/time_large and scripts/time_solvers on a few holes: time_large_test.py BIN_FOLDER."""
+import os
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def run(script, *words, status=0):
+    result = subprocess.run([str(ROOT / script), *map(str, words)], capture_output=True, text=True)
+    assert result.returncode == status, result
+    return result.stdout if status == 0 else result.stderr
+
+
+def cells(line):
+    return [cell.strip() for cell in line.strip("|").split("|")]
+
+
+def rows(text):
+    header, _, *lines = [line for line in text.splitlines() if line.startswith("|")]
+    return [dict(zip(cells(header), cells(line))) for line in lines]
+
+
+def kept(page, script):
+    return (ROOT / page).read_text().split(f"<!-- {script} -->\n")[1].split("<!-- /")[0]
+
+
+def check_large(bin_folder, folder):
+    script, readme, chart = "scripts/time_large", folder / "README.md", folder / "chart.png"
+    readme.write_text(f"<!-- {script} -->\n<!-- /{script} -->\n")
+    printed = run(script, "--quick", "--repeat", 1, "--before", bin_folder, "--chart", chart, "--readme", readme)
+    assert readme.read_text() == f"<!-- {script} -->\n{printed}<!-- /{script} -->\n"
+    found = rows(printed)
+    assert [row["job"] for row in found][3:7] == [f"9 fasteners, {law}, stage 3" for law in ("linear", "power", "bilinear")] + [
+        "stresses at 9 rims in ten increments"], printed
+    for row in found:
+        ratio = float(row["seconds before"]) / float(row["seconds"])
+        assert abs(float(row["times as long"]) / ratio - 1) < 0.1, printed  # two digits
+    assert "Milliseconds per hole, stresses of ten increments (holes): " in printed, printed
+    assert chart.read_bytes().startswith(b"\x89PNG"), chart
+    assert list(rows(kept("docs/performance.md", script))[0]) == list(found[0]), "docs/performance.md has other columns"
+    assert "argument --repeat" in run(script, "--repeat", 0, status=2)
+
+
+def check_solvers():
+    script = "scripts/time_solvers"
+    found = rows(run(script, "--quick", "--repeat", 1))
+    assert [row["fasteners"] for row in found] == ["4", "9"], found
+    for row in found:
+        assert abs(float(row["ratio"]) * float(row["damped newton"]) / float(row["hybridsj"]) - 1) < 0.15, found
+    assert list(rows(kept("docs/solvers.md", script))[0]) == list(found[0]), "docs/solvers.md has other columns"
+
+
+def main(bin_folder):
+    bin_folder = Path(bin_folder).resolve()
+    os.environ["PATH"] = f"{bin_folder}{os.pathsep}{os.environ['PATH']}"
+    with tempfile.TemporaryDirectory() as folder:
+        check_large(bin_folder, Path(folder))
+    check_solvers()
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
