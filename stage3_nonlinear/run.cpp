@@ -11,6 +11,7 @@
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
+#include "common/program/progress.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
@@ -109,8 +110,10 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   const JointEquations equations = make_equations(joint);
   require_memory(scene, joint, equations, !csv_file.empty(), with_sensitivities);
   const PathOptions solving{scene.initial, scene.solver};
+  program::report_share(0);
   LoadPath path =
       scene.load_factors.empty() ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
+  program::report_share(1);
   const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, path);
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));

@@ -28,7 +28,7 @@ STAGES = {
         "model": ["formats", ""],
         "solvers": [],
         "equations": [""],
-        "path": [],
+        "path": ["program"],
         "results": ["matrices", "stresses", ""],
         "output": ["formats", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],

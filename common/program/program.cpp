@@ -15,6 +15,7 @@
 #include "common/h5/library.hpp"
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
+#include "common/program/progress.hpp"
 #include "common/program/version.hpp"
 
 namespace fastjoint::program {
@@ -41,7 +42,7 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   app.add_option("-o,--output", arguments.output, "file to write")->required()->option_text(command.output);
   for (const auto& option : command.options) add(app, option, arguments);
   app.add_option("--timings", arguments.timings, "also write what each phase took, as JSON")->option_text("FILE");
-  app.add_flag("--quiet", arguments.quiet, "print no summary");
+  app.add_flag("--quiet", arguments.quiet, "print no summary and no progress");
   app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage or input, 3 bad file, 4 numerical failure.");
   try {
     app.parse(argc, argv);
@@ -76,6 +77,8 @@ void report_times(const Command& command, const Arguments& arguments, Timings& t
 
 void work(const Command& command, const Arguments& arguments, const Body& body, Timings& timings) {
   check_paths(arguments);
+  std::optional<Progress> progress;
+  if (!arguments.quiet) progress.emplace(command.name, ::isatty(STDERR_FILENO) == 1, std::cerr);
   try {
     body(arguments, timings);
   } catch (const IncompleteResult&) {

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "common/program/memory.hpp"
+#include "common/program/progress.hpp"
 
 namespace fastjoint::program {
 namespace {
@@ -28,6 +29,7 @@ void Timings::phase(const std::string& name) {
   const auto found = std::find_if(phases_.begin(), phases_.end(), [&](const auto& each) { return each.first == name; });
   present_ = found - phases_.begin();
   if (found == phases_.end()) phases_.emplace_back(name, Clock::duration::zero());
+  report_phase(name);
 }
 
 void Timings::stop() {

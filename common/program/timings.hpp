@@ -16,7 +16,8 @@ class Timings {
   using Clock = std::chrono::steady_clock;
   explicit Timings(std::function<Clock::time_point()> now = Clock::now);
 
-  /// Ends the present phase, if any, and begins `name`; one that was there before goes on from its time.
+  /// Ends the present phase, if any, and begins `name`, which is reported as progress; one that was there before goes
+  /// on from its time.
   void phase(const std::string& name);
   /// Ends the last phase and the total.
   void stop();

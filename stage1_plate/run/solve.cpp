@@ -11,6 +11,7 @@
 #include "common/plate/plate_states.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
+#include "common/program/progress.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 
 namespace fastjoint::stage1 {
@@ -107,7 +108,10 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
 
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a,
                  program::Timings& timings) {
+  double done = 0;
   for (const int p : a.p) {
+    program::report_share(done / a.ndof.sum());  // the time that a degree takes grows as its number of unknowns
+    done += problem.unknowns.n_free[p];
     timings.phase("factorise");
     const plate::PlateFactor K(problem, skeleton, p);
     timings.phase("solve");
@@ -116,6 +120,7 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
     a.probe = std::move(probe);
     a.held_stiffness = K.held_stiffness();
   }
+  program::report_share(1);
 }
 
 SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings) {

@@ -9,6 +9,7 @@
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
+#include "common/program/progress.hpp"
 #include "common/rim/bearing.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 
@@ -122,6 +123,8 @@ void add_level(const FieldSolver& solver, const Rims& rims, const Eigen::MatrixX
   for (auto* sigma : {&a.sigma_rr, &a.sigma_tt, &a.sigma_rt}) sigma->emplace_back(a.angle.size(), n_states);
   a.section_force.emplace_back(Eigen::MatrixXd::Zero(std::ssize(sections), n_states));
   for (Eigen::Index first = 0; first < n_states; first += block) {
+    const double level = double(a.section_force.size()) - 1 + double(first) / double(n_states);
+    program::report_share(level / double(a.p.size()));
     const auto columns = Eigen::seqN(first, std::min(block, n_states - first));
     const Fields fields = solver.solve(amounts(Eigen::all, columns));
     for (std::size_t i = 0; i < rims.size(); ++i) {
@@ -160,6 +163,7 @@ formats::PlateStresses extract_stresses(FieldSolver& solver, int p, const Eigen:
     solver.factorise(degree);
     add_level(solver, rims, amounts, a);
   }
+  program::report_share(1);
   return a;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "common/program/progress.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 
@@ -73,6 +74,7 @@ class Search {
 
  private:
   std::optional<Sample> solved(double load) {
+    program::report_share(load);
     if (walk_.reach(load)) return Sample{load, walk_.here().c, corners_.passed(walk_.here().c)};
     found_.failed = load;
     return std::nullopt;

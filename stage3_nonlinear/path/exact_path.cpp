@@ -10,6 +10,7 @@
 #include <optional>
 #include <set>
 
+#include "common/program/progress.hpp"
 #include "stage3_nonlinear/path/cell_lines.hpp"
 
 namespace fastjoint::stage3 {
@@ -45,6 +46,7 @@ class Tracer {
     std::set<Border> tied = borders_near(c_, rounding);
     auto line = leave(tied, {});
     for (std::size_t steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
+      program::report_share(load_ / target_);
       const auto [end, reached] = next(*line);
       const double stop = line->loads ? std::min(end, target_) : end;
       if (!std::isfinite(stop)) break;  // at constant load nothing bears

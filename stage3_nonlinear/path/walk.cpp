@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "common/program/progress.hpp"
+
 namespace fastjoint::stage3 {
 
 using Eigen::Index;
@@ -233,6 +235,7 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   Walk walk(equations, options, std::move(exact));
   const ContactCorners corners(equations.contacts);
   for (std::size_t i = 0; i < load_factors.size(); ++i) {
+    program::report_share(double(i) / double(load_factors.size()));
     const VectorXd before = walk.here().c;
     if (!walk.reach(load_factors[i])) {
       path.failure = walk.failure(i, load_factors[i]);

@@ -17,7 +17,7 @@ def partial():
 
 def killed_while_writing(how):
     """Starts stage 1, waits until its file grows beside the target and kills it; its exit status and words."""
-    run = subprocess.Popen(["stage1_plate", "panel.json", "-o", "plate.h5", "--p", "5..6"], text=True,
+    run = subprocess.Popen(["stage1_plate", "panel.json", "-o", "plate.h5", "--p", "5..6", "--quiet"], text=True,
                            stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
     before = partial()
     while run.poll() is None and partial() == before:
