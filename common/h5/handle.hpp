@@ -29,7 +29,7 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) CloseFn(id_);
   }
-  /// Whether what it owned could be closed.
+  /// Closes what it owns, and tells whether that could be done.
   [[nodiscard]] bool close() { return CloseFn(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
   [[nodiscard]] hid_t get() const { return id_; }
   [[nodiscard]] explicit operator bool() const { return id_ >= 0; }

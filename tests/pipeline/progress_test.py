@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What programs say of their progress: progress_test.py BIN_FOLDER [estimates]. With the last word it compares what stage 1
-says is left with what then was, which only a quiet machine answers."""
+"""Reads what programs say of their progress: progress_test.py BIN_FOLDER [estimates]. With the last word it compares what
+stage 1 says is left with what then was, which only a quiet machine answers."""
 import os
 import pty
 import re
@@ -29,7 +29,7 @@ def run(*words):
 
 
 def on_terminal(*words):
-    """What a terminal gets, stdout and stderr."""
+    """Output that a terminal gets, stdout and stderr."""
     ours, terminal = pty.openpty()
     process = subprocess.Popen(words, stdout=terminal, stderr=terminal)
     os.close(terminal)
