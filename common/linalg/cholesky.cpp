@@ -32,7 +32,6 @@ struct Free {
   void operator()(auto* p) const noexcept { FreeFn(&p, c); }
 };
 using Factor = std::unique_ptr<cholmod_factor, Free<cholmod_free_factor>>;
-using Dense = std::unique_ptr<cholmod_dense, Free<cholmod_free_dense>>;
 
 /// A view: the matrix must outlive it, and CHOLMOD does not write to it.
 cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
@@ -50,18 +49,6 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
   v.dtype = CHOLMOD_DOUBLE;
   v.sorted = 1;
   v.packed = 1;
-  return v;
-}
-
-cholmod_dense view(const Eigen::MatrixXd& B) {
-  cholmod_dense v{};
-  v.nrow = B.rows();
-  v.ncol = B.cols();
-  v.nzmax = v.nrow * v.ncol;
-  v.d = v.nrow;
-  v.x = const_cast<double*>(B.data());
-  v.xtype = CHOLMOD_REAL;
-  v.dtype = CHOLMOD_DOUBLE;
   return v;
 }
 
@@ -224,13 +211,29 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_u
 Cholesky::~Cholesky() = default;
 
 Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd B) const {
-  if (B.size() == 0) return B;
-  auto& c = impl_->context.c;
-  const cholmod_factor* L = impl_->factor.get();
-  Eigen::MatrixXd rows(L->maxesize, B.cols());  // what CHOLMOD gathers of the rows below a supernode
-  cholmod_dense x = view(B), e = view(rows);
-  if (!cholmod_super_lsolve(impl_->factor.get(), &x, &e, &c) || !cholmod_super_ltsolve(impl_->factor.get(), &x, &e, &c))
-    throw NumericalError("solving with the factorised stiffness matrix failed");
+  const cholmod_factor& L = *impl_->factor;
+  const int k = static_cast<int>(B.rows()), n_supernodes = static_cast<int>(L.nsuper);
+  if (k == 0) return B;
+  Eigen::MatrixXd below(k, L.maxesize);
+  const auto divide = [&](const Supernode& s, CBLAS_TRANSPOSE transposed) {
+    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, transposed, CblasNonUnit, k, s.size(), 1, s.value, s.ld,
+                B.col(s.first).data(), k);
+  };
+  for (int i = 0; i < n_supernodes; ++i) {
+    const Supernode s(L, i);
+    if (B.middleCols(s.first, s.size()).isZero(0)) continue;  // nothing has reached it
+    divide(s, CblasTrans);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, k, s.n_below(), s.size(), 1, B.col(s.first).data(), k,
+                s.value + s.size(), s.ld, 0, below.data(), k);
+    for (int j = 0; j < s.n_below(); ++j) B.col(s.below()[j]) -= below.col(j);
+  }
+  for (int i = n_supernodes - 1; i >= 0; --i) {
+    const Supernode s(L, i);
+    for (int j = 0; j < s.n_below(); ++j) below.col(j) = B.col(s.below()[j]);
+    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k, s.size(), s.n_below(), -1, below.data(), k,
+                s.value + s.size(), s.ld, 1, B.col(s.first).data(), k);
+    divide(s, CblasNoTrans);
+  }
   return B;
 }
 

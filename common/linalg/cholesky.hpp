@@ -19,7 +19,7 @@ class Cholesky {
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;
 
-  /// Solution for all columns of B at once, shape (n, k).
+  /// Solutions X of X A = B, shape (k, n): of the right-hand sides in the rows of B, in which they lie together.
   [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd B) const;
   /// C_k A^-1 C^T, shape (k, m), where C_k is the first k rows of C: the products in energy of the solutions for rows
   /// of C. A row is taken no further than where elimination carries it (Liu, SIAM Review 34, 82, 1992).

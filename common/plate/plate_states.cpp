@@ -11,42 +11,39 @@ using Eigen::MatrixXd;
 
 PlateStates::PlateStates(const PlateFactor& factor, const MatrixXd& border, const Eigen::SparseMatrix<double>& loads)
     : factor_(factor), border_(border.transpose()) {
-  const Eigen::SparseMatrix<double> amounts = border.sparseView();
-  MatrixXd b = -(factor.coupling_.transpose() * amounts);
+  const Eigen::SparseMatrix<double> amounts = border_.sparseView();
+  MatrixXd b = -(amounts * factor.coupling_);
   if (loads.nonZeros() > 0) {
     eliminate(loads);
     b += skeleton_loads_;
   }
-  skeleton_ = factor.factor_->solve(std::move(b)).transpose();
+  skeleton_ = factor.factor_->solve(std::move(b));
 }
 
 void PlateStates::eliminate(const Eigen::SparseMatrix<double>& loads) {
   const auto& [unknowns, numbering] = std::tie(factor_.plate_.unknowns, factor_.plate_.numbering);
-  skeleton_loads_ = MatrixXd::Zero(factor_.rows_.n_skeleton, loads.cols());
-  border_loads_ = MatrixXd::Zero(border_.cols(), loads.cols());
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> by_row = loads;
-  const auto add = [&](int dof, double factor, auto row) {
-    for (Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator at(by_row, dof); at; ++at)
-      row[at.col()] += factor * at.value();
-  };
-  for (int dof = 0; dof < by_row.rows(); ++dof)
-    if (const int row = factor_.rows_.of_unknown[dof]; row >= 0) add(dof, 1, skeleton_loads_.row(row));
+  skeleton_loads_ = MatrixXd::Zero(loads.cols(), factor_.rows_.n_skeleton);
+  border_loads_ = MatrixXd::Zero(loads.cols(), border_.cols());
+  const Eigen::SparseMatrix<double> by_dof = loads.transpose();
+  for (int dof = 0; dof < by_dof.cols(); ++dof)
+    if (const int row = factor_.rows_.of_unknown[dof]; row >= 0) skeleton_loads_.col(row) += by_dof.col(dof);
   for (int element = 0; element < count_of(factor_.plate_.elements.class_of); ++element) {
     const CondensedElement& K = factor_.element(element);
     const auto dofs = pfem::element_dofs(numbering, unknowns.dofs, element);
     MatrixXd inside = MatrixXd::Zero(K.matrix.n_inside(), loads.cols());
-    for (Index i = 0; i < inside.rows(); ++i) add(dofs.dof[K.inside[i]], dofs.sign[K.inside[i]], inside.row(i));
+    for (Index i = 0; i < inside.rows(); ++i)
+      inside.row(i) = dofs.sign[K.inside[i]] * MatrixXd(by_dof.col(dofs.dof[K.inside[i]])).transpose();
     if (inside.isZero(0)) continue;
     MatrixXd outside = MatrixXd::Zero(K.matrix.n_outside(), loads.cols());
     K.matrix.eliminate(inside, outside);
     Index row = 0;
     for (const int i : K.outside) {
-      const auto load = dofs.sign[i] * outside.row(row++);
-      if (pfem::is_free(dofs.dof[i])) skeleton_loads_.row(factor_.rows_.of_unknown[dofs.dof[i]]) += load;
-      if (pfem::is_controlled(dofs.dof[i])) border_loads_.row(pfem::controlled_index(dofs.dof[i])) += load;
+      const auto load = dofs.sign[i] * outside.row(row++).transpose();
+      if (pfem::is_free(dofs.dof[i])) skeleton_loads_.col(factor_.rows_.of_unknown[dofs.dof[i]]) += load;
+      if (pfem::is_controlled(dofs.dof[i])) border_loads_.col(pfem::controlled_index(dofs.dof[i])) += load;
     }
     for (const int i : unknowns.border_of(factor_.plate_.elements.holes[element]))
-      border_loads_.row(i) += outside.row(row++);
+      border_loads_.col(i) += outside.row(row++).transpose();
     inside_[element] = inside / factor_.plate_.elements.scale[element];
   }
 }
@@ -55,13 +52,13 @@ MatrixXd PlateStates::forces() const {
   const auto nc = factor_.border_.rows();
   MatrixXd forces = factor_.border_ * border_.transpose();
   forces += factor_.coupling_.topRows(nc) * skeleton_.transpose();
-  if (border_loads_.size() > 0) forces -= border_loads_.topRows(nc);
+  if (border_loads_.size() > 0) forces -= border_loads_.leftCols(nc).transpose();
   return forces;
 }
 
 MatrixXd PlateStates::work() const {
   if (skeleton_loads_.size() == 0) return MatrixXd::Zero(size(), size());
-  MatrixXd work = (skeleton_ * skeleton_loads_ + border_ * border_loads_).transpose();
+  MatrixXd work = skeleton_loads_ * skeleton_.transpose() + border_loads_ * border_.transpose();
   for (const auto& [element, y] : inside_) work += factor_.plate_.elements.scale[element] * (y.transpose() * y);
   return work;
 }

@@ -53,7 +53,7 @@ class PlateStates {
   const PlateFactor& factor_;
   Eigen::MatrixXd border_;                         ///< (k, nc + h)
   Eigen::MatrixXd skeleton_;                       ///< (k, skeleton): what an element takes of it lies together
-  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (skeleton, k), (nc + h, k); empty if there are no loads
+  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (k, skeleton), (k, nc + h); empty if there are no loads
   std::map<int, Eigen::MatrixXd> inside_;          ///< of the elements with loads inside, eliminated, (n_inside, k)
 };
 
