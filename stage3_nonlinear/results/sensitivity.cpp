@@ -73,6 +73,7 @@ FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& syste
 /// Changes of the residual by each mu, (n a, f).
 MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
+  if (!system.has_friction()) return changes;  // OpenBLAS complains on stderr about a matrix without rows
   const VectorXd b = system.E * F;
   for (Index i = 0; i < changes.cols(); ++i)
     for (const auto& [row, plus, minus] : holes[i].rows)

@@ -20,7 +20,8 @@ STEP = 1e-4  # of each number: truncation about its square, rounding 1e-12 / STE
 
 
 def run(*words):
-    subprocess.run([str(word) for word in words], check=True, capture_output=True)
+    told = subprocess.run([str(word) for word in words], check=True, capture_output=True, text=True).stderr
+    assert "illegal value" not in told, f"a library complains: {told}"
 
 
 def solve(scene):

@@ -2,7 +2,15 @@
 #include <gmock/gmock.h>
 #include <gsl/gsl_errno.h>
 
+#include <string_view>
+
 #include "common/h5/library.hpp"
+
+/// OpenBLAS calls this for an argument that it refuses, as that of an empty matrix; its own would print and go on.
+extern "C" int xerbla_(const char* name, int* argument, int length) {
+  ADD_FAILURE() << "argument " << *argument << " of " << std::string_view(name, length) << " is refused";
+  return 0;
+}
 
 int main(int argc, char** argv) {
   fastjoint::h5::take_over_error_reporting();

@@ -42,6 +42,7 @@ std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
     result.push_back(F.segment(j * a, a).isZero(0));
     if (a == 1) result.push_back(lengths[j] < 0);
   }
+  if (!equations.system.has_friction()) return result;
   for (const double b : VectorXd(equations.system.E * F)) result.push_back(b < 0);
   return result;
 }
