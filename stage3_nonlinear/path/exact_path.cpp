@@ -11,7 +11,6 @@
 #include <set>
 
 #include "common/program/progress.hpp"
-#include "stage3_nonlinear/path/cell_lines.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/path/cell_lines.hpp"
+#include "stage3_nonlinear/path/exact_path.hpp"
 
 #include <gmock/gmock.h>
 
