@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -14,7 +13,7 @@ namespace fastjoint::stage3 {
 /// direction of the joint's discs: F and delta are along c, and their amounts those of the law at |c|. With one
 /// direction the law is odd; with two the clearance is a circle.
 struct Contact {
-  std::shared_ptr<const Law> law;
+  LawPointer law;
   double clearance = 0;    ///< length
   double stiffness = 1;    ///< k, force / length: of the plates at this plane, so that F and k delta balance
   bool one_sided = false;  ///< open for every c < 0; one direction only

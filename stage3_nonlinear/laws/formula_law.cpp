@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "common/count.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "stage3_nonlinear/laws/law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

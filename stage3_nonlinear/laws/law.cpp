@@ -2,33 +2,28 @@
 #include "stage3_nonlinear/laws/law.hpp"
 
 #include <array>
+#include <utility>
 
 #include "common/count.hpp"
 
 namespace fastjoint::stage3 {
 
 /// Readers, one for each "type" of a law, each beside the law that it reads; "one_sided" is left to the caller.
-using LawReader = std::shared_ptr<const Law>(const input::Value& law);
+using LawReader = LawPointer(const input::Value& law);
 LawReader read_linear_law, read_power_law, read_cubic_law, read_bilinear_law, read_four_stage_law, read_table_law,
     read_formula_law;
 
-std::shared_ptr<const Law> read_law(const input::Value& law) {
-  struct Kind {
-    const char* type;
-    LawReader* read;
-  };
-  constexpr std::array kinds{
-      Kind{"linear", read_linear_law},          //
-      Kind{"power", read_power_law},            //
-      Kind{"cubic", read_cubic_law},            //
-      Kind{"bilinear", read_bilinear_law},      //
-      Kind{"four stage", read_four_stage_law},  //
-      Kind{"table", read_table_law},            //
-      Kind{"formula", read_formula_law},
-  };
+LawPointer read_law(const input::Value& law) {
+  constexpr std::array<std::pair<const char*, LawReader*>, 7> kinds{{{"linear", read_linear_law},
+                                                                     {"power", read_power_law},
+                                                                     {"cubic", read_cubic_law},
+                                                                     {"bilinear", read_bilinear_law},
+                                                                     {"four stage", read_four_stage_law},
+                                                                     {"table", read_table_law},
+                                                                     {"formula", read_formula_law}}};
   std::vector<std::string> types;
-  for (const auto& kind : kinds) types.emplace_back(kind.type);
-  return kinds[index_of(types, law.at("type").choice(types))].read(law);
+  for (const auto& [type, read] : kinds) types.emplace_back(type);
+  return kinds[index_of(types, law.at("type").choice(types))].second(law);
 }
 
 }  // namespace fastjoint::stage3

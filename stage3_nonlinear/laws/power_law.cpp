@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "stage3_nonlinear/laws/law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -13,7 +13,7 @@
 
 #include "common/errors.hpp"
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "stage3_nonlinear/laws/law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -106,7 +105,7 @@ void balance(FastenerModel& fastener);
 struct ShearPlane {
   std::size_t fastener = 0;
   std::size_t first = 0;  ///< hole of the fastener; the second is the next
-  std::shared_ptr<const Law> law;
+  LawPointer law;
   std::string law_name;
   double clearance = 0;  ///< length
   bool one_sided = false;

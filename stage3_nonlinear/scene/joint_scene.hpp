@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,7 +26,7 @@ struct PlateScene {
 };
 
 struct LawScene {
-  std::shared_ptr<const Law> law;
+  LawPointer law;
   bool one_sided = false;
 };
 

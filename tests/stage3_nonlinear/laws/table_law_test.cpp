@@ -6,7 +6,7 @@
 #include <random>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/laws/laws.hpp"
+#include "stage3_nonlinear/laws/law.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/message.hpp"
