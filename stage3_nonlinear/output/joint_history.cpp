@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/count.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
@@ -55,6 +56,18 @@ std::string field(const std::string& text) {
   return quoted + "\"";
 }
 
+/// Values of a hole's columns at a step, a comma before each; empty if not known.
+std::string rim_fields(const formats::RimHistory& rims, const std::string& hole, Index step) {
+  const int at = index_of(rims.hole, hole);
+  std::string fields;
+  for (const auto& each : formats::rim_quantities()) {
+    const bool has = at < count_of(rims.hole) && (!each.needs_section || rims.sections[at] > 0);
+    const double value = has ? rims.values[step][at].*each.value : std::nan("");
+    fields += std::isfinite(value) ? fmt::format(",{}", value) : ",";
+  }
+  return fields;
+}
+
 /// Heads of the columns with their units; the components of delta and F where there are two directions.
 std::string csv_heads(const JointModel& joint) {
   const std::string length = unit(joint.units, 1, 0), force = unit(joint.units, 0, 1);
@@ -66,7 +79,11 @@ std::string csv_heads(const JointModel& joint) {
     for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
       heads.push_back(with_unit(std::string(vector) + joint.axis_name(d), unit));
   for (const char* side : {"first", "second"})
-    for (const auto& head : rim_csv_heads(side, joint.units)) heads.push_back(head);
+    for (const auto& each : formats::rim_quantities()) {
+      const std::string name = fmt::format("{}_{}", each.name, side);
+      const bool has_unit = each.dimension != formats::Dimension::ratio;
+      heads.push_back(has_unit ? with_unit(name, unit_of(each.dimension, joint.units)) : name);
+    }
   heads.insert(heads.end(), {with_unit("F_error", force), "event"});
   std::transform(heads.begin(), heads.end(), heads.begin(), field);
   return fmt::format("{}\n", fmt::join(heads, ","));
@@ -149,9 +166,7 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
         for (Index d = 0; directions > 1 && d < directions; ++d)
           text += fmt::format(",{}", (*vectors)(i, j * directions + d));
       for (const HoleModel* hole : {&joint.first_hole(joint.planes[j]), &joint.second_hole(joint.planes[j])})
-        text += fmt::format(",{}", fmt::join(rim_csv_fields(a.plates[hole->plate].rims,
-                                                            joint.plates[hole->plate].hole_of(hole->disc), i),
-                                             ","));
+        text += rim_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
       text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "", field(a.event[i]));
     }
   }

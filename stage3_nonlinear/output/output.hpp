@@ -56,14 +56,4 @@ using Doubt = std::pair<double, std::string>;
 /// Appends the worst warning of one kind about several fasteners or holes, with the number of the others.
 void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind);
 
-/// Heads of the CSV's columns for one side of a shear plane, "first" or "second".
-[[nodiscard]] std::vector<std::string> rim_csv_heads(const std::string& side, const Units& units);
-
-/// Values of these columns for a hole at a step; empty if not known.
-[[nodiscard]] std::vector<std::string> rim_csv_fields(const formats::RimHistory& rims, const std::string& hole,
-                                                      Eigen::Index step);
-
-/// The table of the summary: every hole of every plate at one increment. Empty if no plate has stresses.
-[[nodiscard]] std::string rim_table(const JointModel& joint, const JointState& state);
-
 }  // namespace fastjoint::stage3

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "common/program/program.hpp"
 
@@ -121,6 +122,66 @@ std::string error_bar(const JointModel& joint, const formats::JointResult& resul
   return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
                      result.F(step, plane) + 0.0, (*result.F_error)(step, plane), unit(joint.units, 0, 1),
                      joint.name(joint.planes[plane]), step + 1);
+}
+
+using stresses::RimState;
+
+/// Column of the summary's table; its unit, if it has one, stands below the heading.
+struct Column {
+  double RimState::*value;
+  const char* heading;
+  int width;
+  const char* format;
+  bool has_unit = false;
+  const char* unknown = "-";
+};
+
+constexpr auto columns = std::to_array<Column>({
+    {&RimState::bearing_stress, "bearing stress", 14, "{:.6g}", true},
+    {&RimState::bypass_load, "bypass", 14, "{:.6g}", true},
+    {&RimState::peak_hoop, "peak hoop", 14, "{:.6g}", true},
+    {&RimState::peak_angle, "at [deg]", 9, "{:.1f}"},
+    {&RimState::peak_error, "+-", 9, "{:.1e}", false, "?"},
+    {&RimState::gross_concentration, "Kt gross", 8, "{:.3f}"},
+    {&RimState::net_concentration, "Kt net", 8, "{:.3f}"},
+    {&RimState::across, "held across", 12, "{:.6g}", true},
+});
+
+/// What a column shows; only `across`, a force, is no quantity of RESULT.h5.
+formats::RimQuantity shown(const Column& column) {
+  for (const auto& quantity : formats::rim_quantities())
+    if (column.value == quantity.value) return quantity;
+  return {"across", nullptr, formats::Dimension::force, ""};
+}
+
+/// @param cell Text in each column, which stands to the right.
+template <class Cell>
+std::string row(const std::string& name, Cell cell) {
+  std::string text = fmt::format("  {:<24}", name);
+  for (const auto& column : columns) text += fmt::format(" {:>{}}", cell(column), column.width);
+  return text + "\n";
+}
+
+/// Every hole of every plate at one increment. Empty if no plate has stresses.
+std::string rim_table(const JointModel& joint, const JointState& state) {
+  std::string rows;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+    for (std::size_t rim = 0; rim < state.plates[i].rims.size(); ++rim) {
+      const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
+      const bool sections = stresses::n_sections(joint.plates[i].stresses, hole) > 0;
+      rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
+        const double value = state.plates[i].rims[rim].*column.value;
+        const auto quantity = shown(column);
+        const bool unloaded = quantity.dimension == formats::Dimension::ratio && value == 0;
+        if (!std::isfinite(value) || unloaded || (quantity.needs_section && !sections))
+          return std::string(column.unknown);
+        return fmt::format(fmt::runtime(column.format), value == 0 ? 0 : value);
+      });
+    }
+  const auto unit_below = [&](const Column& each) {
+    return each.has_unit ? fmt::format("[{}]", unit_of(shown(each).dimension, joint.units)) : "";
+  };
+  return rows.empty() ? rows : row("hole", std::mem_fn(&Column::heading)) + row("", unit_below) + rows;
 }
 
 std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,
