@@ -19,10 +19,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// Stiffness of a joint whose shear planes do not move, scaled so that units and the stiffness of one unknown against

@@ -11,7 +11,7 @@ namespace fastjoint::stage3 {
 /// A hole and direction in which friction acts, there or in another hole of its fastener.
 struct FrictionRow {
   std::size_t fastener, hole;  ///< hole of the fastener
-  Eigen::Index direction;      ///< of the joint's directions
+  Index direction;             ///< of the joint's directions
 };
 
 /// Linear part of a joint, condensed on its n shear planes in a directions, for any stack of plates
@@ -23,37 +23,35 @@ struct FrictionRow {
 /// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
 /// S_ud is the parallel sum of the plates' matrices, and exists also when a plate floats.
 struct CondensedSystem {
-  Eigen::VectorXd q;                  ///< (n a) forces of rigid fasteners at load factor 1, force
-  Eigen::MatrixXd S_ud;               ///< (n a, n a) force / length
+  VectorXd q;                         ///< (n a) forces of rigid fasteners at load factor 1, force
+  MatrixXd S_ud;                      ///< (n a, n a) force / length
   std::vector<FrictionRow> friction;  ///< (f)
-  Eigen::MatrixXd E;                  ///< (f, n a) +1 of a plane that pushes the rim's plate, -1 of one that pulls
-  Eigen::MatrixXd H_plus, H_minus;    ///< (n a, f) for b > 0 and b < 0, dimensionless
+  MatrixXd E;                         ///< (f, n a) +1 of a plane that pushes the rim's plate, -1 of one that pulls
+  MatrixXd H_plus, H_minus;           ///< (n a, f) for b > 0 and b < 0, dimensionless
   // Displacements of the joint's N unknowns, given ones included.
-  Eigen::VectorXd D_load;           ///< (N) at load factor 1 and delta = 0, length
-  Eigen::MatrixXd D_delta;          ///< (N, n a) per relative displacement, dimensionless
-  Eigen::MatrixXd D_plus, D_minus;  ///< (N, f) per unit b+, b-, length / force
+  VectorXd D_load;           ///< (N) at load factor 1 and delta = 0, length
+  MatrixXd D_delta;          ///< (N, n a) per relative displacement, dimensionless
+  MatrixXd D_plus, D_minus;  ///< (N, f) per unit b+, b-, length / force
 
   [[nodiscard]] bool has_friction() const { return !friction.empty(); }
   /// F + S_ud delta + H+ b+ + H- b- - lambda q, shape (n a), force.
-  [[nodiscard]] Eigen::VectorXd residual(const Eigen::VectorXd& F, const Eigen::VectorXd& delta,
-                                         double load_factor) const;
+  [[nodiscard]] VectorXd residual(const VectorXd& F, const VectorXd& delta, double load_factor) const;
   /// Forces of friction on the planes, H+ b+ + H- b-, shape (n a), force.
-  [[nodiscard]] Eigen::VectorXd friction_forces(const Eigen::VectorXd& F) const;
+  [[nodiscard]] VectorXd friction_forces(const VectorXd& F) const;
   /// d friction_forces / d F on the sides that bear under F, shape (n a, n a), dimensionless.
-  [[nodiscard]] Eigen::MatrixXd friction_matrix(const Eigen::VectorXd& F) const;
+  [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
   /// Displacements of all discs and rigid externals, shape (N), length.
-  [[nodiscard]] Eigen::VectorXd displacements(const Eigen::VectorXd& F, const Eigen::VectorXd& delta,
-                                              double load_factor) const;
+  [[nodiscard]] VectorXd displacements(const VectorXd& F, const VectorXd& delta, double load_factor) const;
 };
 
 /// Forces q with zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to
 /// the largest.
-[[nodiscard]] Eigen::VectorXd without_rounding(const Eigen::VectorXd& q, double largest_load);
+[[nodiscard]] VectorXd without_rounding(const VectorXd& q, double largest_load);
 
 /// Reciprocal condition number, in the 1-norm and estimated, of a matrix that is of order 1, and so singular also if
 /// all of it is small; 0 if a pivot is 0, where Eigen's estimate divides by it and may then drop the infinity that it
 /// meets.
-[[nodiscard]] double least_stretch(const Eigen::PartialPivLU<Eigen::MatrixXd>& lu, const Eigen::MatrixXd& A);
+[[nodiscard]] double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A);
 
 /// @throws NumericalError naming the plates that can move if nothing holds them.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint);

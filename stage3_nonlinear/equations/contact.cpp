@@ -6,9 +6,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 /// Unit vector along v; the first axis where v = 0.
 VectorXd along(const VectorXd& v) {
   const double length = v.norm();
@@ -22,10 +19,10 @@ VectorXd amounts(const VectorXd& vectors, Index n_directions) {
   return vectors.reshaped(n_directions, vectors.size() / n_directions).colwise().norm().transpose();
 }
 
-Eigen::MatrixXd ContactState::times(const Eigen::MatrixXd& A, const Blocks& blocks) const {
+MatrixXd ContactState::times(const MatrixXd& A, const Blocks& blocks) const {
   const Index a = direction.rows();
   if (a == 1) return A * blocks.along.asDiagonal();
-  Eigen::MatrixXd result(A.rows(), A.cols());
+  MatrixXd result(A.rows(), A.cols());
   for (Index j = 0; j < direction.cols(); ++j) {
     const VectorXd e = direction.col(j);
     const auto columns = A.middleCols(j * a, a);
@@ -37,12 +34,8 @@ Eigen::MatrixXd ContactState::times(const Eigen::MatrixXd& A, const Blocks& bloc
 
 ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c) {
   const Index n = contacts.size(), a = c.size() / n;
-  ContactState state{VectorXd(n * a),
-                     VectorXd(n * a),
-                     Eigen::MatrixXd(a, n),
-                     {VectorXd(n), VectorXd(n)},
-                     {VectorXd(n), VectorXd(n)},
-                     {}};
+  ContactState state{
+      VectorXd(n * a), VectorXd(n * a), MatrixXd(a, n), {VectorXd(n), VectorXd(n)}, {VectorXd(n), VectorXd(n)}, {}};
   for (Index j = 0; j < n; ++j) {
     const Contact& contact = contacts[j];
     const VectorXd here = c.segment(j * a, a);

@@ -9,6 +9,10 @@
 
 namespace fastjoint::stage3 {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 /// Law of a shear plane as a map from its contact coordinate c, a vector in force units with one entry for each
 /// direction of the joint's discs: F and delta are along c, and their amounts those of the law at |c|. With one
 /// direction the law is odd; with two the clearance is a circle.
@@ -19,41 +23,40 @@ struct Contact {
   bool one_sided = false;  ///< open for every c < 0; one direction only
 
   /// True if it is one-sided and c, shape (a), is on its other side.
-  [[nodiscard]] bool is_pulled_open(const Eigen::VectorXd& c) const { return one_sided && c[0] < 0; }
+  [[nodiscard]] bool is_pulled_open(const VectorXd& c) const { return one_sided && c[0] < 0; }
 };
 
 /// Derivative of a vector by c for each plane: `along` c and `across` it (of one direction only `along` counts).
 struct Blocks {
-  Eigen::VectorXd along, across;  ///< (n)
+  VectorXd along, across;  ///< (n)
 };
 
 /// Forces and displacements of n shear planes in a directions, row plane * a + direction, and their derivatives by c.
 struct ContactState {
-  Eigen::VectorXd F;                  ///< (n a) bearing forces, force
-  Eigen::VectorXd delta;              ///< (n a) relative displacements of the discs, length
-  Eigen::MatrixXd direction;          ///< (a, n) unit vectors along c
-  Blocks dF;                          ///< dF / dc, dimensionless; 0 where open
-  Blocks ddelta;                      ///< d delta / dc, length / force
-  std::optional<Eigen::Index> spent;  ///< a plane past all that it can carry
+  VectorXd F;                  ///< (n a) bearing forces, force
+  VectorXd delta;              ///< (n a) relative displacements of the discs, length
+  MatrixXd direction;          ///< (a, n) unit vectors along c
+  Blocks dF;                   ///< dF / dc, dimensionless; 0 where open
+  Blocks ddelta;               ///< d delta / dc, length / force
+  std::optional<Index> spent;  ///< a plane past all that it can carry
 
   /// Product of A and the block diagonal matrix, shape as A, (rows, n a).
-  [[nodiscard]] Eigen::MatrixXd times(const Eigen::MatrixXd& A, const Blocks& blocks) const;
+  [[nodiscard]] MatrixXd times(const MatrixXd& A, const Blocks& blocks) const;
 };
 
 /// Lengths of vectors in a directions, row plane * a + direction, or with one direction the entries with their signs,
 /// (n).
-[[nodiscard]] Eigen::VectorXd amounts(const Eigen::VectorXd& vectors, Eigen::Index n_directions);
+[[nodiscard]] VectorXd amounts(const VectorXd& vectors, Index n_directions);
 
 /// @param c Contact coordinates, shape (n a), force.
-[[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const Eigen::VectorXd& c);
+[[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c);
 
 /// Contact coordinates of a solution, (n a), exact whatever the law.
-[[nodiscard]] Eigen::VectorXd coordinates(const std::vector<Contact>& contacts, const Eigen::VectorXd& F,
-                                          const Eigen::VectorXd& delta);
+[[nodiscard]] VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, const VectorXd& delta);
 
 /// Coordinates at which the bearing forces are F, or about that; where a fastener cannot carry F it is left open.
 ///
 /// @param F Shape (n a), force.
-[[nodiscard]] Eigen::VectorXd contact_coordinates(const std::vector<Contact>& contacts, const Eigen::VectorXd& F);
+[[nodiscard]] VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F);
 
 }  // namespace fastjoint::stage3

@@ -9,10 +9,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 /// Replaces the stiffnesses of the plates themselves by reference stiffnesses K. They stay where S is nothing but
 /// rounding beside them, as that of a plate held by one fastener alone.
 void set_reference_stiffnesses(const MatrixXd& S, std::vector<Contact>& contacts) {

@@ -19,13 +19,13 @@ struct JointEquations {
   std::vector<Contact> contacts;  ///< (n)
   /// Inverse of W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
   /// length / force (docs/theory.md, section 8.4).
-  Eigen::MatrixXd metric;
+  MatrixXd metric;
 
-  [[nodiscard]] Eigen::Index n_planes() const { return contacts.size(); }
+  [[nodiscard]] Index n_planes() const { return contacts.size(); }
   /// Number a of directions.
-  [[nodiscard]] Eigen::Index n_directions() const { return n_unknowns() / n_planes(); }
+  [[nodiscard]] Index n_directions() const { return n_unknowns() / n_planes(); }
   /// Number n a of unknowns.
-  [[nodiscard]] Eigen::Index n_unknowns() const { return system.q.size(); }
+  [[nodiscard]] Index n_unknowns() const { return system.q.size(); }
 };
 
 /// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in
@@ -36,17 +36,17 @@ struct JointEquations {
 [[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
 
 /// Derivative of the residual by c, shape (n a, n a), at the state of the contact coordinates c.
-[[nodiscard]] Eigen::MatrixXd tangent(const CondensedSystem& system, const ContactState& state);
+[[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state);
 
 /// The equations at a load factor, unknowns and residuals over `scale` (force).
 ///
 /// @param frozen If not null, friction acts as under these bearing forces instead of its own, (n a).
 [[nodiscard]] RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
-                                       const Eigen::VectorXd* frozen = nullptr);
+                                       const VectorXd* frozen = nullptr);
 
 /// Bearing forces when every fastener is a linear spring.
 struct LinearForces {
-  Eigen::VectorXd F;        ///< (n a) force
+  VectorXd F;               ///< (n a) force
   int solves = 0;           ///< with friction the sides that bear are found by trial
   bool consistent = false;  ///< friction acts on the sides that bear
 };
@@ -55,20 +55,19 @@ struct LinearForces {
 /// (docs/theory.md, section 8.8).
 ///
 /// @param flexibility One for each row, length / force, >= 0, shape (n a); zero is a rigid fastener.
-[[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const Eigen::VectorXd& flexibility,
+[[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility,
                                          double load_factor);
 
 /// Flexibilities of all rows if every plane is a linear spring without gap that bears both ways, shape (n a).
-[[nodiscard]] std::optional<Eigen::VectorXd> linear_flexibility(const JointEquations& equations);
+[[nodiscard]] std::optional<VectorXd> linear_flexibility(const JointEquations& equations);
 
 /// Bearing forces to start from (Bortman & Szabo, section 6.1): of rigid fasteners, of linear ones of one
 /// stiffness (default: the mean of the plates' own, diag S_ud), or the rigid ones' sum spread equally over
 /// the planes. Shape (n a), force.
-[[nodiscard]] Eigen::VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial,
-                                             double load_factor);
+[[nodiscard]] VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor);
 
 /// The user's guess, then the others, as contact coordinates; each of shape (n a), force.
-[[nodiscard]] std::vector<Eigen::VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial,
-                                                         double load_factor);
+[[nodiscard]] std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial,
+                                                  double load_factor);
 
 }  // namespace fastjoint::stage3

@@ -12,10 +12,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 /// Reciprocal condition, with columns scaled, below which a tangent is singular.
 constexpr double singular_tangent = 1e-10;
 

@@ -86,7 +86,7 @@ std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateMod
 /// The friction case of a hole for the side that bears along an axis.
 FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
   const std::string bearing = fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[axis]);
-  for (Eigen::Index i = 0; i < plate.friction_unit_force.size(); ++i) {
+  for (Index i = 0; i < plate.friction_unit_force.size(); ++i) {
     if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
     const double c = plate.friction_unit_force[i];
     if (!(c > 0))
@@ -128,7 +128,7 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   const Reference& hole = fastener.between[at];
   const std::size_t plate_at = index_of(model.plates, hole.plate, &PlateModel::name);
   const PlateModel& plate = model.plates[plate_at];
-  const Eigen::Index index = index_of(plate.holes, hole.name);
+  const Index index = index_of(plate.holes, hole.name);
   if (index == std::ssize(plate.holes))
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate.file),
            fmt::format("{}", fmt::join(plate.holes, ", ")));
@@ -165,7 +165,7 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
 void apply_load(JointModel& model, const LoadScene& load) {
   const Reference& name = load.external;
   PlateModel& plate = model.plates[index_of(model.plates, name.plate, &PlateModel::name)];
-  const Eigen::Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
+  const Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
   if (rigid < plate.n_externals() && load.is_displacement) {
     plate.external_displacement[rigid] = load.value;
   } else if (rigid < plate.n_externals()) {
@@ -185,7 +185,7 @@ void apply_load(JointModel& model, const LoadScene& load) {
 
 }  // namespace
 
-double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d, Side side) {
+double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Index d, Side side) {
   const auto& friction = fastener.holes[of].friction;
   if (friction.empty()) return 0;
   const auto& sides = friction[d];
@@ -212,8 +212,8 @@ void balance(FastenerModel& fastener) {
       }
 }
 
-Eigen::Index JointModel::offset(std::size_t plate) const {
-  Eigen::Index offset = 0;
+Index JointModel::offset(std::size_t plate) const {
+  Index offset = 0;
   for (std::size_t i = 0; i < plate; ++i) offset += plates[i].n_unknowns();
   return offset;
 }

@@ -12,14 +12,18 @@
 
 namespace fastjoint::stage3 {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
 /// Names of the axes.
 inline constexpr std::array axis_names{"x", "y"};
 
 /// The matrices of a plate at the last of its degrees up to that of the joint, rising; S, R, T as PlateModel has them.
 struct PlateDegrees {
   Eigen::VectorXi p;
-  std::vector<Eigen::MatrixXd> S, R, T;
-  std::vector<Eigen::MatrixXd> C;  ///< (q, q) C_t, length / force
+  std::vector<MatrixXd> S, R, T;
+  std::vector<MatrixXd> C;  ///< (q, q) C_t, length / force
 };
 
 /// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, as unknowns of one list.
@@ -31,28 +35,28 @@ struct PlateModel {
   std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
   std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
   std::vector<bool> on_springs;                              ///< (m / a) the plate's own bearing is in S
-  Eigen::MatrixXd S;                                         ///< (m+e, m+e), force / length
-  Eigen::MatrixXd R;                                         ///< (m+e, h), length^2
-  Eigen::MatrixXd T;                                         ///< (m+e, q), dimensionless
+  MatrixXd S;                                                ///< (m+e, m+e), force / length
+  MatrixXd R;                                                ///< (m+e, h), length^2
+  MatrixXd T;                                                ///< (m+e, q), dimensionless
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
-  Eigen::VectorXd friction_unit_force, friction_resultant;   ///< (h), length^2
+  VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
-  Eigen::MatrixXd S_error;  ///< (m+e, m+e) the file's; infinite where it does not know it or p is not its highest
+  MatrixXd S_error;  ///< (m+e, m+e) the file's; infinite where it does not know it or p is not its highest
   formats::PlateStresses stresses;          ///< as the file has them
   std::optional<std::size_t> stress_level;  ///< those of the joint's degree, if there are any
   // Loads at load factor 1.
-  Eigen::VectorXd external_force;                            ///< (e), 0 where a displacement is given
+  VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
-  Eigen::VectorXd traction_force;                            ///< (q)
+  VectorXd traction_force;                                   ///< (q)
 
   /// m: unknowns of the discs.
-  [[nodiscard]] Eigen::Index n_discs() const { return holes.size() * axes.size(); }
-  [[nodiscard]] Eigen::Index n_externals() const { return externals.size(); }
+  [[nodiscard]] Index n_discs() const { return holes.size() * axes.size(); }
+  [[nodiscard]] Index n_externals() const { return externals.size(); }
   /// Hole of a disc unknown.
-  [[nodiscard]] const std::string& hole_of(Eigen::Index disc) const { return holes[disc / axes.size()]; }
-  [[nodiscard]] int axis_of(Eigen::Index disc) const { return axes[disc % axes.size()]; }
-  [[nodiscard]] Eigen::Index n_unknowns() const { return n_discs() + n_externals(); }
+  [[nodiscard]] const std::string& hole_of(Index disc) const { return holes[disc / axes.size()]; }
+  [[nodiscard]] int axis_of(Index disc) const { return axes[disc % axes.size()]; }
+  [[nodiscard]] Index n_unknowns() const { return n_discs() + n_externals(); }
 };
 
 /// The matrices at degree p, checked: the same directions of all discs, names that stand once, S symmetric and positive
@@ -62,11 +66,11 @@ struct PlateModel {
 
 /// Friction in a hole for one side that bears, per unit of the law's force there; `load` is empty without friction.
 struct FrictionLoad {
-  Eigen::VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
-  double resultant = 0;         ///< |resultant| mu / c: force of friction on the rim
-  Eigen::Index case_index = 0;  ///< among the plate's friction cases
-  double peak = 0;              ///< mu / c: peak stress Lambda of the case, 1 / length^2
-  double bearing = 1;           ///< force of bearing on the rim; other than 1 it has been put into the three above
+  VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
+  double resultant = 0;  ///< |resultant| mu / c: force of friction on the rim
+  Index case_index = 0;  ///< among the plate's friction cases
+  double peak = 0;       ///< mu / c: peak stress Lambda of the case, 1 / length^2
+  double bearing = 1;    ///< force of bearing on the rim; other than 1 it has been put into the three above
 
   /// Force of friction over that of bearing.
   [[nodiscard]] double share() const { return resultant / bearing; }
@@ -78,8 +82,8 @@ enum Side : std::size_t { plus_side, minus_side };
 /// Place at which a fastener holds a plate.
 struct HoleModel {
   std::size_t plate = 0;
-  Eigen::Index disc = 0;  ///< first unknown of its disc among the plate's
-  double mu = 0;          ///< coefficient of friction
+  Index disc = 0;  ///< first unknown of its disc among the plate's
+  double mu = 0;   ///< coefficient of friction
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
   std::vector<std::array<FrictionLoad, 2>> friction;
 };
@@ -93,7 +97,7 @@ struct FastenerModel {
 
 /// Part that friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears
 /// on `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
-[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Eigen::Index d,
+[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Index d,
                                         Side side);
 
 /// Gives each hole of a fastener the bearing force with which bearing and friction together transfer the load of the
@@ -123,13 +127,13 @@ struct JointModel {
   std::vector<FastenerModel> fasteners;
   std::vector<ShearPlane> planes;
 
-  [[nodiscard]] Eigen::Index n_directions() const { return axes.size(); }
-  [[nodiscard]] Eigen::Index n_planes() const { return planes.size(); }
+  [[nodiscard]] Index n_directions() const { return axes.size(); }
+  [[nodiscard]] Index n_planes() const { return planes.size(); }
   /// "x" or "y": direction d of the discs.
   [[nodiscard]] const char* axis_name(std::size_t d) const { return axis_names[axes[d]]; }
   /// First unknown of a plate in the joint's list, plate after plate.
-  [[nodiscard]] Eigen::Index offset(std::size_t plate) const;
-  [[nodiscard]] Eigen::Index n_unknowns() const { return offset(plates.size()); }
+  [[nodiscard]] Index offset(std::size_t plate) const;
+  [[nodiscard]] Index n_unknowns() const { return offset(plates.size()); }
   [[nodiscard]] const HoleModel& first_hole(const ShearPlane& plane) const {
     return fasteners[plane.fastener].holes[plane.first];
   }

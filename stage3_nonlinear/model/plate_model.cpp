@@ -14,8 +14,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::MatrixXd;
-
 /// Rounding of stage 2 is far below; laboratory matrices must be made symmetric before they come here.
 constexpr double symmetry_tolerance = 1e-8;
 
@@ -54,7 +52,7 @@ std::vector<int> disc_axes(const std::string& file, const formats::PlateMatrices
 void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
   if (S.size() == 0) return;
   const double largest = S.cwiseAbs().maxCoeff();
-  Eigen::Index row = 0, col = 0;
+  Index row = 0, col = 0;
   const double worst = (S - S.transpose()).cwiseAbs().maxCoeff(&row, &col);
   if (!(worst <= symmetry_tolerance * largest))
     throw FileError(
@@ -90,11 +88,11 @@ MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   return A;
 }
 
-PlateDegrees degrees_up_to(const formats::PlateMatrices& a, Eigen::Index level) {
-  constexpr Eigen::Index most = 4;  // no estimate looks further back
-  const Eigen::Index n = std::min(level + 1, most), first = level + 1 - n;
+PlateDegrees degrees_up_to(const formats::PlateMatrices& a, Index level) {
+  constexpr Index most = 4;  // no estimate looks further back
+  const Index n = std::min(level + 1, most), first = level + 1 - n;
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
-  for (Eigen::Index i = first; i <= level; ++i) {
+  for (Index i = first; i <= level; ++i) {
     degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
     degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
     degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
@@ -110,7 +108,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   std::vector<std::string> boundaries = a.external_id;
   boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
   check_once(file, "external/id", boundaries);
-  const Eigen::Index level = std::find(a.p.begin(), a.p.end(), p) - a.p.begin();
+  const Index level = std::find(a.p.begin(), a.p.end(), p) - a.p.begin();
   if (level == a.p.size()) throw std::logic_error("make_plate: degree not in the file");
   PlateModel plate;
   plate.name = name;
@@ -144,9 +142,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   const auto& levels = plate.stresses.p;
   if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())
     plate.stress_level = at - levels.begin();
-  plate.external_force = Eigen::VectorXd::Zero(a.n_externals());
+  plate.external_force = VectorXd::Zero(a.n_externals());
   plate.external_displacement.resize(a.external_id.size());
-  plate.traction_force = Eigen::VectorXd::Zero(a.n_tractions());
+  plate.traction_force = VectorXd::Zero(a.n_tractions());
   return plate;
 }
 

@@ -14,8 +14,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-
 formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
   formats::PlateHistory history;
   history.name = plate.name;
@@ -29,8 +27,8 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.traction_id = plate.tractions;
   history.friction_hole = plate.friction_hole;
   history.friction_bearing = plate.friction_bearing;
-  const auto rows = [&](Eigen::VectorXd PlateState::*values, Index n) {
-    Eigen::MatrixXd result(std::ssize(states), n);
+  const auto rows = [&](VectorXd PlateState::*values, Index n) {
+    MatrixXd result(std::ssize(states), n);
     for (Index step = 0; step < result.rows(); ++step) result.row(step) = states[step].plates[at].*values;
     return result;
   };
@@ -155,7 +153,7 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
 std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text = csv_heads(joint);
   for (Index i = 0; i < a.F.rows(); ++i) {
-    const Eigen::VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
+    const VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
     for (Index j = 0; j < a.F.cols(); ++j) {
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[j]),
                           a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j),

@@ -15,7 +15,6 @@ namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::Array2d;
-using Eigen::Index;
 using Eigen::Vector2d;
 using Plates = std::pair<std::size_t, std::size_t>;
 

@@ -13,8 +13,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-
 constexpr std::size_t least_name = 12;
 constexpr const char* legend =
     "  forces on a plate are positive along +x, +y; delta = D(first plate) - D(second plate), and F > 0 (F_x, F_y > 0 "
@@ -84,8 +82,8 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
   for (Index d = 0; d < n_components; ++d)
     text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
   text += fmt::format(" {:>20} {:>9}\n", head("transferred", force), "share [%]");
-  const Eigen::VectorXd share = shares(joint, state.transferred_first);
-  const Eigen::VectorXd delta = amounts(step.delta, a), F = amounts(step.F, a);
+  const VectorXd share = shares(joint, state.transferred_first);
+  const VectorXd delta = amounts(step.delta, a), F = amounts(step.F, a);
   for (Index j = 0; j < F.size(); ++j) {
     text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}", joint.short_name(joint.planes[j]), width, delta[j], F[j]);
     for (Index d = 0; d < n_components; ++d)

@@ -14,8 +14,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-
 /// "increment 2 (load factor 0.5)"
 std::string increment_text(const LoadPath& path, const PathStep& step) {
   return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
@@ -55,7 +53,7 @@ std::string names(const JointModel& joint, const std::vector<Index>& planes) {
 }
 
 /// Motion of each plate by its discs: "plate \"b\" by up to 1 along x".
-std::string motion_text(const JointModel& joint, const Eigen::VectorXd& motion) {
+std::string motion_text(const JointModel& joint, const VectorXd& motion) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   std::vector<std::string> parts;
   for (std::size_t i = 0; i < joint.plates.size(); ++i)
@@ -158,12 +156,12 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
                        std::vector<std::string>& result) {
   constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
   const ContactCorners corners(equations.contacts);
-  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(equations.n_directions(), equations.n_planes());
+  MatrixXd most = MatrixXd::Zero(equations.n_directions(), equations.n_planes());
   for (const PathStep& step : path.steps) {
-    const Eigen::VectorXd all = coordinates(equations.contacts, step.F, step.delta);
+    const VectorXd all = coordinates(equations.contacts, step.F, step.delta);
     std::vector<Index> unloaded;
     for (Index j = 0; j < most.cols(); ++j) {
-      const Eigen::VectorXd c = all.segment(j * most.rows(), most.rows());
+      const VectorXd c = all.segment(j * most.rows(), most.rows());
       const double before = most.col(j).norm();
       const bool falls = c.norm() < less * before || most.col(j).dot(c) < turned * c.norm() * before;
       if (c.norm() > before) most.col(j) = c;

@@ -12,8 +12,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
 using Eigen::VectorXi;
 
 std::vector<Corner> corners_of(const Contact& contact) {

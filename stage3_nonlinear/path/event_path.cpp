@@ -12,9 +12,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
 using Eigen::VectorXi;
 
 constexpr double together = 1e-9;  // events whose load factors differ by less are one

@@ -15,10 +15,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double rounding = 1e-12;  // relative, of solved rates and places
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -34,8 +34,8 @@ using CellColumn = Eigen::MatrixX2d;
 
 /// The equations in a cell: J c + offset = lambda q.
 struct CellEquations {
-  Eigen::MatrixXd J;
-  Eigen::VectorXd offset;
+  MatrixXd J;
+  VectorXd offset;
 };
 
 /// The equations of a joint with one direction whose laws are all linear between corners: piecewise linear in
@@ -48,36 +48,36 @@ class PiecewiseJoint {
   [[nodiscard]] const CornerCurve& curve(std::size_t plane) const { return curves_[plane]; }
   [[nodiscard]] std::size_t n_planes() const { return curves_.size(); }
   /// Rims that two planes share: their side depends on both. That of all others goes with the plane's sign of c.
-  [[nodiscard]] const std::vector<Eigen::Index>& shared_rims() const { return shared_rims_; }
+  [[nodiscard]] const std::vector<Index>& shared_rims() const { return shared_rims_; }
   /// The cell at no load, c = 0.
   [[nodiscard]] Cell start() const;
   [[nodiscard]] CellEquations equations(const Cell& cell) const;
-  [[nodiscard]] CellColumn column(const Cell& cell, Eigen::Index plane) const;
+  [[nodiscard]] CellColumn column(const Cell& cell, Index plane) const;
   /// Planes whose columns differ in two cells, ascending.
-  [[nodiscard]] std::vector<Eigen::Index> changed(const Cell& from, const Cell& to) const;
+  [[nodiscard]] std::vector<Index> changed(const Cell& from, const Cell& to) const;
   /// J c + share offset, without the matrix.
-  [[nodiscard]] Eigen::VectorXd forces(const Cell& cell, const Eigen::VectorXd& c, double share) const;
+  [[nodiscard]] VectorXd forces(const Cell& cell, const VectorXd& c, double share) const;
   /// Bearing force b on a rim, linear in c: value at c and change along `rate`.
-  [[nodiscard]] double rim_force(const Cell& cell, Eigen::Index rim, const Eigen::VectorXd& c) const;
-  [[nodiscard]] double rim_rate(const Cell& cell, Eigen::Index rim, const Eigen::VectorXd& rate) const;
+  [[nodiscard]] double rim_force(const Cell& cell, Index rim, const VectorXd& c) const;
+  [[nodiscard]] double rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const;
   /// Sets the sides of the rims that one plane alone bears on.
   void follow_signs(Cell& cell) const;
 
  private:
   /// One or two planes of a rim that friction acts on, and their signs: b is the sum of signs times F.
-  using Rim = std::vector<std::pair<Eigen::Index, double>>;
-  [[nodiscard]] const CurvePiece& piece(const Cell& cell, Eigen::Index plane) const {
+  using Rim = std::vector<std::pair<Index, double>>;
+  [[nodiscard]] const CurvePiece& piece(const Cell& cell, Index plane) const {
     return curves_[plane].pieces[cell.piece[plane]];
   }
   /// Forces of friction on the planes per force b on a rim, on the side that bears, (n).
-  [[nodiscard]] Eigen::VectorXd friction(const Cell& cell, Eigen::Index rim) const {
+  [[nodiscard]] VectorXd friction(const Cell& cell, Index rim) const {
     if (cell.side[rim] > 0) return system_->H_plus.col(rim);
     return -system_->H_minus.col(rim);
   }
   const CondensedSystem* system_;
   std::vector<CornerCurve> curves_;
   std::vector<Rim> rims_;  ///< (f) rows of E
-  std::vector<Eigen::Index> shared_rims_;
+  std::vector<Index> shared_rims_;
 };
 
 /// True if all discs have one direction and all laws are linear between corners.
@@ -85,7 +85,7 @@ class PiecewiseJoint {
 
 /// A straight line of solutions in a cell: c = offset + t rate, where t is |lambda|, or at constant load a length.
 struct Line {
-  Eigen::VectorXd offset, rate;
+  VectorXd offset, rate;
   bool loads = true;  ///< t is |lambda|
 };
 
@@ -96,7 +96,7 @@ class CellLines {
  public:
   /// @param joint Outlives this.
   /// @param q     Right-hand side of the equations at |lambda| = 1, (n).
-  CellLines(const PiecewiseJoint& joint, Eigen::VectorXd q) : joint_(joint), q_(std::move(q)) {}
+  CellLines(const PiecewiseJoint& joint, VectorXd q) : joint_(joint), q_(std::move(q)) {}
 
   /// The line in a cell; none if its matrix is singular.
   [[nodiscard]] std::optional<Line> in(const Cell& cell);
@@ -107,25 +107,25 @@ class CellLines {
   /// A cell with the factor of its matrix.
   struct Base {
     Cell cell;
-    Eigen::PartialPivLU<Eigen::MatrixXd> lu;
+    Eigen::PartialPivLU<MatrixXd> lu;
     double stretch;  ///< least_stretch
     Line line;
     /// Column of each plane in the last cell in which it differed, and the solution for the difference.
-    std::map<Eigen::Index, std::pair<CellColumn, CellColumn>> changes;
+    std::map<Index, std::pair<CellColumn, CellColumn>> changes;
   };
 
   [[nodiscard]] std::optional<Line> from_base(const Cell& cell);
 
   const PiecewiseJoint& joint_;
-  Eigen::VectorXd q_;
+  VectorXd q_;
   std::optional<Base> base_;
   int n_factors_ = 0;
 };
 
 /// Load factors between which nothing happens: c = offset + |lambda| rate.
 struct PathPiece {
-  double begin, end;             ///< |lambda|
-  Eigen::VectorXd offset, rate;  ///< (n) force
+  double begin, end;      ///< |lambda|
+  VectorXd offset, rate;  ///< (n) force
 };
 
 /// The path of a joint from no load on, for load factors of one sign.
@@ -138,7 +138,7 @@ struct ExactPath {
   /// The piece of a load factor, 0 <= |load_factor| <= reach().
   [[nodiscard]] std::size_t piece_of(double load_factor) const;
   /// Contact coordinates there, (n).
-  [[nodiscard]] Eigen::VectorXd at(double load_factor) const;
+  [[nodiscard]] VectorXd at(double load_factor) const;
 };
 
 /// Follows a piecewise linear joint from corner to corner: a fastener makes or loses contact, yields, or a rim's

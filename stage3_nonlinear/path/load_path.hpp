@@ -21,7 +21,7 @@ struct Corner {
 
 /// Passing of a corner by a plane, away from the origin or back.
 struct ContactEvent {
-  Eigen::Index plane;
+  Index plane;
   CornerKind kind;
   bool back;
 
@@ -34,17 +34,17 @@ class ContactCorners {
   explicit ContactCorners(const std::vector<Contact>& contacts);
 
   /// Corners of a plane, ascending: where its rim begins to bear, and those of a law that is linear between them.
-  [[nodiscard]] const std::vector<Corner>& of(Eigen::Index plane) const { return corners_[plane]; }
+  [[nodiscard]] const std::vector<Corner>& of(Index plane) const { return corners_[plane]; }
   /// Number of corners that each plane has passed, negative on the negative side, (n).
   ///
   /// @param c Contact coordinates, shape (n a), force.
-  [[nodiscard]] Eigen::VectorXi passed(const Eigen::VectorXd& c) const;
+  [[nodiscard]] Eigen::VectorXi passed(const VectorXd& c) const;
   /// Events on the way from one vector of passed() to another.
   [[nodiscard]] std::vector<ContactEvent> between(const Eigen::VectorXi& before, const Eigen::VectorXi& after) const;
   /// Events at c, on the corners themselves, coming from `before`.
-  [[nodiscard]] std::vector<ContactEvent> at(const Eigen::VectorXd& before, const Eigen::VectorXd& c) const;
+  [[nodiscard]] std::vector<ContactEvent> at(const VectorXd& before, const VectorXd& c) const;
   /// Distance within which c is on a corner at `at`, force.
-  [[nodiscard]] static double nearness(const Eigen::VectorXd& c, double at);
+  [[nodiscard]] static double nearness(const VectorXd& c, double at);
 
  private:
   std::vector<std::vector<Corner>> corners_;
@@ -60,9 +60,9 @@ inline constexpr int max_halvings = 6;
 /// A converged increment.
 struct PathStep {
   double load_factor;
-  Eigen::VectorXd F, delta;  ///< (n a) force, length
-  int iterations;            ///< of all tries; on an exact path its pieces from no load on
-  double residual;           ///< largest, relative to the largest |q| at this load factor
+  VectorXd F, delta;  ///< (n a) force, length
+  int iterations;     ///< of all tries; on an exact path its pieces from no load on
+  double residual;    ///< largest, relative to the largest |q| at this load factor
   TangentCheck check;
   bool exact = false;                     ///< on an exact path
   std::vector<ContactEvent> events = {};  ///< what happens exactly here
@@ -73,10 +73,10 @@ struct PathFailure {
   std::size_t increment;  ///< 0-based
   double load_factor;     ///< that was asked for
   double reached;         ///< largest part of it that converged
-  Eigen::Index plane;     ///< with the worst residual in the best try
+  Index plane;            ///< with the worst residual in the best try
   double residual;        ///< there, relative to the load asked for; infinite if each try left it spent
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
-  std::vector<Eigen::Index> level;
+  std::vector<Index> level;
   std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
   /// Part that is out of balance in an increment that converged, if that ended the path, and by how much of the largest
   /// force.

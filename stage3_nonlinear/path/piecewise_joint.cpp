@@ -9,10 +9,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
 using Eigen::PartialPivLU;
-using Eigen::VectorXd;
 
 /// Corners of a plane over all of c, ascending.
 /// @param zero True if c = 0 counts as a corner.

@@ -10,9 +10,6 @@
 
 namespace fastjoint::stage3 {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 namespace {
 
 /// Solutions for load factors 1 and -1 serve all others: with friction the two senses differ.

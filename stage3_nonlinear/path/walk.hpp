@@ -15,7 +15,7 @@ namespace fastjoint::stage3 {
 /// Place of a walk along the load factors.
 struct Place {
   double load_factor = 0;
-  Eigen::VectorXd c;   ///< (n a) contact coordinates, force
+  VectorXd c;          ///< (n a) contact coordinates, force
   bool exact = false;  ///< on an exact path
 };
 
@@ -49,9 +49,9 @@ class Walk {
   /// Goes to no load, or along an exact path.
   bool take_known(double target);
   bool solve_from_guesses(double target);
-  bool solve_from(const std::vector<Eigen::VectorXd>& starts, double target);
+  bool solve_from(const std::vector<VectorXd>& starts, double target);
   bool solve_by_turns(double target);
-  Root run(const RootProblem& problem, const Eigen::VectorXd& start, SolveFunction solver);
+  Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver);
   [[nodiscard]] bool converged(const Root& root) const {
     return root.converged || is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>());
   }
@@ -69,8 +69,8 @@ class Walk {
   int iterations_ = 0;
   std::optional<PathLeft> left_;
   double worst_residual_ = 0;  ///< of the best try
-  Eigen::Index worst_row_ = 0;
-  Eigen::VectorXd best_;  ///< contact coordinates of the best try
+  Index worst_row_ = 0;
+  VectorXd best_;  ///< contact coordinates of the best try
 };
 
 /// Largest |q| at a load factor, force; 1 if nothing reaches the fasteners.

@@ -9,9 +9,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::VectorXd;
-
 /// The laws' forces on the plates by fastener and hole, each (a), force.
 using Bearing = std::vector<std::vector<VectorXd>>;
 

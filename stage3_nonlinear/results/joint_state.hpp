@@ -13,11 +13,11 @@ namespace fastjoint::stage3 {
 
 /// One plate at one increment.
 struct PlateState {
-  Eigen::VectorXd D;                  ///< (m) disc displacements, length
-  Eigen::VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
-  Eigen::VectorXd Lambda;             ///< (h) peak stress of each friction case, stress
-  Eigen::VectorXd traction;           ///< (q) force on each traction boundary, force
-  Eigen::VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
+  VectorXd D;                  ///< (m) disc displacements, length
+  VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
+  VectorXd Lambda;             ///< (h) peak stress of each friction case, stress
+  VectorXd traction;           ///< (q) force on each traction boundary, force
+  VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
   std::vector<stresses::RimState> rims = {};  ///< of every hole, if its matrices hold stresses at the joint's degree
   // Sums of the forces that act on the plate along x and y, force.
   Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
@@ -30,7 +30,7 @@ struct JointState {
   std::vector<PlateState> plates;
   /// Force that each plane transfers, friction included, by that of its first and of its second hole, by amount where
   /// the discs have two directions, (n), force; a fastener in balance transfers one and the same.
-  Eigen::VectorXd transferred_first, transferred_second;
+  VectorXd transferred_first, transferred_second;
   double largest_force = 0;  ///< of externals, tractions and fasteners
   // Over the largest force:
   double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
@@ -48,6 +48,6 @@ struct JointState {
 
 /// Shares in per cent of the sum over all planes between the same two plates, whichever their fasteners name first,
 /// shape (n); NaN where the sum is nothing but rounding.
-[[nodiscard]] Eigen::VectorXd shares(const JointModel& joint, const Eigen::VectorXd& transferred);
+[[nodiscard]] VectorXd shares(const JointModel& joint, const VectorXd& transferred);
 
 }  // namespace fastjoint::stage3

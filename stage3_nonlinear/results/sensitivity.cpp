@@ -12,10 +12,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-using Eigen::VectorXd;
-
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Derivatives dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (n a, n +

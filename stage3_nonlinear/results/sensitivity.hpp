@@ -15,8 +15,8 @@ namespace fastjoint::stage3 {
 /// A hole with friction and what its coefficient does to the rows of its fastener.
 struct FrictionHole {
   struct Row {
-    Eigen::Index at;              ///< among CondensedSystem::friction
-    Eigen::VectorXd plus, minus;  ///< (n a) dH+ / dmu, dH- / dmu, dimensionless
+    Index at;              ///< among CondensedSystem::friction
+    VectorXd plus, minus;  ///< (n a) dH+ / dmu, dH- / dmu, dimensionless
   };
   std::string name;            ///< "plate:hole"
   std::size_t fastener, hole;  ///< hole of the fastener
@@ -28,12 +28,12 @@ struct JointNumbers {
   std::vector<FrictionHole> friction;  ///< (f)
   /// (l) names and numbers of the laws in the order of the planes; planes with one law share its numbers.
   std::vector<std::pair<std::string, Parameter>> law;
-  std::vector<Eigen::Index> first_of_law;  ///< (n) where the numbers of each plane's law begin
+  std::vector<Index> first_of_law;  ///< (n) where the numbers of each plane's law begin
   // Forces of rigid fasteners under each load alone: q of the condensed system is their sum, each times its load.
   std::vector<std::string> force;         ///< (u) "plate:external" without a given displacement, loaded or not
-  Eigen::MatrixXd q_force;                ///< (n a, u) per unit force, dimensionless
+  MatrixXd q_force;                       ///< (n a, u) per unit force, dimensionless
   std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
-  Eigen::MatrixXd q_displacement;         ///< (n a, v) per unit displacement, force / length
+  MatrixXd q_displacement;                ///< (n a, v) per unit displacement, force / length
 };
 
 [[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system);
@@ -41,12 +41,12 @@ struct JointNumbers {
 /// Derivatives of the n bearing forces by each number: with one direction of the signed forces, with two of their
 /// amounts.
 struct Sensitivity {
-  Eigen::VectorXd load_factor;   ///< (n) force
-  Eigen::MatrixXd clearance;     ///< (n, n) column: by the clearance of that plane, force / length
-  Eigen::MatrixXd law;           ///< (n, l) force per unit of the number
-  Eigen::MatrixXd mu;            ///< (n, f) force
-  Eigen::MatrixXd force;         ///< (n, u) by JointNumbers::force at load factor 1, dimensionless
-  Eigen::MatrixXd displacement;  ///< (n, v) by JointNumbers::displacement at load factor 1, force / length
+  VectorXd load_factor;   ///< (n) force
+  MatrixXd clearance;     ///< (n, n) column: by the clearance of that plane, force / length
+  MatrixXd law;           ///< (n, l) force per unit of the number
+  MatrixXd mu;            ///< (n, f) force
+  MatrixXd force;         ///< (n, u) by JointNumbers::force at load factor 1, dimensionless
+  MatrixXd displacement;  ///< (n, v) by JointNumbers::displacement at load factor 1, force / length
 };
 
 /// Derivatives at one step, by the implicit function theorem with one factorisation of the tangent for all numbers
@@ -66,7 +66,7 @@ struct Sensitivity {
 ///
 /// The file's own S_error counts for matrices of one degree, as from a laboratory, with the worst sign of every entry.
 /// Errors of forces at a limit load are infinite.
-[[nodiscard]] std::optional<Eigen::MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations,
-                                                          const LoadPath& path, const std::vector<JointState>& states);
+[[nodiscard]] std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations,
+                                                   const LoadPath& path, const std::vector<JointState>& states);
 
 }  // namespace fastjoint::stage3

@@ -18,7 +18,7 @@ namespace fastjoint::stage3::gsl {
 
 /// GSL's vectors and matrices as Eigen sees them.
 inline auto view(const gsl_vector* v) {
-  using Strided = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>>;
+  using Strided = Eigen::Map<VectorXd, 0, Eigen::InnerStride<>>;
   return Strided(v->data, v->size, Eigen::InnerStride<>(v->stride));
 }
 inline auto view(const gsl_matrix* m) {
@@ -69,8 +69,8 @@ struct WithDerivatives {
 };
 
 template <class Family>
-Root solve(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options) {
-  const auto infinite = Eigen::VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity());
+Root solve(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
+  const auto infinite = VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity());
   Payload payload{problem, nullptr};
   const std::size_t n = start.size();
   Family family(payload, n);

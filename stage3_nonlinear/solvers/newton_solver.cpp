@@ -11,8 +11,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::VectorXd;
-
 /// The root so far, moved by `length` steps.
 Root moved(const RootProblem& problem, Root root, const VectorXd& step, double length) {
   root.x += length * step;

@@ -6,8 +6,12 @@
 
 namespace fastjoint::stage3 {
 
-using VectorFunction = std::function<Eigen::VectorXd(const Eigen::VectorXd&)>;
-using MatrixFunction = std::function<Eigen::MatrixXd(const Eigen::VectorXd&)>;
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+using VectorFunction = std::function<VectorXd(const VectorXd&)>;
+using MatrixFunction = std::function<MatrixXd(const VectorXd&)>;
 
 /// n equations in n unknowns, both of order 1.
 struct RootProblem {
@@ -25,13 +29,13 @@ struct RootOptions {
 
 /// Place where a solver ended; not to converge is a result, not an error.
 struct Root {
-  Eigen::VectorXd x, residual;  ///< (n); the residual is infinite if the functions have no value at the start
+  VectorXd x, residual;  ///< (n); the residual is infinite if the functions have no value at the start
   bool converged = false;
   int iterations = 0;
 };
 
 /// A way to solve n equations from a start, shape (n), n >= 1.
-using SolveFunction = Root (*)(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options);
+using SolveFunction = Root (*)(const RootProblem& problem, const VectorXd& start, const RootOptions& options);
 
 /// Makes GSL return errors from now on, instead of aborting; first GSL call of the program.
 void take_over_gsl_errors();
@@ -39,7 +43,7 @@ void take_over_gsl_errors();
 /// GSL's hybridsj: Powell's hybrid method with scaled variables and derivatives, MINPACK's HYBRJ.
 ///
 /// A step to where a value is not finite ends the search; what the functions throw comes out of here.
-[[nodiscard]] Root hybridsj_root(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options);
+[[nodiscard]] Root hybridsj_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options);
 
 /// Newton's method with damped steps: the guarantee behind the other solvers.
 ///
@@ -48,6 +52,6 @@ void take_over_gsl_errors();
 /// fall have such a function of the contact coordinate. docs/theory.md, section 8.4, derives it, proves convergence and
 /// says where rounding limits it. Otherwise steps are halved until the norm of the residual falls; convergence is then
 /// not certain.
-[[nodiscard]] Root newton_root(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options);
+[[nodiscard]] Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options);
 
 }  // namespace fastjoint::stage3
