@@ -11,7 +11,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <utility>
 #include <vector>
 
 #include "common/errors.hpp"
@@ -94,10 +93,8 @@ Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset
 
 /// Hole in the stiffest plate of a fastener.
 std::size_t stiffest(const JointModel& joint, const Rows& rows, const FastenerModel& fastener) {
-  std::size_t best = 0;
-  for (std::size_t hole = 1; hole < fastener.holes.size(); ++hole)
-    if (rows.own[disc(joint, fastener.holes[hole])] > rows.own[disc(joint, fastener.holes[best])]) best = hole;
-  return best;
+  const auto own = [&](const HoleModel& hole) { return rows.own[disc(joint, hole)]; };
+  return std::ranges::max_element(fastener.holes, {}, own) - fastener.holes.begin();
 }
 
 void add_planes(Rows& rows, const JointModel& joint) {

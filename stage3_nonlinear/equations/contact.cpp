@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/contact.hpp"
 
-#include <cmath>
-
 namespace fastjoint::stage3 {
 namespace {
 

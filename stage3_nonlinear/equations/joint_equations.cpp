@@ -78,21 +78,21 @@ JointEquations make_equations(CondensedSystem system, std::vector<Contact> conta
     system.S_ud.col(i).setZero();
   }
   set_reference_stiffnesses(system.S_ud, contacts);
-  const bool rise = std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.law->rises(); });
+  const bool rise = std::ranges::all_of(contacts, [](const Contact& each) { return each.law->rises(); });
   MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();
   return {std::move(system), std::move(contacts), std::move(metric)};
 }
 
-MatrixXd tangent(const CondensedSystem& system, const ContactState& state) {
+MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction) {
   MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
-  if (system.has_friction()) F += system.friction_matrix(state.F);
+  if (friction && system.has_friction()) F += system.friction_matrix(state.F);
   return state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
 }
 
 RootProblem root_problem(const JointEquations& equations, double load_factor, double scale, const VectorXd* frozen) {
   const CondensedSystem& system = equations.system;
-  const VectorXd load =
-      frozen ? VectorXd(load_factor * system.q - system.friction_forces(*frozen)) : VectorXd(load_factor * system.q);
+  VectorXd load = load_factor * system.q;
+  if (frozen) load -= system.friction_forces(*frozen);
   const bool friction = system.has_friction() && !frozen;
   RootProblem problem;
   problem.residual = [&equations, load, scale, friction](const VectorXd& x) -> VectorXd {
@@ -104,9 +104,7 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   problem.jacobian = [&equations, residual = problem.residual, scale, friction](const VectorXd& x) -> MatrixXd {
     auto state = contact_state(equations.contacts, scale * x);
     add_trace(equations, residual(x).cwiseAbs().maxCoeff(), state);
-    if (friction) return tangent(equations.system, state);
-    return state.times(equations.system.S_ud, state.ddelta) +
-           state.times(MatrixXd::Identity(x.size(), x.size()), state.dF);
+    return tangent(equations.system, state, friction);
   };
   if (equations.metric.size() > 0 && !friction)
     problem.descent = [&metric = equations.metric](const VectorXd& r) -> VectorXd { return metric * r; };

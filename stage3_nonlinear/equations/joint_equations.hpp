@@ -36,7 +36,9 @@ struct JointEquations {
 [[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
 
 /// Derivative of the residual by c, shape (n a, n a), at the state of the contact coordinates c.
-[[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state);
+///
+/// @param friction False: without that of friction.
+[[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
 /// The equations at a load factor, unknowns and residuals over `scale` (force).
 ///

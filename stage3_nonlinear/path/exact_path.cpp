@@ -20,7 +20,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A place where cells meet: a corner of a plane's curve, or b = 0 at a shared rim. Planes come first.
 struct Border {
-  std::size_t at;      ///< plane, or number of planes + number among the shared rims
+  std::size_t at;      ///< plane, or number of planes + shared rim
   std::size_t corner;  ///< of the plane's curve
 
   auto operator<=>(const Border&) const = default;
@@ -65,7 +65,7 @@ class Tracer {
   }
 
   [[nodiscard]] bool is_plane(const Border& s) const { return s.at < joint_.n_planes(); }
-  [[nodiscard]] Index rim(const Border& s) const { return joint_.shared_rims()[s.at - joint_.n_planes()]; }
+  [[nodiscard]] Index rim(const Border& s) const { return s.at - joint_.n_planes(); }
 
   /// Borders at which c is, to a share of its largest entry.
   [[nodiscard]] std::set<Border> borders_near(const VectorXd& c, double share) const {
@@ -76,9 +76,8 @@ class Tracer {
         const bool borders = i == cell_.piece[j] || i + 1 == cell_.piece[j];
         if (borders && std::abs(c[j] - joint_.curve(j).corners[i]) <= near) result.insert({j, i});
       }
-    for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i)
-      if (std::abs(joint_.rim_force(cell_, joint_.shared_rims()[i], c)) <= near)
-        result.insert({joint_.n_planes() + i, 0});
+    for (const Index at : joint_.shared_rims())
+      if (std::abs(joint_.rim_force(cell_, at, c, 1)) <= near) result.insert({joint_.n_planes() + at, 0});
     return result;
   }
 
@@ -94,7 +93,7 @@ class Tracer {
 
   /// Tells whether the line leaves the cell at a border where it begins.
   [[nodiscard]] bool contradicts(const Border& s, const Line& line, double least_rate) const {
-    const double rate = is_plane(s) ? line.rate[s.at] : joint_.rim_rate(cell_, rim(s), line.rate);
+    const double rate = is_plane(s) ? line.rate[s.at] : joint_.rim_force(cell_, rim(s), line.rate, 0);
     const bool above = is_plane(s) ? cell_.piece[s.at] > s.corner : cell_.side[rim(s)] > 0;
     return (above ? -rate : rate) > least_rate;
   }
@@ -108,8 +107,7 @@ class Tracer {
       auto line = line_in_cell();
       if (!line) return std::nullopt;
       const double least_rate = rounding * line->rate.cwiseAbs().maxCoeff();
-      const auto wrong =
-          std::find_if(tied.begin(), tied.end(), [&](const Border& s) { return contradicts(s, *line, least_rate); });
+      const auto wrong = std::ranges::find_if(tied, [&](const Border& s) { return contradicts(s, *line, least_rate); });
       if (wrong == tied.end()) return line;
       flip(*wrong);
     }
@@ -144,10 +142,9 @@ class Tracer {
     double end = infinity;
     std::vector<Border> reached;
     const auto meet = [&](double t, const Border& s) {
-      if (t < end) {
-        end = std::max(t, now);
-        reached.assign(1, s);
-      }
+      if (!(t < end)) return;
+      end = std::max(t, now);
+      reached.assign(1, s);
     };
     for (std::size_t j = 0; j < joint_.n_planes(); ++j) {
       const double rate = line.rate[j];
@@ -158,11 +155,10 @@ class Tracer {
       const std::size_t corner = up ? piece : piece - 1;
       meet((corners[corner] - line.offset[j]) / rate, {j, corner});
     }
-    for (std::size_t i = 0; i < joint_.shared_rims().size(); ++i) {
-      const Index at = joint_.shared_rims()[i];
-      const double rate = joint_.rim_rate(cell_, at, line.rate);
-      if (!(cell_.side[at] * rate < -least_rate)) continue;
-      meet(-joint_.rim_force(cell_, at, line.offset) / rate, {joint_.n_planes() + i, 0});
+    for (const Index at : joint_.shared_rims()) {
+      const double rate = joint_.rim_force(cell_, at, line.rate, 0);
+      if (cell_.side[at] * rate < -least_rate)
+        meet(-joint_.rim_force(cell_, at, line.offset, 1) / rate, {joint_.n_planes() + at, 0});
     }
     return {end, reached};
   }

@@ -57,9 +57,8 @@ class PiecewiseJoint {
   [[nodiscard]] std::vector<Index> changed(const Cell& from, const Cell& to) const;
   /// J c + share offset, without the matrix.
   [[nodiscard]] VectorXd forces(const Cell& cell, const VectorXd& c, double share) const;
-  /// Bearing force b on a rim, linear in c: value at c and change along `rate`.
-  [[nodiscard]] double rim_force(const Cell& cell, Index rim, const VectorXd& c) const;
-  [[nodiscard]] double rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const;
+  /// Bearing force b on a rim, linear in c: of c and a share of what it is at c = 0.
+  [[nodiscard]] double rim_force(const Cell& cell, Index rim, const VectorXd& c, double share) const;
   /// Sets the sides of the rims that one plane alone bears on.
   void follow_signs(Cell& cell) const;
 

@@ -46,9 +46,8 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
 }  // namespace
 
 bool is_piecewise_linear(const JointEquations& equations) {
-  const auto& contacts = equations.contacts;
-  return equations.n_directions() == 1 && std::all_of(contacts.begin(), contacts.end(), [](const Contact& c) {
-           return c.law->corners(c.stiffness, c.clearance).has_value();
+  return equations.n_directions() == 1 && std::ranges::all_of(equations.contacts, [](const Contact& each) {
+           return each.law->corners(each.stiffness, each.clearance).has_value();
          });
 }
 
@@ -131,15 +130,10 @@ VectorXd PiecewiseJoint::forces(const Cell& cell, const VectorXd& c, double shar
   return sum;
 }
 
-double PiecewiseJoint::rim_rate(const Cell& cell, Index rim, const VectorXd& rate) const {
+double PiecewiseJoint::rim_force(const Cell& cell, Index rim, const VectorXd& c, double share) const {
   double sum = 0;
-  for (const auto& [plane, sign] : rims_[rim]) sum += sign * piece(cell, plane).dF * rate[plane];
-  return sum;
-}
-
-double PiecewiseJoint::rim_force(const Cell& cell, Index rim, const VectorXd& c) const {
-  double sum = rim_rate(cell, rim, c);
-  for (const auto& [plane, sign] : rims_[rim]) sum += sign * piece(cell, plane).F0;
+  for (const auto& [plane, sign] : rims_[rim])
+    sum += sign * (share * piece(cell, plane).F0 + piece(cell, plane).dF * c[plane]);
   return sum;
 }
 

@@ -9,7 +9,6 @@
 #include "common/program/progress.hpp"
 
 namespace fastjoint::stage3 {
-
 namespace {
 
 /// Solutions for load factors 1 and -1 serve all others: with friction the two senses differ.

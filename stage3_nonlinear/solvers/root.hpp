@@ -11,12 +11,11 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 using VectorFunction = std::function<VectorXd(const VectorXd&)>;
-using MatrixFunction = std::function<MatrixXd(const VectorXd&)>;
 
 /// n equations in n unknowns, both of order 1.
 struct RootProblem {
-  VectorFunction residual;  ///< (n) -> (n)
-  MatrixFunction jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
+  VectorFunction residual;                            ///< (n) -> (n)
+  std::function<MatrixXd(const VectorXd&)> jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
   /// Gradient, as a function of the residual, of a convex function of x that is least at the root, if there is one,
   /// (n) -> (n).
   VectorFunction descent;
