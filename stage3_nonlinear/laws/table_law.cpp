@@ -114,7 +114,7 @@ std::optional<double> number(std::string_view field) {
 
 /// Two names; a slip of the pen in the first point is none: it begins as a number does.
 bool is_header(const Fields& fields) {
-  return std::all_of(fields.begin(), fields.end(), [](std::string_view field) {
+  return std::ranges::all_of(fields, [](std::string_view field) {
     return !field.empty() && !number(field) && std::string_view("0123456789+-.").find(field.front()) == field.npos;
   });
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <ranges>
 #include <set>
 
 #include "common/count.hpp"
@@ -69,9 +70,7 @@ int common_degree(const JointScene& scene, const std::vector<PlateMatrices>& all
 /// The plates' directions, which must be the same.
 std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateModel>& plates) {
   const auto names = [](const PlateModel& plate) {
-    std::vector<std::string> result;
-    for (const int axis : plate.axes) result.push_back(fmt::format("\"{}\"", axis_names[axis]));
-    return fmt::format("[{}]", fmt::join(result, ", "));
+    return fmt::format("{}", plate.axes | std::views::transform([](int axis) { return axis_names[axis]; }));
   };
   for (std::size_t i = 1; i < plates.size(); ++i)
     if (plates[i].axes != plates[0].axes)
@@ -191,7 +190,7 @@ double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::si
   const auto& sides = friction[d];
   const double n = double(fastener.holes.size());
   if (fastener.holes.size() == 2) return sides[of == hole ? side : 1 - side].share() / n;
-  const auto bears = std::count_if(sides.begin(), sides.end(), [](const auto& each) { return each.load.size() > 0; });
+  const auto bears = std::ranges::count_if(sides, [](const auto& each) { return each.load.size() > 0; });
   return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / double(bears) / n;
 }
 

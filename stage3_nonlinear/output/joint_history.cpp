@@ -83,7 +83,7 @@ std::string csv_heads(const JointModel& joint) {
       heads.push_back(has_unit ? with_unit(name, unit_of(each.dimension, joint.units)) : name);
     }
   heads.insert(heads.end(), {with_unit("F_error", force), "event"});
-  std::transform(heads.begin(), heads.end(), heads.begin(), field);
+  std::ranges::transform(heads, heads.begin(), field);
   return fmt::format("{}\n", fmt::join(heads, ","));
 }
 

@@ -2,7 +2,6 @@
 #include "stage3_nonlinear/output/output.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -39,8 +38,7 @@ double rounded(double force, double largest) {
 /// Name of what solved the increments.
 std::string method(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   if (path.linear) return "linear";
-  const auto is_exact = [](const PathStep& step) { return step.exact; };
-  const std::size_t exact = std::count_if(path.steps.begin(), path.steps.end(), is_exact);
+  const std::size_t exact = std::ranges::count(path.steps, true, &PathStep::exact);
   const Method chosen = iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions());
   const std::string& iterative = method_names[static_cast<std::size_t>(chosen) - 1];
   if (exact == 0) return iterative;
@@ -197,8 +195,8 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
                           joint.axis_name(0));
   }
   const double last = std::abs(path.steps.back().load_factor);
-  const bool past_peak = !all && std::any_of(path.steps.begin(), path.steps.end(),
-                                             [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
+  const bool past_peak =
+      !all && std::ranges::any_of(path.steps, [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
   for (std::size_t i = all ? 0 : states.size() - 1; i < states.size(); ++i)
     if (const std::string table = rim_table(joint, states[i]); !table.empty())
       text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",

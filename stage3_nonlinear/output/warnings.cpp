@@ -22,7 +22,7 @@ std::string increment_text(const LoadPath& path, const PathStep& step) {
 /// First step of which a statement is true, or null.
 template <class Is>
 const PathStep* first_step(const LoadPath& path, Is is) {
-  const auto found = std::find_if(path.steps.begin(), path.steps.end(), is);
+  const auto found = std::ranges::find_if(path.steps, is);
   return found == path.steps.end() ? nullptr : &*found;
 }
 
@@ -47,7 +47,6 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
 
 std::string names(const JointModel& joint, const std::vector<Index>& planes) {
   std::vector<std::string> result;
-  result.reserve(planes.size());
   for (const Index j : planes) result.push_back(joint.name(joint.planes[j]));
   return fmt::format("{}", fmt::join(result, ", "));
 }
@@ -71,15 +70,13 @@ std::string motion_text(const JointModel& joint, const VectorXd& motion) {
 void warn_of_soft_plates(const JointModel& joint, std::vector<std::string>& result) {
   constexpr double soft = 1e-8;
   const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
-  const auto stiffest =
-      std::max_element(joint.plates.begin(), joint.plates.end(),
-                       [&](const PlateModel& a, const PlateModel& b) { return stiffness(a) < stiffness(b); });
+  const PlateModel& stiffest = *std::ranges::max_element(joint.plates, {}, stiffness);
   for (const auto& plate : joint.plates)
-    if (const double share = stiffness(plate) / stiffness(*stiffest); share > 0 && share < soft)
+    if (const double share = stiffness(plate) / stiffness(stiffest); share > 0 && share < soft)
       result.push_back(
           fmt::format("plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the same units, and "
                       "that its moduli and thickness are meant",
-                      plate.name, share, stiffest->name));
+                      plate.name, share, stiffest.name));
 }
 
 /// Warns once for each law.
@@ -196,8 +193,7 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
 
 void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind) {
   if (kind.empty()) return;
-  const auto less = [](const Doubt& a, const Doubt& b) { return a.first < b.first; };
-  const std::string& worst = std::max_element(kind.begin(), kind.end(), less)->second;
+  const std::string& worst = std::ranges::max_element(kind, {}, &Doubt::first)->second;
   warnings.push_back(
       kind.size() == 1 ? worst : fmt::format("{} ({} more likewise, this is the worst)", worst, kind.size() - 1));
 }

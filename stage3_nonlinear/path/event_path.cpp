@@ -35,11 +35,7 @@ struct EventPlace {
 /// Adds events behind those before; ones closer than `least` to the place before happen there.
 void add(std::vector<EventPlace>& to, const Place& place, int iterations, const std::vector<ContactEvent>& events,
          double least = together) {
-  if (to.empty() || place.load_factor - to.back().place.load_factor > least) {
-    EventPlace& event = to.emplace_back();
-    event.place = place;
-    event.iterations = iterations;
-  }
+  if (to.empty() || place.load_factor - to.back().place.load_factor > least) to.push_back({place, iterations});
   to.back().events.insert(to.back().events.end(), events.begin(), events.end());
 }
 
@@ -230,8 +226,8 @@ class Search {
   /// Tells whether a plane is on a corner, where its rate is that of one side only.
   [[nodiscard]] bool is_on_a_corner(const VectorXd& c, Index plane) const {
     const auto& own = corners_.of(plane);
-    return std::any_of(own.begin(), own.end(),
-                       [&](const Corner& corner) { return is_on(c, plane, corner.at) || is_on(c, plane, -corner.at); });
+    return std::ranges::any_of(
+        own, [&](const Corner& corner) { return is_on(c, plane, corner.at) || is_on(c, plane, -corner.at); });
   }
 
   const JointEquations& equations_;

@@ -161,7 +161,7 @@ bool Walk::solve_from_guesses(double target) {
 bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
   const auto problem = root_problem(equations_, target, scale_);
   const auto solved_by = [&](SolveFunction solver) {
-    return std::any_of(starts.begin(), starts.end(), [&](const VectorXd& start) {
+    return std::ranges::any_of(starts, [&](const VectorXd& start) {
       const Root root = run(problem, start, solver);
       if (take(root, target)) return true;
       if (solver == newton_root) note_failure(root);  // it descends: where it ends is where the joint gives way
@@ -223,9 +223,9 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   if (auto linear = follow_linear(equations, load_factors, options.solver.tolerance)) return *std::move(linear);
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) {  // one for each sign, as far as it goes
-    const auto [least, most] = std::minmax_element(load_factors.begin(), load_factors.end());
-    if (*most > 0) exact.push_back(exact_path(equations, *most));
-    if (*least < 0) exact.push_back(exact_path(equations, *least));
+    const auto [least, most] = std::ranges::minmax(load_factors);
+    if (most > 0) exact.push_back(exact_path(equations, most));
+    if (least < 0) exact.push_back(exact_path(equations, least));
   }
   LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
   Walk walk(equations, options, std::move(exact));

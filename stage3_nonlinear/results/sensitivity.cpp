@@ -45,8 +45,7 @@ VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side sid
   if (!fastener.law_includes_friction)
     relative += part_of_mean_share(fastener, by, row.hole, row.direction, side) / transferred / mu;
   VectorXd change = VectorXd::Zero(joint.plates[hole.plate].n_unknowns());
-  for (Index i = 0; i < friction.load.size(); ++i)
-    change[i] = (relative + (row.hole == by ? 1 / mu : 0)) * friction.load[i];
+  change.head(friction.load.size()) = (relative + (row.hole == by ? 1 / mu : 0)) * friction.load;
   change[hole.disc + row.direction] -= (side == plus_side ? 1 : -1) * relative * friction.bearing;
   return change;
 }
@@ -186,9 +185,7 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
   const MatrixXd residual = residual_changes(equations.system, numbers, state, F, delta, step.load_factor);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
   Slopes slopes = implicit_slopes(equations.system, state, residual);
-  MatrixXd at_fixed_c = MatrixXd::Zero(residual.rows(), residual.cols());
-  at_fixed_c.middleCols(1, F.cols()) = F;
-  slopes.F += at_fixed_c;
+  slopes.F.middleCols(1, F.cols()) += F;
   const MatrixXd dF = of_amounts(slopes, state, c);
   Index column = 0;
   const auto next = [&](Index count) -> MatrixXd {
@@ -205,7 +202,7 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
 
 std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                                      const std::vector<JointState>& states) {
-  if (!std::all_of(joint.plates.begin(), joint.plates.end(), is_known)) return std::nullopt;
+  if (!std::ranges::all_of(joint.plates, is_known)) return std::nullopt;
   MatrixXd result(std::ssize(path.steps), joint.n_planes());
   for (std::size_t i = 0; i < path.steps.size(); ++i)
     result.row(i) = errors(joint, equations, path.steps[i], states[i]).transpose();

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
+#include <ranges>
 #include <set>
 
 #include "common/count.hpp"
@@ -24,6 +25,12 @@ constexpr input::Range tolerances{.low = 1e-14, .high = 1e-2};
 
 std::string where(const Value& value) { return fmt::format("{}: {}", value.file(), value.pointer()); }
 
+/// Names of all items, "a, b".
+template <class Item>
+std::string listed(const std::vector<Item>& items, std::string Item::*name) {
+  return fmt::format("{}", fmt::join(items | std::views::transform(name), ", "));
+}
+
 /// Splits at the first colon: the names of holes may hold colons, those of plates may not.
 Reference read_reference(const Value& value, const JointScene& scene, const char* kind) {
   const std::string text = value.text();
@@ -31,10 +38,8 @@ Reference read_reference(const Value& value, const JointScene& scene, const char
   if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
     value.not_allowed(fmt::format("\"plate:{}\"", kind));
   Reference result{text.substr(0, colon), text.substr(colon + 1), where(value)};
-  std::vector<std::string> names;
-  for (const auto& plate : scene.plates) names.push_back(plate.name);
-  if (index_of(names, result.plate) == count_of(names))
-    value.fail(fmt::format("plate \"{}\" does not exist", result.plate), fmt::format("{}", fmt::join(names, ", ")));
+  if (index_of(scene.plates, result.plate, &PlateScene::name) == count_of(scene.plates))
+    value.fail(fmt::format("plate \"{}\" does not exist", result.plate), listed(scene.plates, &PlateScene::name));
   return result;
 }
 
@@ -77,12 +82,10 @@ std::vector<std::string> law_doubts(const Value& laws, const JointScene& scene) 
 /// A number for all holes, or {"plate": mu} where a plate left out has none.
 std::vector<double> read_friction(const Value& value, const std::vector<Reference>& between) {
   if (!value.is_object()) return std::vector<double>(between.size(), value.number(input::not_negative));
-  std::vector<std::string> plates;
-  for (const auto& hole : between) plates.push_back(hole.plate);
   std::vector<double> friction(between.size(), 0.0);
   for (const auto& [plate, mu] : value.members()) {
-    const int hole = index_of(plates, plate);
-    if (hole == count_of(plates)) mu.fail("not a plate of this fastener", fmt::format("{}", fmt::join(plates, ", ")));
+    const int hole = index_of(between, plate, &Reference::plate);
+    if (hole == count_of(between)) mu.fail("not a plate of this fastener", listed(between, &Reference::plate));
     friction[hole] = mu.number(input::not_negative);
   }
   return friction;

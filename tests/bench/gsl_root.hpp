@@ -13,12 +13,16 @@
 
 #include "stage3_nonlinear/solvers/root.hpp"
 
-/// GSL's solvers of n equations as SolveFunction, for files that link GSL.
-namespace fastjoint::stage3::gsl {
+/// Any of GSL's solvers of n equations as SolveFunction, as the program has hybridsj alone.
+namespace fastjoint::bench::gsl {
+
+using stage3::Root;
+using stage3::RootOptions;
+using stage3::RootProblem;
 
 /// GSL's vectors and matrices as Eigen sees them.
 inline auto view(const gsl_vector* v) {
-  using Strided = Eigen::Map<VectorXd, 0, Eigen::InnerStride<>>;
+  using Strided = Eigen::Map<Eigen::VectorXd, 0, Eigen::InnerStride<>>;
   return Strided(v->data, v->size, Eigen::InnerStride<>(v->stride));
 }
 inline auto view(const gsl_matrix* m) {
@@ -69,8 +73,8 @@ struct WithDerivatives {
 };
 
 template <class Family>
-Root solve(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
-  const auto infinite = VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity());
+Root solve(const RootProblem& problem, const Eigen::VectorXd& start, const RootOptions& options) {
+  const auto infinite = Eigen::VectorXd::Constant(start.size(), std::numeric_limits<double>::infinity());
   Payload payload{problem, nullptr};
   const std::size_t n = start.size();
   Family family(payload, n);
@@ -94,4 +98,4 @@ Root solve(const RootProblem& problem, const VectorXd& start, const RootOptions&
   return root;
 }
 
-}  // namespace fastjoint::stage3::gsl
+}  // namespace fastjoint::bench::gsl
