@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <new>
 #include <optional>
+#include <ranges>
 #include <string_view>
 #include <utility>
 
@@ -96,12 +97,8 @@ std::string_view trimmed(std::string_view text) {
 Fields split(std::string_view line) {
   const char separator = line.find(';') != line.npos ? ';' : line.find('\t') != line.npos ? '\t' : ',';
   Fields fields;
-  while (true) {
-    const auto end = line.find(separator);
-    fields.push_back(trimmed(line.substr(0, end)));
-    if (end == line.npos) return fields;
-    line.remove_prefix(end + 1);
-  }
+  for (const auto field : std::views::split(line, separator)) fields.push_back(trimmed({field.begin(), field.end()}));
+  return fields;
 }
 
 std::optional<double> number(std::string_view field) {
