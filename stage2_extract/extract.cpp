@@ -2,7 +2,6 @@
 #include "stage2_extract/extract.hpp"
 
 #include "common/count.hpp"
-#include "common/rim/bearing.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 #include "stage2_extract/stresses/stresses.hpp"
 

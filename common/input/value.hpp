@@ -3,14 +3,27 @@
 
 #include <initializer_list>
 #include <limits>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/input/json.hpp"
-
 namespace fastjoint::input {
+
+/// A JSON text, parsed. Duplicate keys are refused; // and /* */ comments are allowed.
+struct Document {
+  std::string file;  ///< name for messages
+  std::string text;  ///< as read
+  std::shared_ptr<const nlohmann::json> root;
+};
+
+/// Contents of a regular file. Throws FileError with the path and the reason.
+[[nodiscard]] std::string read_text_file(const std::string& path);
+
+/// Throws InputError naming the file, line and column of the first mistake.
+[[nodiscard]] Document parse(const std::string& file, const std::string& text);
 
 /// Which numbers are allowed; infinite limits are open.
 struct Range {
@@ -62,7 +75,7 @@ class Value {
   [[nodiscard]] const std::string& file() const { return file_; }
 
  private:
-  Value(const Value& parent, const nlohmann::json& json, const std::string& key);
+  Value(const Value& parent, const nlohmann::json& value, const std::string& key);
   [[nodiscard]] std::string shown() const;
 
   std::string file_;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "common/pfem/shape_functions.hpp"
-#include "common/rim/bearing.hpp"
 
 namespace fastjoint::plate {
 namespace {

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "common/errors.hpp"
-#include "common/rim/bearing.hpp"
 #include "stage1_plate/contact/contact_system.hpp"
 
 namespace fastjoint::stage1 {

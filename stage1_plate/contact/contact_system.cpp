@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "common/rim/bearing.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 
 namespace fastjoint::stage1 {

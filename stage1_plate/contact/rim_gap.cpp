@@ -7,7 +7,6 @@
 #include "common/count.hpp"
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "common/rim/bearing.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "common/rim/bearing.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 
 namespace fastjoint::stage1 {

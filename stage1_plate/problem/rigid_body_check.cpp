@@ -11,7 +11,6 @@
 
 #include "common/errors.hpp"
 #include "common/plate/springs.hpp"
-#include "common/rim/bearing.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "common/count.hpp"
-#include "common/input/value.hpp"
 #include "stage1_plate/scene/scene.hpp"
 
 namespace fastjoint::stage1 {

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "common/input/json.hpp"
+#include "common/input/value.hpp"
 #include "common/pfem/space.hpp"
 #include "common/rim/rim.hpp"
 #include "common/units.hpp"

@@ -6,7 +6,6 @@
 #include <cassert>
 
 #include "common/errors.hpp"
-#include "common/rim/bearing.hpp"
 
 namespace fastjoint::stage2 {
 namespace {

@@ -9,7 +9,6 @@
 #include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
-#include "common/rim/bearing.hpp"
 
 namespace fastjoint::stage2 {
 namespace {

@@ -10,7 +10,6 @@
 #include "common/pfem/shape_functions.hpp"
 #include "common/pfem/strain.hpp"
 #include "common/program/progress.hpp"
-#include "common/rim/bearing.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 
 namespace fastjoint::stage2 {

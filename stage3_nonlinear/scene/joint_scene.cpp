@@ -10,7 +10,6 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/input/value.hpp"
 #include "common/program/program.hpp"
 
 namespace fastjoint::stage3 {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/input/json.hpp"
+#include "common/input/value.hpp"
 #include "common/units.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 

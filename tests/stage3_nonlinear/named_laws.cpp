@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/input/json.hpp"
+#include "common/input/value.hpp"
 
 namespace fastjoint::test {
 

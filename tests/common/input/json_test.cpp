@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/input/json.hpp"
+#include "common/input/value.hpp"
 
 #include <gmock/gmock.h>
 
 #include <functional>
 
 #include "common/errors.hpp"
-#include "common/input/value.hpp"
 
 namespace fastjoint::input {
 namespace {

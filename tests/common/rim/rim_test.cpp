@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/rim/rim.hpp"
-#include "common/rim/bearing.hpp"
 
 #include <gtest/gtest.h>
 

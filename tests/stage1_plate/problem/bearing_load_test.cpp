@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "common/errors.hpp"
-#include "common/rim/bearing.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 #include "tests/support/plates.hpp"
 

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/input/json.hpp"
+#include "common/input/value.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
 
