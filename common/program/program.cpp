@@ -16,7 +16,6 @@
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
-#include "common/program/version.hpp"
 
 namespace fastjoint::program {
 namespace {
@@ -72,7 +71,8 @@ void check_paths(const Arguments& arguments) {
 void report_times(const Command& command, const Arguments& arguments, Timings& timings) {
   timings.stop();
   if (!arguments.quiet) std::cout << timings.line();
-  if (!arguments.timings.empty()) h5::write_whole_file(arguments.timings, timings.json(command.name, program_version));
+  if (!arguments.timings.empty())
+    h5::write_whole_file(arguments.timings, timings.json(command.name, FASTJOINT_VERSION));
 }
 
 void work(const Command& command, const Arguments& arguments, const Body& body, Timings& timings) {
@@ -180,7 +180,7 @@ std::string one_line(const std::string& text) {
   return line;
 }
 
-std::string generator(const std::string& program) { return fmt::format("{} {}", program, program_version); }
+std::string generator(const std::string& program) { return fmt::format("{} {}", program, FASTJOINT_VERSION); }
 
 void run(const Command& command, int argc, char** argv, const Body& body) {
   const int status = outcome(command, argc, argv, body);
