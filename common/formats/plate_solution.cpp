@@ -20,7 +20,7 @@ constexpr int minor = 0;
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
 template <class File, class Mesh>
-void mesh_datasets(File& file, Mesh& a, const std::string& length) {
+void mesh_datasets(File& file, Mesh& a, Index n_materials, const std::string& length) {
   file("mesh/nodes", a.nodes.transpose(), {any, 2}, length, "x and y of each node");
   const h5::Allowed node = h5::index_into(a.n_nodes());
   file("mesh/quads", a.quads.transpose(), {any, 4}, "1", "nodes of each element, counter-clockwise", node);
@@ -28,7 +28,8 @@ void mesh_datasets(File& file, Mesh& a, const std::string& length) {
        "nodes at both ends of each edge that is an arc", node);
   file("mesh/arc_center", Column{a.arcs, &pfem::Arc::center}, {std::ssize(a.arcs), 2}, length, "centre of each arc");
   file("mesh/thickness", a.thickness, {a.n_elements()}, length, "thickness of each element");
-  file("mesh/material", a.material, {a.n_elements()}, "1", "material of each element, index into elasticity");
+  file("mesh/material", a.material, {a.n_elements()}, "1", "material of each element, index into elasticity",
+       h5::index_into(n_materials));
 }
 
 /// Item of a list that belongs to another item.
@@ -91,11 +92,9 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
 template <class File, class Solution>
 void geometry_datasets(File& file, Solution& a) {
   const std::string length = unit(a.header.units, 1, 0);
-  mesh_datasets(file, a.mesh, length);
   file("elasticity", a.elasticity, {any, 3, 3}, unit(a.header.units, -2, 1),
        "stress (x, y, xy) per strain (x, y, engineering xy) of each material");
-  file("unknown", a.unknown.transpose(), {h5::some, 2}, "1",
-       "what u_x and u_y of each function are: >= 0 plate unknown, -1 zero, -2 - i displacement i");
+  mesh_datasets(file, a.mesh, std::ssize(a.elasticity), length);
   hole_datasets(file, a, length);
   file("section/hole", Column{a.sections, &rim::Section::hole}, {any}, "1",
        "index in hole/id of the hole that each section lies beside", h5::index_into(std::ssize(a.hole_id)));
@@ -117,10 +116,14 @@ void name_datasets(File& file, Solution& a) {
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
   const Index q = a.traction_id.size();
   file("traction/direction", a.traction_direction, {q}, "1", "x or y, for each traction", axis);
-  file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge");
+  const h5::Allowed hole{.text = "names in hole/id", .words = a.hole_id};
+  h5::Allowed hole_or_edge = hole;
+  hole_or_edge.words->emplace_back();
+  file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge",
+       hole_or_edge);
   file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
-  file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
+  file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
   file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1",
@@ -200,6 +203,9 @@ void datasets(File& file, Solution& a) {
   name_datasets(file, a);
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
   const Index h = a.friction_hole.size(), q = a.traction_id.size();
+  file("unknown", a.unknown.transpose(), {h5::some, 2}, "1",
+       "what u_x and u_y of each function are: >= 0 plate unknown, -1 zero, -2 - i displacement i",
+       h5::integers(-1 - nc, n - 1));
   file("held_stiffness", a.held_stiffness, {nc}, stiffness,
        "stiffness of each external, then disc, with all of the plate held");
   sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
@@ -229,17 +235,6 @@ void check_rims(const h5::Reader& file, const PlateSolution& a) {
   }
 }
 
-/// Checks the datasets that name others or index into them.
-void check(const h5::Reader& file, const PlateSolution& a) {
-  check_rims(file, a);
-  file.check("mesh/material", a.mesh.material, h5::index_into(std::ssize(a.elasticity)));
-  file.check("unknown", a.unknown, h5::integers(-1 - a.held_stiffness.size(), a.ndof[a.ndof.size() - 1] - 1));
-  h5::Allowed hole{.text = "names in hole/id", .words = a.hole_id};
-  file.check("friction/hole", a.friction_hole, hole);
-  hole.words->emplace_back();  // of an edge
-  file.check("traction/hole", a.traction_hole, hole);
-}
-
 }  // namespace
 
 void write(const std::string& path, const PlateSolution& a) {
@@ -252,7 +247,7 @@ PlateSolution read_plate_solution(const std::string& path) {
   h5::Reader file(path, format, major);
   PlateSolution a;
   datasets(file, a);
-  check(file, a);
+  check_rims(file, a);
   return a;
 }
 

@@ -60,9 +60,8 @@ struct PlateSolution : UnitCases {
   std::vector<rim::Rim> hole_rim;
   std::vector<rim::HoleSpring> hole_spring;
   std::vector<rim::Section> sections;
-  std::vector<std::string> supported;  ///< directions that a support fixes somewhere
-  std::vector<std::string>
-      traction_hole;                ///< (q) the hole under cosine pressure, "" for an edge under uniform traction
+  std::vector<std::string> supported;      ///< directions that a support fixes somewhere
+  std::vector<std::string> traction_hole;  ///< (q) that a cosine pressure loads, "" for an edge
   Eigen::VectorXd held_stiffness;   ///< (nc) of each controlled displacement with all of the plate held, force / length
   Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of the unit tractions on the plate unknowns
   std::vector<PointSpring> points;

@@ -6,8 +6,6 @@
 #include <string_view>
 #include <vector>
 
-#include "common/h5/library.hpp"
-
 namespace fastjoint::h5 {
 
 void take_over_error_reporting() {

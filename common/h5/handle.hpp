@@ -9,6 +9,9 @@
 
 namespace fastjoint::h5 {
 
+/// Makes errors of HDF5 our exceptions instead of traces on stderr; before the first call of it.
+void take_over_error_reporting();
+
 /// Deepest description on HDF5's error stack, which is then cleared: the system's reason if a call of it failed,
 /// "unknown reason" if the stack is empty.
 [[nodiscard]] std::string last_error();

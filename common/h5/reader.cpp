@@ -5,12 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <functional>
-#include <numeric>
 
 #include "common/errors.hpp"
 #include "common/h5/handle.hpp"
@@ -21,26 +16,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads a string attribute of either kind (variable or fixed length; h5py writes both).
-std::string read_text_attribute(hid_t owner, const char* name) {
+/// Texts of either kind (variable or fixed length; h5py writes both), which read(memory) puts there as the file has
+/// them.
+template <class Read>
+void read_texts(const Type& type, std::span<std::string> texts, const Read& read) {
+  if (H5Tis_variable_str(type.get()) > 0) {
+    std::vector<char*> chars(texts.size(), nullptr);
+    read(static_cast<void*>(chars.data()));
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+      texts[i] = chars[i] == nullptr ? "" : chars[i];
+      H5free_memory(chars[i]);
+    }
+  } else {
+    const std::size_t width = H5Tget_size(type.get());
+    std::string block(texts.size() * width, '\0');
+    read(block.data());
+    for (std::size_t i = 0; i < texts.size(); ++i) texts[i] = block.substr(i * width, width).c_str();
+  }
+}
+
+/// Empty if the attribute is not one text, nothing if there is none of that name.
+std::optional<std::string> read_text_attribute(hid_t owner, const char* name) {
+  if (H5Aexists(owner, name) <= 0) return std::nullopt;
   const Attribute attribute(H5Aopen(owner, name, H5P_DEFAULT));
   const Type type(H5Aget_type(attribute.get()));
   const Space space(H5Aget_space(attribute.get()));
-  if (H5Tget_class(type.get()) != H5T_STRING || H5Sget_simple_extent_npoints(space.get()) != 1) return {};
-  if (H5Tis_variable_str(type.get()) > 0) {
-    char* chars = nullptr;
-    if (H5Aread(attribute.get(), type.get(), &chars) < 0 || chars == nullptr) return {};
-    std::string text(chars);
-    H5free_memory(chars);
-    return text;
-  }
-  std::string text(H5Tget_size(type.get()), '\0');
-  if (H5Aread(attribute.get(), type.get(), text.data()) < 0) return {};
-  text.resize(std::strlen(text.c_str()));
+  std::string text;
+  if (H5Tget_class(type.get()) == H5T_STRING && H5Sget_simple_extent_npoints(space.get()) == 1)
+    read_texts(type, {&text, 1}, [&](void* into) { (void)H5Aread(attribute.get(), type.get(), into); });
   return text;
 }
-
-bool has_attribute(hid_t owner, const char* name) { return H5Aexists(owner, name) > 0; }
 
 std::string shape_text(const Shape& shape) {
   std::vector<std::string> extents;
@@ -79,9 +84,9 @@ struct Reader::Impl {
   }
 
   void check_unit(const Dataset& set, const std::string& name, const std::string& expected) const {
-    if (!compare_units || !has_attribute(set.get(), "unit")) return;
-    const std::string found = read_text_attribute(set.get(), "unit");
-    if (found != expected) fail(name, fmt::format("unit is '{}', expected '{}'", found, expected));
+    const auto found = read_text_attribute(set.get(), "unit");
+    if (compare_units && found && *found != expected)
+      fail(name, fmt::format("unit is '{}', expected '{}'", *found, expected));
   }
 
   /// Reads the k-th of n equal parts.
@@ -92,59 +97,55 @@ struct Reader::Impl {
       fail(name, fmt::format("cannot be read: {}", last_error()));
   }
 
-  /// Texts of either kind.
-  void read_texts(const Dataset& set, const std::string& name, hid_t type, std::span<std::string> texts) const {
-    if (H5Tis_variable_str(type) > 0) {
-      std::vector<char*> chars(texts.size(), nullptr);
-      read(set, name, type, static_cast<void*>(chars.data()));
-      for (std::size_t i = 0; i < texts.size(); ++i) {
-        texts[i] = chars[i] == nullptr ? "" : chars[i];
-        H5free_memory(chars[i]);
-      }
+  /// Root attribute of n integers; empty if the file has no such one.
+  std::vector<int> integers(const char* name, int n) const {
+    std::vector<int> values(n);
+    const Attribute attribute(H5Aopen(file.get(), name, H5P_DEFAULT));
+    const Space space(H5Aget_space(attribute.get()));
+    const bool there = attribute && H5Sget_simple_extent_npoints(space.get()) == n &&
+                       H5Aread(attribute.get(), H5T_NATIVE_INT, values.data()) >= 0;
+    return there ? values : std::vector<int>();
+  }
+
+  void check_version(const std::string& format, int major) const {
+    const std::string found = read_text_attribute(file.get(), "format").value_or("");
+    if (found != format)
+      throw FileError(
+          found.empty()
+              ? fmt::format("{}: is not a file of fastjoint (it has no attribute 'format'), expected a '{}' file", path,
+                            format)
+              : fmt::format("{}: is a '{}' file, expected '{}'", path, found, format));
+    const auto version = integers("version", 2);
+    if (version.empty()) throw FileError(fmt::format("{}: attribute 'version' is not [major, minor]", path));
+    if (version[0] != major)
+      throw FileError(fmt::format("{}: format version {}.{}, this program reads {}.x; {}", path, version[0], version[1],
+                                  major, version[0] > major ? "use a newer program" : "run the earlier stage again"));
+  }
+
+  template <class Scalar>
+  void check_entries(const std::string& name, std::span<const Scalar> entries, const Allowed& allowed) const {
+    const auto refuse = [&](const std::string& what) {
+      fail(name, fmt::format("holds {}, expected {}", what, allowed.text));
+    };
+    if constexpr (std::is_same_v<Scalar, std::string>) {
+      for (const auto& text : entries)
+        if (allowed.words && std::ranges::find(*allowed.words, text) == allowed.words->end())
+          refuse(fmt::format("\"{}\"", text));
     } else {
-      const std::size_t width = H5Tget_size(type);
-      std::string block(texts.size() * width, '\0');
-      read(set, name, type, block.data());
-      for (std::size_t i = 0; i < texts.size(); ++i) texts[i] = block.substr(i * width, width).c_str();
+      for (std::size_t i = 0; i < entries.size(); ++i) {
+        if (!(entries[i] >= allowed.low && entries[i] <= allowed.high)) refuse(fmt::format("{}", entries[i]));
+        if (i > 0 && entries[i] < entries[i - 1] + allowed.step)
+          refuse(fmt::format("{}, {}", entries[i - 1], entries[i]));
+      }
     }
   }
 };
 
-namespace {
-
-void check_readable(const std::string& path) {
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  if (error || !fs::exists(status))
-    throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(error ? error.value() : ENOENT)));
-  if (!fs::is_regular_file(status)) throw FileError(fmt::format("{}: is not a regular file", path));
-}
-
-void check_version(const Reader& reader, hid_t file, const std::string& format, int major) {
-  const std::string found = reader.text_attribute("format", "");
-  if (found != format)
-    throw FileError(
-        found.empty()
-            ? fmt::format("{}: is not a file of fastjoint (it has no attribute 'format'), expected a '{}' file",
-                          reader.path(), format)
-            : fmt::format("{}: is a '{}' file, expected '{}'", reader.path(), found, format));
-  std::vector<int> version(2, -1);
-  const Attribute attribute(H5Aopen(file, "version", H5P_DEFAULT));
-  const Space space(H5Aget_space(attribute.get()));
-  if (!attribute || H5Sget_simple_extent_npoints(space.get()) != 2 ||
-      H5Aread(attribute.get(), H5T_NATIVE_INT, version.data()) < 0)
-    throw FileError(fmt::format("{}: attribute 'version' is not [major, minor]", reader.path()));
-  if (version[0] != major)
-    throw FileError(fmt::format("{}: format version {}.{}, this program reads {}.x; {}", reader.path(), version[0],
-                                version[1], major,
-                                version[0] > major ? "use a newer program" : "run the earlier stage again"));
-}
-
-}  // namespace
-
 Reader::Reader(std::string path, const std::string& format, int major) : impl_(std::make_unique<Impl>()) {
+  take_over_error_reporting();
   impl_->path = std::move(path);
-  check_readable(impl_->path);
+  if (std::error_code none; fs::exists(impl_->path, none) && !fs::is_regular_file(impl_->path, none))
+    throw FileError(fmt::format("{}: is not a regular file", impl_->path));
   impl_->digest = checked_digest(impl_->path);
   if (H5Fis_hdf5(impl_->path.c_str()) <= 0)
     throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", impl_->path, format));
@@ -152,7 +153,7 @@ Reader::Reader(std::string path, const std::string& format, int major) : impl_(s
   H5Pset_file_locking(access.get(), false, true);  // reading from a read-only or network file system
   impl_->file = File(H5Fopen(impl_->path.c_str(), H5F_ACC_RDONLY, access.get()));
   if (!impl_->file) throw FileError(fmt::format("{}: is damaged or truncated: {}", impl_->path, last_error()));
-  check_version(*this, impl_->file.get(), format, major);
+  impl_->check_version(format, major);
 }
 
 Reader::~Reader() = default;
@@ -170,19 +171,14 @@ bool Reader::has(const std::string& dataset) const {
   }
 }
 
-std::string Reader::text_attribute(const std::string& name, const std::string& otherwise) const {
-  return has_attribute(impl_->file.get(), name.c_str()) ? read_text_attribute(impl_->file.get(), name.c_str())
-                                                        : otherwise;
+void Reader::attribute(const std::string& name, std::string& text) const {
+  text = read_text_attribute(impl_->file.get(), name.c_str()).value_or(text);
 }
 
 int Reader::integer_attribute(const std::string& name) const {
-  int value = 0;
-  const Attribute attribute(H5Aopen(impl_->file.get(), name.c_str(), H5P_DEFAULT));
-  const Space space(attribute ? H5Aget_space(attribute.get()) : H5I_INVALID_HID);
-  if (!attribute || H5Sget_simple_extent_npoints(space.get()) != 1 ||
-      H5Aread(attribute.get(), H5T_NATIVE_INT, &value) < 0)
-    throw FileError(fmt::format("{}: attribute '{}' is missing or not one integer", path(), name));
-  return value;
+  const auto value = impl_->integers(name.c_str(), 1);
+  if (value.empty()) throw FileError(fmt::format("{}: attribute '{}' is missing or not one integer", path(), name));
+  return value[0];
 }
 
 template <class Scalar>
@@ -194,7 +190,7 @@ void Reader::get(const std::string& name, const Shape& expected, const std::stri
     stand_in = allowed.word;
   else
     stand_in = allowed.number;
-  if (std::find(expected.begin(), expected.end(), 0) != expected.end()) stand_in = Scalar();
+  if (std::ranges::find(expected, 0) != expected.end()) stand_in = Scalar();
   if (stand_in && !has(name)) {
     Shape shape = expected;
     for (auto& extent : shape) extent = std::max<Eigen::Index>(extent, 0);
@@ -211,28 +207,10 @@ void Reader::get(const std::string& name, const Shape& expected, const std::stri
   for (std::size_t k = 0; k < parts.size(); ++k) {
     if (parts[k].empty()) return;
     if constexpr (is_text)
-      impl_->read_texts(set, name, type.get(), parts[k]);
+      read_texts(type, parts[k], [&](void* into) { impl_->read(set, name, type.get(), into); });
     else
       impl_->read(set, name, is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, parts[k].data(), k, parts.size());
-    check_entries<Scalar>(name, parts[k], allowed);
-  }
-}
-
-template <class Scalar>
-void Reader::check_entries(const std::string& name, std::span<const Scalar> entries, const Allowed& allowed) const {
-  const auto refuse = [&](const std::string& what) {
-    impl_->fail(name, fmt::format("holds {}, expected {}", what, allowed.text));
-  };
-  if constexpr (std::is_same_v<Scalar, std::string>) {
-    for (const auto& text : entries)
-      if (allowed.words && std::find(allowed.words->begin(), allowed.words->end(), text) == allowed.words->end())
-        refuse(fmt::format("\"{}\"", text));
-  } else {
-    for (std::size_t i = 0; i < entries.size(); ++i) {
-      if (!(entries[i] >= allowed.low && entries[i] <= allowed.high)) refuse(fmt::format("{}", entries[i]));
-      if (i > 0 && entries[i] < entries[i - 1] + allowed.step)
-        refuse(fmt::format("{}, {}", entries[i - 1], entries[i]));
-    }
+    impl_->check_entries<Scalar>(name, parts[k], allowed);
   }
 }
 
@@ -242,8 +220,5 @@ template void Reader::get(const std::string&, const Shape&, const std::string&, 
                           const MakeRoom<int>&) const;
 template void Reader::get(const std::string&, const Shape&, const std::string&, const Allowed&,
                           const MakeRoom<std::string>&) const;
-template void Reader::check_entries(const std::string&, std::span<const double>, const Allowed&) const;
-template void Reader::check_entries(const std::string&, std::span<const int>, const Allowed&) const;
-template void Reader::check_entries(const std::string&, std::span<const std::string>, const Allowed&) const;
 
 }  // namespace fastjoint::h5

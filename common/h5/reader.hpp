@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/h5/allowed.hpp"
 #include "common/h5/entries.hpp"
 
 namespace fastjoint::h5 {
@@ -42,16 +41,12 @@ class Reader {
     return has(dataset) ? &value.emplace() : nullptr;
   }
 
-  /// Root attribute; `otherwise` if the file has none of that name.
-  [[nodiscard]] std::string text_attribute(const std::string& name, const std::string& otherwise) const;
   [[nodiscard]] int integer_attribute(const std::string& name) const;
   /// Root attribute; a text that the file does not have stays as it is.
-  template <class T>
+  void attribute(const std::string& name, std::string& text) const;
+  template <std::integral T>
   void attribute(const std::string& name, T& value) const {
-    if constexpr (std::same_as<T, std::string>)
-      value = text_attribute(name, value);
-    else
-      value = integer_attribute(name);
+    value = integer_attribute(name);
   }
 
   /// Reads one dataset, and sizes the value for it.
@@ -75,13 +70,6 @@ class Reader {
       for_each_entry(value, [&](auto& entry) { entry = std::move(*next++); });
     }
   }
-  /// Checks entries of a dataset by what only later ones say.
-  template <class T>
-  void check(const std::string& name, const T& value, const Allowed& allowed) const {
-    std::vector<EntryOf<T>> entries;
-    for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
-    check_entries<EntryOf<T>>(name, entries, allowed);
-  }
 
  private:
   struct Impl;
@@ -92,8 +80,6 @@ class Reader {
   template <class Scalar>
   void get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
            const MakeRoom<Scalar>& make_room) const;
-  template <class Scalar>
-  void check_entries(const std::string& name, std::span<const Scalar> entries, const Allowed& allowed) const;
 
   std::unique_ptr<Impl> impl_;
 };

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "common/h5/allowed.hpp"
 #include "common/h5/entries.hpp"
 
 namespace fastjoint::h5 {

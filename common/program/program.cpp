@@ -12,7 +12,6 @@
 #include <optional>
 
 #include "common/errors.hpp"
-#include "common/h5/library.hpp"
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
@@ -121,7 +120,6 @@ int outcome(const Command& command, int argc, char** argv, const Body& body) {
   catch_signals(command.name);
   try {
     require_memory_to_start();
-    h5::take_over_error_reporting();
     if (const auto arguments = parse(command, argc, argv)) work(command, *arguments, body, timings);
     return done;
   } catch (const InputError& e) {

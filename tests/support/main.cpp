@@ -4,8 +4,6 @@
 
 #include <string_view>
 
-#include "common/h5/library.hpp"
-
 /// OpenBLAS calls this for an argument that it refuses, as that of an empty matrix; its own would print and go on.
 extern "C" int xerbla_(const char* name, int* argument, int length) {
   ADD_FAILURE() << "argument " << *argument << " of " << std::string_view(name, length) << " is refused";
@@ -13,7 +11,6 @@ extern "C" int xerbla_(const char* name, int* argument, int length) {
 }
 
 int main(int argc, char** argv) {
-  fastjoint::h5::take_over_error_reporting();
   gsl_set_error_handler_off();
   testing::InitGoogleMock(&argc, argv);
   return RUN_ALL_TESTS();
