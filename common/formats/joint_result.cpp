@@ -91,23 +91,6 @@ void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen:
          "dF by the displacement of each at load factor 1");
 }
 
-/// Two tables (steps, n) as one dataset (steps, n, 2).
-template <class File, class Table>
-void pair_dataset(File& file, const char* name, Table& first, Table& second, const h5::Shape& shape,
-                  const std::string& unit, const char* meaning) {
-  const auto evens = Eigen::seqN(0, shape[1], 2), odds = Eigen::seqN(1, shape[1], 2);
-  Eigen::MatrixXd both(shape[0], 2 * shape[1]);
-  if constexpr (!File::reads) {
-    both(Eigen::all, evens) = first;
-    both(Eigen::all, odds) = second;
-  }
-  file(name, both, shape, unit, meaning);
-  if constexpr (File::reads) {
-    first = both(Eigen::all, evens);
-    second = both(Eigen::all, odds);
-  }
-}
-
 template <class File, class Result>
 void datasets(File& file, Result& a) {
   header(file, a.header);
@@ -136,8 +119,8 @@ void datasets(File& file, Result& a) {
          h5::infinite_too);
   file("delta_vector", a.delta_vector, {steps, n, directions}, length, "components of delta");
   file("F_vector", a.F_vector, {steps, n, directions}, force, "components of F");
-  pair_dataset(file, "transferred", a.transferred_first, a.transferred_second, {steps, n, 2}, force,
-               "bearing and friction together, on the first and on the second plate");
+  file("transferred", a.transferred, {steps, n, 2}, force,
+       "bearing and friction together, on the first and on the second plate");
   file("plate/name", Column{a.plates, &PlateHistory::name}, {any}, "1",
        "plates of the joint; group plates/<name> holds what each did");
   const Eigen::Index plates = a.plates.size();

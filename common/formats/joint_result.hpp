@@ -88,14 +88,14 @@ struct JointResult {
   std::vector<std::string> event;  ///< (steps) fasteners that begin or cease to bear exactly there, or pass a corner
   // The n shear planes have one entry each: one plane for each neighbouring pair of a fastener's plates, fastener after
   // fastener.
-  std::vector<std::string> fastener_id;                   ///< (n)
-  std::vector<std::string> first_hole, second_hole;       ///< (n) "plate:hole"
-  std::vector<std::string> direction;                     ///< (a) of the joint's discs: "x", "y"
-  Eigen::MatrixXd delta;                                  ///< (steps, n) relative displacement of the discs, length
-  Eigen::MatrixXd F;                                      ///< (steps, n) bearing force, argument of the law
-  std::optional<Eigen::MatrixXd> F_error;                 ///< (steps, n) estimated, if the plates' errors are known
-  Eigen::MatrixXd delta_vector, F_vector;                 ///< (steps, n a) their components, directions inner
-  Eigen::MatrixXd transferred_first, transferred_second;  ///< (steps, n) F + friction resultant on each plate
+  std::vector<std::string> fastener_id;              ///< (n)
+  std::vector<std::string> first_hole, second_hole;  ///< (n) "plate:hole"
+  std::vector<std::string> direction;                ///< (a) of the joint's discs: "x", "y"
+  Eigen::MatrixXd delta;                             ///< (steps, n) relative displacement of the discs, length
+  Eigen::MatrixXd F;                                 ///< (steps, n) bearing force, argument of the law
+  std::optional<Eigen::MatrixXd> F_error;            ///< (steps, n) estimated, if the plates' errors are known
+  Eigen::MatrixXd delta_vector, F_vector;            ///< (steps, n a) their components, directions inner
+  Eigen::MatrixXd transferred;  ///< (steps, n 2) F + friction resultant on each plane's first, then second plate
   std::vector<PlateHistory> plates;
   std::optional<SensitivityHistory> sensitivity;  ///< if it was asked for
 };

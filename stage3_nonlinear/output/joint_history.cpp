@@ -98,8 +98,8 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   result.converged = Eigen::VectorXi::Ones(steps);
   result.iterations.resize(steps);
   for (auto* list : {&result.load_factor, &result.residual}) list->resize(steps);
-  for (auto* table : {&result.delta, &result.F, &result.transferred_first, &result.transferred_second})
-    table->resize(steps, n);
+  for (auto* table : {&result.delta, &result.F}) table->resize(steps, n);
+  result.transferred.resize(steps, 2 * n);
   for (auto* table : {&result.delta_vector, &result.F_vector}) table->resize(steps, n * a);
   for (Index i = 0; i < steps; ++i) {
     const PathStep& step = path.steps[i];
@@ -111,8 +111,8 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     result.F_vector.row(i) = step.F;
     result.delta.row(i) = amounts(step.delta, a);
     result.F.row(i) = amounts(step.F, a);
-    result.transferred_first.row(i) = states[i].transferred_first;
-    result.transferred_second.row(i) = states[i].transferred_second;
+    result.transferred(i, Eigen::seqN(0, n, 2)) = states[i].transferred_first;
+    result.transferred(i, Eigen::seqN(1, n, 2)) = states[i].transferred_second;
   }
   for (const auto& plane : joint.planes) {
     result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
@@ -153,10 +153,10 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
 std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text = csv_heads(joint);
   for (Index i = 0; i < a.F.rows(); ++i) {
-    const VectorXd share = shares(joint, a.transferred_first.row(i).transpose());
+    const VectorXd share = shares(joint, a.transferred(i, Eigen::seqN(0, a.F.cols(), 2)));
     for (Index j = 0; j < a.F.cols(); ++j) {
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[j]),
-                          a.delta(i, j), a.F(i, j), a.transferred_first(i, j), a.transferred_second(i, j),
+                          a.delta(i, j), a.F(i, j), a.transferred(i, 2 * j), a.transferred(i, 2 * j + 1),
                           std::isfinite(share[j]) ? fmt::to_string(share[j]) : "", a.iterations[i], a.residual[i],
                           field(a.first_hole[j]), field(a.second_hole[j]));
       const Index directions = joint.n_directions();

@@ -36,7 +36,7 @@ TEST_F(Run, WritesTheResult) {
   // Symmetric lap: each fastener takes half.
   EXPECT_NEAR(a.F(1, 0), 50, 1e-11);
   EXPECT_NEAR(a.delta(0, 1), 0.025, 1e-14);
-  EXPECT_NEAR(a.transferred_second(1, 1), 50, 1e-11);
+  EXPECT_NEAR(a.transferred(1, 3), 50, 1e-11);
   ASSERT_EQ(a.plates.size(), 2U);
   EXPECT_EQ(a.plates[0].name, "a");
   EXPECT_THAT(a.plates[0].external_id, ElementsAre("P"));

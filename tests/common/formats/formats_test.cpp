@@ -196,12 +196,11 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.residual = Eigen::VectorXd::Zero(steps);
     a.event.assign(steps, "1 closes");
     a.fastener_id = {"1", "2", "3"};
-    a.delta = a.F = a.transferred_first = Eigen::MatrixXd::Random(steps, 3);
-    a.transferred_second = 2 * a.F;
+    a.delta = a.F = Eigen::MatrixXd::Random(steps, 3);
     a.first_hole = {"top:1", "top:2", "top:3"};
     a.second_hole = {"low:1", "low:2", "low:3"};
     a.direction = {"x", "y"};
-    a.delta_vector = a.F_vector = Eigen::MatrixXd::Random(steps, 6);
+    a.delta_vector = a.F_vector = a.transferred = Eigen::MatrixXd::Random(steps, 6);
     PlateHistory& plate = a.plates.emplace_back();
     plate.name = "top";
     plate.plate_digest = "0123456789abcdef";
@@ -248,7 +247,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.F, a.F);
     EXPECT_EQ(b.F_vector, a.F_vector);
     EXPECT_EQ(b.second_hole, a.second_hole);
-    EXPECT_EQ(b.transferred_second, a.transferred_second);
+    EXPECT_EQ(b.transferred, a.transferred);
     EXPECT_EQ(b.plates.at(0).D, plate.D);
     EXPECT_EQ(b.plates[0].plate_digest, plate.plate_digest);
     EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);

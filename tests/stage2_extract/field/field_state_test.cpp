@@ -127,8 +127,7 @@ class StateOfAJoint : public testing::Test {
     result.event.resize(result.load_factor.size());
     result.converged = result.iterations = Eigen::VectorXi::Ones(2);
     result.residual = Eigen::Vector2d::Zero();
-    for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred_first,
-                        &result.transferred_second})
+    for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred})
       table->setZero(2, 0);
     for (const auto& name : names) result.plates.push_back(history(name, 10 * static_cast<double>(name.size())));
     if (names.size() > 1) result.plates.back().disc_hole[0] = "other";

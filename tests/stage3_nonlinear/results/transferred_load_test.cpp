@@ -250,8 +250,8 @@ TEST_F(Run, ABoltOfUnlikeFrictionTransfersWhatIsApplied) {
           lap);
     out_.str("");
     run();
-    EXPECT_NEAR(result().transferred_first(0, 0), 1000, 1e-9);
-    EXPECT_NEAR(result().transferred_second(0, 0), 1000, 1e-9);
+    EXPECT_NEAR(result().transferred(0, 0), 1000, 1e-9);
+    EXPECT_NEAR(result().transferred(0, 1), 1000, 1e-9);
     EXPECT_NEAR(result().F(0, 0), includes ? 1000 : 1000 / (1 + 0.2 * cosine), 1e-9);
     EXPECT_THAT(out_.str(), HasSubstr("  b                           0             1000                -1000\n"));
     EXPECT_THAT(out_.str(),
