@@ -2,19 +2,13 @@
 #include "common/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <utility>
 #include <vector>
 
 namespace fastjoint {
-namespace {
-
-std::string power(const std::string& label, double exponent) {
-  return exponent == 1 ? label : fmt::format("{}^{:.6g}", label, exponent);
-}
-
-}  // namespace
 
 std::string unit(const Units& units, double length_power, double force_power) {
   const std::string length = units.length.empty() ? "length" : units.length;
@@ -22,11 +16,12 @@ std::string unit(const Units& units, double length_power, double force_power) {
   std::vector<std::string> above;
   std::string below;
   for (const auto& [label, exponent] : {std::pair{force, force_power}, std::pair{length, length_power}}) {
-    if (exponent > 0) above.push_back(power(label, exponent));
-    if (exponent < 0) below += fmt::format("/{}", power(label, std::abs(exponent)));
+    const double size = std::abs(exponent);
+    const std::string power = size == 1 ? label : fmt::format("{}^{:.6g}", label, size);
+    if (exponent > 0) above.push_back(power);
+    if (exponent < 0) below += "/" + power;
   }
-  if (above.empty()) return "1" + below;
-  return (above.size() == 2 ? above[0] + " " + above[1] : above[0]) + below;
+  return (above.empty() ? "1" : fmt::format("{}", fmt::join(above, " "))) + below;
 }
 
 }  // namespace fastjoint

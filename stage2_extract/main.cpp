@@ -108,8 +108,7 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
   const bool field = arguments.flag("--field"), stresses = arguments.flag("--stresses");
   if (stresses && (field || arguments.flag("--loads-only")))
     throw InputError("--stresses: goes neither with --field nor with --loads-only");
-  if (h5::same_file(arguments.text("--stresses"), arguments.timings))
-    throw InputError(fmt::format("--timings {}: is the file of --stresses; choose another name", arguments.timings));
+  program::check_spare("--timings", arguments.timings, arguments.text("--stresses"), "the file of --stresses");
   stage2::FieldRequest request = {arguments.text("--field"), stresses ? "" : arguments.text("--plate"),
                                   arguments.integer("--increment", 1, most_increments, 0),
                                   arguments.integer("--p", 1, pfem::highest_p, 0)};

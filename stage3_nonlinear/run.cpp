@@ -21,11 +21,7 @@ namespace {
 
 constexpr const char* program_name = "stage3_nonlinear";
 
-/// Throws InputError if an option names a file that the run reads or writes for another purpose, `what`.
-void check_spare(const char* option, const std::string& path, const std::string& other, const std::string& what) {
-  if (h5::same_file(path, other))
-    throw InputError(fmt::format("{} {}: is {}; choose another name", option, path, what));
-}
+using program::check_spare;
 
 void check_csv(const program::Arguments& arguments, const std::string& csv_file) {
   for (const auto& path : {arguments.input, arguments.output})

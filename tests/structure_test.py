@@ -19,7 +19,7 @@ STAGES = {
     "stage2_extract": {
         "matrices": ["formats", ""],
         "stresses": ["formats", "pfem", "plate", "program", "rim", "stresses", ""],
-        "field": ["formats", "h5", "pfem", ""],
+        "field": ["formats", "pfem", "program", ""],
         "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
     },
     "stage3_nonlinear": {

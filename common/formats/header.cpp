@@ -55,10 +55,7 @@ template void space(h5::Writer& file, const pfem::Space& a);
 template void space(h5::Reader& file, pfem::Space& a);
 
 h5::Allowed degrees(int highest) {
-  return {.text = fmt::format("ascending degrees from 1 to {}", highest),
-          .low = 1,
-          .high = static_cast<double>(highest),
-          .step = 1};
+  return {.text = fmt::format("ascending degrees from 1 to {}", highest), .low = 1, .high = double(highest), .step = 1};
 }
 
 }  // namespace fastjoint::formats

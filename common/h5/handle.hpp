@@ -27,8 +27,6 @@ class Handle {
     std::swap(id_, other.id_);
     return *this;
   }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
   ~Handle() {
     if (id_ >= 0) CloseFn(id_);
   }

@@ -9,7 +9,7 @@
 
 #include "common/errors.hpp"
 #include "common/h5/handle.hpp"
-#include "common/h5/seal.hpp"
+#include "common/h5/whole_file.hpp"
 
 namespace fastjoint::h5 {
 namespace {

@@ -23,39 +23,29 @@ namespace {
 using nlohmann::json;
 
 /// Watches the keys of the objects that are open, since the parser would silently keep the last of two, and strings.
-class Watch {
- public:
-  explicit Watch(const std::string& file) : file_(file) {}
+struct Watch {
+  const std::string& file;
+  std::vector<std::set<std::string>> open = {};
 
   bool operator()(int /*depth*/, json::parse_event_t event, const json& value) {
     if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos)
       throw InputError(
           fmt::format("{}: the string {} holds the character \\u0000, which would end it in other files; "
                       "allowed: any other character",
-                      file_, value.dump()));
-    if (event == json::parse_event_t::object_start) {
-      open_.emplace_back();
-    } else if (event == json::parse_event_t::object_end) {
-      open_.pop_back();
-    } else if (event == json::parse_event_t::key) {
-      const auto key = value.get<std::string>();
-      if (!open_.back().insert(key).second)
-        throw InputError(fmt::format("{}: key \"{}\" stands twice in one object; each key may stand once", file_, key));
-    }
+                      file, value.dump()));
+    if (event == json::parse_event_t::object_start) open.emplace_back();
+    if (event == json::parse_event_t::object_end) open.pop_back();
+    if (event == json::parse_event_t::key && !open.back().insert(value.get<std::string>()).second)
+      throw InputError(fmt::format("{}: key \"{}\" stands twice in one object; each key may stand once", file,
+                                   value.get<std::string>()));
     return true;
   }
-
- private:
-  const std::string& file_;
-  std::vector<std::set<std::string>> open_;
 };
 
 std::string line_and_column(const std::string& text, std::size_t byte) {
-  const auto end = text.begin() + std::min(byte == 0 ? 0 : byte - 1, text.size());
-  const auto line = 1 + std::count(text.begin(), end, '\n');
-  const auto newline = std::find(std::make_reverse_iterator(end), text.rend(), '\n');
-  const auto column = 1 + std::distance(std::make_reverse_iterator(end), newline);
-  return fmt::format("line {}, column {}", line, column);
+  const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
+  const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+  return fmt::format("line {}, column {}", line, before.size() - before.rfind('\n'));  // npos stands before the text
 }
 
 /// Words of the parser for common mistakes, and what to do about each.
@@ -98,18 +88,10 @@ std::string words(const Range& range) {
   return text;
 }
 
-bool inside(const Range& range, double x) {
-  const bool above = range.low_allowed ? x >= range.low : x > range.low;
-  const bool below = range.high_allowed ? x <= range.high : x < range.high;
-  return above && below;
-}
-
 }  // namespace
 
 std::string read_text_file(const std::string& path) {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!error && std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+  if (std::error_code none; std::filesystem::exists(path, none) && !std::filesystem::is_regular_file(path, none))
     throw FileError(fmt::format("{}: is not a regular file", path));
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
@@ -124,7 +106,7 @@ Document parse(const std::string& file, const std::string& text) {
       text.substr(0, longest_mark).find('\0') != std::string::npos)
     throw InputError(fmt::format("{}: is encoded in UTF-16; save it as UTF-8", file));
   try {
-    Watch watch(file);
+    Watch watch{file};
     auto root = std::make_shared<json>(json::parse(text, std::ref(watch), true, true));
     return {file, text, std::move(root)};
   } catch (const json::parse_error& e) {
@@ -208,7 +190,9 @@ std::vector<Value> Value::items(std::size_t least, std::size_t most) const {
 double Value::number(const Range& range) const {
   if (!is_number()) not_allowed(words(range));
   const double x = json_->get<double>();
-  if (!std::isfinite(x) || !inside(range, x)) not_allowed(words(range));
+  const bool above = range.low_allowed ? x >= range.low : x > range.low;
+  const bool below = range.high_allowed ? x <= range.high : x < range.high;
+  if (!std::isfinite(x) || !above || !below) not_allowed(words(range));
   return x;
 }
 

@@ -7,25 +7,14 @@
 
 namespace fastjoint::matrices {
 
-/// Estimated absolute error of the last of condensed stiffness matrices of rising degree, shape (nc, nc), >= 0.
+/// Estimated absolute error of the last of condensed stiffness matrices of rising degree, shape (nc, nc), >= 0,
+/// infinite if there is but one (docs/theory.md, section 5.1).
 ///
-/// A diagonal entry S_ii is an energy, which falls towards its limit. Its differences are taken to go on falling as
-/// p^-s, whose sum is the error: by the rate of the last difference and the last but two (between neighbours the trunk
-/// space alternates), but not as if faster than s = 5. A singular point with displacements r^lambda gives 4 lambda + 1,
-/// hides for long behind what converges exponentially, and then rules; s <= 5 is as if lambda = 1 ruled from here on,
-/// s <= 3 as if lambda = 1/2, as at the corners of laminates off their axes on rollers (fastest_rate). Below p = 6,
-/// where less is resolved, s is at most p - 1 fifths of that. Where the difference before, carried on at the same rate
-/// (at most as p^-8), is larger than the last, which then happens to be small, it takes its place.
-/// So what is smooth is overestimated, 3.6 times by the median, 50 times at most without rings around the holes, up to
-/// 80 times with some, and what is singular (ends of clamped edges, of steps in thickness) is not underestimated by
-/// more than 1.5 times, nor are slender cells, in 20967 cases. Exception: springs that end inside a side of an element
-/// (2 lambda + 1), up to twice. Theory: docs/theory.md, section 5.1; what it is worth:
-/// tests/stage2_extract/effectivity_test.cpp and error_sweep_test.cpp.
-///
-/// Off the diagonal the error is an energy product of two errors, at most the root of the product of their diagonals:
-/// taken as the last difference is, and as 0.15 of that bound where the difference happens to pass through zero.
-///
-/// Fewer than four degrees have s <= 3, or 2 of a laminate off its axes; the error of one alone is infinite.
+/// What is smooth is overestimated, 3.6 times by the median, 50 times at most without rings around the holes, up to 80
+/// times with some, and what is singular (ends of clamped edges, of steps in thickness) is not underestimated by more
+/// than 1.5 times, nor are slender cells, in 20967 cases (tests/stage2_extract/effectivity_test.cpp and
+/// error_sweep_test.cpp). Exception: springs that end inside a side of an element, up to twice: their differences fall
+/// as p^-(2 lambda + 1).
 /// @param p Degrees, rising, shape (np). @param fastest The largest s that is believed.
 [[nodiscard]] Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p,
                                               double fastest);
@@ -48,12 +37,11 @@ struct RelativeError {
   double value;
 };
 
-/// Errors at the highest degree of those of S, R and C_t that the plate has, of an S that is zero over the norm of
-/// K_cc. R_ij is the energy product of a unit field and that of a friction case, whose traction jumps: where the latter
-/// is rough, above all in the trunk space, R converges more slowly than S (an annulus of two layers: 1.9e-5, S 5e-7).
-/// The norms of its differences are taken to go on as above, and no faster than those of the trace of S. True errors
-/// are up to 3.4 times as large, in 1 of 100 cases more than 1.5 times, mostly in the trunk space, in slender laminates
-/// and at p = 4; those of C_t up to twice, in 1 of 1000 cases more than 1.5 times.
+/// Errors at the highest degree of those of S, R and C_t that the plate has (docs/theory.md, section 5), of an S that
+/// is zero over the norm of K_cc. Where friction's own field is rough, R converges more slowly than S (an annulus of
+/// two layers: 1.9e-5, S 5e-7). True errors of R are up to 3.4 times as large, in 1 of 100 cases more than 1.5 times,
+/// mostly in the trunk space, in slender laminates and at p = 4; those of C_t up to twice, in 1 of 1000 more than 1.5
+/// times.
 [[nodiscard]] std::vector<RelativeError> relative_errors(const CondensedLevels& levels, const Eigen::VectorXi& p,
                                                          const Eigen::VectorXd& held_stiffness, double fastest);
 [[nodiscard]] double largest(const std::vector<RelativeError>& errors);

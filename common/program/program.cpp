@@ -21,16 +21,6 @@ namespace {
 
 enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, numerical_failure = 4 };
 
-void add(CLI::App& app, const Option& option, Arguments& arguments) {
-  const auto keep = [&arguments, name = option.name](const std::string& text) { arguments.options[name] = text; };
-  if (option.value.empty()) {
-    const auto note = [keep] { keep("given"); };
-    app.add_flag_callback(option.name, note, option.help)->option_text(" ");
-  } else {
-    app.add_option_function<std::string>(option.name, keep, option.help)->option_text(option.value);
-  }
-}
-
 /// Nothing if all the user wanted was --help or --version.
 std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   Arguments arguments;
@@ -38,7 +28,8 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   app.set_version_flag("--version", generator(command.name));
   app.add_option(command.input, arguments.input, "file to read")->required()->option_text(" ");
   app.add_option("-o,--output", arguments.output, "file to write")->required()->option_text(command.output);
-  for (const auto& option : command.options) add(app, option, arguments);
+  for (const auto& [name, value, help] : command.options)
+    (value.empty() ? app.add_flag(name, help) : app.add_option(name, help))->option_text(value.empty() ? " " : value);
   app.add_option("--timings", arguments.timings, "also write what each phase took, as JSON")->option_text("FILE");
   app.add_flag("--quiet", arguments.quiet, "print no summary and no progress");
   app.footer("Exit status: 0 done, 1 internal error, 2 wrong usage or input, 3 bad file, 4 numerical failure.");
@@ -46,6 +37,8 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
     app.parse(argc, argv);
     if (arguments.input.empty()) throw CLI::RequiredError(command.input);  // CLI11 takes "" for a name
     if (arguments.output.empty()) throw CLI::RequiredError("--output");
+    for (const auto& option : command.options)
+      if (app.count(option.name) > 0) arguments.options[option.name] = app[option.name]->results().back();
     return arguments;
   } catch (const CLI::Success& e) {
     app.exit(e, std::cout);
@@ -56,13 +49,9 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
 }
 
 void check_paths(const Arguments& arguments) {
-  const auto check = [](const char* option, const std::string& path, const char* role, const std::string& other) {
-    if (h5::same_file(path, other))
-      throw InputError(fmt::format("{} {}: is the {} file; choose another name", option, path, role));
-  };
-  check("-o", arguments.output, "input", arguments.input);
-  check("--timings", arguments.timings, "input", arguments.input);
-  check("--timings", arguments.timings, "output", arguments.output);
+  check_spare("-o", arguments.output, arguments.input, "the input file");
+  check_spare("--timings", arguments.timings, arguments.input, "the input file");
+  check_spare("--timings", arguments.timings, arguments.output, "the output file");
   for (const auto* path : {&arguments.output, &arguments.timings})
     if (!path->empty()) h5::check_can_write(*path);
 }
@@ -161,6 +150,11 @@ double Arguments::number(const std::string& name, double low, double high, doubl
 std::string Arguments::text(const std::string& name) const {
   const auto found = options.find(name);
   return found == options.end() ? "" : found->second;
+}
+
+void check_spare(const char* option, const std::string& path, const std::string& other, const std::string& what) {
+  if (h5::same_file(path, other))
+    throw InputError(fmt::format("{} {}: is {}; choose another name", option, path, what));
 }
 
 std::string one_line(const std::string& text) {

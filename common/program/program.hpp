@@ -51,6 +51,9 @@ using Body = std::function<void(const Arguments&, Timings&)>;
 /// done, 1 internal error, 2 wrong usage or input, 3 file, 4 numerical failure).
 [[noreturn]] void run(const Command& command, int argc, char** argv, const Body& body);
 
+/// Throws InputError if the file that an option names is another one that the run reads or writes, `what`.
+void check_spare(const char* option, const std::string& path, const std::string& other, const std::string& what);
+
 /// The text with line breaks and other control characters, which names in the input may hold, as JSON escapes them.
 [[nodiscard]] std::string one_line(const std::string& text);
 

@@ -11,7 +11,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/h5/whole_file.hpp"
+#include "common/program/program.hpp"
 #include "stage2_extract/stresses/joint_sheet.hpp"
 
 namespace fastjoint::stage2 {
@@ -119,8 +119,7 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
   if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 or --stresses only");
   if (!of_joint && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
   for (const auto& [option, path] : {std::pair("-o", output), std::pair("--timings", timings)})
-    if (wanted && h5::same_file(request.spec, path))
-      throw InputError(fmt::format("{} {}: is the file of --field; choose another name", option, path));
+    if (wanted) program::check_spare(option, path, request.spec, "the file of --field");
 }
 
 FieldState field_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {

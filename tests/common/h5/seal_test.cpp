@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/h5/seal.hpp"
+#include "common/h5/whole_file.hpp"
 
 #include <gmock/gmock.h>
 
