@@ -37,8 +37,9 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
     app.parse(argc, argv);
     if (arguments.input.empty()) throw CLI::RequiredError(command.input);  // CLI11 takes "" for a name
     if (arguments.output.empty()) throw CLI::RequiredError("--output");
-    for (const auto& option : command.options)
-      if (app.count(option.name) > 0) arguments.options[option.name] = app[option.name]->results().back();
+    for (const auto& [name, value, help] : command.options)
+      if (app.count(name) > 0 && (!value.empty() || app[name]->as<bool>()))
+        arguments.options[name] = app[name]->results().back();
     return arguments;
   } catch (const CLI::Success& e) {
     app.exit(e, std::cout);
