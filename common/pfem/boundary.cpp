@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/pfem/boundary.hpp"
 
-#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/pfem/element_map.hpp"
 
+#include <Eigen/LU>
 #include <algorithm>
+
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 
@@ -33,6 +36,24 @@ Eigen::Matrix2d ElementMap::jacobian(double xi, double eta) const {
 
 bool ElementMap::is_curved() const {
   return std::any_of(curves_.begin(), curves_.end(), [](const Curve& c) { return c.is_arc(); });
+}
+
+Eigen::MatrixXd strain_operator(const ElementMap& map, Space space, int p, const Eigen::VectorXd& xi,
+                                const Eigen::VectorXd& eta) {
+  const ShapeValues shape = shape_values(space, p, xi, eta);
+  const auto n = shape.N.rows();
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(3 * xi.size(), 2 * n);
+  for (Eigen::Index q = 0; q < xi.size(); ++q) {
+    const Eigen::Matrix2d to_physical = map.jacobian(xi[q], eta[q]).inverse();
+    const Eigen::RowVectorXd Nx =
+        to_physical(0, 0) * shape.dN_dxi.col(q).transpose() + to_physical(1, 0) * shape.dN_deta.col(q).transpose();
+    const Eigen::RowVectorXd Ny =
+        to_physical(0, 1) * shape.dN_dxi.col(q).transpose() + to_physical(1, 1) * shape.dN_deta.col(q).transpose();
+    B.row(3 * q) << Nx, Eigen::RowVectorXd::Zero(n);
+    B.row(3 * q + 1) << Eigen::RowVectorXd::Zero(n), Ny;
+    B.row(3 * q + 2) << Ny, Nx;
+  }
+  return B;
 }
 
 }  // namespace fastjoint::pfem

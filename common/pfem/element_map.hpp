@@ -5,6 +5,7 @@
 #include <array>
 
 #include "common/pfem/mesh.hpp"
+#include "common/pfem/space.hpp"
 
 namespace fastjoint::pfem {
 
@@ -24,5 +25,11 @@ class ElementMap {
   std::array<Curve, 4> curves_;  ///< bottom, right, top, left in their natural directions
   Eigen::Matrix<double, 2, 4> vertices_;
 };
+
+/// Strains of an element per coefficient, shape (3 n_points, 2 n_modes): rows (eps_x, eps_y, gamma_xy) point after
+/// point, first the coefficients of u_x, then those of u_y, local signs.
+/// @param xi, eta Coordinates of the points, each of shape (n_points).
+[[nodiscard]] Eigen::MatrixXd strain_operator(const ElementMap& map, Space space, int p, const Eigen::VectorXd& xi,
+                                              const Eigen::VectorXd& eta);
 
 }  // namespace fastjoint::pfem

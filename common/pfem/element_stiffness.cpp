@@ -4,9 +4,38 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <map>
+
+#include "common/count.hpp"
+#include "common/linalg/threads.hpp"
 
 namespace fastjoint::pfem {
+namespace {
+
+using Shape = std::vector<std::int64_t>;
+
+Shape shape_of(const Mesh& mesh, const Edges& edges, int element) {
+  constexpr double same = 1e-12;  // of the element's size
+  const Eigen::Vector2d origin = mesh.nodes.col(mesh.quads(0, element));
+  const double size = (mesh.nodes.col(mesh.quads(2, element)) - origin).norm();
+  const int exponent = std::ilogb(size);  // the grid must not depend on the last digits of the size
+  const double step = std::ldexp(same, exponent);
+  Shape shape{mesh.material[element], exponent};
+  const auto add = [&](const Eigen::Vector2d& point) {
+    for (const double x : point - origin) shape.push_back(std::llround(x / step));
+  };
+  for (int v = 1; v < 4; ++v) add(mesh.nodes.col(mesh.quads(v, element)));
+  for (int edge = 0; edge < 4; ++edge) {
+    const int arc = edges.arc[edges.of_element(edge, element)];
+    shape.push_back(arc < 0 ? 0 : 1);
+    if (arc >= 0) add(mesh.arcs[arc].center);
+  }
+  return shape;
+}
+
+}  // namespace
 
 GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
   constexpr int n = highest_geometric_degree + 1;
@@ -41,14 +70,9 @@ ElementStiffness::ElementStiffness(Space space, int p, int extra) : space_(space
 ElementStiffness::Table ElementStiffness::make_table(int n_points, const Box& box) const {
   Table table;
   const Rule rule = gauss(n_points);
-  const Eigen::VectorXd eta = box.middle.y() + box.half.y() * rule.x.array();
   table.xi = (box.middle.x() + box.half.x() * rule.x.array()).replicate(n_points, 1);
-  table.eta.resize(table.xi.size());
-  table.w.resize(table.xi.size());
-  for (Eigen::Index j = 0; j < n_points; ++j) {
-    table.eta.segment(j * n_points, n_points).setConstant(eta[j]);
-    table.w.segment(j * n_points, n_points) = box.half.prod() * rule.w[j] * rule.w;
-  }
+  table.eta = (box.middle.y() + box.half.y() * rule.x.transpose().array()).replicate(n_points, 1).reshaped();
+  table.w = box.half.prod() * (rule.w * rule.w.transpose()).reshaped();
   table.shape = shape_values(space_, p_, table.xi, table.eta);
   return table;
 }
@@ -109,6 +133,28 @@ double jacobian_ratio(const ElementMap& map) {
       sum += det;
     }
   return least / std::abs(sum / (n_samples * n_samples));
+}
+
+CongruentElements find_congruent(const Mesh& mesh, const Edges& edges) {
+  CongruentElements congruent;
+  std::map<Shape, int> index;
+  for (int element = 0; element < mesh.n_elements(); ++element) {
+    const auto [found, is_new] = index.try_emplace(shape_of(mesh, edges, element), count_of(congruent.first));
+    if (is_new) congruent.first.push_back(element);
+    congruent.class_of.push_back(found->second);
+  }
+  return congruent;
+}
+
+std::vector<Eigen::MatrixXd> integrate(const CongruentElements& congruent, const Mesh& mesh, const Edges& edges,
+                                       const std::vector<Eigen::Matrix3d>& elasticity, Space space, int p) {
+  const ElementStiffness stiffness(space, p);
+  std::vector<Eigen::MatrixXd> K(congruent.first.size());
+  linalg::for_each_index(K.size(), [&](std::size_t i) {
+    const int element = congruent.first[i];
+    K[i] = stiffness(ElementMap(mesh, edges, element), elasticity[mesh.material[element]], 1);
+  });
+  return K;
 }
 
 }  // namespace fastjoint::pfem

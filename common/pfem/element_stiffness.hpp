@@ -4,9 +4,9 @@
 #include <Eigen/Core>
 #include <map>
 #include <mutex>
+#include <vector>
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
@@ -57,5 +57,21 @@ inline constexpr int highest_geometric_degree = 19;
 /// Smallest Jacobian determinant of an element at its integration points and vertices, over its mean.
 /// The map is one to one only if it is positive.
 [[nodiscard]] double jacobian_ratio(const ElementMap& map);
+
+/// The congruence classes of the elements of a mesh: equal up to translation (to 1e-12 of the element's size, far above
+/// the rounding of coordinates and far below what a stiffness shows), and of one material. A panel of riveted cells has
+/// eight classes, not thousands.
+struct CongruentElements {
+  std::vector<int> class_of;  ///< (n_elements) index of the element's class
+  std::vector<int> first;     ///< (classes) the first element of each, ascending
+};
+[[nodiscard]] CongruentElements find_congruent(const Mesh& mesh, const Edges& edges);
+
+/// Stiffness matrices of all congruence classes at unit thickness, each of shape (2 n_modes, 2 n_modes) as
+/// ElementStiffness has it, force / length^2; integrated on all threads.
+/// @param elasticity Elasticity of each material of the mesh, (3, 3), stress.
+[[nodiscard]] std::vector<Eigen::MatrixXd> integrate(const CongruentElements& congruent, const Mesh& mesh,
+                                                     const Edges& edges, const std::vector<Eigen::Matrix3d>& elasticity,
+                                                     Space space, int p);
 
 }  // namespace fastjoint::pfem

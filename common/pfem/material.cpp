@@ -32,13 +32,18 @@ Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, 
   Eigen::Matrix3d D = Eigen::Matrix3d::Zero();
   D.topLeftCorner<2, 2>() = compliance(constants, analysis).inverse().topLeftCorner(2, 2);
   D(2, 2) = constants.G12;
-  const double c = std::cos(angle);
-  const double s = std::sin(angle);
-  Eigen::Matrix3d T;         // engineering strains along the material axes from those along x, y
-  T << c * c, s * s, c * s,  //
-      s * s, c * c, -c * s,  //
-      -2 * c * s, 2 * c * s, c * c - s * s;
-  return T.transpose() * D * T;
+  const Eigen::Matrix3d T = polar_stress(-angle);
+  return T * D * T.transpose();
+}
+
+Eigen::Matrix3d polar_stress(double theta) {
+  const double c = std::cos(theta);
+  const double s = std::sin(theta);
+  Eigen::Matrix3d T;
+  T << c * c, s * s, 2 * c * s,  //
+      s * s, c * c, -2 * c * s,  //
+      -c * s, c * s, c * c - s * s;
+  return T;
 }
 
 }  // namespace fastjoint::pfem

@@ -24,4 +24,8 @@ struct OrthotropicConstants {
 /// Jones, Mechanics of Composite Materials, 2nd ed. 1999, sections 2.4-2.6.
 [[nodiscard]] Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, Analysis analysis);
 
+/// Turns stresses (sigma_x, sigma_y, tau_xy) into (sigma_rr, sigma_tt, sigma_rt) at the angle theta, radians
+/// counter-clockwise from x, shape (3, 3). Its inverse is that at -theta.
+[[nodiscard]] Eigen::Matrix3d polar_stress(double theta);
+
 }  // namespace fastjoint::pfem

@@ -8,6 +8,32 @@
 
 namespace fastjoint::pfem {
 
+/// Points and weights of a quadrature on [-1, 1], each of shape (n).
+struct Rule {
+  Eigen::VectorXd x, w;
+};
+
+/// Gauss-Legendre rule of n points, exact for polynomials of degree 2 n - 1; n >= 1.
+[[nodiscard]] Rule gauss(int n);
+
+/// Legendre polynomials P_0 ... P_p at points x, shape (p + 1, n_points).
+[[nodiscard]] Eigen::MatrixXd legendre(int p, const Eigen::VectorXd& x);
+
+/// Values and derivatives of functions at points, each of shape (n_functions, n_points).
+struct Values {
+  Eigen::MatrixXd N, dN;
+};
+
+/// Hierarchic shape functions on [-1, 1]: the two linear ones, then integrated Legendre polynomials.
+///
+/// N_0 = (1-x)/2, N_1 = (1+x)/2, N_k = phi_k = (P_k - P_{k-2}) / sqrt(2 (2k-1)) for k >= 2, so that
+/// int phi_i' phi_j' dx = delta_ij. Szabo & Babuska, Finite Element Analysis, Wiley 1991, section 6.1.
+///
+/// @param p Polynomial degree, p >= 1.
+/// @param x Points in [-1, 1], shape (n_points).
+/// @return  Shape (p + 1, n_points).
+[[nodiscard]] Values integrated_legendre(int p, const Eigen::VectorXd& x);
+
 /// One shape function of a quadrilateral: N_i(xi) N_j(eta), with the N of integrated_legendre.
 struct Mode {
   int i, j;
@@ -37,6 +63,10 @@ struct EdgeEnds {
   constexpr EdgeEnds ends[n_local_edges] = {{0, 1}, {1, 2}, {3, 2}, {0, 3}};
   return ends[edge];
 }
+
+/// Coordinates (xi, eta) of points along a local edge, shape (2, n_points).
+/// @param s Coordinates along the edge's natural direction, shape (n_points).
+[[nodiscard]] Eigen::Matrix2Xd along_edge(int local_edge, const Eigen::VectorXd& s);
 
 /// Shape functions and their derivatives at points of [-1, 1]^2.
 struct ShapeValues {

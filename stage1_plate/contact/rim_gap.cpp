@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "common/count.hpp"
-#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {

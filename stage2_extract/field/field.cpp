@@ -6,8 +6,8 @@
 #include <cassert>
 
 #include "common/errors.hpp"
+#include "common/pfem/element_map.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "common/pfem/strain.hpp"
 
 namespace fastjoint::stage2 {
 using Eigen::Index;

@@ -6,9 +6,8 @@
 #include <cmath>
 
 #include "common/count.hpp"
-#include "common/pfem/legendre.hpp"
+#include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "common/pfem/strain.hpp"
 
 namespace fastjoint::stage2 {
 namespace {

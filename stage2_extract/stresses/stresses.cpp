@@ -6,9 +6,8 @@
 #include <iterator>
 
 #include "common/count.hpp"
-#include "common/pfem/legendre.hpp"
+#include "common/pfem/element_map.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "common/pfem/strain.hpp"
 #include "common/program/progress.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 

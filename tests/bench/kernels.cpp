@@ -4,7 +4,6 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "common/pfem/element_stiffness.hpp"
-#include "common/pfem/legendre.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"

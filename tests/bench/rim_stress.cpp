@@ -6,7 +6,7 @@
 #include <Eigen/LU>
 #include <iostream>
 
-#include "common/pfem/strain.hpp"
+#include "common/pfem/material.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/rim_methods.hpp"

@@ -4,9 +4,9 @@
 #include <Eigen/QR>
 #include <cmath>
 
-#include "common/pfem/legendre.hpp"
+#include "common/pfem/element_map.hpp"
+#include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
-#include "common/pfem/strain.hpp"
 
 namespace fastjoint::test {
 namespace {

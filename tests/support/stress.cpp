@@ -2,8 +2,7 @@
 #include "tests/support/stress.hpp"
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/legendre.hpp"
-#include "common/pfem/strain.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::test {
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/pfem/congruent_elements.hpp"
+#include "common/pfem/element_stiffness.hpp"
 
 #include <gtest/gtest.h>
 
-#include "common/pfem/element_stiffness.hpp"
 #include "tests/support/meshes.hpp"
 
 namespace fastjoint::pfem {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 #include <gtest/gtest.h>
 

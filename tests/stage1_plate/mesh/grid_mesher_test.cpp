@@ -10,7 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 

@@ -8,7 +8,7 @@
 #include <functional>
 #include <numbers>
 
-#include "common/pfem/legendre.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"
 #include "stage1_plate/scene/read_parts.hpp"

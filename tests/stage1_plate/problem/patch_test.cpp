@@ -7,7 +7,6 @@
 #include <numeric>
 
 #include "common/pfem/element_map.hpp"
-#include "common/pfem/legendre.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/assembler.hpp"

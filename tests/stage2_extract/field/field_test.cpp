@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/errors.hpp"
-#include "common/pfem/strain.hpp"
+#include "common/pfem/material.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/rim_methods.hpp"
 #include "tests/support/spaces.hpp"
