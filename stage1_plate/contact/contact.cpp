@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/errors.hpp"
@@ -44,13 +45,13 @@ class ContactSearch {
   /// The bearing halves if the disc carries a force, else the whole rim.
   void start() {
     constexpr double carries = 1e-3;  // of the largest force anywhere
-    const ContactSystem::State whole = system_.solve_whole();
+    const ContactSystem::State whole = system_.solve(std::vector(result_.size(), whole_rim));
     const double largest = std::max(whole.force.cwiseAbs().maxCoeff(), system_.traction().lpNorm<Eigen::Infinity>());
     for (std::size_t i = 0; i < result_.size(); ++i) {
       const Eigen::Vector2d force = disc_force(scene_, problem_.unknowns, whole.force, result_[i].hole);
       Arcs half;
       if (force.norm() > carries * largest) half = system_.gap(i).bearing_half(force.normalized());
-      arcs_.push_back(half.empty() ? Arcs{{-rim::full_turn / 2, rim::full_turn / 2}} : half);
+      arcs_.push_back(half.empty() ? whole_rim : half);
     }
   }
 
@@ -67,15 +68,12 @@ class ContactSearch {
   }
 
   [[noreturn]] void not_converged(int iterations) const {
-    std::size_t worst = 0;
-    for (std::size_t i = 1; i < result_.size(); ++i)
-      if (result_[i].last_move > result_[worst].last_move) worst = i;
-    const double move = result_[worst].last_move;
+    const auto& worst = *std::ranges::max_element(result_, {}, &RimContact::last_move);
     throw NumericalError(fmt::format(
         "{}: /holes/{}/spring: the contact of hole \"{}\" has not come to rest in {} iterations: {}; allowed: {:g} rad",
-        scene_.file, result_[worst].hole, scene_.holes[result_[worst].hole].id, iterations,
-        std::isfinite(move) ? fmt::format("the ends of its arcs still move by {:.3g} rad", move)
-                            : std::string("the number of its arcs still changes"),
+        scene_.file, worst.hole, scene_.holes[worst.hole].id, iterations,
+        std::isfinite(worst.last_move) ? fmt::format("the ends of its arcs still move by {:.3g} rad", worst.last_move)
+                                       : std::string("the number of its arcs still changes"),
         at_rest));
   }
 

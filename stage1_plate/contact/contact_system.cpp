@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
+#include "common/plate/plate_states.hpp"
 #include "stage1_plate/problem/rigid_body_check.hpp"
 
 namespace fastjoint::stage1 {
@@ -20,6 +21,24 @@ std::vector<Load> controlled_loads(const PlateScene& scene, const Unknowns& unkn
   for (const int external : rigid_externals(scene)) loads.push_back(given.external[external]);
   loads.insert(loads.end(), given.disc.begin(), given.disc.end());
   return loads;
+}
+
+/// One factorisation at the highest degree. The states solved for are unit loads on the rim unknowns, then unit
+/// tractions, displacements and friction cases.
+RimCondensation condense_to_rims(const PlateProblem& problem, const RimUnknowns& rim) {
+  const Eigen::Index n_r = rim.free.size(), q = problem.T_c.cols();
+  const Eigen::Index nc = problem.unknowns.n_controlled(), h = problem.unknowns.n_friction_cases();
+  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(nc + h, n_r + q + nc + h);
+  border.rightCols(nc + h).setIdentity();
+  Eigen::SparseMatrix<double> loads(problem.T_f.rows(), border.cols());
+  for (Eigen::Index i = 0; i < n_r; ++i) loads.insert(rim.free[i], i) = 1;
+  loads.middleCols(n_r, q) = problem.T_f;
+  const plate::PlateFactor K(problem, plate::Skeleton(problem), problem.numbering.p);
+  const plate::PlateStates states(K, border, loads);
+  const Eigen::MatrixXd u_r = states.work().topRows(n_r), forces = states.forces();
+  return {u_r.leftCols(n_r),  u_r.middleCols(n_r + q, nc),    u_r.middleCols(n_r, q),
+          u_r.rightCols(h),   forces.middleCols(n_r + q, nc), forces.middleCols(n_r, q) - problem.T_c,
+          forces.rightCols(h)};
 }
 
 }  // namespace
@@ -41,15 +60,8 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
     if (!spring || !spring->compression_only) continue;
     holes_.push_back(hole);
     gaps_.emplace_back(scene, plate, problem, rim_, holes_.back());
-    whole_ += gaps_.back().stiffness(spring->acts);
+    whole_ += gaps_.back().stiffness(whole_rim);
   }
-}
-
-ContactSystem::State ContactSystem::solve_whole() {
-  std::vector<Arcs> arcs;
-  arcs.reserve(holes_.size());
-  for (const int hole : holes_) arcs.push_back(scene_.holes[hole].sprung().acts);
-  return solve(arcs);
 }
 
 /// Solves the system of docs/theory.md, section 6.2, for x = (u_r, D, P / kappa), kappa the largest stiffness of the
@@ -61,34 +73,31 @@ ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   if (!is_held_under_loads(sprung, plate_, problem_.unknowns)) lost(arcs);
   Eigen::MatrixXd dM = -whole_;
   for (std::size_t i = 0; i < gaps_.size(); ++i) dM += gaps_[i].stiffness(arcs[i]);
-  const Eigen::Index n_r = rim_.free.size();
+  const Eigen::Index n_r = rim_.free.size(), nc = rim_.n_controlled;
   const auto& [C, U_r, V_r, W_r, S, T, R] = plate_matrices_;
   const Eigen::MatrixXd A = friction_per_force();
   const double kappa = whole_.diagonal().maxCoeff();
-  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_r + 2 * rim_.n_controlled, n_r + 2 * rim_.n_controlled);
+  Eigen::MatrixXd K = Eigen::MatrixXd::Zero(n_r + 2 * nc, n_r + 2 * nc);
   Eigen::VectorXd b = Eigen::VectorXd::Zero(K.rows());
-  K.topLeftCorner(n_r, n_r + rim_.n_controlled) = C * dM.topRows(n_r);
+  K.topLeftCorner(n_r, n_r + nc) = C * dM.topRows(n_r);
   K.topLeftCorner(n_r, n_r) += Eigen::MatrixXd::Identity(n_r, n_r);
-  K.block(0, n_r, n_r, rim_.n_controlled) -= U_r;
-  K.topRightCorner(n_r, rim_.n_controlled) = -kappa * W_r * A;
+  K.block(0, n_r, n_r, nc) -= U_r;
+  K.topRightCorner(n_r, nc) = -kappa * W_r * A;
   b.head(n_r) = V_r * traction_;
-  K.block(n_r, 0, rim_.n_controlled, n_r + rim_.n_controlled) =
-      -(dM.bottomRows(rim_.n_controlled) + U_r.transpose() * dM.topRows(n_r)) / kappa;
-  K.block(n_r, n_r, rim_.n_controlled, rim_.n_controlled) -= S / kappa;
-  K.block(n_r, n_r + rim_.n_controlled, rim_.n_controlled, rim_.n_controlled) =
-      Eigen::MatrixXd::Identity(rim_.n_controlled, rim_.n_controlled) - R * A;
-  b.segment(n_r, rim_.n_controlled) = T * traction_ / kappa;
-  for (Eigen::Index i = 0; i < rim_.n_controlled; ++i) {
+  K.block(n_r, 0, nc, n_r + nc) = -(dM.bottomRows(nc) + U_r.transpose() * dM.topRows(n_r)) / kappa;
+  K.block(n_r, n_r, nc, nc) -= S / kappa;
+  K.block(n_r, n_r + nc, nc, nc) = Eigen::MatrixXd::Identity(nc, nc) - R * A;
+  b.segment(n_r, nc) = T * traction_ / kappa;
+  for (Eigen::Index i = 0; i < nc; ++i) {
     const Load& load = loads_[i];
-    K(n_r + rim_.n_controlled + i, load.is_force ? n_r + rim_.n_controlled + i : n_r + i) = 1;
-    b[n_r + rim_.n_controlled + i] = load.is_force ? load.value / kappa : load.value;
+    K(n_r + nc + i, load.is_force ? n_r + nc + i : n_r + i) = 1;
+    b[n_r + nc + i] = load.is_force ? load.value / kappa : load.value;
   }
   const Eigen::PartialPivLU<Eigen::MatrixXd> lu(K);
   constexpr double singular = 1e-13;
   if (!(lu.rcond() > singular)) lost(arcs);
   const Eigen::VectorXd x = lu.solve(b);
-  State state{
-      x.head(n_r + rim_.n_controlled), x.segment(n_r, rim_.n_controlled), kappa * x.tail(rim_.n_controlled), {}, false};
+  State state{x.head(n_r + nc), x.segment(n_r, nc), kappa * x.tail(nc), {}, false};
   state.friction = A * state.force;
   state.friction_settled = choose_sides(state.force);
   return state;
@@ -134,9 +143,7 @@ void ContactSystem::lost(const std::vector<Arcs>& arcs) const {
           "{}: /loads: hole \"{}\" has lost contact all round, and then something that carries load can move freely; "
           "allowed: loads that press discs against rims, or supports that hold the plate without them",
           scene_.file, scene_.holes[holes_[i]].id));
-  bool whole = true;
-  for (std::size_t i = 0; i < arcs.size(); ++i) whole = whole && arcs[i] == scene_.holes[holes_[i]].sprung().acts;
-  if (whole)
+  if (std::ranges::all_of(arcs, [](const Arcs& each) { return each == whole_rim; }))
     throw NumericalError(
         fmt::format("{}: /loads: even with the whole rims sprung, something that carries load can move freely; "
                     "allowed: loads against which supports, held discs or held externals stand",

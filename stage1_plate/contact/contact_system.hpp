@@ -1,10 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "stage1_plate/contact/rim_condensation.hpp"
 #include "stage1_plate/contact/rim_gap.hpp"
 
 namespace fastjoint::stage1 {
+
+/// The plate condensed to its rim unknowns r and its controlled displacements c (docs/theory.md, section 6.2). Under
+/// displacements D, tractions f, friction amplitudes Lambda and additional loads phi on r:
+/// u_r = U_r D + V_r f + W_r Lambda + C phi,  P_c = S D + R Lambda + T f - U_r^T phi.
+struct RimCondensation {
+  Eigen::MatrixXd C;    ///< (n_r, n_r) length / force
+  Eigen::MatrixXd U_r;  ///< (n_r, nc)
+  Eigen::MatrixXd V_r;  ///< (n_r, q) length / force
+  Eigen::MatrixXd W_r;  ///< (n_r, h) length / stress
+  Eigen::MatrixXd S;    ///< (nc, nc) force / length
+  Eigen::MatrixXd T;    ///< (nc, q)
+  Eigen::MatrixXd R;    ///< (nc, h) length^2
+};
 
 /// The plate under the scene's loads with springs on given arcs of the holes whose springs push but do not pull.
 ///
@@ -25,8 +37,6 @@ class ContactSystem {
   /// The solution under the loads with these sprung arcs, one list for each of holes(). Throws NumericalError if they
   /// leave something free to move.
   [[nodiscard]] State solve(const std::vector<Arcs>& arcs);
-  /// The whole rims sprung.
-  [[nodiscard]] State solve_whole();
 
   [[nodiscard]] const std::vector<int>& holes() const { return holes_; }
   [[nodiscard]] const RimGap& gap(std::size_t i) const { return gaps_[i]; }

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <set>
 
 #include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
+
+constexpr double touching = 1e-9;  // radians: ends of neighbouring sides differ by rounding only
 
 /// The degrees of freedom of modes of the side's element.
 pfem::ElementDofs dofs_of(const PlateProblem& problem, const pfem::Side& side, const std::vector<int>& modes) {
@@ -42,6 +46,42 @@ double highest(const Function& f, double low, double high) {
 
 }  // namespace
 
+Arcs joined(std::vector<rim::AngleRange> pieces) {
+  for (auto& piece : pieces) {
+    const double length = piece.to - piece.from;
+    piece.from = rim::wrapped(piece.from + touching) - touching;  // an end at pi is one at -pi
+    piece.to = piece.from + length;
+  }
+  std::sort(pieces.begin(), pieces.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+  Arcs arcs;
+  for (const auto& piece : pieces) {
+    if (!arcs.empty() && piece.from - arcs.back().to < touching)
+      arcs.back().to = piece.to;
+    else
+      arcs.push_back(piece);
+  }
+  if (arcs.empty()) return arcs;
+  if (arcs.size() == 1 && arcs[0].to - arcs[0].from > rim::full_turn - touching) return whole_rim;
+  if (arcs.size() > 1 && arcs.front().from + rim::full_turn - arcs.back().to < touching) {
+    arcs.back().to = arcs.front().to + rim::full_turn;
+    arcs.erase(arcs.begin());
+  }
+  return arcs;
+}
+
+double largest_move(const Arcs& before, const Arcs& after) {
+  if (before.size() != after.size()) return std::numeric_limits<double>::infinity();
+  double move = 0;
+  for (const auto& arc : after) {
+    double nearest = std::numeric_limits<double>::infinity();  // an arc moved over pi changes its place in the list
+    for (const auto& old : before)
+      nearest = std::min(
+          nearest, std::max(std::abs(rim::wrapped(arc.from - old.from)), std::abs(rim::wrapped(arc.to - old.to))));
+    move = std::max(move, nearest);
+  }
+  return move;
+}
+
 int RimUnknowns::index(int dof) const {
   if (dof == pfem::fixed_dof) return -1;
   return pfem::is_free(dof) ? index_in_free[dof] : count_of(free) + pfem::controlled_index(dof);
@@ -50,20 +90,15 @@ int RimUnknowns::index(int dof) const {
 RimUnknowns find_rim_unknowns(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
   RimUnknowns unknowns{{}, {}, problem.unknowns.n_controlled()};
   unknowns.index_in_free.assign(problem.unknowns.n_free.back(), -1);
-  constexpr int on_rim = 0;
+  std::set<int> on_rim;
   for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
     if (!scene.holes[hole].spring || !scene.holes[hole].spring->compression_only) continue;
-    for (const auto& side : plate.rims[hole].sides) {
-      const auto modes = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p).modes;
-      for (const int dof : dofs_of(problem, side, modes).dof)
-        if (pfem::is_free(dof)) unknowns.index_in_free[dof] = on_rim;
-    }
+    for (const auto& side : plate.rims[hole].sides)
+      for (const int dof : dofs_of(problem, side, pfem::modes_on_edge(problem.numbering.p, side.local_edge)).dof)
+        if (pfem::is_free(dof)) on_rim.insert(dof);
   }
-  for (int i = 0; i < count_of(unknowns.index_in_free); ++i)
-    if (unknowns.index_in_free[i] == on_rim) {
-      unknowns.index_in_free[i] = count_of(unknowns.free);
-      unknowns.free.push_back(i);
-    }
+  unknowns.free.assign(on_rim.begin(), on_rim.end());
+  for (int i = 0; i < count_of(unknowns.free); ++i) unknowns.index_in_free[unknowns.free[i]] = i;
   return unknowns;
 }
 
@@ -75,10 +110,7 @@ class RimGap::Trace {
         p_(rim.problem_.numbering.p),
         u_(Eigen::Matrix2Xd::Zero(2, p_ + 1)),
         disc_(Eigen::Vector2d::Zero()) {
-    const auto [first, second] = pfem::natural_ends(side.local_edge);
-    std::vector<int> modes{first, second};
-    for (int k = 2; k <= p_; ++k) modes.push_back(pfem::edge_mode(p_, side.local_edge, k));
-    const auto [dof, sign] = dofs_of(rim.problem_, side, modes);
+    const auto [dof, sign] = dofs_of(rim.problem_, side, pfem::modes_on_edge(p_, side.local_edge));
     for (Eigen::Index i = 0; i < dof.size(); ++i)
       if (const int index = rim.unknowns_.index(dof[i]); index >= 0)
         u_(i / (p_ + 1), i % (p_ + 1)) = sign[i] * z[index];
@@ -91,11 +123,6 @@ class RimGap::Trace {
   }
 
   [[nodiscard]] double angle(double s) const { return curve_.start_angle() + (1 + s) / 2 * curve_.sweep(); }
-  /// The coordinate of an angle, outside [-1, 1] if the side does not have it.
-  [[nodiscard]] double coordinate(double angle) const {
-    const double middle = curve_.start_angle() + curve_.sweep() / 2;
-    return 2 * rim::wrapped(angle - middle) / curve_.sweep();
-  }
   double operator()(double s) const {
     const Eigen::Vector2d u = u_ * pfem::integrated_legendre(p_, Eigen::VectorXd::Constant(1, s)).N;
     return (disc_ - u).dot(Eigen::Vector2d(std::cos(angle(s)), std::sin(angle(s))));
@@ -195,15 +222,6 @@ Arcs RimGap::bearing_half(const Eigen::Vector2d& d) const {
   return joined(std::move(pieces));
 }
 
-double RimGap::at(const Eigen::VectorXd& z, double angle) const {
-  const auto& sides = plate_.rims[hole_].sides;
-  const auto off = [&](const pfem::Side& side) { return std::abs(Trace(*this, side, z).coordinate(angle)); };
-  const auto nearest =
-      *std::min_element(sides.begin(), sides.end(), [&](const auto& a, const auto& b) { return off(a) < off(b); });
-  const Trace g(*this, nearest, z);
-  return g(std::clamp(g.coordinate(angle), -1.0, 1.0));
-}
-
 std::vector<double> RimGap::ends() const {
   std::vector<rim::AngleRange> pieces;
   for (const auto& side : plate_.rims[hole_].sides)
@@ -221,8 +239,7 @@ RimGap::Peak RimGap::peak(const Eigen::VectorXd& z) const {
     const Trace g(*this, side, z);
     const Eigen::VectorXd s = g.samples();
     Eigen::Index top = 0;
-    for (Eigen::Index i = 1; i < s.size(); ++i)
-      if (g(s[i]) > g(s[top])) top = i;
+    s.unaryExpr(g).maxCoeff(&top);
     const double inside = highest(g, s[std::max<Eigen::Index>(top - 1, 0)], s[std::min(top + 1, s.size() - 1)]);
     for (const double at : {s[top], inside})  // the top may be an end, which golden section only approaches
       if (g(at) > best.gap) best = {g(at), rim::wrapped(g.angle(at))};

@@ -5,10 +5,20 @@
 #include <vector>
 
 #include "common/count.hpp"
-#include "stage1_plate/contact/sprung_arcs.hpp"
+#include "common/rim/rim.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
+
+/// Arcs of one rim, radians counter-clockwise; each starts in [-pi, pi), ascending, and none touches another.
+using Arcs = std::vector<rim::AngleRange>;
+inline const Arcs whole_rim = {{-rim::full_turn / 2, rim::full_turn / 2}};
+
+/// Joins the pieces that touch, across +-pi too; a whole circle is one arc from -pi to pi. Pieces do not overlap.
+[[nodiscard]] Arcs joined(std::vector<rim::AngleRange> pieces);
+
+/// How far the farthest end has moved, radians; infinite if the number of arcs differs.
+[[nodiscard]] double largest_move(const Arcs& before, const Arcs& after);
 
 /// What the gap functions of contact depend on: the n_r free coefficients on the rims of the holes whose springs push
 /// but do not pull, then the nc controlled displacements. z denotes their values, shape (n_r + nc).
@@ -37,8 +47,6 @@ class RimGap {
   [[nodiscard]] Arcs pressed(const Eigen::VectorXd& z) const;
   /// The part of the rim that the model has and that bears along the unit vector d.
   [[nodiscard]] Arcs bearing_half(const Eigen::Vector2d& d) const;
-  /// g at an angle that the rim has, length.
-  [[nodiscard]] double at(const Eigen::VectorXd& z, double angle) const;
   /// Angles where the rim ends, on lines of symmetry; none of a whole rim.
   [[nodiscard]] std::vector<double> ends() const;
   /// The largest g, and where.

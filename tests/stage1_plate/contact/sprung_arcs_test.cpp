@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/contact/sprung_arcs.hpp"
+#include "stage1_plate/contact/rim_gap.hpp"
 
 #include <gtest/gtest.h>
 
