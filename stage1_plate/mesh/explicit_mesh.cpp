@@ -197,22 +197,9 @@ void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh
 
 }  // namespace
 
-pfem::Mesh to_mesh(const MeshGeometry& geometry) {
-  pfem::Mesh mesh;
-  const Eigen::Index n = geometry.quads.size();
-  mesh.nodes.resize(2, geometry.nodes.size());
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = geometry.nodes[i];
-  mesh.quads.resize(4, n);
-  for (Eigen::Index i = 0; i < n; ++i) mesh.quads.col(i) = geometry.quads[i];
-  mesh.arcs = geometry.arcs;
-  mesh.thickness = Eigen::Map<const Eigen::VectorXd>(geometry.thickness.data(), n);
-  mesh.material = Eigen::Map<const Eigen::VectorXi>(geometry.material.data(), n);
-  return mesh;
-}
-
 PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
   PlateMesh plate;
-  plate.mesh = to_mesh(geometry);
+  plate.mesh = geometry.mesh;
   plate.edges = pfem::find_edges(plate.mesh);
   check_nodes(scene, plate.mesh);
   check_arcs(scene, plate.mesh, plate.edges);

@@ -18,24 +18,35 @@ using Point = Eigen::Vector2d;
 class Builder {
  public:
   int shared_node(const Point& at) {
-    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, count_of(lists_.nodes));
+    const auto [found, is_new] = index_.try_emplace({at.x(), at.y()}, count_of(nodes_));
     return is_new ? own_node(at) : found->second;
   }
   int own_node(const Point& at) {
-    lists_.nodes.push_back(at);
-    return count_of(lists_.nodes) - 1;
+    nodes_.push_back(at);
+    return count_of(nodes_) - 1;
   }
   void quad(const Eigen::Vector4i& nodes, double thickness, int material) {
-    lists_.quads.push_back(nodes);
-    lists_.thickness.push_back(thickness);
-    lists_.material.push_back(material);
+    quads_.push_back(nodes);
+    thickness_.push_back(thickness);
+    material_.push_back(material);
   }
-  void arc(int a, int b, const Point& center) { lists_.arcs.push_back({a, b, center}); }
-  [[nodiscard]] const MeshGeometry& lists() const { return lists_; }
+  void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
+  [[nodiscard]] int n_elements() const { return count_of(quads_); }
+  [[nodiscard]] pfem::Mesh mesh() const {
+    using Eigen::Map;
+    return {Map<const Eigen::Matrix2Xd>(nodes_.data()->data(), 2, nodes_.size()),
+            Map<const Eigen::Matrix4Xi>(quads_.data()->data(), 4, n_elements()), arcs_,
+            Map<const Eigen::VectorXd>(thickness_.data(), n_elements()),
+            Map<const Eigen::VectorXi>(material_.data(), n_elements())};
+  }
 
  private:
   std::map<std::pair<double, double>, int> index_;
-  MeshGeometry lists_;
+  std::vector<Point> nodes_;
+  std::vector<Eigen::Vector4i> quads_;
+  std::vector<double> thickness_;
+  std::vector<int> material_;
+  std::vector<pfem::Arc> arcs_;
 };
 
 /// A cell of the grid.
@@ -198,13 +209,13 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
       if (hole == holes.end()) {
         mesh_plain_cell(builder, lines, cell);
       } else {
-        const int first = count_of(builder.lists().quads);
+        const int first = builder.n_elements();
         mesh_hole_cell(builder, lines, cell, *hole, scene.holes[hole->hole]);
-        with_hole.push_back({&*hole, cell, first, count_of(builder.lists().quads)});
+        with_hole.push_back({&*hole, cell, first, builder.n_elements()});
       }
     }
   PlateMesh plate;
-  plate.mesh = to_mesh(builder.lists());
+  plate.mesh = builder.mesh();
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);

@@ -35,7 +35,4 @@ struct PlateMesh {
 /// line across the section's direction, or not beyond the rim on that side of the hole.
 [[nodiscard]] PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry);
 
-/// The lists of nodes, elements and arcs as a mesh.
-[[nodiscard]] pfem::Mesh to_mesh(const MeshGeometry& geometry);
-
 }  // namespace fastjoint::stage1

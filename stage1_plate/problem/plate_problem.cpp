@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "stage1_plate/problem/assembler.hpp"
-
 namespace fastjoint::stage1 {
 namespace {
 
@@ -99,6 +97,26 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
 }
 
 }  // namespace
+
+Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns)
+    : numbering_(numbering),
+      unknowns_(unknowns),
+      controlled_(Eigen::MatrixXd::Zero(unknowns.n_controlled(), n_columns)) {}
+
+void Assembler::add(int element, const std::vector<int>& modes, const Eigen::VectorXd& values, int column) {
+  const auto [dof, sign] = pfem::element_dofs(numbering_, unknowns_.dofs, element, modes);
+  for (Eigen::Index i = 0; i < dof.size(); ++i) {
+    const double value = sign[i] * values[i];
+    if (pfem::is_free(dof[i])) free_.emplace_back(dof[i], column, value);
+    if (pfem::is_controlled(dof[i])) controlled_(pfem::controlled_index(dof[i]), column) += value;
+  }
+}
+
+Eigen::SparseMatrix<double> Assembler::free() const {
+  Eigen::SparseMatrix<double> A(unknowns_.n_free.back(), controlled_.cols());
+  A.setFromTriplets(free_.begin(), free_.end());
+  return A;
+}
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
   plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, Eigen::Matrix2Xd(2, scene.disc_directions.size())};

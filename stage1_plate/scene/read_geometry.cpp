@@ -36,9 +36,10 @@ std::vector<double> read_lines(const Value& value) {
 }
 
 template <class T, class Read>
-std::vector<T> read_list(const Value& value, std::size_t n, const Read& read) {
-  std::vector<T> list;
-  for (const auto& item : value.items(n, n)) list.push_back(read(item));
+Eigen::VectorX<T> read_list(const Value& value, std::size_t n, const Read& read) {
+  Eigen::VectorX<T> list(n);
+  Eigen::Index i = 0;
+  for (const auto& item : value.items(n, n)) list[i++] = read(item);
   return list;
 }
 
@@ -49,13 +50,10 @@ void read_cells(const Value& value, Table& table, const Read& read) {
     table.setConstant(read(value));
     return;
   }
-  using Scalar = typename Table::Scalar;
   const std::size_t rows = table.rows();
   Eigen::Index row = 0;
-  for (const auto& line : value.items(rows, rows)) {
-    const auto cells = read_list<Scalar>(line, table.cols(), read);
-    table.row(row++) = Eigen::Map<const Eigen::RowVectorX<Scalar>>(cells.data(), table.cols());
-  }
+  for (const auto& line : value.items(rows, rows))
+    table.row(row++) = read_list<typename Table::Scalar>(line, table.cols(), read).transpose();
 }
 
 double read_thickness(const Value& value) { return value.number(input::positive); }
@@ -75,8 +73,8 @@ GridGeometry read_grid(const Value& value, const Materials& materials) {
 
 /// One value for all elements, or a list.
 template <class T, class Read>
-std::vector<T> read_elements(const Value& value, std::size_t n, const Read& read) {
-  return value.is_array() ? read_list<T>(value, n, read) : std::vector<T>(n, read(value));
+Eigen::VectorX<T> read_elements(const Value& value, int n, const Read& read) {
+  return value.is_array() ? read_list<T>(value, n, read) : Eigen::VectorX<T>::Constant(n, read(value));
 }
 
 std::pair<int, int> read_edge(const Value& value, int n_nodes) {
@@ -107,24 +105,28 @@ Eigen::Vector4i read_quad(const Value& value, int n_nodes) {
 
 MeshGeometry read_mesh(const Value& value, const Materials& materials) {
   value.only({"nodes", "quads", "arcs", "thickness", "material", "edges", "sections"});
-  MeshGeometry mesh;
-  for (const auto& node : value.at("nodes").items(4)) mesh.nodes.push_back(read_point(node));
-  const int n_nodes = count_of(mesh.nodes);
-  for (const auto& quad : value.at("quads").items(1)) mesh.quads.push_back(read_quad(quad, n_nodes));
+  MeshGeometry geometry;
+  pfem::Mesh& mesh = geometry.mesh;
+  const auto nodes = value.at("nodes").items(4);
+  mesh.nodes.resize(2, nodes.size());
+  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = read_point(nodes[i]);
+  const auto quads = value.at("quads").items(1);
+  mesh.quads.resize(4, quads.size());
+  for (int i = 0; i < mesh.n_elements(); ++i) mesh.quads.col(i) = read_quad(quads[i], mesh.n_nodes());
   if (const auto arcs = value.find("arcs"))
     for (const auto& arc : arcs->items()) {
       arc.only({"edge", "center"});
-      const auto [a, b] = read_edge(arc.at("edge"), n_nodes);
+      const auto [a, b] = read_edge(arc.at("edge"), mesh.n_nodes());
       mesh.arcs.push_back({a, b, read_point(arc.at("center"))});
     }
-  const std::size_t n = mesh.quads.size();
-  mesh.thickness = read_elements<double>(value.at("thickness"), n, read_thickness);
-  mesh.material.assign(n, 0);
+  mesh.thickness = read_elements<double>(value.at("thickness"), mesh.n_elements(), read_thickness);
+  mesh.material.setZero(mesh.n_elements());
   if (const auto material = find_material(value, materials))
-    mesh.material = read_elements<int>(*material, n, index_among(materials));
+    mesh.material = read_elements<int>(*material, mesh.n_elements(), index_among(materials));
   if (const auto edges = value.find("edges"))
-    for (const auto& [name, list] : edges->members()) mesh.edges.push_back({name, read_edges(list, n_nodes)});
-  return mesh;
+    for (const auto& [name, list] : edges->members())
+      geometry.edges.push_back({name, read_edges(list, mesh.n_nodes())});
+  return geometry;
 }
 
 int read_hole(const Value& value, const PlateScene& scene) {
@@ -166,20 +168,20 @@ std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const
 }
 
 void read_sections(const Value& root, PlateScene& scene) {
-  auto* const mesh = std::get_if<MeshGeometry>(&scene.geometry);
-  if (!mesh) return;
+  auto* const geometry = std::get_if<MeshGeometry>(&scene.geometry);
+  if (!geometry) return;
   const auto list = root.at("geometry").at("mesh").find("sections");
   if (!list) return;
   std::set<std::pair<int, std::string>> seen;
   for (const auto& item : list->items()) {
     item.only({"hole", "side", "edges"});
     MeshSection section{read_hole(item.at("hole"), scene), read_side(item.at("side"), scene),
-                        read_cut(item.at("edges"), count_of(mesh->nodes))};
+                        read_cut(item.at("edges"), geometry->mesh.n_nodes())};
     if (!seen.insert({section.hole, section.side}).second)
       item.fail(
           fmt::format("a second section of hole \"{}\" on its side {}", scene.holes[section.hole].id, section.side),
           "one on each side of a hole");
-    mesh->sections.push_back(std::move(section));
+    geometry->sections.push_back(std::move(section));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/input/value.hpp"
+#include "common/pfem/mesh.hpp"
 #include "common/pfem/space.hpp"
 #include "common/rim/rim.hpp"
 #include "common/units.hpp"
@@ -36,13 +37,9 @@ struct MeshSection {
   std::vector<std::pair<int, int>> edges;
 };
 
-/// A mesh as lists, the user's or a mesher's, and what the user names in it.
+/// The user's mesh and what is named in it.
 struct MeshGeometry {
-  std::vector<Eigen::Vector2d> nodes;  ///< length
-  std::vector<Eigen::Vector4i> quads;  ///< nodes, counter-clockwise
-  std::vector<pfem::Arc> arcs;
-  std::vector<double> thickness;  ///< (quads), length
-  std::vector<int> material;      ///< (quads)
+  pfem::Mesh mesh;
   std::vector<EdgeSet> edges;
   std::vector<MeshSection> sections;
 };

@@ -10,7 +10,7 @@
 
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"
-#include "stage1_plate/problem/assembler.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/scene/read_parts.hpp"
 #include "tests/support/exact.hpp"
 #include "tests/support/plates.hpp"

@@ -9,7 +9,7 @@
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"
-#include "stage1_plate/problem/assembler.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"
 
