@@ -7,7 +7,7 @@
 
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
-#include "common/pfem/space.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "common/units.hpp"
 
 namespace fastjoint::formats {

@@ -10,26 +10,16 @@
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
-namespace {
-
-using Ends = std::pair<int, int>;
-
-Ends sorted(int a, int b) { return std::minmax(a, b); }
-
-Ends ends_of(const Mesh& mesh, int element, int local_edge) {
-  const auto [first, second] = natural_ends(local_edge);
-  return sorted(mesh.quads(first, element), mesh.quads(second, element));
-}
-
-}  // namespace
 
 Edges find_edges(const Mesh& mesh) {
   Edges edges;
   edges.of_element.resize(n_local_edges, mesh.n_elements());
-  std::map<Ends, int> index;
+  std::map<std::pair<int, int>, int> index;
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int edge = 0; edge < n_local_edges; ++edge) {
-      const auto [found, is_new] = index.try_emplace(ends_of(mesh, element, edge), count_of(index));
+      const auto [a, b] = natural_ends(edge);
+      const std::pair<int, int> ends = std::minmax(mesh.quads(a, element), mesh.quads(b, element));
+      const auto [found, is_new] = index.try_emplace(ends, count_of(index));
       if (is_new) edges.n_elements.push_back(0);
       ++edges.n_elements[found->second];
       edges.of_element(edge, element) = found->second;
@@ -38,19 +28,13 @@ Edges find_edges(const Mesh& mesh) {
   for (const auto& [ends, edge] : index) edges.nodes.col(edge) << ends.first, ends.second;
   edges.arc.assign(index.size(), -1);
   for (int i = 0; i < count_of(mesh.arcs); ++i) {
-    const auto found = index.find(sorted(mesh.arcs[i].a, mesh.arcs[i].b));
+    const auto found = index.find(std::minmax(mesh.arcs[i].a, mesh.arcs[i].b));
     if (found == index.end())
       edges.arc_without_edge.push_back(i);
     else
       edges.arc[found->second] = i;
   }
   return edges;
-}
-
-int local_edge_between(const Mesh& mesh, int element, int a, int b) {
-  for (int edge = 0; edge < n_local_edges; ++edge)
-    if (ends_of(mesh, element, edge) == sorted(a, b)) return edge;
-  return -1;
 }
 
 Curve Curve::line(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {

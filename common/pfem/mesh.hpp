@@ -37,9 +37,6 @@ struct Edges {
 
 [[nodiscard]] Edges find_edges(const Mesh& mesh);
 
-/// Edge of an element by its two nodes, or -1.
-[[nodiscard]] int local_edge_between(const Mesh& mesh, int element, int a, int b);
-
 /// A straight edge or a circular arc from a to b, parametrised on [-1, 1]; an arc by its angle.
 class Curve {
  public:

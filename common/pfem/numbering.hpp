@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "common/pfem/mesh.hpp"
-#include "common/pfem/space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
 

@@ -18,6 +18,11 @@ void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
            "nodes of elements only");
 }
 
+[[noreturn]] void reject_edge(const PlateScene& scene, const std::string& pointer, int a, int b) {
+  reject(scene, pointer, fmt::format("nodes {} and {} are not joined by an edge of an element", a, b),
+         "edges of elements");
+}
+
 void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
   constexpr double tolerance = 1e-6;  // of the radius: digits that a hand-written file has
   for (std::size_t i = 0; i < mesh.arcs.size(); ++i) {
@@ -35,9 +40,7 @@ void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edg
   }
   if (!edges.arc_without_edge.empty()) {
     const int i = edges.arc_without_edge.front();
-    const auto& arc = mesh.arcs[i];
-    reject(scene, fmt::format("/geometry/mesh/arcs/{}/edge", i),
-           fmt::format("nodes {} and {} are not joined by an edge of an element", arc.a, arc.b), "edges of elements");
+    reject_edge(scene, fmt::format("/geometry/mesh/arcs/{}/edge", i), mesh.arcs[i].a, mesh.arcs[i].b);
   }
 }
 
@@ -107,14 +110,12 @@ std::string named(const NodePair& edge) {
 /// The sides of the elements that have the edge: one on the border, two inside.
 std::vector<pfem::Side> find_sides(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer,
                                    const NodePair& edge) {
+  const Eigen::Vector2i nodes = {std::min(edge.first, edge.second), std::max(edge.first, edge.second)};
   std::vector<pfem::Side> sides;
   for (int element = 0; element < plate.mesh.n_elements(); ++element)
-    if (const int local = pfem::local_edge_between(plate.mesh, element, edge.first, edge.second); local >= 0)
-      sides.push_back({element, local});
-  if (sides.empty())
-    reject(scene, pointer,
-           fmt::format("nodes {} and {} are not joined by an edge of an element", edge.first, edge.second),
-           "edges of elements");
+    for (int local = 0; local < 4; ++local)
+      if (plate.edges.nodes.col(plate.edges.of_element(local, element)) == nodes) sides.push_back({element, local});
+  if (sides.empty()) reject_edge(scene, pointer, edge.first, edge.second);
   return sides;
 }
 
@@ -186,10 +187,10 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
 /// Finds the edges that an explicit mesh names: its sets on the border, and its sections, whose sides are those of the
 /// elements between the cut and the hole (on a border, of the only element there is).
 void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh& plate) {
-  for (const auto& set : geometry.edges)
-    for (std::size_t i = 0; i < set.edges.size(); ++i)
-      plate.sets[set.name].push_back(
-          find_border_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", set.name, i), set.edges[i]));
+  for (const auto& [name, edges] : geometry.edges)
+    for (std::size_t i = 0; i < edges.size(); ++i)
+      plate.sets[name].push_back(
+          find_border_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", name, i), edges[i]));
   for (std::size_t i = 0; i < geometry.sections.size(); ++i)
     plate.sections.push_back(
         find_section(scene, plate, fmt::format("/geometry/mesh/sections/{}", i), geometry.sections[i]));

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "common/pfem/element_map.hpp"
@@ -36,9 +37,7 @@ void find_rims(const PlateScene& scene, PlateMesh& plate) {
     const Hole& hole = scene.holes[i];
     plate.rims.push_back(find_rim(hole.center, hole.radius));
     const double covered = rim::covered_angle(plate.mesh, plate.edges, plate.rims.back()) / rim::degree;
-    bool known = false;
-    for (const double whole : {90.0, 180.0, 360.0}) known = known || std::abs(covered - whole) < 1e-4;
-    if (!known)
+    if (std::ranges::none_of(std::array{90, 180, 360}, [&](int whole) { return std::abs(covered - whole) < 1e-4; }))
       reject(scene, fmt::format("/holes/{}", i),
              fmt::format("the mesh has {:.6g} degrees of boundary arcs of radius {:g} about ({:g}, {:g})", covered,
                          hole.radius, hole.center.x(), hole.center.y()),

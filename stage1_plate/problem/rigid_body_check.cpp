@@ -63,34 +63,33 @@ std::vector<Part> make_parts(const pfem::Mesh& mesh, const std::vector<int>& par
 
 /// Something that resists (a . amplitudes of a part - b . controlled displacements)^2.
 struct Tie {
-  std::size_t part;
+  int part;
   Eigen::RowVector3d a;
   std::vector<std::pair<int, double>> b;  ///< index of a controlled displacement, coefficient
 };
 
-class Ties {
- public:
+struct Ties {
   Ties(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns)
-      : part_of_node_(connected_parts(plate.mesh)), parts_(make_parts(plate.mesh, part_of_node_)) {
+      : part_of(connected_parts(plate.mesh)), parts(make_parts(plate.mesh, part_of)) {
     add_supports(plate, unknowns);
     add_springs(scene, plate, unknowns);
     add_line_springs(scene, plate, unknowns);
   }
-  [[nodiscard]] const std::vector<Part>& parts() const { return parts_; }
-  [[nodiscard]] const std::vector<Tie>& all() const { return ties_; }
+
+  std::vector<int> part_of;  ///< index into parts of each node
+  std::vector<Part> parts;
+  std::vector<Tie> all;
 
  private:
-  [[nodiscard]] std::size_t part_of(int node) const { return part_of_node_[node]; }
-
   void add_supports(const PlateMesh& plate, const Unknowns& unknowns) {
     for (int node = 0; node < plate.mesh.n_nodes(); ++node) {
-      const std::size_t part = part_of(node);
-      const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
+      const int part = part_of[node];
+      const auto u = parts[part].motion(plate.mesh.nodes.col(node));
       for (int component = 0; component < 2; ++component) {
         const int dof = unknowns.dofs(component, node);
         if (pfem::is_free(dof)) continue;
-        ties_.push_back({part, u.row(component), {}});
-        if (pfem::is_controlled(dof)) ties_.back().b = {{pfem::controlled_index(dof), 1}};
+        all.push_back({part, u.row(component), {}});
+        if (pfem::is_controlled(dof)) all.back().b = {{pfem::controlled_index(dof), 1}};
       }
     }
   }
@@ -99,15 +98,15 @@ class Ties {
     for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
       if (!scene.holes[hole].spring) continue;
       for (const auto& side : plate.rims[hole].sides) {
-        const std::size_t part = part_of(plate.mesh.quads(0, side.element));
+        const int part = part_of[plate.mesh.quads(0, side.element)];
         const auto [rule, weight] = plate::side_springs(*scene.holes[hole].spring, plate.mesh, plate.edges, side, 1);
         for (Eigen::Index q = 0; q < weight.size(); ++q) {
           if (weight[q] == 0) continue;
           const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();
-          ties_.push_back({part, along * parts_[part].motion(rule.x.col(q)), {}});
+          all.push_back({part, along * parts[part].motion(rule.x.col(q)), {}});
           for (int a = 0; a < unknowns.n_directions; ++a)
-            ties_.back().b.emplace_back(unknowns.controlled_of_disc(unknowns.disc_of_hole[hole] + a),
-                                        along * rim::axis(scene.disc_directions[a]));
+            all.back().b.emplace_back(unknowns.controlled_of_disc(unknowns.disc_of_hole[hole] + a),
+                                      along * rim::axis(scene.disc_directions[a]));
         }
       }
     }
@@ -116,18 +115,14 @@ class Ties {
   void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
     for (int i = 0; i < count_of(plate.point_nodes); ++i) {
       const int node = plate.point_nodes[i];
-      const std::size_t part = part_of(node);
-      const auto u = parts_[part].motion(plate.mesh.nodes.col(node));
+      const int part = part_of[node];
+      const auto u = parts[part].motion(plate.mesh.nodes.col(node));
       for (int a = 0; a < unknowns.n_directions; ++a)
-        ties_.push_back({part,
-                         rim::axis(scene.disc_directions[a]).transpose() * u,
-                         {{unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a), 1}}});
+        all.push_back({part,
+                       rim::axis(scene.disc_directions[a]).transpose() * u,
+                       {{unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a), 1}}});
     }
   }
-
-  std::vector<int> part_of_node_;
-  std::vector<Part> parts_;
-  std::vector<Tie> ties_;
 };
 
 constexpr double free_to_move = 1e-10;  // share of the best held motion; rounding leaves about 1e-16
@@ -147,9 +142,9 @@ std::string words(const Part& part, const Eigen::Vector3d& a) {
 
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   const Ties ties(scene, plate, unknowns);
-  const auto& parts = ties.parts();
+  const auto& parts = ties.parts;
   std::vector<Eigen::Matrix3d> held(parts.size(), Eigen::Matrix3d::Zero());
-  for (const auto& tie : ties.all()) held[tie.part] += tie.a.transpose() * tie.a;
+  for (const auto& tie : ties.all) held[tie.part] += tie.a.transpose() * tie.a;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const Part& part = parts[i];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held[i]);
@@ -166,9 +161,9 @@ void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns&
 
 bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   const Ties ties(scene, plate, unknowns);
-  const auto first = 3 * ties.parts().size();
+  const auto first = 3 * ties.parts.size();
   Eigen::MatrixXd held = Eigen::MatrixXd::Zero(first + unknowns.n_controlled(), first + unknowns.n_controlled());
-  for (const auto& tie : ties.all()) {
+  for (const auto& tie : ties.all) {
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(held.cols());
     row.segment<3>(3 * tie.part) = tie.a;
     for (const auto& [controlled, share] : tie.b) row[first + controlled] = -share;

@@ -4,17 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/count.hpp"
 #include "common/program/memory.hpp"
 
 namespace fastjoint::stage1 {
-namespace {
-
-constexpr double number = sizeof(double);
-double square(double n) { return n * n; }
-
-}  // namespace
 
 MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p,
                        int n_rim) {
@@ -25,8 +20,8 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
   const double rows_of_E = count_of(p) * (nc + h) * nc;
   const double fields = 2 * (n_p * (q + 2) + rows_of_E);  // the second as they are turned to the order of the file
   const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
-  const double contact = r > 0 ? r * n_cases + std::max(2 * n_p * n_cases, 5 * square(r + 2 * nc)) : 0;
-  constexpr double libraries = 20e6;
+  const double contact = r > 0 ? r * n_cases + std::max(2 * n_p * n_cases, 5 * std::pow(r + 2 * nc, 2)) : 0;
+  constexpr double number = sizeof(double), libraries = 20e6;
   return {(n_rim > 0 ? 2 : 1) * elements, factor, number * fields, number * contact, libraries};
 }
 

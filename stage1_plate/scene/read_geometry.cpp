@@ -113,19 +113,17 @@ MeshGeometry read_mesh(const Value& value, const Materials& materials) {
   const auto quads = value.at("quads").items(1);
   mesh.quads.resize(4, quads.size());
   for (int i = 0; i < mesh.n_elements(); ++i) mesh.quads.col(i) = read_quad(quads[i], mesh.n_nodes());
-  if (const auto arcs = value.find("arcs"))
-    for (const auto& arc : arcs->items()) {
-      arc.only({"edge", "center"});
-      const auto [a, b] = read_edge(arc.at("edge"), mesh.n_nodes());
-      mesh.arcs.push_back({a, b, read_point(arc.at("center"))});
-    }
+  for (const auto& arc : read_items(value, "arcs")) {
+    arc.only({"edge", "center"});
+    const auto [a, b] = read_edge(arc.at("edge"), mesh.n_nodes());
+    mesh.arcs.push_back({a, b, read_point(arc.at("center"))});
+  }
   mesh.thickness = read_elements<double>(value.at("thickness"), mesh.n_elements(), read_thickness);
   mesh.material.setZero(mesh.n_elements());
   if (const auto material = find_material(value, materials))
     mesh.material = read_elements<int>(*material, mesh.n_elements(), index_among(materials));
   if (const auto edges = value.find("edges"))
-    for (const auto& [name, list] : edges->members())
-      geometry.edges.push_back({name, read_edges(list, mesh.n_nodes())});
+    for (const auto& [name, list] : edges->members()) geometry.edges[name] = read_edges(list, mesh.n_nodes());
   return geometry;
 }
 
@@ -170,10 +168,8 @@ std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const
 void read_sections(const Value& root, PlateScene& scene) {
   auto* const geometry = std::get_if<MeshGeometry>(&scene.geometry);
   if (!geometry) return;
-  const auto list = root.at("geometry").at("mesh").find("sections");
-  if (!list) return;
   std::set<std::pair<int, std::string>> seen;
-  for (const auto& item : list->items()) {
+  for (const auto& item : read_items(root.at("geometry").at("mesh"), "sections")) {
     item.only({"hole", "side", "edges"});
     MeshSection section{read_hole(item.at("hole"), scene), read_side(item.at("side"), scene),
                         read_cut(item.at("edges"), geometry->mesh.n_nodes())};

@@ -26,6 +26,9 @@ inline constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed
 
 [[nodiscard]] Eigen::Vector2d read_point(const input::Value& value);
 
+/// Elements of the array at a key, none if it is missing.
+[[nodiscard]] std::vector<input::Value> read_items(const input::Value& value, const char* key);
+
 /// Reads the id of one of these items, as its index.
 template <class Item>
 [[nodiscard]] int read_id(const input::Value& value, const std::vector<Item>& items) {

@@ -16,18 +16,12 @@ using input::Value;
 
 const std::vector<std::string> directions = {"x", "y"};
 
-/// Names that must differ, since other files refer to them.
-class UniqueNames {
- public:
-  std::string add(const Value& value) {
-    std::string name = value.text();
-    if (!seen_.insert(name).second) value.fail(fmt::format("\"{}\" stands twice", name), "each name once");
-    return name;
-  }
-
- private:
-  std::set<std::string> seen_;
-};
+/// Reads a name that must differ from those before, since other files refer to it.
+std::string read_new_name(const Value& value, std::set<std::string>& seen) {
+  std::string name = value.text();
+  if (!seen.insert(name).second) value.fail(fmt::format("\"{}\" stands twice", name), "each name once");
+  return name;
+}
 
 std::vector<std::string> read_directions(const Value& value) {
   std::vector<std::string> result;
@@ -46,14 +40,12 @@ Units read_units(const Value& root) {
   return {units->at("length").text(), units->at("force").text()};
 }
 
-std::vector<Hole> read_holes(const Value& root, bool is_grid, UniqueNames& ids) {
+std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::string>& ids) {
   std::vector<Hole> holes;
-  const auto list = root.find("holes");
-  if (!list) return holes;
-  for (const auto& item : list->items()) {
+  for (const auto& item : read_items(root, "holes")) {
     item.only({"id", "center", "radius", "spring", "rings"});
     Hole hole;
-    hole.id = ids.add(item.at("id"));
+    hole.id = read_new_name(item.at("id"), ids);
     hole.center = read_point(item.at("center"));
     hole.radius = item.at("radius").number(input::positive);
     if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius);
@@ -67,24 +59,22 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, UniqueNames& ids) 
   return holes;
 }
 
-std::vector<PointSpring> read_points(const Value& root, UniqueNames& ids) {
+std::vector<PointSpring> read_points(const Value& root, std::set<std::string>& ids) {
   std::vector<PointSpring> points;
-  if (const auto list = root.find("points"))
-    for (const auto& item : list->items()) {
-      item.only({"id", "at", "stiffness"});
-      points.push_back(
-          {ids.add(item.at("id")), read_point(item.at("at")), item.at("stiffness").number(input::positive)});
-    }
+  for (const auto& item : read_items(root, "points")) {
+    item.only({"id", "at", "stiffness"});
+    points.push_back(
+        {read_new_name(item.at("id"), ids), read_point(item.at("at")), item.at("stiffness").number(input::positive)});
+  }
   return points;
 }
 
 std::vector<Support> read_supports(const Value& root, const std::vector<std::string>& edge_names) {
   std::vector<Support> supports;
-  if (const auto list = root.find("supports"))
-    for (const auto& item : list->items()) {
-      item.only({"on", "fix"});
-      supports.push_back({item.at("on").choice(edge_names), read_directions(item.at("fix"))});
-    }
+  for (const auto& item : read_items(root, "supports")) {
+    item.only({"on", "fix"});
+    supports.push_back({item.at("on").choice(edge_names), read_directions(item.at("fix"))});
+  }
   return supports;
 }
 
@@ -101,16 +91,15 @@ std::vector<External> read_externals(const Value& root, const std::vector<std::s
   const std::map<std::string, ExternalKind> kinds = {
       {"rigid", ExternalKind::rigid}, {"traction", ExternalKind::traction}, {"bearing", ExternalKind::bearing}};
   std::vector<External> externals;
-  UniqueNames ids;
-  if (const auto list = root.find("external"))
-    for (const auto& item : list->items()) {
-      item.only({"id", "on", "direction", "kind"});
-      const ExternalKind kind = kinds.at(item.at("kind").choice({"rigid", "traction", "bearing"}));
-      const Value on = item.at("on");
-      externals.push_back({ids.add(item.at("id")),
-                           kind == ExternalKind::bearing ? read_bearing_hole(on, holes) : on.choice(edge_names),
-                           item.at("direction").choice(directions), kind});
-    }
+  std::set<std::string> ids;
+  for (const auto& item : read_items(root, "external")) {
+    item.only({"id", "on", "direction", "kind"});
+    const ExternalKind kind = kinds.at(item.at("kind").choice({"rigid", "traction", "bearing"}));
+    const Value on = item.at("on");
+    externals.push_back({read_new_name(item.at("id"), ids),
+                         kind == ExternalKind::bearing ? read_bearing_hole(on, holes) : on.choice(edge_names),
+                         item.at("direction").choice(directions), kind});
+  }
   return externals;
 }
 
@@ -125,7 +114,7 @@ void read_p(const Value& root, PlateScene& scene) {
 std::vector<std::string> edge_names(const PlateScene& scene) {
   if (std::holds_alternative<GridGeometry>(scene.geometry)) return {"left", "right", "bottom", "top"};
   std::vector<std::string> names;
-  for (const auto& set : std::get<MeshGeometry>(scene.geometry).edges) names.push_back(set.name);
+  for (const auto& [name, edges] : std::get<MeshGeometry>(scene.geometry).edges) names.push_back(name);
   return names;
 }
 
@@ -143,6 +132,11 @@ Eigen::Vector2d read_point(const Value& value) {
   return {xy[0], xy[1]};
 }
 
+std::vector<Value> read_items(const Value& value, const char* key) {
+  const auto list = value.find(key);
+  return list ? list->items() : std::vector<Value>{};
+}
+
 PlateScene read_scene(const input::Document& document) {
   const Value root(document);
   root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes", "points",
@@ -156,7 +150,7 @@ PlateScene read_scene(const input::Document& document) {
   const Materials materials = read_materials(root);
   scene.elasticity = materials.elasticity;
   scene.geometry = read_geometry(root.at("geometry"), materials);
-  UniqueNames disc_ids;
+  std::set<std::string> disc_ids;
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
   scene.points = read_points(root, disc_ids);
   const auto discs = root.find("disc_directions");

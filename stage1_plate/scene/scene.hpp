@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -11,7 +12,7 @@
 
 #include "common/input/value.hpp"
 #include "common/pfem/mesh.hpp"
-#include "common/pfem/space.hpp"
+#include "common/pfem/shape_functions.hpp"
 #include "common/rim/rim.hpp"
 #include "common/units.hpp"
 
@@ -24,23 +25,17 @@ struct GridGeometry {
   Eigen::MatrixXi material;   ///< (y cells, x cells) index into PlateScene::elasticity
 };
 
-/// A named set of edges, each by its two nodes.
-struct EdgeSet {
-  std::string name;
-  std::vector<std::pair<int, int>> edges;
-};
-
 /// A cut across the plate beside a hole, along edges of the mesh.
 struct MeshSection {
-  int hole;          ///< index into PlateScene::holes
-  std::string side;  ///< on which side of the hole, "+x", "-x", "+y" or "-y"
-  std::vector<std::pair<int, int>> edges;
+  int hole;                                ///< index into PlateScene::holes
+  std::string side;                        ///< on which side of the hole, "+x", "-x", "+y" or "-y"
+  std::vector<std::pair<int, int>> edges;  ///< each by its two nodes
 };
 
 /// The user's mesh and what is named in it.
 struct MeshGeometry {
   pfem::Mesh mesh;
-  std::vector<EdgeSet> edges;
+  std::map<std::string, std::vector<std::pair<int, int>>> edges;  ///< named sets, each edge by its two nodes
   std::vector<MeshSection> sections;
 };
 

@@ -38,10 +38,7 @@ FieldState scene_loads(const PlateSolution& plate, const std::string& file) {
   if (plate.load_displacement.rows() == 0)
     throw InputError(fmt::format("--field: 'loads' is not allowed: the scene of {} has no loads; allowed: {}", file,
                                  case_sum_allowed(plate)));
-  FieldState state;
-  state.words = "loads of the scene";
-  const auto nc = plate.load_displacement.cols(), h = plate.load_friction.cols(), q = plate.load_traction.cols();
-  state.amounts.resize(nc + h + q);
+  FieldState state{Eigen::VectorXd(plate.n_cases()), "loads of the scene"};
   state.amounts << plate.load_displacement.row(0).transpose(), plate.load_friction.row(0).transpose(),
       plate.load_traction.row(0).transpose();
   return state;
@@ -74,9 +71,7 @@ double take_amount(std::string_view& text, const std::string& name) {
 
 FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   const auto names = case_names(plate);
-  FieldState state;
-  state.words = spec;
-  state.amounts = Eigen::VectorXd::Zero(names.size());
+  FieldState state{Eigen::VectorXd::Zero(names.size()), spec};
   std::vector<bool> given(names.size());
   for (std::string_view rest = spec;;) {
     const auto found = first_case(names, rest);

@@ -14,8 +14,8 @@ struct FieldState {
   Eigen::VectorXd amounts;  ///< (nc + h + q) length of externals and discs, stress of frictions, force of tractions
   std::string words;        ///< what it is, for people
   int p = 0;                ///< degree at which the amounts were found, 0 if they belong to none
-  std::string joint_plate;  ///< name of the plate in the joint, if the state is a joint's
-  int increment = 0;        ///< of the joint, from 1 on
+  std::string joint_plate = {};  ///< name of the plate in the joint, if the state is a joint's
+  int increment = 0;             ///< of the joint, from 1 on
 };
 
 /// The user's options of a field as given: "" and 0 where the choice is the program's.

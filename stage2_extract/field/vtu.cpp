@@ -31,14 +31,17 @@ class Text {
   fmt::memory_buffer text_;
 };
 
-/// Numbers of a point array; a vector of the plane gets its third component, which VTK wants.
-void add_points(Text& text, const char* name, const Eigen::MatrixXd& values) {
-  const bool is_vector = values.rows() == 2;
-  text.add("<DataArray type=\"Float64\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"ascii\">\n", name,
-           is_vector ? 3 : 1);
+/// An array of numbers; a vector of the plane gets its third component, which VTK wants.
+/// @param shape Attributes that say how many components and tuples there are.
+void add_array(Text& text, const char* name, const std::string& shape, const Eigen::MatrixXd& values) {
+  text.add("<DataArray type=\"Float64\" Name=\"{}\" {} format=\"ascii\">\n", name, shape);
   for (Index i = 0; i < values.cols(); ++i)
-    is_vector ? text.add("{:.9g} {:.9g} 0\n", values(0, i), values(1, i)) : text.add("{:.9g}\n", values(0, i));
+    values.rows() == 2 ? text.add("{:.9g} {:.9g} 0\n", values(0, i), values(1, i)) : text.add("{:.9g}\n", values(0, i));
   text.add("</DataArray>\n");
+}
+
+void add_points(Text& text, const char* name, const Eigen::MatrixXd& values) {
+  add_array(text, name, fmt::format("NumberOfComponents=\"{}\"", values.rows() == 2 ? 3 : 1), values);
 }
 
 /// Strings are the codes of their bytes, each string ended by 0: no character can break the XML, and meshio, which
@@ -57,15 +60,11 @@ void add_integer(Text& text, const char* name, int value) {
 
 void add_holes(Text& text, const formats::PlateSolution& plate) {
   add_strings(text, "hole_id", plate.hole_id);
-  text.add(
-      "<DataArray type=\"Float64\" Name=\"hole_center\" NumberOfComponents=\"3\" NumberOfTuples=\"{}\" "
-      "format=\"ascii\">\n",
-      plate.hole_id.size());
-  for (const auto& rim : plate.hole_rim) text.add("{:.9g} {:.9g} 0\n", rim.center.x(), rim.center.y());
-  text.add("</DataArray>\n<DataArray type=\"Float64\" Name=\"hole_radius\" NumberOfTuples=\"{}\" format=\"ascii\">\n",
-           plate.hole_id.size());
-  for (const auto& rim : plate.hole_rim) text.add("{:.9g}\n", rim.radius);
-  text.add("</DataArray>\n");
+  Eigen::Matrix3Xd holes(3, plate.hole_rim.size());
+  for (Index i = 0; i < holes.cols(); ++i) holes.col(i) << plate.hole_rim[i].center, plate.hole_rim[i].radius;
+  const auto tuples = fmt::format("NumberOfTuples=\"{}\"", holes.cols());
+  add_array(text, "hole_center", "NumberOfComponents=\"3\" " + tuples, holes.topRows<2>());
+  add_array(text, "hole_radius", tuples, holes.row(2));
 }
 
 void add_field_data(Text& text, const formats::PlateSolution& plate, const FieldState& state, int p) {

@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "common/pfem/space.hpp"
+#include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::test {
 
