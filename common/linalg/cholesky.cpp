@@ -33,14 +33,27 @@ struct Free {
 };
 using Factor = std::unique_ptr<cholmod_factor, Free<cholmod_free_factor>>;
 
-/// A view: the matrix must outlive it, and CHOLMOD does not write to it.
-cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
+/// Number of entries of each of the first n columns in the first n rows.
+std::vector<int> entries_in_block(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) {
+  std::vector<int> entries;
+  entries.reserve(n + 1);  // not null without columns, which CHOLMOD would refuse
+  const int* row = lower.innerIndexPtr();
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const int *from = row + lower.outerIndexPtr()[j], *to = row + lower.outerIndexPtr()[j + 1];
+    entries.push_back(static_cast<int>(std::lower_bound(from, to, n) - from));
+  }
+  return entries;
+}
+
+/// A view of the leading block: the matrix must outlive it, and CHOLMOD does not write to it.
+/// @param entries Of each column in the block; must outlive it too.
+cholmod_sparse view(const Eigen::SparseMatrix<double>& lower, std::vector<int>& entries) {
   assert(lower.isCompressed() && lower.rows() == lower.cols());
   cholmod_sparse v{};
-  v.nrow = lower.rows();
-  v.ncol = lower.cols();
+  v.nrow = v.ncol = entries.size();
   v.nzmax = lower.nonZeros();
   v.p = const_cast<int*>(lower.outerIndexPtr());
+  v.nz = entries.data();
   v.i = const_cast<int*>(lower.innerIndexPtr());
   v.x = const_cast<double*>(lower.valuePtr());
   v.stype = -1;
@@ -48,7 +61,7 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower) {
   v.xtype = CHOLMOD_REAL;
   v.dtype = CHOLMOD_DOUBLE;
   v.sorted = 1;
-  v.packed = 1;
+  v.packed = 0;
   return v;
 }
 
@@ -180,13 +193,14 @@ struct Cholesky::Impl {
   Factor factor{nullptr, {&context.c}};
 };
 
-Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_unique<Impl>()) {
+Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) : impl_(std::make_unique<Impl>()) {
   auto& c = impl_->context.c;
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_NATURAL;
   c.postorder = 0;
   c.supernodal = CHOLMOD_SUPERNODAL;
-  cholmod_sparse A = view(lower);
+  auto entries = entries_in_block(lower, n);
+  cholmod_sparse A = view(lower, entries);
   impl_->factor.reset(cholmod_analyze(&A, &c));
   check_memory(c.status);
   cholmod_factor* L = impl_->factor.get();
@@ -199,7 +213,7 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower) : impl_(std::make_u
     const Supernode s(*L, i);
     for (int j = s.first; j < s.last; ++j) {
       const double pivot = s.value[(j - s.first) * (s.ld + 1)];
-      if (const double left = pivot * pivot / lower.coeff(j, j); !(left > least_left))
+      if (const double left = pivot * pivot / lower.valuePtr()[lower.outerIndexPtr()[j]]; !(left > least_left))
         throw NumericalError(
             fmt::format("the stiffness matrix is singular to working precision: elimination leaves {:.1e} of the "
                         "diagonal entry of row {} of {}",
@@ -247,7 +261,8 @@ std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph) {
   auto& c = context.c;
   c.nmethods = 1;
   c.method[0].ordering = CHOLMOD_NESDIS;  // a border fills less behind separators than behind a minimum degree
-  cholmod_sparse A = view(graph);
+  auto entries = entries_in_block(graph, graph.cols());
+  cholmod_sparse A = view(graph, entries);
   const Factor L(cholmod_analyze(&A, &c), {&c});
   check_memory(c.status);
   const int* order = static_cast<const int*>(L->Perm);

@@ -12,9 +12,11 @@ namespace fastjoint::linalg {
 /// matrix comes: elimination_order finds a good one.
 class Cholesky {
  public:
-  /// @param lower Lower triangle of the matrix, compressed, shape (n, n).
-  /// Throws NumericalError if the matrix is not positive definite, or singular to working precision.
-  explicit Cholesky(const Eigen::SparseMatrix<double>& lower);
+  /// @param lower Lower triangle, compressed, rows ascending, every diagonal entry stored.
+  /// @param n Size of the leading block of it that is factorised, in place; none of the rows behind it is read.
+  /// Throws NumericalError if the block is not positive definite, or singular to working precision.
+  Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n);
+  explicit Cholesky(const Eigen::SparseMatrix<double>& lower) : Cholesky(lower, lower.cols()) {}
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;

@@ -117,15 +117,14 @@ PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, 
     const ElementClass& elements = plate.elements.classes[i];
     classes_[i] = condense(elements, plate.elements.stiffness[elements.congruent], plate.numbering, p);
   });
-  Eigen::SparseMatrix<double> A = bordered_stiffness(skeleton);
+  const Eigen::SparseMatrix<double> A = bordered_stiffness(skeleton);
   const int n_controlled = plate.unknowns.n_controlled();
   coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
   const Eigen::SparseMatrix<double> lower = A.bottomRightCorner(rows_.n_border, rows_.n_border);
   border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>()).topRows(n_controlled);
   held_ += lower.diagonal().head(n_controlled);
-  A = A.topLeftCorner(rows_.n_skeleton, rows_.n_skeleton).eval();
-  diagonal_ = A.diagonal();
-  factor_ = std::make_unique<linalg::Cholesky>(A);
+  diagonal_ = A.diagonal().head(rows_.n_skeleton);
+  factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_skeleton);
 }
 
 const CondensedElement& PlateFactor::element(int element) const { return classes_[plate_.elements.class_of[element]]; }

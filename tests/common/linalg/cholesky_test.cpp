@@ -39,7 +39,7 @@ TEST(Cholesky, SolvesAllRowsAtOnce) {
 
 TEST(Cholesky, NothingToSolveIsNoError) {
   EXPECT_EQ(Cholesky(chain(5, 2)).solve(Eigen::MatrixXd(0, 5)).rows(), 0);
-  EXPECT_EQ(Cholesky(chain(0, 2)).solve(Eigen::MatrixXd(5, 0)).rows(), 5);
+  EXPECT_EQ(Cholesky(chain(5, 2), 0).solve(Eigen::MatrixXd(5, 0)).rows(), 5);
 }
 
 TEST(Cholesky, NamesTheIndefiniteRow) {
@@ -88,6 +88,16 @@ Eigen::MatrixXd sparse_matrix(int n) {
 }
 
 Sparse lower(const Eigen::MatrixXd& A) { return Eigen::MatrixXd(A.triangularView<Eigen::Lower>()).sparseView(); }
+
+/// What is behind the block does not matter, be it indefinite.
+TEST(Cholesky, FactorisesALeadingBlock) {
+  Eigen::MatrixXd A = sparse_matrix(90);
+  A.bottomRightCorner(20, 20) *= -1;
+  for (const int n : {0, 1, 40, 70}) {
+    const Eigen::MatrixXd B = Eigen::MatrixXd::Random(7, n), block = A.topLeftCorner(n, n);
+    EXPECT_LE((Cholesky(lower(A), n).solve(B) * block - B).norm(), 1e-11 * A.norm() * B.norm()) << n;
+  }
+}
 
 /// Right-hand sides that elimination carries from one row on, which leaves supernodes before it aside, beside full
 /// ones.
