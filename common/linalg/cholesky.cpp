@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/linalg/cholesky.hpp"
 
-#include <cblas.h>
 #include <cholmod.h>
 #include <fmt/format.h>
 
@@ -92,6 +91,13 @@ struct Supernode {
   [[nodiscard]] int size() const { return last - first; }
   [[nodiscard]] int n_below() const { return ld - size(); }
   [[nodiscard]] const int* below() const { return row + size(); }
+  [[nodiscard]] auto diagonal() const { return rows(0, size()).triangularView<Eigen::Lower>(); }
+  [[nodiscard]] auto below_diagonal() const { return rows(size(), n_below()); }
+
+ private:
+  [[nodiscard]] Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>> rows(int from, int n) const {
+    return {value + from, n, size(), Eigen::OuterStride<>(ld)};
+  }
 };
 
 /// Forward elimination of the rows of a sparse matrix C, each from the first supernode that it has an entry in up the
@@ -129,17 +135,15 @@ class RowElimination {
   void eliminate(int i) {
     const Supernode s(L_, i);
     Rest rest{s, reaching(s, passed_[i]), {}};
-    const int r = count_of(rest.of);
-    if (r == 0) return;
+    if (rest.of.empty()) return;
     Eigen::MatrixXd Y = gather(rest, passed_[i]);
     std::vector<Rest>().swap(passed_[i]);
-    cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, s.size(), r, 1, s.value, s.ld,
-                Y.data(), s.ld);
-    add_products(rest.of, Y.topRows(s.size()));
+    auto own = Y.topRows(s.size());
+    s.diagonal().solveInPlace(own);
+    add_products(rest.of, own);
     if (s.n_below() == 0) return;
     rest.left = Y.bottomRows(s.n_below());
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, s.n_below(), r, s.size(), -1, s.value + s.size(), s.ld,
-                Y.data(), s.ld, 1, rest.left.data(), s.n_below());
+    rest.left.noalias() -= s.below_diagonal() * own;
     passed_[supernode_of_[*s.below()]].push_back(std::move(rest));
   }
 
@@ -226,27 +230,23 @@ Cholesky::~Cholesky() = default;
 
 Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd B) const {
   const cholmod_factor& L = *impl_->factor;
-  const int k = static_cast<int>(B.rows()), n_supernodes = static_cast<int>(L.nsuper);
-  if (k == 0) return B;
-  Eigen::MatrixXd below(k, L.maxesize);
-  const auto divide = [&](const Supernode& s, CBLAS_TRANSPOSE transposed) {
-    cblas_dtrsm(CblasColMajor, CblasRight, CblasLower, transposed, CblasNonUnit, k, s.size(), 1, s.value, s.ld,
-                B.col(s.first).data(), k);
-  };
+  const int n_supernodes = static_cast<int>(L.nsuper);
+  if (B.rows() == 0) return B;
+  Eigen::MatrixXd gathered(B.rows(), L.maxesize);
   for (int i = 0; i < n_supernodes; ++i) {
     const Supernode s(L, i);
-    if (B.middleCols(s.first, s.size()).isZero(0)) continue;  // nothing has reached it
-    divide(s, CblasTrans);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasTrans, k, s.n_below(), s.size(), 1, B.col(s.first).data(), k,
-                s.value + s.size(), s.ld, 0, below.data(), k);
+    auto own = B.middleCols(s.first, s.size()), below = gathered.leftCols(s.n_below());
+    if (own.isZero(0)) continue;  // nothing has reached it
+    s.diagonal().adjoint().solveInPlace<Eigen::OnTheRight>(own);
+    below.noalias() = own * s.below_diagonal().transpose();
     for (int j = 0; j < s.n_below(); ++j) B.col(s.below()[j]) -= below.col(j);
   }
   for (int i = n_supernodes - 1; i >= 0; --i) {
     const Supernode s(L, i);
+    auto own = B.middleCols(s.first, s.size()), below = gathered.leftCols(s.n_below());
     for (int j = 0; j < s.n_below(); ++j) below.col(j) = B.col(s.below()[j]);
-    cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, k, s.size(), s.n_below(), -1, below.data(), k,
-                s.value + s.size(), s.ld, 1, B.col(s.first).data(), k);
-    divide(s, CblasNoTrans);
+    own.noalias() -= below * s.below_diagonal();
+    s.diagonal().solveInPlace<Eigen::OnTheRight>(own);
   }
   return B;
 }

@@ -27,6 +27,8 @@ class Condensed {
   void restore(Eigen::MatrixXd& inside, const Eigen::MatrixXd& outside) const;
 
  private:
+  [[nodiscard]] auto L() const { return M_.topLeftCorner(n_, n_).triangularView<Eigen::Lower>(); }
+
   Eigen::Index n_ = 0;
   Eigen::MatrixXd M_;  ///< lower triangle of [L; X C], as the factor of the first n columns has it
 };

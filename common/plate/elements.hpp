@@ -38,4 +38,20 @@ struct PlateElements {
 [[nodiscard]] PlateElements classify_elements(const SprungMesh& sprung, const pfem::Numbering& numbering,
                                               const Unknowns& unknowns);
 
+/// A spring between a degree of freedom of a vertex and a controlled displacement.
+struct PointTie {
+  int vertex, dof, controlled;
+  double stiffness;  ///< force / length
+};
+
+/// The stiffness of a plate at the highest p. It is never assembled: it is there element by element (PlateFactor).
+struct PlateStiffness {
+  pfem::Numbering numbering;
+  Unknowns unknowns;
+  PlateElements elements;
+  /// Springs between vertices of the mesh and discs of their own, section 3.1 of the paper: the displacement of the
+  /// vertex, and with it the springs' load, does not converge.
+  std::vector<PointTie> ties;
+};
+
 }  // namespace fastjoint::plate

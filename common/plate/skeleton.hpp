@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "common/plate/stiffness.hpp"
+#include "common/plate/elements.hpp"
 
 namespace fastjoint::plate {
 

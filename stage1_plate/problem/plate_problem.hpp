@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/plate/stiffness.hpp"
+#include "common/plate/elements.hpp"
 #include "stage1_plate/problem/unknowns.hpp"
 
 namespace fastjoint::stage1 {
