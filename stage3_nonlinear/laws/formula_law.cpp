@@ -131,8 +131,7 @@ const std::vector<FlexibilityFormula> formulas{
      false,
      {"E_z", "d_head", "pitch", "row_pitch", "rows", "c_f"},
      "G. Morris, 2004, after J. J. M. de Rijck, thesis TU Delft, 2005, known from one transcription of it: compare "
-     "with "
-     "another formula"},
+     "with another formula"},
 };
 
 const FlexibilityFormula& read_formula(const input::Value& law) {
