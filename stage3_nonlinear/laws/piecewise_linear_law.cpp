@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "stage3_nonlinear/laws/law.hpp"
@@ -30,7 +31,7 @@ class PiecewiseLinearLaw final : public Law {
  public:
   /// @param first_moved The clearance moves the vertices from this one on along delta.
   PiecewiseLinearLaw(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
-                     std::optional<Source> source = std::nullopt)
+                     std::optional<Source> source)
       : curve_(std::move(curve)),
         first_moved_(first_moved),
         parameters_(std::move(parameters)),
@@ -138,12 +139,15 @@ class PiecewiseLinearLaw final : public Law {
   std::optional<Source> source_;
 };
 
+LawPointer piecewise_linear_law(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
+                                std::optional<Source> source = std::nullopt) {
+  return std::make_shared<PiecewiseLinearLaw>(std::move(curve), first_moved, std::move(parameters), std::move(source));
+}
+
 }  // namespace
 
 LawPointer linear_law(double k, std::optional<Source> source) {
-  using Parameters = std::vector<PolylineParameter>;
-  return std::make_shared<PiecewiseLinearLaw>(Polyline{{{0, 0}}, k}, 0, Parameters{{{"k", -1, 1}, {{{0, 0}}, 1}}},
-                                              std::move(source));
+  return piecewise_linear_law({{{0, 0}}, k}, 0, {{{"k", -1, 1}, {{{0, 0}}, 1}}}, std::move(source));
 }
 
 /// {"type": "linear", "k": force / length}
@@ -158,11 +162,10 @@ LawPointer read_bilinear_law(const input::Value& law) {
   const double k = law.at("k").number(input::positive);
   const double F = law.at("F_yield").number(input::positive);
   const double k_yield = law.at("k_yield").number(input::not_negative);
-  return std::make_shared<PiecewiseLinearLaw>(
-      Polyline{{{0, 0}, {F / k, F}}, k_yield}, 0,
-      std::vector<PolylineParameter>{{{"k", -1, 1}, {{{0, 0}, {-F / (k * k), 0}}, 0}},
-                                     {{"F_yield", 0, 1}, {{{0, 0}, {1 / k, 1}}, 0}},
-                                     {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}});
+  return piecewise_linear_law({{{0, 0}, {F / k, F}}, k_yield}, 0,
+                              {{{"k", -1, 1}, {{{0, 0}, {-F / (k * k), 0}}, 0}},
+                               {{"F_yield", 0, 1}, {{{0, 0}, {1 / k, 1}}, 0}},
+                               {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}});
 }
 
 /// Reads {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo,
@@ -183,8 +186,8 @@ LawPointer read_four_stage_law(const input::Value& law) {
   const double stuck = F_slip / k_stick, slipped = stuck + slip;
   const double bearing = (F_yield - F_slip) / k_bearing;
   const double d_stick = -stuck / k_stick;
-  return std::make_shared<PiecewiseLinearLaw>(
-      Polyline{{{stuck, F_slip}, {slipped, F_slip}, {slipped + bearing, F_yield}}, k_yield}, 1,
+  return piecewise_linear_law(
+      {{{stuck, F_slip}, {slipped, F_slip}, {slipped + bearing, F_yield}}, k_yield}, 1,
       std::vector<PolylineParameter>{
           {{"k_stick", -1, 1}, {{{d_stick, 0}, {d_stick, 0}, {d_stick, 0}}, 0}},
           {{"F_slip", 0, 1}, {{{1 / k_stick, 1}, {1 / k_stick, 1}, {1 / k_stick - 1 / k_bearing, 0}}, 0}},

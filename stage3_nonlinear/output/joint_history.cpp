@@ -111,8 +111,8 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     result.F_vector.row(i) = step.F;
     result.delta.row(i) = amounts(step.delta, a);
     result.F.row(i) = amounts(step.F, a);
-    result.transferred(i, Eigen::seqN(0, n, 2)) = states[i].transferred_first;
-    result.transferred(i, Eigen::seqN(1, n, 2)) = states[i].transferred_second;
+    for (Index j = 0; j < n; ++j)
+      result.transferred.row(i).segment<2>(2 * j) << states[i].transferred_first[j], states[i].transferred_second[j];
   }
   for (const auto& plane : joint.planes) {
     result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
@@ -153,7 +153,8 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
 std::string csv(const JointModel& joint, const formats::JointResult& a) {
   std::string text = csv_heads(joint);
   for (Index i = 0; i < a.F.rows(); ++i) {
-    const VectorXd share = shares(joint, a.transferred(i, Eigen::seqN(0, a.F.cols(), 2)));
+    const auto first = [&](Index j) { return a.transferred(i, 2 * j); };
+    const VectorXd share = shares(joint, VectorXd::NullaryExpr(a.F.cols(), first));
     for (Index j = 0; j < a.F.cols(); ++j) {
       text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[j]),
                           a.delta(i, j), a.F(i, j), a.transferred(i, 2 * j), a.transferred(i, 2 * j + 1),
