@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/gsl_methods.hpp"
 
-#include "tests/bench/gsl_root.hpp"
+#include "stage3_nonlinear/solvers/gsl_root.hpp"
 
 namespace fastjoint::bench {
 namespace {
 
-using namespace gsl;
+using namespace stage3::gsl;
 
 /// Solvers without the Jacobian.
 template <const gsl_multiroot_fsolver_type*& type>

@@ -13,12 +13,8 @@
 
 #include "stage3_nonlinear/solvers/root.hpp"
 
-/// Any of GSL's solvers of n equations as SolveFunction, as the program has hybridsj alone.
-namespace fastjoint::bench::gsl {
-
-using stage3::Root;
-using stage3::RootOptions;
-using stage3::RootProblem;
+/// GSL's solvers of n equations as SolveFunction, for files that link GSL.
+namespace fastjoint::stage3::gsl {
 
 /// GSL's vectors and matrices as Eigen sees them.
 inline auto view(const gsl_vector* v) {
@@ -98,4 +94,4 @@ Root solve(const RootProblem& problem, const Eigen::VectorXd& start, const RootO
   return root;
 }
 
-}  // namespace fastjoint::bench::gsl
+}  // namespace fastjoint::stage3::gsl
