@@ -21,7 +21,7 @@ struct FastenerGeometry {
   double E_f;               ///< Young's modulus of the fastener, force / length^2
   int n_shear = 1;          ///< shear planes: 1, or 2 where the formula knows them
   double nu_f = 0;          ///< Poisson's ratio of the fastener, where the formula uses it
-  // Where the formula has correlations for the row of fasteners:
+  // Numbers of the row of fasteners, for formulas with correlations for it.
   std::array<double, 2> E_z{};      ///< Young's modulus of the sheets through the thickness, force / length^2
   double d_head = 0;                ///< diameter of the head, length
   double pitch = 0, row_pitch = 0;  ///< between fasteners of a row, between rows, length
