@@ -26,7 +26,7 @@ const program::Command command = {
      {"--accuracy", "A",
       "relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the "
       "input leaves open and the least degree within --p that do, and says so; warns where nothing does"},
-     {"--threads", "N", "threads that integrate, condense, factorise and solve; default: 1"}}};
+     {"--threads", "N", "threads that share the shapes of elements and the degrees; default: 1"}}};
 
 /// The worst of several warnings of one kind, and their number.
 struct WorstOfKind {

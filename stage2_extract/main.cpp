@@ -11,7 +11,6 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
-#include "common/linalg/threads.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
@@ -153,7 +152,6 @@ double stresses_need(const stage2::FieldSolver& solver, const stage2::JointSheet
 }
 
 void run(const program::Arguments& arguments, program::Timings& timings) {
-  linalg::set_threads(1);
   timings.phase("read");
   const auto request = field_request(arguments);
   constexpr double of_reading = 3;  // the file's image, and its fields as they are filled

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <iostream>
 
-#include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/run.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
@@ -26,7 +25,6 @@ int main(int argc, char** argv) {
   using namespace fastjoint;
   stage3::take_over_gsl_errors();
   program::run(command, argc, argv, [](const program::Arguments& arguments, program::Timings& timings) {
-    linalg::set_threads(1);
     stage3::run(arguments, std::cout, std::cerr, timings);
   });
 }

@@ -25,8 +25,6 @@ class Reader {
 
   Reader(std::string path, const std::string& format, int major);
   ~Reader();
-  Reader(const Reader&) = delete;
-  Reader& operator=(const Reader&) = delete;
 
   [[nodiscard]] const std::string& path() const;
   /// Digest that the file carries; empty if it has none.

@@ -24,8 +24,6 @@ class Writer {
 
   Writer(const std::string& path, const std::string& format, int major, int minor);
   ~Writer();
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
 
   void attribute(const std::string& name, const std::string& text);
   void attribute(const std::string& name, int value);

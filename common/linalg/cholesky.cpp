@@ -230,10 +230,9 @@ Cholesky::~Cholesky() = default;
 
 Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd B) const {
   const cholmod_factor& L = *impl_->factor;
-  const int n_supernodes = static_cast<int>(L.nsuper);
   if (B.rows() == 0) return B;
   Eigen::MatrixXd gathered(B.rows(), L.maxesize);
-  for (int i = 0; i < n_supernodes; ++i) {
+  for (int i = 0; i < int(L.nsuper); ++i) {
     const Supernode s(L, i);
     auto own = B.middleCols(s.first, s.size()), below = gathered.leftCols(s.n_below());
     if (own.isZero(0)) continue;  // nothing has reached it
@@ -241,7 +240,7 @@ Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd B) const {
     below.noalias() = own * s.below_diagonal().transpose();
     for (int j = 0; j < s.n_below(); ++j) B.col(s.below()[j]) -= below.col(j);
   }
-  for (int i = n_supernodes - 1; i >= 0; --i) {
+  for (int i = int(L.nsuper) - 1; i >= 0; --i) {
     const Supernode s(L, i);
     auto own = B.middleCols(s.first, s.size()), below = gathered.leftCols(s.n_below());
     for (int j = 0; j < s.n_below(); ++j) below.col(j) = B.col(s.below()[j]);

@@ -18,8 +18,6 @@ class Cholesky {
   Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n);
   explicit Cholesky(const Eigen::SparseMatrix<double>& lower) : Cholesky(lower, lower.cols()) {}
   ~Cholesky();
-  Cholesky(const Cholesky&) = delete;
-  Cholesky& operator=(const Cholesky&) = delete;
 
   /// Solutions X of X A = B, shape (k, n): of the right-hand sides in the rows of B, in which they lie together.
   [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd B) const;

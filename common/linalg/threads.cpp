@@ -15,21 +15,19 @@ namespace fastjoint::linalg {
 namespace {
 
 int n_threads = 1;
-
-/// Threads of the kernels of OpenBLAS; another BLAS keeps those that its own environment variable gives it.
-void set_blas_threads([[maybe_unused]] int n) {
-#ifdef FASTJOINT_HAS_OPENBLAS
-  openblas_set_num_threads(n);
-#endif
-}
+thread_local bool in_loop = false;
 
 }  // namespace
 
 void set_threads(int n) {
   n_threads = n;
-  set_blas_threads(n);
+#ifdef FASTJOINT_HAS_OPENBLAS  // another BLAS keeps the threads that its own environment variable gives it
+  openblas_set_num_threads(1);
+#endif
   omp_set_max_active_levels(0);
 }
+
+int threads() { return n_threads; }
 
 int blas_threads() {
 #ifdef FASTJOINT_HAS_OPENBLAS
@@ -46,7 +44,7 @@ void reserve_blas_memory() {
 }
 
 void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
-  const auto n_workers = std::min<std::size_t>(n, n_threads);
+  const auto n_workers = in_loop ? 1 : std::min<std::size_t>(n, n_threads);
   if (n_workers <= 1) {
     for (std::size_t i = 0; i < n; ++i) f(i);
     return;
@@ -55,6 +53,8 @@ void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
   std::exception_ptr thrown;
   std::mutex mutex;
   const auto work = [&] {
+    in_loop = true;
+    omp_set_max_active_levels(0);  // each thread has a setting of its own
     for (std::size_t i = next++; i < n; i = next++) try {
         f(i);
       } catch (...) {
@@ -63,13 +63,12 @@ void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
         next = n;
       }
   };
-  set_blas_threads(1);
   {
     std::vector<std::jthread> workers;
     for (std::size_t i = 1; i < n_workers; ++i) workers.emplace_back(work);
     work();
   }
-  set_blas_threads(n_threads);
+  in_loop = false;
   if (thrown) std::rethrow_exception(thrown);
 }
 

@@ -6,9 +6,10 @@
 
 namespace fastjoint::linalg {
 
-/// Threads that for_each_index and the dense kernels of BLAS may use, from now on; 1 until then. Loops that libraries
-/// spread by themselves run on one: CHOLMOD asks for four threads whatever there are, which then wait for each other.
+/// Threads that for_each_index may use, from now on; 1 until then. BLAS and the loops of CHOLMOD run on one: their
+/// blocks are small, and threads that wait for each other in each block made whole runs up to four times as long.
 void set_threads(int n);
+[[nodiscard]] int threads();
 
 /// Threads of BLAS, each of which reserves memory; 1 of one that is not OpenBLAS.
 [[nodiscard]] int blas_threads();
@@ -16,8 +17,8 @@ void set_threads(int n);
 /// Lets BLAS reserve the memory that it otherwise reserves when it is first called.
 void reserve_blas_memory();
 
-/// Calls f(0) ... f(n - 1), each once, on all threads, in no order; BLAS has one thread in each. An exception of f ends
-/// the loop, and is thrown when all threads have stopped.
+/// Calls f(0) ... f(n - 1), each once, on all threads, begun in this order; a loop inside f stays on its thread. An
+/// exception of f ends the loop, and is thrown when all threads have stopped.
 void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f);
 
 }  // namespace fastjoint::linalg

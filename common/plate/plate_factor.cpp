@@ -101,14 +101,16 @@ FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, 
   constexpr double number = sizeof(double), entry = sizeof(double) + sizeof(int);
   const auto square = [](double n) { return n * n; };
   const auto& function = plate.numbering.function;
-  double elements = count_of(plate.elements.congruent.first) * square(2.0 * double(function.rows()));
+  const double elements = count_of(plate.elements.congruent.first) * square(2.0 * double(function.rows()));
+  double condensed = 0;
   for (const auto& each : plate.elements.classes)
-    elements += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()));
+    condensed += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()));
   auto rows = skeleton.rows(plate, p);
   const double entries = skeleton.size(rows).entries;
   std::fill(rows.first.end() - rows.n_border - 1, rows.first.end(), rows.n_skeleton);
   const auto size = skeleton.size(rows);
-  return {number * elements, entry * (entries + size.entries) + number * (size.factor + size.largest_front)};
+  return {number * elements, number * condensed,
+          entry * (entries + size.entries) + number * (size.factor + size.largest_front)};
 }
 
 PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p)

@@ -26,8 +26,11 @@ struct CondensedElement {
 
 /// Bytes that a factor takes, known before anything is integrated.
 struct FactorBytes {
-  double elements;  ///< matrices of the congruence classes at the highest degree, condensed ones at the factor's
-  double factor;    ///< the skeleton's stiffness and its factor
+  double elements;   ///< matrices of the congruence classes at the highest degree, which all factors share
+  double condensed;  ///< condensed ones at the factor's degree
+  double factor;     ///< the skeleton's stiffness and its factor
+
+  [[nodiscard]] double total() const { return elements + condensed + factor; }
 };
 [[nodiscard]] FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p);
 

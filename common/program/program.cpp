@@ -13,6 +13,7 @@
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
+#include "common/linalg/threads.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 
@@ -66,6 +67,7 @@ void report_times(const Command& command, const Arguments& arguments, Timings& t
 
 void work(const Command& command, const Arguments& arguments, const Body& body, Timings& timings) {
   check_paths(arguments);
+  linalg::set_threads(1);
   std::optional<Progress> progress;
   if (!arguments.quiet) progress.emplace(command.name, ::isatty(STDERR_FILENO) == 1, std::cerr);
   try {
@@ -143,7 +145,6 @@ Number number_in(const Arguments& arguments, const std::string& name, Number low
 int Arguments::integer(const std::string& name, int low, int high, int otherwise) const {
   return number_in(*this, name, low, high, otherwise, "an integer");
 }
-
 double Arguments::number(const std::string& name, double low, double high, double otherwise) const {
   return number_in(*this, name, low, high, otherwise, "a number");
 }

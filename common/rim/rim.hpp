@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "common/pfem/boundary.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/rim/angles.hpp"
 

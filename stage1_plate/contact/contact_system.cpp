@@ -8,7 +8,7 @@
 
 #include "common/errors.hpp"
 #include "common/plate/plate_states.hpp"
-#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

@@ -6,9 +6,23 @@
 #include <vector>
 
 #include "common/plate/elements.hpp"
-#include "stage1_plate/problem/unknowns.hpp"
+#include "common/plate/unknowns.hpp"
+#include "stage1_plate/mesh/plate_mesh.hpp"
 
 namespace fastjoint::stage1 {
+
+using plate::Unknowns;
+
+/// Indices of the externals of a kind into PlateScene::externals: those that are rigid, else those under a load.
+[[nodiscard]] std::vector<int> rigid_externals(const PlateScene& scene);
+[[nodiscard]] std::vector<int> traction_externals(const PlateScene& scene);
+
+/// First disc of a point spring: the discs of these are the last.
+[[nodiscard]] int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point);
+
+/// Applies supports and rigid externals. Throws InputError where two of them want the same displacement.
+[[nodiscard]] Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate,
+                                         const pfem::Numbering& numbering);
 
 /// The discrete plate at the highest p: n_f free unknowns (by degree), nc controlled ones, h friction cases, q
 /// tractions. Its stiffness, and with it what the cases load, is there element by element.
@@ -50,5 +64,13 @@ class Assembler {
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
 /// Numbers and integrates.
 [[nodiscard]] PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate);
+
+/// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are
+/// held; the message says how (docs/theory.md, section 4.6). The factor alone would not show it.
+void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
+
+/// Whether nothing can move as a rigid body while the scene's loads act: externals and discs of given force follow.
+/// @param scene A scene that has loads, with springs on the parts of the rims that bear.
+[[nodiscard]] bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

@@ -6,8 +6,7 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "stage1_plate/problem/rigid_body_check.hpp"
-#include "stage1_plate/run/memory.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/run/solve.hpp"
 
 namespace fastjoint::stage1 {

@@ -5,17 +5,19 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <mutex>
 #include <set>
 
 #include "common/count.hpp"
+#include "common/linalg/threads.hpp"
 #include "common/plate/plate_states.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/progress.hpp"
-#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
-
 namespace {
 
 /// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
@@ -106,21 +108,24 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
            states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
 }
 
-void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a,
-                 program::Timings& timings) {
+void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a) {
+  std::mutex reporting;
   double done = 0;
-  for (const int p : a.p) {
-    program::report_share(done / a.ndof.sum());  // the time that a degree takes grows as its number of unknowns
-    done += problem.unknowns.n_free[p];
-    timings.phase("factorise");
-    const plate::PlateFactor K(problem, skeleton, p);
-    timings.phase("solve");
-    auto [cases, probe] = solve_degree(problem, K, p);
-    a.cases.push_back(std::move(cases));
-    a.probe = std::move(probe);
-    a.held_stiffness = K.held_stiffness();
-  }
-  program::report_share(1);
+  const auto report = [&](double unknowns) {  // the time that a degree takes grows as its number of unknowns
+    const std::lock_guard lock(reporting);
+    program::report_share((done += unknowns) / a.ndof.sum());
+  };
+  report(0);
+  a.cases.resize(a.p.size());
+  linalg::for_each_index(a.p.size(), [&](std::size_t i) {
+    const Eigen::Index at = a.p.size() - 1 - i;  // the longest first
+    const plate::PlateFactor K(problem, skeleton, a.p[at]);
+    report(0.5 * a.ndof[at]);
+    auto [cases, probe] = solve_degree(problem, K, a.p[at]);
+    a.cases[at] = std::move(cases);
+    if (i == 0) a.probe = std::move(probe), a.held_stiffness = K.held_stiffness();
+    report(0.5 * a.ndof[at]);
+  });
 }
 
 SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings) {
@@ -136,7 +141,7 @@ SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program:
   integrate(scene, plate, problem);
   std::optional<RimContactState> contact;
   if (scene.loads) {
-    timings.phase("factorise");
+    timings.phase("contact");
     contact = find_contact(scene, plate, problem);
     timings.phase("integrate");
     scene = with_arcs(std::move(scene), *contact);
@@ -145,7 +150,8 @@ SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program:
   }
   auto solution = to_solution(scene, plate, problem, generator);
   if (contact) add_contact(*contact, solution);
-  solve_cases(problem, skeleton, solution, timings);
+  timings.phase("solve");
+  solve_cases(problem, skeleton, solution);
   for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
   return {std::move(scene), std::move(contact), need, std::move(solution)};
 }
@@ -173,6 +179,41 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
   for (Eigen::Index i = 0; i < a.p.size(); ++i)
     text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
   return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;
+}
+
+MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p,
+                       int n_rim) {
+  const auto n_at_once = std::min<Eigen::Index>(linalg::threads(), p.size());
+  plate::FactorBytes need{};
+  for (const int degree : p.tail(n_at_once)) {
+    const auto of_degree = plate::factor_bytes(problem, skeleton, degree);
+    need = {of_degree.elements, need.condensed + of_degree.condensed, need.factor + of_degree.factor};
+  }
+  const double nc = problem.unknowns.n_controlled(), h = count_of(problem.friction_hole);
+  const double q = double(problem.T_c.cols()), r = n_rim;
+  const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
+  // A step's results stand beside those of the step before: two copies of the fields, three of S and R.
+  const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * (nc + h) * nc);
+  const double file = 2 * count_of(p) * (nc + h) * nc;
+  const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
+  const double contact = r > 0 ? r * n_cases + std::max(2 * n_p * n_cases, 5 * std::pow(r + 2 * nc, 2)) : 0;
+  constexpr double number = sizeof(double), libraries = 20e6;
+  return {(n_rim > 0 ? 2 : 1) * (need.elements + need.condensed),
+          need.factor,
+          number * fields,
+          number * contact,
+          number * file,
+          libraries};
+}
+
+void require_memory(const std::string& file, int p, const MemoryNeed& need) {
+  using program::bytes_text;
+  const bool of_contact = need.contact > need.fields;
+  program::require_memory(fmt::format("{}: at p = {} this", file, p), need.total(),
+                          fmt::format(" (shapes {}, factor {}, {} {}, file {})", bytes_text(need.elements),
+                                      bytes_text(need.factor), of_contact ? "contact" : "fields",
+                                      bytes_text(std::max(need.fields, need.contact)), bytes_text(need.file)),
+                          "fewer degrees or a lower one (--p), or fewer holes");
 }
 
 }  // namespace fastjoint::stage1

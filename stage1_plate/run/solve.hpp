@@ -1,15 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
 #include "common/formats/plate_solution.hpp"
+#include "common/plate/plate_factor.hpp"
 #include "common/program/timings.hpp"
 #include "stage1_plate/contact/contact.hpp"
-#include "stage1_plate/run/memory.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
+
+/// Bytes that a run takes, known before anything is integrated: at its highest degree, on several threads at as many.
+struct MemoryNeed {
+  double elements;  ///< matrices of the classes of elements
+  double factor;    ///< the skeleton's stiffness and its factor
+  double fields;    ///< fields of tractions and of the probe, and the rows of S and R while they are made
+  double contact;   ///< fields in the search for contact, which ends before these are solved; 0 without one
+  double file;      ///< S and R of all degrees as they are turned to the order of the file, when the factors are gone
+  double program;
+
+  [[nodiscard]] double total() const {
+    constexpr double gaps = 1.15;  // what the allocator cannot use between them, and what integrating takes
+    return gaps * (elements + std::max(factor + std::max(fields, contact), file)) + program;
+  }
+};
+/// @param problem Result of number_unknowns. @param p Degrees to be solved, ascending. @param n_rim Number of unknowns
+/// on the rims on which contact is looked for, 0 without.
+[[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton,
+                                     const Eigen::VectorXi& p, int n_rim = 0);
+
+/// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
+void require_memory(const std::string& file, int p, const MemoryNeed& need);
 
 /// The scene, the mesh and the problem as stage 2 needs them, without the cases.
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
@@ -25,9 +49,8 @@ struct SolvedCases {
 };
 [[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p);
 
-/// Solves the unit cases at every degree, and at the highest the probe. Phases: factorise, solve.
-void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution,
-                 program::Timings& timings);
+/// Solves the unit cases at every degree, on several threads side by side, and at the highest the probe.
+void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution);
 
 /// A scene and what became of it.
 struct SolvedPlate {
@@ -37,7 +60,7 @@ struct SolvedPlate {
   formats::PlateSolution solution;
 };
 
-/// Mesh, matrices, contact if the scene has loads, unit cases. Phases: mesh, integrate, factorise, solve.
+/// Mesh, matrices, contact if the scene has loads, unit cases. Phases: mesh, integrate, contact, solve.
 /// Throws InputError for a scene that does not fit together or into memory, NumericalError for one that moves.
 [[nodiscard]] SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings);
 

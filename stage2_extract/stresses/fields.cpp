@@ -66,10 +66,7 @@ FieldSolver::FieldSolver(const PlateSolution& plate, const std::string& file)
       stiffness_(stiffness_of(plate, edges_, file)),
       skeleton_(stiffness_) {}
 
-double FieldSolver::factor_bytes(int p) const {
-  const auto [elements, factor] = plate::factor_bytes(stiffness_, skeleton_, p);
-  return elements + factor;
-}
+double FieldSolver::factor_bytes(int p) const { return plate::factor_bytes(stiffness_, skeleton_, p).total(); }
 
 void FieldSolver::factorise(int p) {
   factor_.reset();  // its memory first

@@ -9,7 +9,7 @@
 #include "common/linalg/threads.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "common/program/program.hpp"
-#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/scene/scene.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"

@@ -9,7 +9,7 @@
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
-#include "stage1_plate/problem/rigid_body_check.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/scene/scene.hpp"
 #include "tests/support/straightforward.hpp"
 

@@ -75,7 +75,8 @@ def check_refusal():
     result = stage1(scene, megabytes=400)
     assert result.returncode == 2, result
     assert re.fullmatch(r"stage1_plate: error: panel20.json: at p = 8 this takes about [\d.]+ MB of memory \(shapes .*\), "
-                        r"\d+ MB are available; allowed: a lower p, or fewer holes\n", result.stderr), result
+                        r"\d+ MB are available; allowed: fewer degrees or a lower one \(--p\), or fewer holes\n", result.stderr), \
+        result
     assert not Path("plate.h5").exists() and not result.stdout
     own = 400 - int(re.search(r"(\d+) MB are available", result.stderr)[1]) + 1  # which is rounded
     assert stage1(panel(3, []), megabytes=400).returncode == 0
@@ -117,7 +118,7 @@ def check_search(scene, accuracy, own):
     """The last refusal of --accuracy is of its largest model: one of one degree holds the matrices of no other."""
     check_refusals(("stage1_plate", scene, "--accuracy", accuracy), "plate.h5",
                    rf"^stage1_plate: error: {scene}: at p = \d this takes about (\d+) MB of memory \(shapes .*\), (\d+) MB are "
-                   r"available; allowed: a lower p, or fewer holes\n$", own)
+                   r"available; allowed: fewer degrees or a lower one \(--p\), or fewer holes\n$", own)
 
 
 def check_stage2(own):
@@ -170,6 +171,8 @@ def main():
         check_need(3, [], [], contact_panel)
         check_need(5, [], ["--p", "8", "--threads", "2"], irregular_panel)
         check_need(5, [], ["--p", "1..4"], irregular_panel)
+        check_need(14, [], ["--threads", "2"])
+        check_need(20, ["--space", "product"], [])
         own = check_refusal()
         check_end_without_threads()
         check_search(panel(3, []), "1e-9", own)

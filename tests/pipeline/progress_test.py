@@ -47,14 +47,14 @@ def check_lines(scene):
     lines, _ = run("stage1_plate", scene, "-o", "plate.h5", "--p", "1..8")
     assert lines, "a run of more than a second"
     for _, line in lines:
-        assert re.fullmatch(r"stage1_plate: (mesh|integrate|factorise|solve|write)(, \d+ % done, about \d+ s left)?\n", line), line
+        assert re.fullmatch(r"stage1_plate: (mesh|integrate|solve|write)(, \d+ % done, about \d+ s left)?\n", line), line
     assert all(after[0] - before[0] > 2.5 for before, after in zip(lines, lines[1:])), lines
     assert run("stage1_plate", scene, "-o", "plate.h5", "--p", "8..8", "--quiet")[0] == []
 
 
 def check_bar(scene):
     said = on_terminal("stage1_plate", str(scene), "-o", "plate.h5", "--p", "1..8")
-    bars = re.findall(r"\[(#* *)\] (?:factorise|solve)(?:, (\d+) % done, about \d+ s left)?\x1b\[K\r", said)
+    bars = re.findall(r"\[(#* *)\] solve(?:, (\d+) % done, about \d+ s left)?\x1b\[K\r", said)
     assert bars and all(len(bar) == 20 for bar, _ in bars), said
     shares = [int(share or 0) for _, share in bars]
     assert shares == sorted(shares) and shares[-1] > 50, shares

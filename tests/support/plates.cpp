@@ -98,8 +98,7 @@ Eigen::MatrixXd fields_under(const stage1::PlateProblem& problem, int p, const E
 
 formats::PlateSolution solve(const Plate& plate) {
   auto solution = stage1::to_solution(plate.scene, plate.mesh, plate.problem, "test");
-  program::Timings timings;
-  stage1::solve_cases(plate.problem, plate::Skeleton(plate.problem), solution, timings);
+  stage1::solve_cases(plate.problem, plate::Skeleton(plate.problem), solution);
   return solution;
 }
 

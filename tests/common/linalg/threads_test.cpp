@@ -26,6 +26,13 @@ TEST_P(Threads, TakeEveryIndexOnce) {
   }
 }
 
+TEST_P(Threads, ALoopInsideAnotherTakesEveryIndexOnce) {
+  std::vector<std::vector<int>> calls(9, std::vector<int>(100, 0));
+  for_each_index(calls.size(),
+                 [&](std::size_t i) { for_each_index(calls[i].size(), [&](std::size_t j) { ++calls[i][j]; }); });
+  EXPECT_EQ(calls, std::vector(9, std::vector<int>(100, 1)));
+}
+
 TEST_P(Threads, AnExceptionReachesTheCaller) {
   std::atomic<int> n_calls = 0;
   const auto loop = [&] {

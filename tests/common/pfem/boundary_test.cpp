@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/pfem/boundary.hpp"
+#include "common/pfem/mesh.hpp"
 
 #include <gtest/gtest.h>
 

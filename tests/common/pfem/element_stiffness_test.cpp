@@ -9,8 +9,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "common/pfem/boundary.hpp"
 #include "common/pfem/material.hpp"
+#include "common/pfem/mesh.hpp"
 #include "common/pfem/numbering.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/spaces.hpp"

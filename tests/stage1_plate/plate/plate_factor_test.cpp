@@ -41,9 +41,24 @@ TEST(PlateFactor, IsTheSameOnSeveralThreads) {
   const auto [SR, X] = solve();
   linalg::set_threads(3);
   const auto [by_three, X_by_three] = solve();
+  linalg::set_threads(1);
   EXPECT_LT((by_three - SR).norm(), 1e-13 * SR.norm());
   EXPECT_LT((X_by_three - X).norm(), 1e-12 * X.norm());
+}
+
+TEST(PlateFactor, DegreesSideBySideAreThoseOneAfterAnother) {
+  const auto plate = test::make_plate(test::panel(3, 1, 1));
+  const auto plain = test::solve(plate);
+  linalg::set_threads(3);
+  const auto side_by_side = test::solve(plate);
   linalg::set_threads(1);
+  ASSERT_EQ(side_by_side.cases.size(), plain.cases.size());
+  for (std::size_t i = 0; i < plain.cases.size(); ++i) {
+    EXPECT_EQ(side_by_side.cases[i].S, plain.cases[i].S) << i;
+    EXPECT_EQ(side_by_side.cases[i].R, plain.cases[i].R) << i;
+  }
+  EXPECT_EQ(side_by_side.probe.force, plain.probe.force);
+  EXPECT_EQ(side_by_side.held_stiffness, plain.held_stiffness);
 }
 
 TEST(PlateFactor, SolvesForAnyLoads) {

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 
 #include "common/errors.hpp"
-#include "stage1_plate/problem/rigid_body_check.hpp"
 #include "tests/support/plates.hpp"
 
 namespace fastjoint {

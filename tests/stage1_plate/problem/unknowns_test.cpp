@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage1_plate/problem/unknowns.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
 
 #include <gmock/gmock.h>
 
