@@ -29,20 +29,6 @@ void set_threads(int n) {
 
 int threads() { return n_threads; }
 
-int blas_threads() {
-#ifdef FASTJOINT_HAS_OPENBLAS
-  return openblas_get_num_threads();
-#else
-  return 1;
-#endif
-}
-
-void reserve_blas_memory() {
-  const double A[] = {1, 0, 0, 1};
-  double x[] = {0, 0, 0, 0};
-  cblas_dtrsm(CblasColMajor, CblasLeft, CblasLower, CblasNoTrans, CblasNonUnit, 2, 2, 1, A, 2, x, 2);
-}
-
 void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
   const auto n_workers = in_loop ? 1 : std::min<std::size_t>(n, n_threads);
   if (n_workers <= 1) {

@@ -11,12 +11,6 @@ namespace fastjoint::linalg {
 void set_threads(int n);
 [[nodiscard]] int threads();
 
-/// Threads of BLAS, each of which reserves memory; 1 of one that is not OpenBLAS.
-[[nodiscard]] int blas_threads();
-
-/// Lets BLAS reserve the memory that it otherwise reserves when it is first called.
-void reserve_blas_memory();
-
 /// Calls f(0) ... f(n - 1), each once, on all threads, begun in this order; a loop inside f stays on its thread. An
 /// exception of f ends the loop, and is thrown when all threads have stopped.
 void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f);

@@ -13,7 +13,7 @@
 #include <string>
 
 #include "common/errors.hpp"
-#include "common/linalg/threads.hpp"
+#include "common/linalg/blas.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>

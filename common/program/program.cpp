@@ -13,6 +13,7 @@
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
+#include "common/linalg/blas.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
@@ -177,6 +178,7 @@ std::string one_line(const std::string& text) {
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, FASTJOINT_VERSION); }
 
 void run(const Command& command, int argc, char** argv, const Body& body) {
+  linalg::take_better_kernels(argv);
   const int status = outcome(command, argc, argv, body);
   std::cout.flush();
   // The libraries' own endings are left out: where memory is short, OpenBLAS waits in its own for threads without end.

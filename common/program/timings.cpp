@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "common/linalg/blas.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 
@@ -47,7 +48,8 @@ std::string Timings::line() const {
 }
 
 std::string Timings::json(const std::string& program, const std::string& version) const {
-  nlohmann::ordered_json text = {{"program", program}, {"version", version}, {"threads", threads_}};
+  nlohmann::ordered_json text = {
+      {"program", program}, {"version", version}, {"threads", threads_}, {"blas_kernels", linalg::blas_kernels()}};
   for (const auto& [name, time] : phases_) text["seconds"][name] = seconds(time);
   text["total"] = seconds(total_);
   text["peak_memory_bytes"] = static_cast<long>(peak_memory());

@@ -30,8 +30,8 @@ class Timings {
   /// Last line of a summary, after stop(): "  time 0.213 s: read 0.001, solve 0.030; peak memory 143 MB" and a line
   /// break, phases in the order in which they first began.
   [[nodiscard]] std::string line() const;
-  /// The same in full as a JSON object, after stop(): "program", "version", "threads", "seconds" by phase, "total" in
-  /// seconds, "peak_memory_bytes" and, if any were set, "unknowns" by degree.
+  /// The same in full as a JSON object, after stop(): "program", "version", "threads", "blas_kernels", "seconds"
+  /// by phase, "total" in seconds, "peak_memory_bytes" and, if any were set, "unknowns" by degree.
   [[nodiscard]] std::string json(const std::string& program, const std::string& version) const;
 
  private:

@@ -44,7 +44,7 @@ def time_line(printed):
 def check_json(program, path, words, phases, degrees):
     record = json.loads(path.read_text())
     version = run(program, "--version").stdout.split()[1]
-    keys = ["program", "version", "threads", "seconds", "total", "peak_memory_bytes"] + ["unknowns"] * bool(degrees)
+    keys = ["program", "version", "threads", "blas_kernels", "seconds", "total", "peak_memory_bytes"] + ["unknowns"] * bool(degrees)
     assert list(record) == keys, record
     assert (record["program"], record["version"]) == (program, version), record
     assert record["threads"] == (2 if "--threads" in words else 1), record
