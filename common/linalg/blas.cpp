@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <system_error>
 
 namespace fastjoint::linalg {
 
@@ -42,8 +44,10 @@ void take_better_kernels(char** argv) {
   const bool has_avx512 =
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
   const std::string better = better_kernels(blas_kernels(), has_avx2, has_avx512);
-  // Where one of these fails, the run goes on as it is.
-  if (!better.empty() && ::setenv("OPENBLAS_CORETYPE", better.c_str(), 0) == 0) ::execv("/proc/self/exe", argv);
+  std::error_code error;  // whatever fails, the run goes on as it is
+  const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (better.empty() || error || ::setenv("OPENBLAS_CORETYPE", better.c_str(), 0) != 0) return;
+  ::execv(program.c_str(), argv);
 #else
   static_cast<void>(argv);
 #endif

@@ -115,15 +115,32 @@ void add_unit_loads(const JointModel& joint, const CondensedSystem& system, Join
 
 bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
 
+/// Changes of the plates' stiffness with the last degree, over the shear planes: D_delta^T dS D_delta of each, its
+/// lower triangle with half the diagonal, (n a, n a); empty of a plate of one degree.
+std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const CondensedSystem& system) {
+  std::vector<MatrixXd> changes;
+  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+    const auto& S = joint.plates[i].degrees.S;
+    MatrixXd& change = changes.emplace_back();
+    if (S.size() < 2) continue;
+    const auto D = system.D_delta.middleRows(joint.offset(i), joint.plates[i].n_unknowns());
+    change = D.transpose() * ((S[S.size() - 2] - S.back()) * D);
+    change.diagonal() /= 2;
+  }
+  return changes;
+}
+
 /// Part of a plate in the errors of all forces, (n).
-/// @param w (n, m + e) change of each force per force on each unknown.
-VectorXd plate_errors(const PlateModel& plate, const MatrixXd& w, const PlateState& state) {
+/// @param A  (n, n a) change of each force per rise of the residual of each plane; w = A D^T.
+/// @param D  (m + e, n a) rows of D_delta. @param dS The plate's stiffness_changes.
+VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::Ref<const MatrixXd>& D,
+                      const MatrixXd& dS, const PlateState& state) {
   VectorXd u(plate.n_unknowns());
   u << state.D, state.De;
   const VectorXd& f = state.traction;
   const PlateDegrees& degrees = plate.degrees;
   const auto n = degrees.S.size();
-  if (n < 2) return w.cwiseAbs() * (plate.S_error * u.cwiseAbs());
+  if (n < 2) return (A * D.transpose()).cwiseAbs() * (plate.S_error * u.cwiseAbs());
   constexpr double least = 0.25;  // of the bound
   const auto load = [&](std::size_t i) -> VectorXd {
     return degrees.S[i] * u + degrees.T[i] * f + degrees.R[i] * state.Lambda;
@@ -133,25 +150,27 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& w, const PlateSta
     energy[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
   const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
   const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
-  const MatrixXd dS = degrees.S[n - 2] - degrees.S[n - 1];
-  const VectorXd change = w * (load(n - 2) - load(n - 1));
-  const VectorXd fall_by_w = (w * dS).cwiseProduct(w).rowwise().sum().cwiseAbs();
+  const VectorXd change = A * (D.transpose() * (load(n - 2) - load(n - 1)));
+  const MatrixXd A_dS = A * dS.triangularView<Eigen::Lower>();
+  const VectorXd fall_by_w = 2 * A_dS.cwiseProduct(A).rowwise().sum().cwiseAbs();
   return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
 }
 
 /// Errors of the forces of one increment, (n).
-VectorXd errors(const JointModel& joint, const JointEquations& equations, const PathStep& step,
-                const JointState& solution) {
+/// @param dS Results of stiffness_changes.
+VectorXd errors(const JointModel& joint, const JointEquations& equations, const std::vector<MatrixXd>& dS,
+                const PathStep& step, const JointState& solution) {
   const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
   ContactState state = contact_state(equations.contacts, c);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations.system, state, equations.system.D_delta.transpose());
+  Slopes slopes = implicit_slopes(equations.system, state, MatrixXd::Identity(c.size(), c.size()));
   slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
-  const MatrixXd w = of_amounts(slopes, state, c);
-  VectorXd result = VectorXd::Zero(w.rows());
+  const MatrixXd A = of_amounts(slopes, state, c);
+  VectorXd result = VectorXd::Zero(A.rows());
   for (std::size_t i = 0; i < joint.plates.size(); ++i) {
     const PlateModel& plate = joint.plates[i];
-    result += plate_errors(plate, w.middleCols(joint.offset(i), plate.n_unknowns()), solution.plates[i]);
+    const auto D = equations.system.D_delta.middleRows(joint.offset(i), plate.n_unknowns());
+    result += plate_errors(plate, A, D, dS[i], solution.plates[i]);
   }
   if (step.check.at_limit_load()) result.setConstant(infinite);
   for (const Index row : slopes.no_row) result[row / joint.n_directions()] = infinite;
@@ -203,9 +222,10 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
 std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                                      const std::vector<JointState>& states) {
   if (!std::ranges::all_of(joint.plates, is_known)) return std::nullopt;
+  const auto dS = stiffness_changes(joint, equations.system);
   MatrixXd result(std::ssize(path.steps), joint.n_planes());
   for (std::size_t i = 0; i < path.steps.size(); ++i)
-    result.row(i) = errors(joint, equations, path.steps[i], states[i]).transpose();
+    result.row(i) = errors(joint, equations, dS, path.steps[i], states[i]).transpose();
   return result;
 }
 
