@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -25,7 +27,7 @@ void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
 
 void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
   constexpr double tolerance = 1e-6;  // of the radius: digits that a hand-written file has
-  for (std::size_t i = 0; i < mesh.arcs.size(); ++i) {
+  for (int i = 0; i < count_of(mesh.arcs); ++i) {
     const auto& arc = mesh.arcs[i];
     const std::string place = fmt::format("/geometry/mesh/arcs/{}", i);
     const double from = (mesh.nodes.col(arc.a) - arc.center).norm();
@@ -174,7 +176,7 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
     return cut.sign * plate.mesh.nodes(cut.axis, plate.mesh.quads.col(side.element)).mean();
   };
   rim::Section found{section.hole, section.side, {}};
-  for (std::size_t i = 0; i < section.edges.size(); ++i) {
+  for (int i = 0; i < count_of(section.edges); ++i) {
     const std::string place = fmt::format("{}/edges/{}", pointer, i);
     const auto sides = find_sides(scene, plate, place, section.edges[i]);
     check_cut(scene, plate, place, cut, section.edges[i], sides.front(), line);
@@ -188,10 +190,10 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
 /// elements between the cut and the hole (on a border, of the only element there is).
 void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh& plate) {
   for (const auto& [name, edges] : geometry.edges)
-    for (std::size_t i = 0; i < edges.size(); ++i)
+    for (int i = 0; i < count_of(edges); ++i)
       plate.sets[name].push_back(
           find_border_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", name, i), edges[i]));
-  for (std::size_t i = 0; i < geometry.sections.size(); ++i)
+  for (int i = 0; i < count_of(geometry.sections); ++i)
     plate.sections.push_back(
         find_section(scene, plate, fmt::format("/geometry/mesh/sections/{}", i), geometry.sections[i]));
 }

@@ -73,10 +73,10 @@ std::vector<double> agreed(const std::optional<Wish>& first, const std::optional
 
 /// Nodes on the sides between the cells of a strip: the same on all sides of a run of cells without a hole.
 std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip) {
-  const std::size_t n = strip.size();
+  const int n = count_of(strip);
   std::vector<std::vector<double>> nodes(n + 1);
-  for (std::size_t begin = 0; begin <= n;) {
-    std::size_t end = begin;  // last side of the run that begins at this side
+  for (int begin = 0; begin <= n;) {
+    int end = begin;  // last side of the run that begins at this side
     while (end < n && !strip[end].has_hole) ++end;
     const auto before = begin > 0 ? strip[begin - 1].wish : std::nullopt;
     const auto after = end < n ? strip[end].wish : std::nullopt;
@@ -108,8 +108,8 @@ std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometr
 }
 
 CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes) {
-  const std::size_t n_columns = grid.x.size() - 1;
-  const std::size_t n_rows = grid.y.size() - 1;
+  const int n_columns = count_of(grid.x) - 1;
+  const int n_rows = count_of(grid.y) - 1;
   std::vector<std::vector<StripCell>> columns(n_columns, std::vector<StripCell>(n_rows));
   std::vector<std::vector<StripCell>> rows(n_rows, std::vector<StripCell>(n_columns));
   for (const auto& cell : holes) {

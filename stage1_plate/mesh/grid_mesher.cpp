@@ -76,8 +76,8 @@ std::vector<double> with_ends(double low, const std::vector<double>& inner, doub
 void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell) {
   const auto x = with_ends(cell.low.x(), lines.nodes(cell.column, cell.row, bottom), cell.high.x());
   const auto y = with_ends(cell.low.y(), lines.nodes(cell.column, cell.row, left), cell.high.y());
-  for (std::size_t j = 0; j + 1 < y.size(); ++j)
-    for (std::size_t i = 0; i + 1 < x.size(); ++i)
+  for (int j = 0; j + 1 < count_of(y); ++j)
+    for (int i = 0; i + 1 < count_of(x); ++i)
       builder.quad({builder.shared_node({x[i], y[j]}), builder.shared_node({x[i + 1], y[j]}),
                     builder.shared_node({x[i + 1], y[j + 1]}), builder.shared_node({x[i], y[j + 1]})},
                    cell.thickness, cell.material);
@@ -120,7 +120,7 @@ std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double ra
   const Point below = hole.center - cell.low, above = cell.high - hole.center;
   const std::array<double, n_cell_sides> distance = {below.y(), above.x(), above.y(), below.x()};
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t side = 0; side < distance.size(); ++side)
+  for (int side = 0; side < count_of(distance); ++side)
     if (!hole.cuts[side]) nearest = std::min(nearest, distance[side]);
   std::vector<double> radii;
   for (int k = 0; k <= n_rings; ++k) radii.push_back(radius * std::pow(nearest / radius, double(k) / (n_rings + 1)));
@@ -131,11 +131,11 @@ std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double ra
 std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center, double radius) {
   const bool closed = points.front() == points.back();
   std::vector<int> nodes;
-  for (std::size_t i = 0; i < points.size(); ++i)
-    nodes.push_back(closed && i + 1 == points.size()
+  for (int i = 0; i < count_of(points); ++i)
+    nodes.push_back(closed && i + 1 == count_of(points)
                         ? nodes.front()
                         : builder.own_node(center + radius * (points[i] - center).normalized()));
-  for (std::size_t i = 0; i + 1 < nodes.size(); ++i) builder.arc(nodes[i], nodes[i + 1], center);
+  for (int i = 0; i + 1 < count_of(nodes); ++i) builder.arc(nodes[i], nodes[i + 1], center);
   return nodes;
 }
 
@@ -147,8 +147,8 @@ void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, 
     layers.push_back(ring_nodes(builder, points, hole_cell.center, radius));
   layers.emplace_back();
   for (const auto& point : points) layers.back().push_back(builder.shared_node(point));
-  for (std::size_t k = 0; k + 1 < layers.size(); ++k)
-    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+  for (int k = 0; k + 1 < count_of(layers); ++k)
+    for (int i = 0; i + 1 < count_of(points); ++i)
       builder.quad({layers[k][i], layers[k + 1][i], layers[k + 1][i + 1], layers[k][i + 1]}, cell.thickness,
                    cell.material);
 }

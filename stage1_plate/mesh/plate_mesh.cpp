@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "common/count.hpp"
 #include "common/pfem/element_map.hpp"
 #include "common/pfem/element_stiffness.hpp"
 
@@ -33,7 +34,7 @@ void check_elements(const PlateScene& scene, const PlateMesh& plate) {
 
 void find_rims(const PlateScene& scene, PlateMesh& plate) {
   const rim::RimFinder find_rim(plate.mesh, plate.edges);
-  for (std::size_t i = 0; i < scene.holes.size(); ++i) {
+  for (int i = 0; i < count_of(scene.holes); ++i) {
     const Hole& hole = scene.holes[i];
     plate.rims.push_back(find_rim(hole.center, hole.radius));
     const double covered = rim::covered_angle(plate.mesh, plate.edges, plate.rims.back()) / rim::degree;
@@ -50,7 +51,7 @@ std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mes
   constexpr double same = 1e-9;  // of the plate's size
   const double size = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).norm();
   std::vector<int> nodes;
-  for (std::size_t i = 0; i < scene.points.size(); ++i) {
+  for (int i = 0; i < count_of(scene.points); ++i) {
     const Eigen::Vector2d& at = scene.points[i].at;
     int nearest = 0;
     const double distance = (mesh.nodes.colwise() - at).colwise().norm().minCoeff(&nearest);

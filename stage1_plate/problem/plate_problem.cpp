@@ -91,7 +91,7 @@ void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
   for (int element = 0; element < count_of(elements.class_of); ++element)
     for (const auto& rim : elements.classes[elements.class_of[element]].rims)
       stiffness[elements.holes[element][rim.hole]] += rim.terms.stiffness;
-  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+  for (int hole = 0; hole < count_of(scene.holes); ++hole) {
     const auto& spring = scene.holes[hole].spring;
     if (spring && spring->has_arc && stiffness[hole] == 0)
       reject(scene, fmt::format("/holes/{}/spring/arc", hole),
@@ -129,7 +129,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
   for (const auto& side : rim.sides) {
     const auto rule = rim::rim_rule(plate.mesh, plate.edges, side, p);
     Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
-    for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
+    for (int q = 0; q < rule.ds.size(); ++q) {
       const Eigen::Vector2d n = -rule.normal.col(q);
       const double pressure = rim::cosine_bearing(n, d).contact / unit_force;
       load += plate.mesh.thickness[side.element] * rule.ds[q] * pressure * rule.N.col(q) * n.transpose();
@@ -152,7 +152,7 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   }
   problem.T_f = loads.free();
   problem.T_c = loads.controlled();
-  for (std::size_t column = 0; column < list.size(); ++column) {
+  for (int column = 0; column < count_of(list); ++column) {
     if (Eigen::VectorXd(problem.T_f.col(column)).isZero(0) && problem.T_c.col(column).isZero(0))
       reject(scene, fmt::format("/external/{}", list[column]), "supports hold all that it loads against it",
              "a load along a direction in which the plate can move there");
@@ -192,7 +192,7 @@ Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns,
 
 void Assembler::add(int element, const std::vector<int>& modes, const Eigen::VectorXd& values, int column) {
   const auto [dof, sign] = pfem::element_dofs(numbering_, unknowns_.dofs, element, modes);
-  for (Eigen::Index i = 0; i < dof.size(); ++i) {
+  for (int i = 0; i < dof.size(); ++i) {
     const double value = sign[i] * values[i];
     if (pfem::is_free(dof[i])) free_.emplace_back(dof[i], column, value);
     if (pfem::is_controlled(dof[i])) controlled_(pfem::controlled_index(dof[i]), column) += value;

@@ -95,12 +95,12 @@ struct Ties {
   }
 
   void add_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-    for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+    for (int hole = 0; hole < count_of(scene.holes); ++hole) {
       if (!scene.holes[hole].spring) continue;
       for (const auto& side : plate.rims[hole].sides) {
         const int part = part_of[plate.mesh.quads(0, side.element)];
         const auto [rule, weight] = plate::side_springs(*scene.holes[hole].spring, plate.mesh, plate.edges, side, 1);
-        for (Eigen::Index q = 0; q < weight.size(); ++q) {
+        for (int q = 0; q < weight.size(); ++q) {
           if (weight[q] == 0) continue;
           const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();
           all.push_back({part, along * parts[part].motion(rule.x.col(q)), {}});
@@ -145,7 +145,7 @@ void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns&
   const auto& parts = ties.parts;
   std::vector<Eigen::Matrix3d> held(parts.size(), Eigen::Matrix3d::Zero());
   for (const auto& tie : ties.all) held[tie.part] += tie.a.transpose() * tie.a;
-  for (std::size_t i = 0; i < parts.size(); ++i) {
+  for (int i = 0; i < count_of(parts); ++i) {
     const Part& part = parts[i];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held[i]);
     if (eigen.eigenvalues()[0] > free_to_move * std::max(1.0, eigen.eigenvalues()[2])) continue;

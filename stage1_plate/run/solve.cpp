@@ -152,7 +152,7 @@ SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program:
   if (contact) add_contact(*contact, solution);
   timings.phase("solve");
   solve_cases(problem, skeleton, solution);
-  for (Eigen::Index i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
+  for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
   return {std::move(scene), std::move(contact), need, std::move(solution)};
 }
 
@@ -176,8 +176,7 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
                                  counted(a.mesh.n_elements(), "element"), counted(a.mesh.n_nodes(), "node"),
                                  counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
                                  counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
-  for (Eigen::Index i = 0; i < a.p.size(); ++i)
-    text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
+  for (int i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
   return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;
 }
 

@@ -7,6 +7,8 @@
 #include <optional>
 #include <set>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage1 {
 namespace {
 
@@ -38,7 +40,7 @@ std::vector<double> read_lines(const Value& value) {
 template <class T, class Read>
 Eigen::VectorX<T> read_list(const Value& value, std::size_t n, const Read& read) {
   Eigen::VectorX<T> list(n);
-  Eigen::Index i = 0;
+  int i = 0;
   for (const auto& item : value.items(n, n)) list[i++] = read(item);
   return list;
 }
@@ -51,7 +53,7 @@ void read_cells(const Value& value, Table& table, const Read& read) {
     return;
   }
   const std::size_t rows = table.rows();
-  Eigen::Index row = 0;
+  int row = 0;
   for (const auto& line : value.items(rows, rows))
     table.row(row++) = read_list<typename Table::Scalar>(line, table.cols(), read).transpose();
 }
@@ -61,8 +63,7 @@ double read_thickness(const Value& value) { return value.number(input::positive)
 GridGeometry read_grid(const Value& value, const Materials& materials) {
   value.only({"x", "y", "thickness", "material"});
   GridGeometry grid{read_lines(value.at("x")), read_lines(value.at("y")), {}, {}};
-  const Eigen::Index rows = std::ssize(grid.y) - 1;
-  const Eigen::Index cols = std::ssize(grid.x) - 1;
+  const int rows = count_of(grid.y) - 1, cols = count_of(grid.x) - 1;
   grid.thickness.resize(rows, cols);
   read_cells(value.at("thickness"), grid.thickness, read_thickness);
   grid.material = Eigen::MatrixXi::Zero(rows, cols);
@@ -109,7 +110,7 @@ MeshGeometry read_mesh(const Value& value, const Materials& materials) {
   pfem::Mesh& mesh = geometry.mesh;
   const auto nodes = value.at("nodes").items(4);
   mesh.nodes.resize(2, nodes.size());
-  for (Eigen::Index i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = read_point(nodes[i]);
+  for (int i = 0; i < mesh.nodes.cols(); ++i) mesh.nodes.col(i) = read_point(nodes[i]);
   const auto quads = value.at("quads").items(1);
   mesh.quads.resize(4, quads.size());
   for (int i = 0; i < mesh.n_elements(); ++i) mesh.quads.col(i) = read_quad(quads[i], mesh.n_nodes());
@@ -146,7 +147,7 @@ std::vector<std::pair<int, int>> read_cut(const Value& value, int n_nodes) {
   const auto items = value.items();
   auto edges = read_edges(value, n_nodes);
   std::set<std::pair<int, int>> seen;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
+  for (int i = 0; i < count_of(edges); ++i) {
     const auto [a, b] = edges[i];
     if (!seen.insert(std::minmax({a, b})).second)
       items[i].fail(fmt::format("the edge between nodes {} and {} stands twice", a, b), "each edge once");
