@@ -22,6 +22,7 @@
 #include <cstring>
 #include <iostream>
 
+#include "common/linalg/blas.hpp"
 #include "tests/bench/peer_elements.hpp"
 #include "tests/bench/peer_mesh.hpp"
 
@@ -244,6 +245,7 @@ void run(char** words) {
 }  // namespace fastjoint::peer
 
 int main(int argc, char** argv) {
+  fastjoint::linalg::take_better_kernels(argv);  // those of our programs
   try {
     if (argc != 6) throw std::invalid_argument("five words are needed");
     fastjoint::peer::run(argv);
