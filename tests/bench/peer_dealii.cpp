@@ -2,11 +2,6 @@
 // A peer on deal.II: the condensed stiffness S of a panel, by the product space of degree p on the elements that
 // stage1_plate makes. Prints S and the times of its phases as JSON.
 #include <deal.II/base/multithread_info.h>
-#include <deal.II/dofs/dof_handler.h>
-#include <deal.II/dofs/dof_tools.h>
-#include <deal.II/fe/fe_q.h>
-#include <deal.II/fe/fe_system.h>
-#include <deal.II/fe/mapping_q.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
 #include <deal.II/lac/sparse_direct.h>
@@ -24,14 +19,12 @@
 
 #include "common/linalg/blas.hpp"
 #include "tests/bench/peer_elements.hpp"
-#include "tests/bench/peer_mesh.hpp"
+#include "tests/bench/peer_plate.hpp"
 
 namespace fastjoint::peer {
 namespace {
 
 using namespace dealii;
-
-constexpr int held = -1, inside_a_cell = -2, with_external = -3;  // unknowns that are no row of the system
 
 /// Seconds of each phase, in their order.
 class Phases {
@@ -55,71 +48,6 @@ class Phases {
  private:
   std::vector<std::pair<std::string, double>> seconds_;
   std::chrono::steady_clock::time_point start_;
-};
-
-/// The panel's finite elements; their unknowns are rows of a system, or left out of it.
-struct Discretisation {
-  Discretisation(const Panel& of, unsigned int p) : panel(of), fe(FE_Q<2>(p), 2), mapping(p) {
-    make_mesh(panel, mesh);
-    dofs.reinit(mesh);
-    dofs.distribute_dofs(fe);
-    row.assign(dofs.n_dofs(), 0);
-    hold(left, 0, held);
-    hold(bottom, 1, held);
-    hold(right, 0, with_external);
-    n_unknowns = std::count(row.begin(), row.end(), 0);
-  }
-
-  void hold(Border border, unsigned int component, int as) {
-    const auto mask = fe.component_mask(FEValuesExtractors::Scalar(component));
-    for (const auto dof : DoFTools::extract_boundary_dofs(dofs, mask, {border})) row[dof] = as;
-  }
-  void leave_out_insides() {
-    for (const auto& cell : dofs.active_cell_iterators()) {
-      const auto index = indices(cell);
-      for (unsigned int i = fe.get_first_quad_index(); i < index.size(); ++i) row[index[i]] = inside_a_cell;
-    }
-  }
-  void number_rows() {
-    n_rows = 0;
-    for (int& each : row)
-      if (each >= 0) each = static_cast<int>(n_rows++);
-  }
-  [[nodiscard]] std::vector<types::global_dof_index> indices(const Cell& cell) const {
-    std::vector<types::global_dof_index> index(fe.n_dofs_per_cell());
-    cell->get_dof_indices(index);
-    return index;
-  }
-
-  Panel panel;
-  Triangulation<2> mesh;
-  FESystem<2> fe;
-  MappingQ<2> mapping;
-  DoFHandler<2> dofs;
-  std::vector<int> row;  ///< of each unknown
-  unsigned int n_rows = 0;
-  std::ptrdiff_t n_unknowns;
-};
-
-/// Places of a cell's unknowns, its disc's displacement among them: in the cell's matrix and in the system.
-struct Places {
-  std::vector<unsigned int> local, global;
-  void add(unsigned int here, unsigned int there) {
-    local.push_back(here);
-    global.push_back(there);
-  }
-};
-struct CellPlaces {
-  CellPlaces(const Discretisation& plate, const Cell& cell) {
-    const auto index = plate.indices(cell);
-    for (unsigned int i = 0; i < index.size(); ++i) {
-      const int row = plate.row[index[i]];
-      if (row >= 0) free.add(i, static_cast<unsigned int>(row));
-      if (row == with_external) controlled.add(i, 0);
-    }
-    controlled.add(plate.fe.n_dofs_per_cell(), 1 + cell->active_cell_index() / plate.panel.cells_per_square());
-  }
-  Places free, controlled;
 };
 
 /// What rigid displacements of the external and the discs add: K U = -C, S = K_cc + C^T U.

@@ -13,7 +13,6 @@ namespace {
 
 using namespace dealii;
 
-constexpr unsigned int n_octants = 8;
 constexpr double same = 1e-12;
 
 /// Points on the squares' outlines, at multiples of 1/2, are shared; those of rings are their hole's own.
@@ -63,8 +62,7 @@ void add_square(const Panel& panel, const Point<2>& center, Vertices& vertices, 
 /// The arcs of a hole have its number as their manifold.
 void describe_face(const Panel& panel, unsigned int hole, Triangulation<2>::face_iterator face,
                    Triangulation<2>& mesh) {
-  const unsigned int i = hole % panel.nx, j = hole / panel.nx;
-  const Point<2> center(i + 0.5, j + 0.5);
+  const Point<2> center = panel.center(hole);
   const double first = face->vertex(0).distance(center), second = face->vertex(1).distance(center);
   if (std::abs(first - second) < same && first < 0.5 - same) {
     face->set_manifold_id(hole);
@@ -83,12 +81,11 @@ void describe_face(const Panel& panel, unsigned int hole, Triangulation<2>::face
 void make_mesh(const Panel& panel, Triangulation<2>& mesh) {
   Vertices vertices;
   std::vector<CellData<2>> cells;
-  for (unsigned int j = 0; j < panel.ny; ++j)
-    for (unsigned int i = 0; i < panel.nx; ++i) add_square(panel, {i + 0.5, j + 0.5}, vertices, cells);
+  for (unsigned int hole = 0; hole < panel.n_holes(); ++hole) add_square(panel, panel.center(hole), vertices, cells);
   mesh.create_triangulation(vertices.all, cells, {});
   for (const auto& cell : mesh.active_cell_iterators())
     for (const auto& face : cell->face_iterators())
-      describe_face(panel, cell->active_cell_index() / panel.cells_per_square(), face, mesh);
+      describe_face(panel, panel.hole_of(cell->active_cell_index()), face, mesh);
 }
 
 }  // namespace fastjoint::peer
