@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A peer on deal.II: the condensed stiffness S of a panel, by the product space of degree p on the elements that
-// stage1_plate makes. Prints S and the times of its phases as JSON.
+// stage1_plate makes, and the hoop stresses at its rims for unit displacements if asked for. Prints S, those of the
+// first rim, and the times of its phases as JSON.
 #include <deal.II/base/multithread_info.h>
 #include <deal.II/lac/dynamic_sparsity_pattern.h>
 #include <deal.II/lac/full_matrix.h>
@@ -20,6 +21,7 @@
 #include "common/linalg/blas.hpp"
 #include "tests/bench/peer_elements.hpp"
 #include "tests/bench/peer_plate.hpp"
+#include "tests/bench/peer_stresses.hpp"
 
 namespace fastjoint::peer {
 namespace {
@@ -50,6 +52,11 @@ class Phases {
   std::chrono::steady_clock::time_point start_;
 };
 
+/// What is computed; of stresses nothing unless they are asked for.
+struct Result {
+  Eigen::MatrixXd S, hoop;
+};
+
 /// What rigid displacements of the external and the discs add: K U = -C, S = K_cc + C^T U.
 struct Controlled {
   explicit Controlled(const Discretisation& plate)
@@ -68,7 +75,7 @@ struct Controlled {
 
 /// The program that a user would first write: every cell integrated, all unknowns in one sparse matrix, one solve for
 /// each case.
-Eigen::MatrixXd solve_by_umfpack(Discretisation& plate, Phases& phases) {
+Result solve_by_umfpack(Discretisation& plate, bool stresses, Phases& phases) {
   phases.begin("integrate");
   plate.number_rows();
   DynamicSparsityPattern entries(plate.n_rows);
@@ -94,30 +101,37 @@ Eigen::MatrixXd solve_by_umfpack(Discretisation& plate, Phases& phases) {
   SparseDirectUMFPACK inverse;
   inverse.factorize(K);
   phases.begin("solve");
-  Eigen::MatrixXd S = controlled.K_cc;
-  for (Eigen::Index j = 0; j < S.cols(); ++j) {
-    Vector<double> U(controlled.C.col(j).begin(), controlled.C.col(j).end());
-    inverse.solve(U);
-    S.col(j) -= controlled.C.transpose() * Eigen::Map<const Eigen::VectorXd>(U.begin(), controlled.C.rows());
+  Result result{controlled.K_cc, {}};
+  Eigen::MatrixXd U(controlled.C.rows(), controlled.C.cols());
+  for (Eigen::Index j = 0; j < U.cols(); ++j) {
+    Vector<double> load(controlled.C.col(j).begin(), controlled.C.col(j).end());
+    inverse.solve(load);
+    U.col(j) = -Eigen::Map<const Eigen::VectorXd>(load.begin(), U.rows());
+    result.S.col(j) += controlled.C.transpose() * U.col(j);
+  }
+  if (stresses) {
+    phases.begin("stresses");
+    result.hoop = hoop_stress(plate, U);
   }
   phases.end();
-  return S;
+  return result;
 }
 
 /// At its best: the cells of one square stand for those of all, their insides are condensed, the rest is factorised
 /// by CHOLMOD and solved for all cases at once.
-Eigen::MatrixXd solve_by_condensation(Discretisation& plate, Phases& phases) {
+Result solve_by_condensation(Discretisation& plate, bool stresses, Phases& phases) {
   phases.begin("integrate");
   plate.leave_out_insides();
   plate.number_rows();
   Controlled controlled(plate);
   Integrator integrate(plate.mapping, plate.fe);
   std::vector<FullMatrix<double>> square;
+  std::vector<Eigen::MatrixXd> insides;
   std::vector<Eigen::Triplet<double>> lower;
   for (const auto& cell : plate.dofs.active_cell_iterators()) {
     if (square.size() < plate.panel.cells_per_square()) {
       square.push_back(integrate(cell));
-      condense(square.back(), plate.fe.get_first_quad_index(), plate.fe.n_dofs_per_cell());
+      insides.push_back(condense(square.back(), plate.fe.get_first_quad_index(), plate.fe.n_dofs_per_cell()));
     }
     const auto& K_cell = square[cell->active_cell_index() % square.size()];
     const CellPlaces at(plate, cell);
@@ -132,15 +146,32 @@ Eigen::MatrixXd solve_by_condensation(Discretisation& plate, Phases& phases) {
   phases.begin("factorise");
   const Eigen::CholmodSupernodalLLT<Eigen::SparseMatrix<double>> inverse(K);
   phases.begin("solve");
-  Eigen::MatrixXd S = controlled.K_cc - controlled.C.transpose() * Eigen::MatrixXd(inverse.solve(controlled.C));
+  const Eigen::MatrixXd U = -inverse.solve(controlled.C);
+  Result result{controlled.K_cc + controlled.C.transpose() * U, {}};
+  if (stresses) {
+    phases.begin("stresses");
+    result.hoop = hoop_stress(plate, insides, U);
+  }
   phases.end();
-  return S;
+  return result;
 }
 
-std::string json(const Eigen::MatrixXd& S) {
+std::string list(const Eigen::RowVectorXd& values) {
+  return fmt::format("[{}]", fmt::join(values.begin(), values.end(), ", "));
+}
+
+std::string list_of_rows(const Eigen::MatrixXd& matrix) {
   std::vector<std::string> rows;
-  for (const auto& row : S.rowwise()) rows.push_back(fmt::format("[{}]", fmt::join(row.begin(), row.end(), ", ")));
+  for (const auto& row : matrix.rowwise()) rows.push_back(list(row));
   return fmt::format("[{}]", fmt::join(rows, ", "));
+}
+
+/// The member "rim": angles in degrees, and the hoop stresses of the first hole there in each case.
+std::string rim_json(const Eigen::MatrixXd& hoop) {
+  if (hoop.size() == 0) return "";
+  const Eigen::RowVectorXd angle = Eigen::RowVectorXd::LinSpaced(n_angles, 0, 360 - degrees_between);
+  return fmt::format(",\n \"rim\": {{\"angle\": {}, \"hoop\": {}}}", list(angle),
+                     list_of_rows(hoop.topRows(n_angles).transpose()));
 }
 
 /// Throws std::invalid_argument.
@@ -152,21 +183,25 @@ unsigned int number(const char* text, unsigned int least, unsigned int most) {
   return value;
 }
 
-void run(char** words) {
+void run(int n_words, char** words) {
   const Panel panel{number(words[1], 1, 1000), number(words[2], 1, 1000), number(words[4], 0, 20)};
   const unsigned int p = number(words[3], 1, 16);
   const std::string solver = words[5];
   if (solver != "umfpack" && solver != "condensed")
     throw std::invalid_argument(fmt::format("'{}' is not a solver; allowed: umfpack, condensed", solver));
+  const bool stresses = n_words == 7;
+  if (stresses && std::strcmp(words[6], "stresses") != 0)
+    throw std::invalid_argument(fmt::format("'{}' is not an output; allowed: stresses", words[6]));
   MultithreadInfo::set_thread_limit(1);
   Phases phases;
   phases.begin("mesh");
   Discretisation plate(panel, p);
-  const auto S = solver == "umfpack" ? solve_by_umfpack(plate, phases) : solve_by_condensation(plate, phases);
+  const auto [S, hoop] =
+      solver == "umfpack" ? solve_by_umfpack(plate, stresses, phases) : solve_by_condensation(plate, stresses, phases);
   fmt::print(R"({{"program": "deal.II {}", "solver": "{}", "nx": {}, "ny": {}, "rings": {}, "p": {}, "unknowns": {},)"
-             "\n \"seconds\": {},\n \"S\": {}}}\n",
+             "\n \"seconds\": {},\n \"S\": {}{}}}\n",
              DEAL_II_PACKAGE_VERSION, solver, panel.nx, panel.ny, panel.rings, p, plate.n_unknowns, phases.json(),
-             json(S));
+             list_of_rows(S), rim_json(hoop));
 }
 
 }  // namespace
@@ -175,11 +210,12 @@ void run(char** words) {
 int main(int argc, char** argv) {
   fastjoint::linalg::take_better_kernels(argv);  // those of our programs
   try {
-    if (argc != 6) throw std::invalid_argument("five words are needed");
-    fastjoint::peer::run(argv);
+    if (argc != 6 && argc != 7) throw std::invalid_argument("five or six words are needed");
+    fastjoint::peer::run(argc, argv);
     return 0;
   } catch (const std::invalid_argument& wrong) {
-    std::cerr << "peer_dealii: error: " << wrong.what() << "\nusage: peer_dealii NX NY P RINGS umfpack|condensed\n";
+    std::cerr << "peer_dealii: error: " << wrong.what()
+              << "\nusage: peer_dealii NX NY P RINGS umfpack|condensed [stresses]\n";
     return 2;
   } catch (const std::exception& failure) {
     std::cerr << "peer_dealii: error: " << failure.what() << "\n";

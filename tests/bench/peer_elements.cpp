@@ -2,7 +2,6 @@
 #include "tests/bench/peer_elements.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
-#include <deal.II/base/symmetric_tensor.h>
 
 #include <Eigen/Cholesky>
 #include <vector>
@@ -17,14 +16,13 @@ namespace {
 
 constexpr double E = 1e7, nu = 0.3, thickness = 0.1;
 constexpr double spring_modulus = 2 / (1 - nu) * E / (2 * radius);  // equation (29), a disc of the panel's material
-const FEValuesExtractors::Vector displacement(0);
+
+}  // namespace
 
 SymmetricTensor<4, 2> plane_stress() {
   const auto unit = unit_symmetric_tensor<2>();
   return E / (1 + nu) * (identity_tensor<2>() + nu / (1 - nu) * outer_product(unit, unit));
 }
-
-}  // namespace
 
 Integrator::Integrator(const Mapping<2>& mapping, const FiniteElement<2>& fe)
     : inside_(mapping, fe, QGauss<2>(fe.degree + 1), update_gradients | update_JxW_values),
@@ -69,11 +67,13 @@ void Integrator::add_springs(FullMatrix<double>& K) const {
   }
 }
 
-void condense(FullMatrix<double>& K, unsigned int first, unsigned int last) {
+Eigen::MatrixXd condense(FullMatrix<double>& K, unsigned int first, unsigned int last) {
   const Eigen::Index n = K.m();
   Eigen::Map<Eigen::MatrixXd> k(&K(0, 0), n, n);
   const Eigen::MatrixXd rows = k.middleRows(first, last - first);
-  k -= rows.transpose() * rows.middleCols(first, last - first).llt().solve(rows);
+  Eigen::MatrixXd X = rows.middleCols(first, last - first).llt().solve(rows);
+  k -= rows.transpose() * X;
+  return X;
 }
 
 }  // namespace fastjoint::peer

@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <deal.II/base/symmetric_tensor.h>
 #include <deal.II/dofs/dof_handler.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/lac/full_matrix.h>
 
+#include <Eigen/Core>
+
 namespace fastjoint::peer {
 
 using Cell = dealii::DoFHandler<2>::active_cell_iterator;
+
+/// The two components of displacement.
+inline const dealii::FEValuesExtractors::Vector displacement(0);
+
+/// Stress per strain of the panel's material, force / length^2.
+[[nodiscard]] dealii::SymmetricTensor<4, 2> plane_stress();
 
 /// Stiffness of cells and of the springs between them and the disc in their hole, force / length.
 class Integrator {
@@ -28,6 +37,8 @@ class Integrator {
 };
 
 /// Eliminates the unknowns first ... last - 1, whose rows and columns become 0.
-void condense(dealii::FullMatrix<double>& K, unsigned int first, unsigned int last);
+///
+/// @return X of shape (last - first, n): where u holds 0 for the eliminated unknowns, these are -X u.
+Eigen::MatrixXd condense(dealii::FullMatrix<double>& K, unsigned int first, unsigned int last);
 
 }  // namespace fastjoint::peer
