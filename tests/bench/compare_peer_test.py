@@ -32,16 +32,26 @@ def check_table(bin_folder):
     assert result.returncode == 0, result
     lines = [line for line in result.stdout.splitlines() if line.startswith("|")]
     header, _, *rows = ([cell.strip() for cell in line.strip("|").split("|")] for line in lines)
-    assert header == ["code", "space", "rings", "p", "unknowns", "error of S", "seconds", "over ours"], header
+    assert header == ["code", "space", "rings", "p", "unknowns", "error of S", "seconds", "over ours",
+                      "seconds with stresses", "with stresses, over ours"], header
     codes = {row[0] for row in rows}
     assert codes == {"ours", "deal.II, UMFPACK", "deal.II, condensed, CHOLMOD"} and len(rows) >= 12, rows
     for low, high in zip(rows[::2], rows[1::2]):  # p = 2, p = 5
         assert low[:3] == high[:3] and float(high[5]) < 0.1 * float(low[5]) and int(high[4]) > int(low[4]), (low, high)
-    ours = [(float(row[5]), float(row[6])) for row in rows if row[0] == "ours"]
-    for code, *_, error, seconds, ratio in rows:
-        quicker = [time for ours_error, time in ours if ours_error <= 1.5 * float(error)]
-        assert bool(ratio) == (code != "ours" and bool(quicker)), rows
-        assert not ratio or abs(float(ratio) * min(quicker) / float(seconds) - 1) < 0.1, rows  # two digits
+    for row in rows:
+        if row[0] != "ours":  # both times are of one run
+            assert float(row[8]) >= float(row[6]), row
+        for at in (6, 8):
+            check_ratio(row[0], float(row[5]), *row[at:at + 2],
+                        [(float(each[5]), float(each[at])) for each in rows if each[0] == "ours"])
+
+
+def check_ratio(code, error, seconds, ratio, ours):
+    """Of one time of a row over ours, which are (error, seconds)."""
+    quicker = [time for ours_error, time in ours if ours_error <= 1.5 * error]
+    assert bool(ratio) == (code != "ours" and bool(quicker)), (code, ratio, ours)
+    if ratio:  # of two digits
+        assert abs(float(ratio) * min(quicker) / float(seconds) - 1) < 0.1, (seconds, ratio, ours)
 
 
 def main(bin_folder):
