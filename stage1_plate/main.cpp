@@ -25,9 +25,10 @@ const program::Command command = {
     {{"--p", "N or A..B",
       fmt::format("degree 1..{0}, or a range of degrees; default: \"p\" of the input, else 1..{0}", pfem::highest_p)},
      {"--accuracy", "A",
-      "relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses what \"space\", \"rings\" the "
-      "input leaves open and the least degree within --p that do, and says so; warns where nothing does"},
-     {"--threads", "N", "threads that share the shapes of elements and the degrees; default: 1"}}};
+      "estimated relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses the least degree "
+      "within --p, and \"space\" and \"rings\" where the input leaves them open; says so, warns where nothing does"},
+     {"--threads", "N",
+      "threads that work on unlike elements, then on different degrees, at the same time, 1 to 256; default: 1"}}};
 
 /// The worst of several warnings of one kind, and their number.
 struct WorstOfKind {

@@ -17,8 +17,8 @@ struct Extraction {
 };
 
 /// @param generator Name and version of the program.
-/// @param solver    Of the plate, if stresses at rims and forces over sections are wanted in every unit case, else
-/// null.
+/// @param solver    Solver of the plate, if stresses at rims and forces over sections are wanted in every unit case,
+/// else null.
 [[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& generator,
                                  FieldSolver* solver);
 

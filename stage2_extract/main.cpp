@@ -29,11 +29,12 @@ constexpr double most_of_rows = 512e6;
 const program::Command command = {
     "stage2_extract",
     "Extracts from a solved plate its condensed stiffness S, the friction matrices R and every other linear quantity,\n"
-    "superconvergent, for every degree, with error estimates. With --field: one of its stress fields, for ParaView.",
+    "superconvergent, for every degree, with error estimates. With --stresses: the stresses of a joint, for sheets of\n"
+    "any size. With --field: one stress field, for ParaView.",
     "PLATE.h5",
     "MATRICES.h5",
     {{"--loads-only", "",
-      "leave out the stresses at rims and the forces over sections in every unit case, as above 512 MB of them"},
+      "write no stresses in unit cases (default: up to 512 MB of them; above, none, which the summary says)"},
      {"--stresses", "RESULT.h5",
       "write instead RESULT.h5 of a joint with the stresses at this sheet's rims at every increment; -o may be the "
       "same"},
@@ -106,7 +107,7 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
   constexpr int most_increments = 1000000;
   const bool field = arguments.flag("--field"), stresses = arguments.flag("--stresses");
   if (stresses && (field || arguments.flag("--loads-only")))
-    throw InputError("--stresses: goes neither with --field nor with --loads-only");
+    throw InputError("--stresses: goes neither with --field nor with --loads-only; leave these out");
   program::check_spare("--timings", arguments.timings, arguments.text("--stresses"), "the file of --stresses");
   stage2::FieldRequest request = {arguments.text("--field"), stresses ? "" : arguments.text("--plate"),
                                   arguments.integer("--increment", 1, most_increments, 0),
@@ -115,9 +116,10 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
   return request;
 }
 
-void require_memory(const std::string& file, double need) {
+/// @param or_else What else would take less memory.
+void require_memory(const std::string& file, double need, const std::string& or_else = "") {
   constexpr double libraries = 23e6;  // and what is left of the factor
-  program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes, or --loads-only");
+  program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes" + or_else);
 }
 
 /// Bytes of what is made of the plate: condensed matrices, each as large as the plate's file, stresses, and the factor
@@ -171,9 +173,12 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("integrate");
   if (arguments.flag("--field") || sheet || rows)
     solver = std::make_unique<stage2::FieldSolver>(plate, arguments.input);
-  require_memory(arguments.input, arguments.flag("--field") ? field_need(*solver, size)
-                                  : sheet                   ? stresses_need(*solver, *sheet, size)
-                                                            : extraction_need(plate, solver.get(), size));
+  if (arguments.flag("--field"))
+    require_memory(arguments.input, field_need(*solver, size));
+  else if (sheet)
+    require_memory(arguments.input, stresses_need(*solver, *sheet, size), ", or fewer increments");
+  else
+    require_memory(arguments.input, extraction_need(plate, solver.get(), size), rows ? ", or --loads-only" : "");
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
   if (arguments.flag("--field")) return write_field(arguments, *solver, request, timings);
   if (sheet) return write_stresses(arguments, *solver, *sheet, timings);

@@ -48,7 +48,7 @@ COMMON = {
     "program": ["", "h5", "linalg"],
 }
 # Of finite elements the third stage knows the angles of a rim alone; of formats those without a mesh; of linear algebra
-# the threads, while all else there takes CHOLMOD.
+# nothing that takes CHOLMOD.
 THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg/cholesky.hpp", "common/linalg/condensed.hpp", "common/plate/",
                        "common/rim/rim.hpp", "common/formats/plate_solution")
 

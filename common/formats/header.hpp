@@ -15,7 +15,7 @@ namespace fastjoint::formats {
 // Every format is one function template `datasets(file, a)`, which an h5::Writer and an h5::Reader go through line by
 // line: each line has the name of a dataset, its place in memory, shape, unit and meaning, and what a reader allows.
 
-/// What every file says of itself.
+/// The words of every file about itself.
 struct Header {
   std::string generator;  ///< program and version
   std::string name;       ///< of the plate or joint

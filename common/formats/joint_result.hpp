@@ -11,7 +11,7 @@
 
 namespace fastjoint::formats {
 
-/// What engineers read off one hole of a plate at one increment; rim_quantities says what each member is.
+/// Numbers that engineers read off one hole of a plate at one increment; rim_quantities says what each member is.
 struct RimValues {
   double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
   double bypass_load = 0, bypass_error = 0;
@@ -41,7 +41,7 @@ struct RimHistory {
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
 };
 
-/// What fasteners do to the m discs of a plate: resultants on its rims along the discs' directions, force.
+/// Forces of fasteners on the m discs of a plate: resultants on its rims along the discs' directions, force.
 struct DiscForces {
   Eigen::MatrixXd bearing, friction;  ///< (steps, m)
 };
@@ -76,7 +76,7 @@ struct SensitivityHistory {
   std::vector<Eigen::MatrixXd> displacement;                ///< (steps) (n, v) by it at load factor 1, force / length
 };
 
-/// What a joint did under its load increments (schemas/joint-result.md): the converged ones only.
+/// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
   int p = 0;                    ///< degree of the matrices
@@ -92,7 +92,7 @@ struct JointResult {
   std::vector<std::string> first_hole, second_hole;  ///< (n) "plate:hole"
   std::vector<std::string> direction;                ///< (a) of the joint's discs: "x", "y"
   Eigen::MatrixXd delta;                             ///< (steps, n) relative displacement of the discs, length
-  Eigen::MatrixXd F;                                 ///< (steps, n) bearing force, argument of the law
+  Eigen::MatrixXd F;                                 ///< (steps, n) force of the law at delta
   std::optional<Eigen::MatrixXd> F_error;            ///< (steps, n) estimated, if the plates' errors are known
   Eigen::MatrixXd delta_vector, F_vector;            ///< (steps, n a) their components, directions inner
   Eigen::MatrixXd transferred;  ///< (steps, n 2) F + friction resultant on each plane's first, then second plate

@@ -12,7 +12,7 @@
 
 namespace fastjoint::formats {
 
-/// What the unit cases of one degree p need and do, with all controlled displacements (rigid externals, then discs)
+/// The forces of the unit cases of one degree p, with all controlled displacements (rigid externals, then discs)
 /// held but one (docs/theory.md, section 4). Rounding has not been taken out yet: stage 2 checks and balances.
 struct PlateCases {
   Eigen::MatrixXd S;    ///< (nc, nc) forces on externals and discs per unit displacement of each, force / length
@@ -46,7 +46,7 @@ struct RimContact {
   double peak_angle;     ///< where, radians
 };
 
-/// What stage 1 hands to stage 2 (schemas/plate-solution.md).
+/// The file from stage 1 to stage 2 (schemas/plate-solution.md).
 ///
 /// nc = e + m controlled displacements: e rigid externals, then m discs. Unknowns are ordered by degree: the
 /// rows of loads for degree p are the first ndof(p).

@@ -107,6 +107,12 @@ struct Reader::Impl {
     return there ? values : std::vector<int>();
   }
 
+  /// Name of the program that wrote the file.
+  [[nodiscard]] std::string maker() const {
+    const std::string generator = read_text_attribute(file.get(), "generator").value_or("");
+    return generator.empty() ? "the earlier stage" : generator.substr(0, generator.find(' '));
+  }
+
   void check_version(const std::string& format, int major) const {
     const std::string found = read_text_attribute(file.get(), "format").value_or("");
     if (found != format)
@@ -119,7 +125,7 @@ struct Reader::Impl {
     if (version.empty()) throw FileError(fmt::format("{}: attribute 'version' is not [major, minor]", path));
     if (version[0] != major)
       throw FileError(fmt::format("{}: format version {}.{}, this program reads {}.x; {}", path, version[0], version[1],
-                                  major, version[0] > major ? "use a newer program" : "run the earlier stage again"));
+                                  major, version[0] > major ? "use a newer program" : "run " + maker() + " again"));
   }
 
   template <class Scalar>

@@ -20,7 +20,7 @@ struct CondensedFunctions {
 /// where they are asked for.
 class PlateStates {
  public:
-  /// @param factor Without a border; must outlive this.
+  /// @param factor Factor to solve with; must outlive this.
   /// @param border Amounts of controlled displacements, then friction cases, shape (nc + h, k).
   /// @param loads  On the plate's unknowns beside, shape (n_p, k); few of them are not zero.
   PlateStates(const PlateFactor& factor, const Eigen::MatrixXd& border, const Eigen::SparseMatrix<double>& loads);
@@ -38,7 +38,8 @@ class PlateStates {
   /// the degree.
   [[nodiscard]] Eigen::MatrixXd coefficients(int element) const;
 
-  /// @param weights Of the coefficients of all modes of an element, shape (2 n_modes, r).
+  /// Condenses functions of an element's coefficients.
+  /// @param weights Weight of each coefficient of all modes of the element, shape (2 n_modes, r).
   [[nodiscard]] static CondensedFunctions condense(const PlateFactor& factor, int element,
                                                    const Eigen::MatrixXd& weights);
   /// Values of the functions in every state, shape (k, r).
@@ -47,7 +48,7 @@ class PlateStates {
  private:
   /// Takes loads inside elements to the skeleton and the border.
   void eliminate(const Eigen::SparseMatrix<double>& loads);
-  /// What an element shares with others, then what its border has, shape (k, n_outside).
+  /// Displacements that an element shares with others, then those of its border, shape (k, n_outside).
   [[nodiscard]] Eigen::MatrixXd outside(int element) const;
 
   const PlateFactor& factor_;

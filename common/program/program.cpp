@@ -122,7 +122,10 @@ int outcome(const Command& command, int argc, char** argv, const Body& body) {
   } catch (const NumericalError& e) {
     return report(command.name, e.what(), numerical_failure);
   } catch (const std::bad_alloc&) {
-    return report(command.name, "out of memory: the model is too large for this machine", numerical_failure);
+    return report(
+        command.name,
+        "out of memory: the model is too large for this machine; take fewer holes, a lower --p or fewer increments",
+        numerical_failure);
   } catch (const std::exception& e) {
     return report(command.name, e.what(), internal_error);
   }

@@ -10,14 +10,14 @@
 
 namespace fastjoint::program {
 
-/// One row of a program's options: used for parsing, for --help and by the test of the README's table.
+/// One row of a program's options: used for parsing, for --help and by the test of the table in docs/programs.md.
 struct Option {
   std::string name;   ///< with its dashes, "--p"
   std::string value;  ///< what stands for the value in --help, empty for a flag
   std::string help;   ///< one line
 };
 
-/// What the three programs differ in; `INPUT -o OUTPUT --timings FILE --quiet --help --version` all have.
+/// The words in which the three programs differ; `INPUT -o OUTPUT --timings FILE --quiet --help --version` all have.
 struct Command {
   std::string name;
   std::string summary;
@@ -37,13 +37,13 @@ struct Arguments {
   [[nodiscard]] int integer(const std::string& name, int low, int high, int otherwise) const;
   /// Value of an option that is a number within [low, high], or `otherwise`. Throws InputError.
   [[nodiscard]] double number(const std::string& name, double low, double high, double otherwise) const;
-  /// Whether a flag was given.
+  /// Tells if a flag was given.
   [[nodiscard]] bool flag(const std::string& name) const { return options.contains(name); }
   /// Value of an option or "".
   [[nodiscard]] std::string text(const std::string& name) const;
 };
 
-/// What a program does with its arguments. It names its phases and prints its summary unless told to be quiet.
+/// The work of a program on its arguments. It names its phases and prints its summary unless told to be quiet.
 using Body = std::function<void(const Arguments&, Timings&)>;
 
 /// Whole life of a program: parses, checks that the outputs can be written, runs `body`, ends its summary with what the

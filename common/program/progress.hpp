@@ -8,8 +8,8 @@
 
 namespace fastjoint::program {
 
-/// What a run that takes more than a second says of how far it is: on a terminal a bar, while a share of its work is
-/// known, else a line every few seconds. The one that lives gets the reports; without one they go nowhere.
+/// Display of how far a run of more than a second is: on a terminal a bar while the share done is known, else a line
+/// every three seconds. At most one lives, which gets the reports; without one they go nowhere.
 class Progress {
  public:
   using Clock = std::chrono::steady_clock;

@@ -10,7 +10,7 @@
 
 namespace fastjoint::program {
 
-/// What a run costs: wall time by phase and in all, counted from the construction on, and memory.
+/// The cost of a run: wall time by phase and in all, counted from the construction on, and memory.
 class Timings {
  public:
   using Clock = std::chrono::steady_clock;

@@ -212,7 +212,8 @@ void require_memory(const std::string& file, int p, const MemoryNeed& need) {
                           fmt::format(" (shapes {}, factor {}, {} {}, file {})", bytes_text(need.elements),
                                       bytes_text(need.factor), of_contact ? "contact" : "fields",
                                       bytes_text(std::max(need.fields, need.contact)), bytes_text(need.file)),
-                          "fewer degrees or a lower one (--p), or fewer holes");
+                          fmt::format("fewer degrees or a lower one (--p), or fewer holes{}",
+                                      linalg::threads() > 1 ? ", or --threads 1" : ""));
 }
 
 }  // namespace fastjoint::stage1

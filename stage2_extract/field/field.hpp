@@ -24,7 +24,7 @@ struct Field {
 [[nodiscard]] Eigen::Matrix2Xd lagrange_nodes(int p);
 
 /// A solved state at the nodes of degree p.
-/// @param fields Of one state.
+/// @param fields Fields of one state.
 [[nodiscard]] Field at_nodes(const Fields& fields, int p);
 
 /// The field of a state at the degree that field_degree chooses.

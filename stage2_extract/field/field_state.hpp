@@ -27,7 +27,7 @@ struct FieldRequest {
 };
 
 /// Throws InputError if options are given that need others, or if an output would replace the joint's result.
-/// @param wanted  Whether a field is asked for at all.
+/// @param wanted  True if a field is asked for at all.
 /// @param timings Path of --timings, or empty.
 void check_field_options(const FieldRequest& request, bool wanted, const std::string& output,
                          const std::string& timings);

@@ -13,8 +13,8 @@ namespace fastjoint::stage2 {
 class Fields;
 
 /// A plate of which any state can be solved at any degree up to that of its file: its elements are integrated again
-/// from the file's mesh and springs, and factorised at one degree after another (docs/performance.md says why the file
-/// holds neither fields nor factor).
+/// from the file's mesh and springs, and factorised at one degree after another (schemas/plate-solution.md says why the
+/// file holds neither fields nor factor).
 class FieldSolver {
  public:
   /// @param plate Must outlive this. @param file Its name, for messages.
@@ -34,7 +34,7 @@ class FieldSolver {
   [[nodiscard]] const pfem::Edges& edges() const { return edges_; }
   [[nodiscard]] const pfem::Numbering& numbering() const { return stiffness_.numbering; }
   [[nodiscard]] const Eigen::Matrix3d& elasticity(int element) const;
-  /// What is left of functions of an element's coefficients at the degree of the factor.
+  /// Condenses functions of an element's coefficients at the degree of the factor.
   /// @param weights Shape (2 n_modes, r).
   [[nodiscard]] plate::CondensedFunctions condense(int element, const Eigen::MatrixXd& weights) const {
     return plate::PlateStates::condense(*factor_, element, weights);
@@ -53,8 +53,8 @@ class FieldSolver {
 class Fields {
  public:
   /// @param solver  Must outlive this.
-  /// @param amounts Of every unit case, (n_cases, k): nc controlled displacements (externals, discs), h friction cases,
-  ///                q tractions.
+  /// @param amounts Amount of every unit case, (n_cases, k): nc controlled displacements (externals, discs), h friction
+  ///                cases, q tractions.
   Fields(const FieldSolver& solver, Eigen::MatrixXd amounts, plate::PlateStates states)
       : solver_(solver), amounts_(std::move(amounts)), states_(std::move(states)) {}
 

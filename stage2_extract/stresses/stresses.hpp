@@ -7,11 +7,11 @@
 namespace fastjoint::stage2 {
 
 /// Stresses at the rims and forces over the sections beside the holes in every unit case, at the two highest degrees.
-/// @param solver Of the plate; null for what is known without solving alone.
+/// @param solver Solver of the plate; null for names, places and areas alone, without stresses.
 [[nodiscard]] formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver);
 
 /// The same in other states instead of unit cases, at degree p and the one below that the plate has.
-/// @param amounts Of the unit cases, shape (n_cases, k).
+/// @param amounts Amount of each unit case, shape (n_cases, k).
 [[nodiscard]] formats::PlateStresses extract_stresses(FieldSolver& solver, int p, const Eigen::MatrixXd& amounts);
 
 /// Bytes of the stresses at the rims, which are by far the most of them, in a number of states.

@@ -70,11 +70,11 @@ struct PathStep {
 
 /// Place and reason of an early end of a path.
 struct PathFailure {
-  std::size_t increment;  ///< 0-based
-  double load_factor;     ///< that was asked for
-  double reached;         ///< largest part of it that converged
-  Index plane;            ///< with the worst residual in the best try
-  double residual;        ///< there, relative to the load asked for; infinite if each try left it spent
+  Index increment;     ///< 0-based
+  double load_factor;  ///< that was asked for
+  double reached;      ///< largest part of it that converged
+  Index plane;         ///< with the worst residual in the best try
+  double residual;     ///< there, relative to the load asked for; infinite if each try left it spent
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
   std::vector<Index> level;
   std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
@@ -91,8 +91,8 @@ struct PathLeft {
 };
 
 struct LoadPath {
-  bool linear = false;           ///< linear solves did it
-  std::size_t n_increments = 0;  ///< asked for
+  bool linear = false;     ///< linear solves did it
+  Index n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
   std::optional<PathLeft> left = {};  ///< the first such place; only where the solution may be one of several
@@ -106,8 +106,8 @@ struct PathOptions {
 /// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap, linear
 /// solves do it; if all are linear between corners, their exact path as far as it goes, unless the options are against
 /// it. Else the chosen solver in the contact coordinates from the last state, then damped Newton, then both in half
-/// steps. Only what cannot be reached so is tried from the first guesses, by the same, with friction also by turns of
-/// damped Newton under the friction of the turn before, at last in half steps.
+/// steps. A load factor that cannot be reached so is tried from the first guesses: by the same solvers, with friction
+/// also by damped Newton in turns, each under the friction of the turn before, and at last in half steps.
 ///
 /// The first increment begins with the first guesses, unless the solution may be one of several: then at no load. There
 /// each step must also agree with two half steps; one that does not, however short, is a jump.

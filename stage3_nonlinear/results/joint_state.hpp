@@ -39,8 +39,8 @@ struct JointState {
   std::optional<double> plates_out_of_balance;
 };
 
-/// The states of all steps. A path whose forces do not balance, to 1e-8 of the largest or to what the solver's
-/// tolerance leaves, ends there: rounding carries load.
+/// The states of all steps. A path ends where its forces do not balance to 1e-8 of the largest or to what the solver's
+/// tolerance leaves, since rounding errors would count as load.
 [[nodiscard]] std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system,
                                                       double tolerance, LoadPath& path);
 
