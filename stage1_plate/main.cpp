@@ -6,7 +6,6 @@
 #include <iostream>
 #include <optional>
 
-#include "common/count.hpp"
 #include "common/linalg/threads.hpp"
 #include "common/program/program.hpp"
 #include "stage1_plate/run/accuracy.hpp"
@@ -59,7 +58,7 @@ void warn(const stage1::SolvedPlate& plate) {
   WorstOfKind thin, stiff;
   if (thickest > width)
     thin.add(thickest / width, fmt::format("the thickness {:g} is above the width {:g} of the sheet", thickest, width));
-  for (int i = 0; i < count_of(scene.holes); ++i) {
+  for (std::size_t i = 0; i < scene.holes.size(); ++i) {
     const auto& hole = scene.holes[i];
     if (thinnest < foil * hole.radius)
       thin.add(hole.radius / thinnest, fmt::format("the thickness {:g} is below {:g} of the radius {:g} of hole \"{}\"",

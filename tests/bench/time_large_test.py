@@ -35,7 +35,7 @@ def check_large(bin_folder, folder):
     printed = run(script, "--quick", "--repeat", 1, "--before", bin_folder, "--readme", readme)
     assert readme.read_text() == f"<!-- {script} -->\n{printed}<!-- /{script} -->\n"
     found = rows(printed)
-    assert [row["job"] for row in found][3:7] == [f"9 fasteners, {law}, stage 3" for law in ("linear", "power", "bilinear")] + [
+    assert [row["job"] for row in found][4:8] == [f"9 fasteners, {law}, stage 3" for law in ("linear", "power", "bilinear")] + [
         "stresses at 9 rims in ten increments"], printed
     for row in found:
         ratio = float(row["seconds before"]) / float(row["seconds"])

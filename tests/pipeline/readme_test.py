@@ -123,7 +123,7 @@ def check_numbers(readme, verification, performance):
     assert len(numbers) == 7, numbers
     for number in numbers:
         assert re.search(rf"[| ]{re.escape(number)} ", elsewhere), f"README.md has {number}, which is nowhere else"
-    timed = rows_below(readme, "may have had other work:\n\n")
+    timed = rows_below(readme, "by `scripts/time_panels`:\n\n")
     measured = {row.split(" | ")[0].strip("| "): row.split(" | ")[1:3] for row in performance.splitlines() if row.startswith("| ")}
     assert [name.count("loads only") for name, *_ in timed] == [0, 0, 0, 1, 1], "default settings come first"
     for name, seconds, memory in timed:
