@@ -56,7 +56,8 @@ TEST_F(ByHand, JsonHasAllDigits) {
   timings_.stop();
   EXPECT_THAT(timings_.json("stage1_plate", "1.0.0"),
               MatchesRegex("\\{\"program\":\"stage1_plate\",\"version\":\"1\\.0\\.0\",\"threads\":1,"
-                           "\"blas_kernels\":\"[A-Za-z]*\",\"seconds\":\\{\"mesh\":0\\.125000001,\"write\":0\\.5\\},\"total\":0\\.625000001,"
+                           "\"blas_kernels\":\"[A-Za-z]*\","
+                           "\"seconds\":\\{\"mesh\":0\\.125000001,\"write\":0\\.5\\},\"total\":0\\.625000001,"
                            "\"peak_memory_bytes\":[0-9]+\\}\n"));
   timings_.set_threads(2);
   timings_.set_unknowns(8, 51234);
