@@ -110,7 +110,8 @@ struct Reader::Impl {
   /// Name of the program that wrote the file.
   [[nodiscard]] std::string maker() const {
     const std::string generator = read_text_attribute(file.get(), "generator").value_or("");
-    return generator.empty() ? "the earlier stage" : generator.substr(0, generator.find(' '));
+    const std::string name(generator.begin(), std::find(generator.begin(), generator.end(), ' '));
+    return name.empty() ? "the earlier stage" : name;
   }
 
   void check_version(const std::string& format, int major) const {

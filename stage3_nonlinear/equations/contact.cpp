@@ -69,7 +69,7 @@ VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, co
 VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F) {
   const Index a = F.size() / contacts.size();
   VectorXd c(F.size());
-  for (Index j = 0; j < std::ssize(contacts); ++j) {
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
     const Contact& contact = contacts[j];
     const Index at = j * a;
     const VectorXd here = F.segment(at, a);

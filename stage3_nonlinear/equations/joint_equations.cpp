@@ -17,7 +17,7 @@ void set_reference_stiffnesses(const MatrixXd& S, std::vector<Contact>& contacts
   const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
   const Index a = rows.size() / contacts.size();
   const double largest = rows.maxCoeff();
-  for (Index j = 0; j < std::ssize(contacts); ++j) {
+  for (std::size_t j = 0; j < contacts.size(); ++j) {
     if (largest <= rounding * contacts[j].stiffness) continue;
     const double row = rows.segment(j * a, a).maxCoeff();
     contacts[j].stiffness = row > negligible * largest ? row : largest;

@@ -87,7 +87,7 @@ PathStep Walk::step() const {
           .exact = here_.exact};
 }
 
-PathFailure Walk::failure(Index increment, double load_factor) const {
+PathFailure Walk::failure(std::size_t increment, double load_factor) const {
   return {increment,           load_factor,
           here_.load_factor,   worst_row_ / equations_.n_directions(),
           worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
@@ -230,7 +230,7 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
   Walk walk(equations, options, std::move(exact));
   const ContactCorners corners(equations.contacts);
-  for (Index i = 0; i < std::ssize(load_factors); ++i) {
+  for (std::size_t i = 0; i < load_factors.size(); ++i) {
     program::report_share(double(i) / double(load_factors.size()));
     const VectorXd before = walk.here().c;
     if (!walk.reach(load_factors[i])) {
