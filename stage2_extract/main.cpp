@@ -116,7 +116,7 @@ stage2::FieldRequest field_request(const program::Arguments& arguments) {
   return request;
 }
 
-/// @param or_else What else would take less memory.
+/// @param or_else Another way to take less memory, for the message.
 void require_memory(const std::string& file, double need, const std::string& or_else = "") {
   constexpr double libraries = 23e6;  // and what is left of the factor
   program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes" + or_else);

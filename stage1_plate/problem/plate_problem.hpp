@@ -69,7 +69,7 @@ void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& pr
 /// held; the message says how (docs/theory.md, section 4.6). The factor alone would not show it.
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
-/// Whether nothing can move as a rigid body while the scene's loads act: externals and discs of given force follow.
+/// True if nothing can move as a rigid body while the scene's loads act: externals and discs of given force follow.
 /// @param scene A scene that has loads, with springs on the parts of the rims that bear.
 [[nodiscard]] bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
