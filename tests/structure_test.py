@@ -27,7 +27,7 @@ STAGES = {
         "scene": ["input", "program", ""],
         "model": ["formats", ""],
         "solvers": [],
-        "equations": [""],
+        "equations": ["matrices", ""],
         "path": ["program"],
         "results": ["matrices", "stresses", ""],
         "output": ["formats", "program", ""],

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <utility>
+
+#include "common/matrices/inverse.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -33,11 +34,11 @@ double plate_stiffness(const JointModel& joint, const ShearPlane& plane) {
   return softer > 0 ? softer : stiffer > 0 ? stiffer : 1.0;
 }
 
-MatrixXd inverse_metric(const MatrixXd& S, const std::vector<Contact>& contacts) {
+MatrixXd metric_of(const MatrixXd& S, const std::vector<Contact>& contacts) {
   const Index a = S.rows() / contacts.size();
   MatrixXd W = -0.5 * (S + S.transpose());
   for (Index i = 0; i < W.rows(); ++i) W(i, i) += contacts[i / a].stiffness;
-  return W.llt().solve(MatrixXd::Identity(W.rows(), W.rows()));
+  return matrices::inverse_of_positive(std::move(W)).value();
 }
 
 /// Gives open and yielded fasteners a trace of stiffness in the Jacobian, not in the residual: without it the Jacobian
@@ -79,7 +80,7 @@ JointEquations make_equations(CondensedSystem system, std::vector<Contact> conta
   }
   set_reference_stiffnesses(system.S_ud, contacts);
   const bool rise = std::ranges::all_of(contacts, [](const Contact& each) { return each.law->rises(); });
-  MatrixXd metric = rise ? inverse_metric(system.S_ud, contacts) : MatrixXd();
+  MatrixXd metric = rise ? metric_of(system.S_ud, contacts) : MatrixXd();
   return {std::move(system), std::move(contacts), std::move(metric)};
 }
 
@@ -87,6 +88,17 @@ MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool 
   MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
   if (friction && system.has_friction()) F += system.friction_matrix(state.F);
   return state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
+}
+
+MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
+  const Index a = equations.n_directions();
+  MatrixXd H = equations.metric;
+  for (Index j = 0; j < equations.n_planes(); ++j) {
+    const auto e = state.direction.col(j);
+    H.block(j * a, j * a, a, a).diagonal().array() -= state.ddelta.across[j];
+    H.block(j * a, j * a, a, a) -= (state.ddelta.along[j] - state.ddelta.across[j]) * e * e.transpose();
+  }
+  return H;
 }
 
 RootProblem root_problem(const JointEquations& equations, double load_factor, double scale, const VectorXd* frozen) {
@@ -101,13 +113,18 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
     if (friction) r += equations.system.friction_forces(state.F);
     return r / scale;
   };
-  problem.jacobian = [&equations, residual = problem.residual, scale, friction](const VectorXd& x) -> MatrixXd {
+  const auto traced = [&equations, residual = problem.residual, scale](const VectorXd& x) {
     auto state = contact_state(equations.contacts, scale * x);
     add_trace(equations, residual(x).cwiseAbs().maxCoeff(), state);
-    return tangent(equations.system, state, friction);
+    return state;
   };
-  if (equations.metric.size() > 0 && !friction)
-    problem.descent = [&metric = equations.metric](const VectorXd& r) -> VectorXd { return metric * r; };
+  problem.jacobian = [&equations, traced, friction](const VectorXd& x) -> MatrixXd {
+    return tangent(equations.system, traced(x), friction);
+  };
+  if (equations.metric.size() > 0 && !friction) {
+    problem.gradient = [&metric = equations.metric](const VectorXd& r) -> VectorXd { return metric * r; };
+    problem.hessian = [&equations, traced](const VectorXd& x) -> MatrixXd { return hessian(equations, traced(x)); };
+  }
   return problem;
 }
 

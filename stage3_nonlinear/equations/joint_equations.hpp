@@ -40,6 +40,10 @@ struct JointEquations {
 /// @param friction False: without that of friction.
 [[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
+/// Hessian of the convex function whose gradient is metric * residual, W^-1 - d delta / dc, symmetric, shape (n a,
+/// n a), length / force; the tangent is W times it (docs/theory.md, section 8.4). To be called where no law falls.
+[[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
+
 /// The equations at a load factor, unknowns and residuals over `scale` (force).
 ///
 /// @param frozen If not null, friction acts as under these bearing forces instead of its own, (n a).

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/matrices/inverse.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -72,6 +74,27 @@ double friction_norm(const MatrixXd& H) {
   return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
 }
 
+/// True if the tangent is W times a symmetric Hessian H: without friction and laws that fall.
+bool has_hessian(const JointEquations& equations) {
+  return equations.metric.size() > 0 && !equations.system.has_friction();
+}
+
+/// Reciprocal condition of H above which no tangent is near singular.
+constexpr double surely_regular = 1e3 * singular_tangent;
+
+/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it has a Hessian H that is surely
+/// regular.
+std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
+  if (!has_hessian(equations)) return std::nullopt;
+  const MatrixXd H = hessian(equations, state);
+  const auto inverse = matrices::inverse_of_positive(H);
+  const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
+  if (!inverse || !(surely_regular * norm(H) * norm(*inverse) < 1)) return std::nullopt;
+  MatrixXd J = state.times(*inverse, state.ddelta);
+  J.diagonal().array() += 1;
+  return J;
+}
+
 /// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
 /// free motions N of the unknowns change have no derivative.
 Slopes solve_singular(const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rhs) {
@@ -105,6 +128,10 @@ std::optional<double> self_locking(const CondensedSystem& system, const VectorXd
 }
 
 TangentCheck check_tangent(const JointEquations& equations, const ContactState& state) {
+  if (has_hessian(equations)) {
+    const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
+    if (factor.info() == Eigen::Success && factor.rcond() > surely_regular) return {};
+  }
   const CondensedSystem& system = equations.system;
   TangentCheck check;
   MatrixXd J = tangent(system, state);
@@ -153,13 +180,19 @@ std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
   return falling;
 }
 
-Slopes implicit_slopes(const CondensedSystem& system, const ContactState& state, const MatrixXd& residual) {
-  MatrixXd J = tangent(system, state);
+Slopes implicit_slopes(const JointEquations& equations, const ContactState& state,
+                       const std::optional<MatrixXd>& given) {
+  if (const auto inverse = inverse_tangent(equations, state)) {
+    const MatrixXd dc = given ? *inverse * *given : *inverse;
+    return {-state.times(dc.transpose(), state.dF).transpose(), {}, {}};  // the blocks are symmetric
+  }
+  MatrixXd J = tangent(equations.system, state);
+  const MatrixXd residual = given.value_or(MatrixXd::Identity(J.rows(), J.rows()));
   const VectorXd scale = scale_columns(J);
   const Eigen::PartialPivLU<MatrixXd> lu(J);
   if (least_stretch(lu, J) > singular_tangent) {
     const MatrixXd dc = scale.cwiseInverse().asDiagonal() * lu.solve(residual);
-    return {-state.times(dc.transpose(), state.dF).transpose(), {}, {}};  // the blocks are symmetric
+    return {-state.times(dc.transpose(), state.dF).transpose(), {}, {}};
   }
   const MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
   return solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(), -residual);
@@ -170,7 +203,7 @@ void bear(const JointEquations& equations, ContactState& state) {
   const CondensedSystem& system = equations.system;
   for (int i = 0; i < most_tries; ++i) {
     const VectorXd before = system.E * state.F;
-    state.F = implicit_slopes(system, state, -system.q).F;
+    state.F = implicit_slopes(equations, state, -system.q).F;
     if (i > 0 && ((system.E * state.F).array() * before.array() >= 0).all()) return;
   }
 }

@@ -50,9 +50,10 @@ struct Slopes {
 };
 
 /// Slopes by the implicit function theorem: dF = F_c dc with J dc = -residual, at a solution.
-/// @param residual Rise of the residual of the condensed system at fixed c, force, shape (n a, columns).
-[[nodiscard]] Slopes implicit_slopes(const CondensedSystem& system, const ContactState& state,
-                                     const MatrixXd& residual);
+/// @param residual Rise of the residual of the condensed system at fixed c, force, shape (n a, columns); the identity
+///                 unless given.
+[[nodiscard]] Slopes implicit_slopes(const JointEquations& equations, const ContactState& state,
+                                     const std::optional<MatrixXd>& residual = std::nullopt);
 
 /// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
 /// friction acts.

@@ -152,7 +152,7 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
   const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
   const VectorXd change = A * (D.transpose() * (load(n - 2) - load(n - 1)));
   const MatrixXd A_dS = A * dS.triangularView<Eigen::Lower>();
-  const VectorXd fall_by_w = 2 * A_dS.cwiseProduct(A).rowwise().sum().cwiseAbs();
+  const VectorXd fall_by_w = 2 * (A_dS.cwiseProduct(A) * VectorXd::Ones(A.cols())).cwiseAbs();
   return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
 }
 
@@ -163,7 +163,7 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
   const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
   ContactState state = contact_state(equations.contacts, c);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations.system, state, MatrixXd::Identity(c.size(), c.size()));
+  Slopes slopes = implicit_slopes(equations, state);
   slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
   const MatrixXd A = of_amounts(slopes, state, c);
   VectorXd result = VectorXd::Zero(A.rows());
@@ -203,7 +203,7 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
   const auto [F, delta] = law_changes(equations, numbers, state, c);
   const MatrixXd residual = residual_changes(equations.system, numbers, state, F, delta, step.load_factor);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations.system, state, residual);
+  Slopes slopes = implicit_slopes(equations, state, residual);
   slopes.F.middleCols(1, F.cols()) += F;
   const MatrixXd dF = of_amounts(slopes, state, c);
   Index column = 0;

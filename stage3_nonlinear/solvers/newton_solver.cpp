@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -94,7 +95,7 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
     Root there = moved(problem, root, step, length);
     const double norm = there.residual.norm();
     if (i == 0 && norm <= well * least_norm) return there;
-    const double slope = problem.descent(there.residual).dot(step);
+    const double slope = problem.gradient(there.residual).dot(step);
     if (norm <= well * norm_here && bracket.falls_to(length, slope)) return there;
     if (std::abs(slope) < best_slope && bracket.falls_to(length, slope)) {
       best = std::move(there);
@@ -106,9 +107,18 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
 }
 
 std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double least_norm, const Root& root) {
-  const double slope = problem.descent ? problem.descent(root.residual).dot(step) : 0;
+  const double slope = problem.gradient ? problem.gradient(root.residual).dot(step) : 0;
   auto there = slope < 0 ? move_downhill(problem, step, slope, least_norm, root) : std::nullopt;
   return there ? there : move_by_norm(problem, step, root);
+}
+
+/// Newton's step, by Cholesky's method where the Hessian is positive definite to rounding.
+VectorXd newton_step(const RootProblem& problem, const Root& root) {
+  if (problem.hessian) {
+    const Eigen::LLT<MatrixXd> factor(problem.hessian(root.x));
+    if (factor.info() == Eigen::Success) return -factor.solve(problem.gradient(root.residual));
+  }
+  return -problem.jacobian(root.x).partialPivLu().solve(root.residual);
 }
 
 }  // namespace
@@ -124,7 +134,7 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
          root.iterations < options.max_iterations) {
     ++root.iterations;
     least_norm = std::min(least_norm, root.residual.norm());
-    const VectorXd step = -problem.jacobian(root.x).partialPivLu().solve(root.residual);
+    const VectorXd step = newton_step(problem, root);
     auto there = step.allFinite() ? move(problem, step, least_norm, root) : std::nullopt;
     if (!there) break;
     root = *std::move(there);

@@ -18,7 +18,9 @@ struct RootProblem {
   std::function<MatrixXd(const VectorXd&)> jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
   /// Gradient, as a function of the residual, of a convex function of x that is least at the root, if there is one,
   /// (n) -> (n).
-  VectorFunction descent;
+  VectorFunction gradient;
+  /// Hessian of that function of x, (n) -> (n, n).
+  std::function<MatrixXd(const VectorXd&)> hessian;
 };
 
 struct RootOptions {
@@ -46,7 +48,7 @@ void take_over_gsl_errors();
 
 /// Newton's method with damped steps: the guarantee behind the other solvers.
 ///
-/// If problem.descent is given, a step ends where its convex function has almost stopped falling along the step, and
+/// If problem.gradient is given, a step ends where its convex function has almost stopped falling along the step, and
 /// the method converges from every start if that function is bounded below. Joints without friction whose laws never
 /// fall have such a function of the contact coordinate. docs/theory.md, section 8.4, derives it, proves convergence and
 /// says where rounding limits it. Otherwise steps are halved until the norm of the residual falls; convergence is then

@@ -72,8 +72,26 @@ TEST(JointEquations, HessianOfTheEnvelopeIsPositiveDefinite) {
     const VectorXd x = size * VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
     const MatrixXd H = equations.metric * problem.jacobian(x);
     EXPECT_LT((H - H.transpose()).norm(), 1e-10 * H.norm()) << i;
+    EXPECT_LT((H - problem.hessian(x)).norm(), 1e-10 * H.norm()) << i;
     // The trace is at least 1e-11 of the reference stiffness; rounding takes a little.
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(H).eigenvalues()[0], 1e-12 * equations.metric.norm()) << i;
+  }
+}
+
+/// Slopes by the inverse of the Hessian, which is taken without friction, and those of the tangent's own factor.
+TEST(JointEquations, SlopesByTheHessianAreThoseOfTheTangent) {
+  std::mt19937 random(14);
+  std::uniform_real_distribution<double> coordinate(-1, 1);
+  for (int i = 0; i < 100; ++i) {
+    const JointEquations equations = make_equations(test::random_joint(random, {.cubics = true}));
+    const double size = 10 * equations.system.q.cwiseAbs().maxCoeff();
+    const VectorXd c = size * VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return coordinate(random); });
+    const auto state = contact_state(equations.contacts, c);
+    const MatrixXd J = tangent(equations.system, state), identity = MatrixXd::Identity(J.rows(), J.rows());
+    const MatrixXd F = -state.times(identity, state.dF) * J.partialPivLu().solve(identity);
+    EXPECT_LT((implicit_slopes(equations, state).F - F).norm(), 1e-9 * F.norm()) << i;
+    const MatrixXd residual = MatrixXd::Random(J.rows(), 2);
+    EXPECT_LT((implicit_slopes(equations, state, residual).F - F * residual).norm(), 1e-9 * residual.norm()) << i;
   }
 }
 
