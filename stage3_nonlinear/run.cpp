@@ -73,8 +73,8 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
     of_step += unknowns + cases + of_rim * (plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0);
   }
   const double read = matrices_need(scene);
-  const std::size_t n_steps = std::max(scene.load_factors.size(), std::size_t{1});  // how many events is not known yet
-  constexpr double copies = 2.5;                                                    // in the states and in the tables
+  const Index n_steps = std::max<Index>(std::ssize(scene.load_factors), 1);  // how many events is not known yet
+  constexpr double copies = 2.5;                                             // in the states and in the tables
   const double results = copies * number * of_step * double(n_steps);
   program::require_memory(
       scene.file + ": this", read + solving + results,

@@ -27,7 +27,7 @@ class RigidJoint {
   /// @param S_z Symmetric, positive semi-definite, shape (r, r), force / length.
   /// @param own Stiffness of the stiffest plate at each unknown, shape (r), force / length; 0 of plates without any.
   RigidJoint(const MatrixXd& S_z, const VectorXd& own) : scale_(own) {
-    for (Index i = 0; i < own.size(); ++i) {
+    for (Index i = 0; i < std::ssize(own); ++i) {
       const double at = std::max(S_z(i, i), singular * own[i]);
       scale_[i] = 1 / std::sqrt(at > 0 ? at : 1.0);
     }
@@ -92,7 +92,7 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
 Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset(hole.plate) + hole.disc; }
 
 /// Hole in the stiffest plate of a fastener.
-std::size_t stiffest(const JointModel& joint, const Rows& rows, const FastenerModel& fastener) {
+Index stiffest(const JointModel& joint, const Rows& rows, const FastenerModel& fastener) {
   const auto own = [&](const HoleModel& hole) { return rows.own[disc(joint, hole)]; };
   return std::ranges::max_element(fastener.holes, {}, own) - fastener.holes.begin();
 }
@@ -105,10 +105,10 @@ void add_planes(Rows& rows, const JointModel& joint) {
     const bool beyond = stiffest(joint, rows, joint.fasteners[plane.fastener]) > plane.first;
     for (Index d = 0; d < joint.n_directions(); ++d) {
       const Index column = at * joint.n_directions() + d;
-      for (std::size_t hole = 0; hole < holes.size(); ++hole)
+      for (Index hole = 0; hole < std::ssize(holes); ++hole)
         if ((hole <= plane.first) == beyond) Y.emplace_back(disc(joint, holes[hole]) + d, column, beyond ? 1 : -1);
     }
-    for (std::size_t i = 0; i < rows.friction.size(); ++i) {
+    for (Index i = 0; i < std::ssize(rows.friction); ++i) {
       const FrictionRow& row = rows.friction[i];
       if (row.fastener != plane.fastener) continue;
       const Index column = at * joint.n_directions() + row.direction;
@@ -125,7 +125,7 @@ void add_free_unknowns(Rows& rows, const JointModel& joint) {
   const Index N = rows.S.rows();
   std::vector<Index> leader(N);
   std::iota(leader.begin(), leader.end(), Index{0});
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index e = 0; e < joint.plates[i].n_externals(); ++e)
       if (joint.plates[i].external_displacement[e]) leader[joint.offset(i) + joint.plates[i].n_discs() + e] = -1;
   for (const auto& fastener : joint.fasteners) {
@@ -162,14 +162,14 @@ Rows assemble(const JointModel& joint) {
   Rows rows;
   rows.S = MatrixXd::Zero(N, N);
   rows.load = rows.given = rows.own = VectorXd::Zero(N);
-  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
-    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
+  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
+    for (Index hole = 0; hole < std::ssize(joint.fasteners[i].holes); ++hole)
       for (Index d = 0; d < std::ssize(joint.fasteners[i].holes[hole].friction); ++d)
         rows.friction.push_back({i, hole, d});
   const Index f = rows.friction.size();
   rows.E = MatrixXd::Zero(f, n);
   rows.G_plus = rows.G_minus = MatrixXd::Zero(N, f);
-  for (std::size_t i = 0; i < joint.plates.size(); ++i) add_plate(rows, joint.plates[i], joint.offset(i));
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) add_plate(rows, joint.plates[i], joint.offset(i));
   add_planes(rows, joint);
   add_free_unknowns(rows, joint);
   for (Index i = 0; i < f; ++i) add_friction(rows, joint, i);
@@ -179,7 +179,7 @@ Rows assemble(const JointModel& joint) {
 [[noreturn]] void fail_as_mechanism(const JointModel& joint, const MatrixXd& motions) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const auto of_plate = motions.middleRows(joint.offset(i), joint.plates[i].n_unknowns()).cwiseAbs();
     if ((of_plate.colwise().maxCoeff().array() > moves * motions.cwiseAbs().colwise().maxCoeff().array()).any())
       names.push_back(fmt::format("\"{}\"", joint.plates[i].name));
@@ -207,7 +207,7 @@ VectorXd CondensedSystem::friction_forces(const VectorXd& F) const {
 MatrixXd CondensedSystem::friction_matrix(const VectorXd& F) const {
   const VectorXd b = E * F;
   MatrixXd H = H_plus;
-  for (Index i = 0; i < b.size(); ++i)
+  for (Index i = 0; i < std::ssize(b); ++i)
     if (b[i] < 0) H.col(i) = -H_minus.col(i);
   return H * E;
 }

@@ -10,8 +10,8 @@ namespace fastjoint::stage3 {
 
 /// A hole and direction in which friction acts, there or in another hole of its fastener.
 struct FrictionRow {
-  std::size_t fastener, hole;  ///< hole of the fastener
-  Index direction;             ///< of the joint's directions
+  Index fastener, hole;  ///< hole of the fastener
+  Index direction;       ///< of the joint's directions
 };
 
 /// Linear part of a joint, condensed on its n shear planes in a directions, for any stack of plates

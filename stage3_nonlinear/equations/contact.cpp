@@ -58,7 +58,7 @@ ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd&
 VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, const VectorXd& delta) {
   const Index a = F.size() / contacts.size();
   VectorXd c(F.size());
-  for (Index j = 0; j < c.size() / a; ++j) {
+  for (Index j = 0; j < std::ssize(c) / a; ++j) {
     const Contact& contact = contacts[j];
     c.segment(j * a, a) = contact.stiffness * delta.segment(j * a, a);
     if (contact.law->rises()) c.segment(j * a, a) += F.segment(j * a, a);
@@ -69,7 +69,7 @@ VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, co
 VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F) {
   const Index a = F.size() / contacts.size();
   VectorXd c(F.size());
-  for (std::size_t j = 0; j < contacts.size(); ++j) {
+  for (Index j = 0; j < std::ssize(contacts); ++j) {
     const Contact& contact = contacts[j];
     const Index at = j * a;
     const VectorXd here = F.segment(at, a);

@@ -18,7 +18,7 @@ void set_reference_stiffnesses(const MatrixXd& S, std::vector<Contact>& contacts
   const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
   const Index a = rows.size() / contacts.size();
   const double largest = rows.maxCoeff();
-  for (std::size_t j = 0; j < contacts.size(); ++j) {
+  for (Index j = 0; j < std::ssize(contacts); ++j) {
     if (largest <= rounding * contacts[j].stiffness) continue;
     const double row = rows.segment(j * a, a).maxCoeff();
     contacts[j].stiffness = row > negligible * largest ? row : largest;
@@ -48,7 +48,7 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
   constexpr double share = 1e-7;
   constexpr double least = 1e-11;  // rounding over this is still a small step
   const double trace = std::clamp(share * residual, least, share);
-  for (Index j = 0; j < state.dF.along.size(); ++j) {
+  for (Index j = 0; j < std::ssize(state.dF.along); ++j) {
     const double k = equations.contacts[j].stiffness;
     const auto add = [&](double& dF, double& ddelta) {
       if (std::abs(dF) >= trace) return;
@@ -72,7 +72,7 @@ JointEquations make_equations(const JointModel& joint) {
 JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts) {
   constexpr double rounding = 1e-13;  // of what a plate that one fastener alone holds resists: nothing
   const VectorXd rows = system.S_ud.cwiseAbs().rowwise().sum();
-  for (Index i = 0; i < rows.size(); ++i) {
+  for (Index i = 0; i < std::ssize(rows); ++i) {
     const Index plane = i * std::ssize(contacts) / rows.size();
     if (rows[i] > rounding * contacts[plane].stiffness) continue;
     system.S_ud.row(i).setZero();

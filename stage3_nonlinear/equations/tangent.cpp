@@ -38,7 +38,7 @@ Mechanism mechanism(const JointEquations& equations, const ContactState& state, 
       state.times(identity, state.ddelta) * scale.cwiseInverse().asDiagonal() * svd.matrixV().rightCols(free);
   Mechanism result{{}, {}, equations.system.D_delta * delta.rightCols(1)};
   const Index a = state.direction.rows();
-  for (Index j = 0; j < state.dF.along.size(); ++j) {
+  for (Index j = 0; j < std::ssize(state.dF.along); ++j) {
     if (!(delta.middleRows(j * a, a).norm() > moves * delta.norm())) continue;
     if (state.F.segment(j * a, a).isZero(0)) {
       result.open.push_back(j);

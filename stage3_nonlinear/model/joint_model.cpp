@@ -41,7 +41,7 @@ std::string quoted(const Units& units) { return fmt::format("length \"{}\", forc
 
 Units common_units(const JointScene& scene, const std::vector<PlateMatrices>& all) {
   const Units& units = all[0].header.units;
-  for (std::size_t i = 1; i < all.size(); ++i)
+  for (Index i = 1; i < std::ssize(all); ++i)
     if (!(all[i].header.units == units))
       throw InputError(fmt::format("{}: units are {}; allowed: {}, as in {}", scene.plates[i].file,
                                    quoted(all[i].header.units), quoted(units), scene.plates[0].file));
@@ -54,7 +54,7 @@ Units common_units(const JointScene& scene, const std::vector<PlateMatrices>& al
 int common_degree(const JointScene& scene, const std::vector<PlateMatrices>& all, int p) {
   std::set<int> common(all[0].p.begin(), all[0].p.end());
   std::string each;
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (Index i = 0; i < std::ssize(all); ++i) {
     const std::set<int> own(all[i].p.begin(), all[i].p.end());
     std::erase_if(common, [&](int degree) { return !own.contains(degree); });
     each += fmt::format("{}{} has p = {}", i == 0 ? "" : ", ", scene.plates[i].file, fmt::join(own, ", "));
@@ -72,7 +72,7 @@ std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateMod
   const auto names = [](const PlateModel& plate) {
     return fmt::format("{}", plate.axes | std::views::transform([](int axis) { return axis_names[axis]; }));
   };
-  for (std::size_t i = 1; i < plates.size(); ++i)
+  for (Index i = 1; i < std::ssize(plates); ++i)
     if (plates[i].axes != plates[0].axes)
       refuse(
           scene.plates[i].where,
@@ -85,7 +85,7 @@ std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateMod
 /// The friction case of a hole for the side that bears along an axis.
 FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
   const std::string bearing = fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[axis]);
-  for (Index i = 0; i < plate.friction_unit_force.size(); ++i) {
+  for (Index i = 0; i < std::ssize(plate.friction_unit_force); ++i) {
     if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
     const double c = plate.friction_unit_force[i];
     if (!(c > 0))
@@ -102,9 +102,9 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
 }
 
 /// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
-std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, std::size_t hole) {
+std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, Index hole) {
   std::array<bool, 2> sides{};
-  for (std::size_t plane = hole > 0 ? hole - 1 : 0; plane < std::min(hole + 1, fastener.law.size()); ++plane) {
+  for (Index plane = hole > 0 ? hole - 1 : 0; plane < std::min(hole + 1, std::ssize(fastener.law)); ++plane) {
     const Side positive = plane == hole ? minus_side : plus_side;
     sides[positive] = true;
     if (!scene.laws.at(fastener.law[plane]).one_sided) sides[1 - positive] = true;
@@ -115,7 +115,7 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
 /// Refuses a half hole along the normal of its line of symmetry: the whole hole that it stands for stays on that line,
 /// but the bearing of half a rim would push its disc off.
 void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
-  for (std::size_t i = 0; i < plate.friction_hole.size(); ++i)
+  for (Index i = 0; i < std::ssize(plate.friction_hole); ++i)
     if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0))
       throw InputError(fmt::format(
           "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, off its "
@@ -123,9 +123,9 @@ void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
           plate.file, hole, plate.friction_bearing[i]));
 }
 
-HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, std::size_t at) {
+HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, Index at) {
   const Reference& hole = fastener.between[at];
-  const std::size_t plate_at = index_of(model.plates, hole.plate, &PlateModel::name);
+  const Index plate_at = index_of(model.plates, hole.plate, &PlateModel::name);
   const PlateModel& plate = model.plates[plate_at];
   const Index index = index_of(plate.holes, hole.name);
   if (index == std::ssize(plate.holes))
@@ -145,18 +145,17 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
 }
 
 void add_fastener(JointModel& model, const JointScene& scene, const FastenerScene& fastener) {
-  for (std::size_t plane = 0; plane < fastener.law.size(); ++plane) {
+  for (Index plane = 0; plane < std::ssize(fastener.law); ++plane) {
     const LawScene& law = scene.laws.at(fastener.law[plane]);
     if (law.one_sided && model.n_directions() > 1)
       refuse(fastener.where + "/law",
              fmt::format("law \"{}\" is one_sided, but the discs move along x and y", fastener.law[plane]),
              "laws that bear all around, or plates whose discs have one direction");
     model.planes.push_back(
-        {model.fasteners.size(), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
+        {std::ssize(model.fasteners), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
   }
   FastenerModel result{fastener.id, {}, fastener.law_includes_friction};
-  for (std::size_t i = 0; i < fastener.between.size(); ++i)
-    result.holes.push_back(make_hole(model, scene, fastener, i));
+  for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
   balance(result);
   model.fasteners.push_back(std::move(result));
 }
@@ -184,7 +183,7 @@ void apply_load(JointModel& model, const LoadScene& load) {
 
 }  // namespace
 
-double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Index d, Side side) {
+double part_of_mean_share(const FastenerModel& fastener, Index of, Index hole, Index d, Side side) {
   const auto& friction = fastener.holes[of].friction;
   if (friction.empty()) return 0;
   const auto& sides = friction[d];
@@ -195,14 +194,14 @@ double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::si
 }
 
 void balance(FastenerModel& fastener) {
-  std::size_t directions = 0;
-  for (const auto& hole : fastener.holes) directions = std::max(directions, hole.friction.size());
+  Index directions = 0;
+  for (const auto& hole : fastener.holes) directions = std::max(directions, std::ssize(hole.friction));
   for (auto& hole : fastener.holes) hole.friction.resize(directions);
-  for (std::size_t at = 0; at < fastener.holes.size(); ++at)
-    for (std::size_t d = 0; d < directions; ++d)
+  for (Index at = 0; at < std::ssize(fastener.holes); ++at)
+    for (Index d = 0; d < directions; ++d)
       for (const Side side : {plus_side, minus_side}) {
         double transferred = 1;
-        for (std::size_t of = 0; of < fastener.holes.size() && !fastener.law_includes_friction; ++of)
+        for (Index of = 0; of < std::ssize(fastener.holes) && !fastener.law_includes_friction; ++of)
           transferred += part_of_mean_share(fastener, of, at, d, side);
         FrictionLoad& friction = fastener.holes[at].friction[d][side];
         const double change = transferred / (1 + friction.share()) / friction.bearing;
@@ -211,9 +210,9 @@ void balance(FastenerModel& fastener) {
       }
 }
 
-Index JointModel::offset(std::size_t plate) const {
+Index JointModel::offset(Index plate) const {
   Index offset = 0;
-  for (std::size_t i = 0; i < plate; ++i) offset += plates[i].n_unknowns();
+  for (Index i = 0; i < plate; ++i) offset += plates[i].n_unknowns();
   return offset;
 }
 
@@ -242,7 +241,7 @@ JointModel load_joint(const JointScene& scene, int p) {
   model.file = scene.file;
   model.units = common_units(scene, all);
   model.p = common_degree(scene, all, p);
-  for (std::size_t i = 0; i < all.size(); ++i)
+  for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, std::move(all[i]), model.p));
   model.axes = common_axes(scene, model.plates);
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);

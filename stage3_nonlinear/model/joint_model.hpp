@@ -43,8 +43,8 @@ struct PlateModel {
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
   MatrixXd S_error;  ///< (m+e, m+e) the file's; infinite where it does not know it or p is not its highest
-  formats::PlateStresses stresses;          ///< as the file has them
-  std::optional<std::size_t> stress_level;  ///< those of the joint's degree, if there are any
+  formats::PlateStresses stresses;    ///< as the file has them
+  std::optional<Index> stress_level;  ///< those of the joint's degree, if there are any
   // Loads at load factor 1.
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
@@ -77,11 +77,11 @@ struct FrictionLoad {
 };
 
 /// Side of a rim that bears, under a bearing force on the plate along + or - the axis.
-enum Side : std::size_t { plus_side, minus_side };
+enum Side : Index { plus_side, minus_side };
 
 /// Place at which a fastener holds a plate.
 struct HoleModel {
-  std::size_t plate = 0;
+  Index plate = 0;
   Index disc = 0;  ///< first unknown of its disc among the plate's
   double mu = 0;   ///< coefficient of friction
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
@@ -97,8 +97,7 @@ struct FastenerModel {
 
 /// Part that friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears
 /// on `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
-[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, std::size_t of, std::size_t hole, Index d,
-                                        Side side);
+[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, Index of, Index hole, Index d, Side side);
 
 /// Gives each hole of a fastener the bearing force with which bearing and friction together transfer the load of the
 /// shear plane, so that a fastener with unlike friction in its holes is in equilibrium (docs/theory.md, section 7.4).
@@ -107,8 +106,8 @@ void balance(FastenerModel& fastener);
 /// Plane between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F
 /// and the first with -F.
 struct ShearPlane {
-  std::size_t fastener = 0;
-  std::size_t first = 0;  ///< hole of the fastener; the second is the next
+  Index fastener = 0;
+  Index first = 0;  ///< hole of the fastener; the second is the next
   LawPointer law;
   std::string law_name;
   double clearance = 0;  ///< length
@@ -130,9 +129,9 @@ struct JointModel {
   [[nodiscard]] Index n_directions() const { return axes.size(); }
   [[nodiscard]] Index n_planes() const { return planes.size(); }
   /// "x" or "y": direction d of the discs.
-  [[nodiscard]] const char* axis_name(std::size_t d) const { return axis_names[axes[d]]; }
+  [[nodiscard]] const char* axis_name(Index d) const { return axis_names[axes[d]]; }
   /// First unknown of a plate in the joint's list, plate after plate.
-  [[nodiscard]] Index offset(std::size_t plate) const;
+  [[nodiscard]] Index offset(Index plate) const;
   [[nodiscard]] Index n_unknowns() const { return offset(plates.size()); }
   [[nodiscard]] const HoleModel& first_hole(const ShearPlane& plane) const {
     return fasteners[plane.fastener].holes[plane.first];

@@ -39,8 +39,8 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
 std::vector<int> disc_axes(const std::string& file, const formats::PlateMatrices& a) {
   const std::vector<int> all = axes_of(file, "disc/direction", a.disc_direction);
   // A direction that stands twice is left to check_once, which says why.
-  const std::size_t n = all.size() > 1 && a.disc_hole[1] == a.disc_hole[0] && all[1] != all[0] ? 2 : 1;
-  for (std::size_t i = 0; i < all.size(); ++i)
+  const Index n = all.size() > 1 && a.disc_hole[1] == a.disc_hole[0] && all[1] != all[0] ? 2 : 1;
+  for (Index i = 0; i < std::ssize(all); ++i)
     if (a.disc_hole[i] != a.disc_hole[i - i % n] || all[i] != all[i % n] || all.size() % n != 0)
       throw FileError(
           fmt::format("{}:disc/direction: hole \"{}\" has other directions than hole \"{}\", expected the same of "
@@ -116,7 +116,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.matrices_digest = a.header.digest;
   plate.plate_digest = a.plate_digest;
   plate.axes = disc_axes(file, a);
-  for (std::size_t i = 0; i < a.disc_hole.size(); i += plate.axes.size()) {
+  for (Index i = 0; i < std::ssize(a.disc_hole); i += plate.axes.size()) {
     plate.holes.push_back(a.disc_hole[i]);
     plate.on_springs.push_back(a.disc_modulus[i] > 0);
   }

@@ -14,7 +14,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, std::size_t at) {
+formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, Index at) {
   formats::PlateHistory history;
   history.name = plate.name;
   history.matrices_digest = plate.matrices_digest;
@@ -74,7 +74,7 @@ std::string csv_heads(const JointModel& joint) {
   for (const char* name : {"F", "transferred_first", "transferred_second"}) heads.push_back(with_unit(name, force));
   heads.insert(heads.end(), {"share [%]", "iterations", "residual", "first", "second"});
   for (const auto& [vector, unit] : {std::pair("delta_", length), std::pair("F_", force)})
-    for (std::size_t d = 0; joint.n_directions() > 1 && d < joint.axes.size(); ++d)
+    for (Index d = 0; joint.n_directions() > 1 && d < std::ssize(joint.axes); ++d)
       heads.push_back(with_unit(std::string(vector) + joint.axis_name(d), unit));
   for (const char* side : {"first", "second"})
     for (const auto& each : formats::rim_quantities()) {
@@ -119,8 +119,8 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
     result.first_hole.push_back(joint.name(joint.first_hole(plane)));
     result.second_hole.push_back(joint.name(joint.second_hole(plane)));
   }
-  for (std::size_t d = 0; d < joint.axes.size(); ++d) result.direction.emplace_back(joint.axis_name(d));
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+  for (Index d = 0; d < std::ssize(joint.axes); ++d) result.direction.emplace_back(joint.axis_name(d));
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
     result.plates.push_back(plate_history(joint.plates[i], states, i));
   return result;
 }

@@ -16,7 +16,7 @@ namespace {
 
 using Eigen::Array2d;
 using Eigen::Vector2d;
-using Plates = std::pair<std::size_t, std::size_t>;
+using Plates = std::pair<Index, Index>;
 
 /// A shear plane whose holes MATRICES.h5 describes; t and E are 0 where it does not tell them.
 struct KnownPlane {
@@ -180,9 +180,9 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
     std::string at;
     const RimState* worst = nullptr;
     std::set<std::string> holes;
-    for (std::size_t step = 0; step < states.size(); ++step)
-      for (std::size_t i = 0; i < joint.plates.size(); ++i)
-        for (std::size_t rim = 0; rim < states[step].plates[i].rims.size(); ++rim) {
+    for (Index step = 0; step < std::ssize(states); ++step)
+      for (Index i = 0; i < std::ssize(joint.plates); ++i)
+        for (Index rim = 0; rim < std::ssize(states[step].plates[i].rims); ++rim) {
           const RimState& state = states[step].plates[i].rims[rim];
           const std::string hole = joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim];
           const double amount = doubt.amount(state, loose.contains(hole));
@@ -193,7 +193,7 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
           at = fmt::format("hole \"{}\" (increment {}", hole, step + 1);
         }
     if (!worst) continue;
-    const std::size_t others = holes.size() - 1;
+    const Index others = holes.size() - 1;
     at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
     using fmt::arg;
     result.push_back(fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file),

@@ -38,7 +38,7 @@ double rounded(double force, double largest) {
 /// Name of what solved the increments.
 std::string method(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   if (path.linear) return "linear";
-  const std::size_t exact = std::ranges::count(path.steps, true, &PathStep::exact);
+  const Index exact = std::ranges::count(path.steps, true, &PathStep::exact);
   const Method chosen = iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions());
   const std::string& iterative = method_names[static_cast<std::size_t>(chosen) - 1];
   if (exact == 0) return iterative;
@@ -82,7 +82,7 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
   text += fmt::format(" {:>20} {:>9}\n", head("transferred", force), "share [%]");
   const VectorXd share = shares(joint, state.transferred_first);
   const VectorXd delta = amounts(step.delta, a), F = amounts(step.F, a);
-  for (Index j = 0; j < F.size(); ++j) {
+  for (Index j = 0; j < std::ssize(F); ++j) {
     text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}", joint.short_name(joint.planes[j]), width, delta[j], F[j]);
     for (Index d = 0; d < n_components; ++d)
       text += fmt::format(" {:>14.6g}", rounded(step.F[j * a + d], state.largest_force));
@@ -96,7 +96,7 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
   const std::string force = unit(joint.units, 0, 1);
   std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}\n", "on plate", width, head("applied", force),
                                  head("fasteners", force), head("supports", force));
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (const int axis : joint.axes) {
       const PlateState& plate = state.plates[i];
       const auto shown = [&](const Eigen::Vector2d& sum) { return rounded(sum[axis], state.largest_force); };
@@ -161,8 +161,8 @@ std::string row(const std::string& name, Cell cell) {
 /// Every hole of every plate at one increment. Empty if no plate has stresses.
 std::string rim_table(const JointModel& joint, const JointState& state) {
   std::string rows;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
-    for (std::size_t rim = 0; rim < state.plates[i].rims.size(); ++rim) {
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
       const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
       const bool sections = stresses::n_sections(joint.plates[i].stresses, hole) > 0;
       rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
@@ -197,7 +197,7 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
   const double last = std::abs(path.steps.back().load_factor);
   const bool past_peak =
       !all && std::ranges::any_of(path.steps, [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
-  for (std::size_t i = all ? 0 : states.size() - 1; i < states.size(); ++i)
+  for (Index i = all ? 0 : states.size() - 1; i < std::ssize(states); ++i)
     if (const std::string table = rim_table(joint, states[i]); !table.empty())
       text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
                           past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",
@@ -211,7 +211,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
                     const std::vector<JointState>& states, const formats::JointResult& result, bool all_stresses) {
   const std::size_t width = name_width(joint);
   std::string text = title(scene, joint, path);
-  for (std::size_t i = 0; i < states.size(); ++i) {
+  for (Index i = 0; i < std::ssize(states); ++i) {
     const PathStep& step = path.steps[i];
     text += fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
                         path.n_increments, step.load_factor, effort(path, step), step.residual);

@@ -29,7 +29,7 @@ const PathStep* first_step(const LoadPath& path, Is is) {
 /// Warns of each plane at the first increment at which it happens.
 void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
   std::vector<Doubt> beyond;
-  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+  for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const double last = plane.law->last_delta(plane.clearance);
     const auto delta = [&](const PathStep& step) { return amounts(step.delta, joint.n_directions())[j]; };
@@ -55,7 +55,7 @@ std::string names(const JointModel& joint, const std::vector<Index>& planes) {
 std::string motion_text(const JointModel& joint, const VectorXd& motion) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   std::vector<std::string> parts;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index d = 0; d < joint.n_directions(); ++d) {
       double largest = 0;
       for (Index disc = d; disc < joint.plates[i].n_discs(); disc += joint.n_directions())

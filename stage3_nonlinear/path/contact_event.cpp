@@ -61,7 +61,7 @@ double ContactCorners::nearness(const VectorXd& c, double at) {
 VectorXi ContactCorners::passed(const VectorXd& c) const {
   const VectorXd x = amounts(c, c.size() / corners_.size());
   VectorXi result(x.size());
-  for (Index j = 0; j < x.size(); ++j) {
+  for (Index j = 0; j < std::ssize(x); ++j) {
     const bool mirrored = x[j] < 0 && !one_sided_[j];
     const double position = mirrored ? -x[j] : x[j];
     const auto& own = of(j);
@@ -74,7 +74,7 @@ VectorXi ContactCorners::passed(const VectorXd& c) const {
 
 std::vector<ContactEvent> ContactCorners::between(const VectorXi& before, const VectorXi& after) const {
   std::vector<ContactEvent> result;
-  for (Index j = 0; j < before.size(); ++j) {
+  for (Index j = 0; j < std::ssize(before); ++j) {
     const auto& own = of(j);
     const int was = std::abs(before[j]), is = std::abs(after[j]);
     const int common = before[j] * after[j] < 0 ? 0 : std::min(was, is);
@@ -89,7 +89,7 @@ std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const Vecto
   if (c.isZero(0)) return result;
   const Index n_directions = c.size() / corners_.size();
   const VectorXd x = amounts(c, n_directions), was = amounts(before, n_directions);
-  for (Index j = 0; j < x.size(); ++j) {
+  for (Index j = 0; j < std::ssize(x); ++j) {
     const bool mirrored = x[j] < 0 && !one_sided_[j];
     const double sign = mirrored ? -1 : 1;
     for (const Corner& corner : of(j)) {

@@ -163,7 +163,7 @@ class Search {
   /// First crossing of those between two states, if nothing else has happened before.
   [[nodiscard]] std::optional<EventPlace> first_crossing(const Sample& a, const Sample& b) const {
     std::vector<EventPlace> all;
-    for (Index j = 0; j < a.passed.size(); ++j) {
+    for (Index j = 0; j < std::ssize(a.passed); ++j) {
       if (a.passed[j] == b.passed[j]) continue;
       const double corner = next_corner(j, a.passed[j], b.passed[j]);
       const auto found = crossing(a, b, j, corner);
@@ -176,7 +176,7 @@ class Search {
     if (first == all.end() || contact_state(equations_.contacts, first->place.c).spent) return std::nullopt;
     const VectorXd& c = first->place.c;
     const VectorXi here = corners_.passed(c);
-    for (Index j = 0; j < here.size(); ++j) {
+    for (Index j = 0; j < std::ssize(here); ++j) {
       const bool passes = a.passed[j] != b.passed[j] && is_on(c, j, next_corner(j, a.passed[j], b.passed[j]));
       if (here[j] != a.passed[j] && !passes) return std::nullopt;
     }
@@ -194,7 +194,7 @@ class Search {
   /// Corners passed behind a crossing: all planes that are on the corner they pass have passed it.
   [[nodiscard]] VectorXi passed_behind(const Sample& a, const Sample& b, const VectorXd& c) const {
     VectorXi passed = a.passed;
-    for (Index j = 0; j < passed.size(); ++j)
+    for (Index j = 0; j < std::ssize(passed); ++j)
       if (passed[j] != b.passed[j] && is_on(c, j, next_corner(j, passed[j], b.passed[j])))
         passed[j] += b.passed[j] > passed[j] ? 1 : -1;
     return passed;
@@ -217,7 +217,7 @@ class Search {
       const double s = 1 - t;
       const VectorXd c = s * s * (1 + 2 * t) * a.c + t * t * (1 + 2 * s) * b.c + s * t * (s * rate_a - t * rate_b);
       const VectorXi passed = corners_.passed(c);
-      for (Index j = 0; j < passed.size(); ++j)
+      for (Index j = 0; j < std::ssize(passed); ++j)
         if (passed[j] != a.passed[j] && !is_on_a_corner(a.c, j) && !is_on_a_corner(b.c, j)) return true;
     }
     return false;

@@ -20,8 +20,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A place where cells meet: a corner of a plane's curve, or b = 0 at a shared rim. Planes come first.
 struct Border {
-  std::size_t at;      ///< plane, or number of planes + shared rim
-  std::size_t corner;  ///< of the plane's curve
+  Index at;      ///< plane, or number of planes + shared rim
+  Index corner;  ///< of the plane's curve
 
   auto operator<=>(const Border&) const = default;
 };
@@ -40,7 +40,7 @@ class Tracer {
   ExactPath trace() {
     std::set<Border> tied = borders_near(c_, rounding);
     auto line = leave(tied, {});
-    for (std::size_t steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
+    for (Index steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
       program::report_share(load_ / target_);
       const auto [end, reached] = next(*line);
       const double stop = line->loads ? std::min(end, target_) : end;
@@ -58,9 +58,9 @@ class Tracer {
   }
 
  private:
-  [[nodiscard]] std::size_t most_steps() const {
-    std::size_t n = 10 + joint_.shared_rims().size();
-    for (std::size_t j = 0; j < joint_.n_planes(); ++j) n += joint_.curve(j).corners.size();
+  [[nodiscard]] Index most_steps() const {
+    Index n = 10 + joint_.shared_rims().size();
+    for (Index j = 0; j < joint_.n_planes(); ++j) n += joint_.curve(j).corners.size();
     return 20 * n;
   }
 
@@ -71,8 +71,8 @@ class Tracer {
   [[nodiscard]] std::set<Border> borders_near(const VectorXd& c, double share) const {
     std::set<Border> result;
     const double near = share * c.cwiseAbs().maxCoeff();
-    for (std::size_t j = 0; j < joint_.n_planes(); ++j)
-      for (std::size_t i = 0; i < joint_.curve(j).corners.size(); ++i) {
+    for (Index j = 0; j < joint_.n_planes(); ++j)
+      for (Index i = 0; i < std::ssize(joint_.curve(j).corners); ++i) {
         const bool borders = i == cell_.piece[j] || i + 1 == cell_.piece[j];
         if (borders && std::abs(c[j] - joint_.curve(j).corners[i]) <= near) result.insert({j, i});
       }
@@ -102,8 +102,8 @@ class Tracer {
   /// none, or two that both come here: the path turns.
   std::optional<Line> leave(const std::set<Border>& tied, const std::vector<Border>& reached) {
     for (const auto& s : reached) flip(s);
-    const std::size_t most_flips = 2 + 20 * tied.size();
-    for (std::size_t flips = 0; flips < most_flips; ++flips) {
+    const Index most_flips = 2 + 20 * tied.size();
+    for (Index flips = 0; flips < most_flips; ++flips) {
       auto line = line_in_cell();
       if (!line) return std::nullopt;
       const double least_rate = rounding * line->rate.cwiseAbs().maxCoeff();
@@ -146,13 +146,13 @@ class Tracer {
       end = std::max(t, now);
       reached.assign(1, s);
     };
-    for (std::size_t j = 0; j < joint_.n_planes(); ++j) {
+    for (Index j = 0; j < joint_.n_planes(); ++j) {
       const double rate = line.rate[j];
       const auto& corners = joint_.curve(j).corners;
-      const std::size_t piece = cell_.piece[j];
+      const Index piece = cell_.piece[j];
       const bool up = rate > 0;
-      if (std::abs(rate) <= least_rate || (up ? piece == corners.size() : piece == 0)) continue;
-      const std::size_t corner = up ? piece : piece - 1;
+      if (std::abs(rate) <= least_rate || (up ? piece == std::ssize(corners) : piece == 0)) continue;
+      const Index corner = up ? piece : piece - 1;
       meet((corners[corner] - line.offset[j]) / rate, {j, corner});
     }
     for (const Index at : joint_.shared_rims()) {
@@ -186,7 +186,7 @@ class Tracer {
 
 }  // namespace
 
-std::size_t ExactPath::piece_of(double load_factor) const {
+Index ExactPath::piece_of(double load_factor) const {
   assert(!pieces.empty());
   // The last piece also has what rounding takes beyond its end.
   return std::ranges::lower_bound(pieces.begin(), pieces.end() - 1, std::abs(load_factor), {}, &PathPiece::end) -

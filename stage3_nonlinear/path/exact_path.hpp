@@ -25,8 +25,8 @@ struct CornerCurve {
 
 /// A cell of the piecewise linear equations: the piece of every plane's curve and the side that bears of every rim.
 struct Cell {
-  std::vector<std::size_t> piece;  ///< (n) of each plane's curve
-  std::vector<int> side;           ///< (f) 1 or -1: of each rim that friction acts on, the side that bears
+  std::vector<Index> piece;  ///< (n) of each plane's curve
+  std::vector<int> side;     ///< (f) 1 or -1: of each rim that friction acts on, the side that bears
 };
 
 /// Column of a plane in the equations of a cell, and its part of their offset, (n, 2).
@@ -45,8 +45,8 @@ class PiecewiseJoint {
   /// @param equations is_piecewise_linear; outlives this.
   explicit PiecewiseJoint(const JointEquations& equations);
 
-  [[nodiscard]] const CornerCurve& curve(std::size_t plane) const { return curves_[plane]; }
-  [[nodiscard]] std::size_t n_planes() const { return curves_.size(); }
+  [[nodiscard]] const CornerCurve& curve(Index plane) const { return curves_[plane]; }
+  [[nodiscard]] Index n_planes() const { return curves_.size(); }
   /// Rims that two planes share: their side depends on both. That of all others goes with the plane's sign of c.
   [[nodiscard]] const std::vector<Index>& shared_rims() const { return shared_rims_; }
   /// The cell at no load, c = 0.
@@ -135,7 +135,7 @@ struct ExactPath {
   /// Largest |lambda| that the path covers.
   [[nodiscard]] double reach() const { return pieces.empty() ? 0 : pieces.back().end; }
   /// The piece of a load factor, 0 <= |load_factor| <= reach().
-  [[nodiscard]] std::size_t piece_of(double load_factor) const;
+  [[nodiscard]] Index piece_of(double load_factor) const;
   /// Contact coordinates there, (n).
   [[nodiscard]] VectorXd at(double load_factor) const;
 };

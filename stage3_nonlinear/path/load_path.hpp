@@ -70,11 +70,11 @@ struct PathStep {
 
 /// Place and reason of an early end of a path.
 struct PathFailure {
-  std::size_t increment;  ///< 0-based
-  double load_factor;     ///< that was asked for
-  double reached;         ///< largest part of it that converged
-  Index plane;            ///< with the worst residual in the best try
-  double residual;        ///< there, relative to the load asked for; infinite if each try left it spent
+  Index increment;     ///< 0-based
+  double load_factor;  ///< that was asked for
+  double reached;      ///< largest part of it that converged
+  Index plane;         ///< with the worst residual in the best try
+  double residual;     ///< there, relative to the load asked for; infinite if each try left it spent
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
   std::vector<Index> level;
   std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
@@ -91,8 +91,8 @@ struct PathLeft {
 };
 
 struct LoadPath {
-  bool linear = false;           ///< linear solves did it
-  std::size_t n_increments = 0;  ///< asked for
+  bool linear = false;     ///< linear solves did it
+  Index n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
   std::optional<PathLeft> left = {};  ///< the first such place; only where the solution may be one of several

@@ -16,7 +16,7 @@ using Eigen::PartialPivLU;
 std::vector<double> corners(const Contact& contact, bool zero) {
   auto result = contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
   if (!contact.one_sided)
-    for (std::size_t i = result.size(); i-- > 0;) result.push_back(-result[i]);
+    for (Index i = result.size(); i-- > 0;) result.push_back(-result[i]);
   if (zero) result.push_back(0);
   std::sort(result.begin(), result.end());
   return result;
@@ -30,9 +30,9 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
   const bool bears_at_once = contact.law->at(0, contact.stiffness, contact.clearance).dF > 0;
   CornerCurve curve{corners(contact, friction || (contact.one_sided && bears_at_once)), {}};
   const auto& at = curve.corners;
-  for (std::size_t i = 0; i <= at.size(); ++i) {
+  for (Index i = 0; i <= std::ssize(at); ++i) {
     const double low = i == 0 ? (at.empty() ? 0 : at[0] - outward(at[0])) : at[i - 1];
-    const double high = i == at.size() ? low + outward(low) : at[i];
+    const double high = i == std::ssize(at) ? low + outward(low) : at[i];
     const double c = 0.5 * (low + high);
     const double near = c < 0 ? high : low;  // a law that yields far out loses no digits of its offset there
     const auto inside = contact_state({contact}, VectorXd::Constant(1, c));
@@ -64,7 +64,7 @@ PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equat
       alone[rim[0].first] = true;
     }
   }
-  for (std::size_t j = 0; j < alone.size(); ++j) curves_.push_back(make_curve(equations.contacts[j], alone[j]));
+  for (Index j = 0; j < std::ssize(alone); ++j) curves_.push_back(make_curve(equations.contacts[j], alone[j]));
 }
 
 Cell PiecewiseJoint::start() const {
@@ -77,7 +77,7 @@ Cell PiecewiseJoint::start() const {
 }
 
 void PiecewiseJoint::follow_signs(Cell& cell) const {
-  for (std::size_t at = 0; at < rims_.size(); ++at) {
+  for (Index at = 0; at < std::ssize(rims_); ++at) {
     if (rims_[at].size() > 1) continue;
     const auto& [plane, sign] = rims_[at][0];
     cell.side[at] = sign > 0 ? piece(cell, plane).sign : -piece(cell, plane).sign;
@@ -86,7 +86,7 @@ void PiecewiseJoint::follow_signs(Cell& cell) const {
 
 CellColumn PiecewiseJoint::column(const Cell& cell, Index plane) const {
   VectorXd by_force = VectorXd::Unit(std::ssize(curves_), plane);
-  for (std::size_t at = 0; at < rims_.size(); ++at)
+  for (Index at = 0; at < std::ssize(rims_); ++at)
     if (const double sign = system_->E(at, plane); sign != 0) by_force += sign * friction(cell, at);
   const auto& [F0, dF, delta0, ddelta, sign] = piece(cell, plane);
   const auto by_delta = system_->S_ud.col(plane);
@@ -108,9 +108,9 @@ CellEquations PiecewiseJoint::equations(const Cell& cell) const {
 
 std::vector<Index> PiecewiseJoint::changed(const Cell& from, const Cell& to) const {
   std::set<Index> planes;
-  for (std::size_t j = 0; j < curves_.size(); ++j)
+  for (Index j = 0; j < std::ssize(curves_); ++j)
     if (from.piece[j] != to.piece[j]) planes.insert(j);
-  for (std::size_t at = 0; at < rims_.size(); ++at)
+  for (Index at = 0; at < std::ssize(rims_); ++at)
     if (from.side[at] != to.side[at])
       for (const auto& [plane, sign] : rims_[at]) planes.insert(plane);
   return {planes.begin(), planes.end()};
@@ -125,7 +125,7 @@ VectorXd PiecewiseJoint::forces(const Cell& cell, const VectorXd& c, double shar
     delta[j] = share * at.delta0 + at.ddelta * c[j];
   }
   VectorXd sum = F + system_->S_ud * delta;
-  for (std::size_t at = 0; at < rims_.size(); ++at)
+  for (Index at = 0; at < std::ssize(rims_); ++at)
     for (const auto& [plane, sign] : rims_[at]) sum += sign * F[plane] * friction(cell, at);
   return sum;
 }

@@ -16,7 +16,7 @@ std::optional<LoadPath> follow_linear(const JointEquations& equations, const std
                                       double tolerance) {
   const auto flexibility = linear_flexibility(equations);
   if (!flexibility) return std::nullopt;
-  LoadPath path{.linear = true, .n_increments = load_factors.size(), .steps = {}, .failure = {}};
+  LoadPath path{.linear = true, .n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
   std::optional<LinearForces> unit[2];
   for (const double factor : load_factors) {
     auto& forces = unit[factor < 0 ? 1 : 0];
@@ -87,7 +87,7 @@ PathStep Walk::step() const {
           .exact = here_.exact};
 }
 
-PathFailure Walk::failure(std::size_t increment, double load_factor) const {
+PathFailure Walk::failure(Index increment, double load_factor) const {
   return {increment,           load_factor,
           here_.load_factor,   worst_row_ / equations_.n_directions(),
           worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
@@ -227,10 +227,10 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
     if (most > 0) exact.push_back(exact_path(equations, most));
     if (least < 0) exact.push_back(exact_path(equations, least));
   }
-  LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
+  LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
   Walk walk(equations, options, std::move(exact));
   const ContactCorners corners(equations.contacts);
-  for (std::size_t i = 0; i < load_factors.size(); ++i) {
+  for (Index i = 0; i < std::ssize(load_factors); ++i) {
     program::report_share(double(i) / double(load_factors.size()));
     const VectorXd before = walk.here().c;
     if (!walk.reach(load_factors[i])) {

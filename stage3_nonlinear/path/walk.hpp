@@ -32,7 +32,7 @@ class Walk {
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
 
   [[nodiscard]] PathStep step() const;
-  [[nodiscard]] PathFailure failure(std::size_t increment, double load_factor) const;
+  [[nodiscard]] PathFailure failure(Index increment, double load_factor) const;
 
   /// The place where the path from no load was left, if it was.
   [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }

@@ -31,12 +31,12 @@ const FrictionLoad& friction_at(const HoleModel& hole, Index direction, double b
 }
 
 /// @param side 0: in the first hole of each plane, 1: in the second.
-VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, std::size_t side) {
+VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, Index side) {
   const Index a = joint.n_directions();
   VectorXd result = F;
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
-    const std::size_t hole = plane.first + side;
+    const Index hole = plane.first + side;
     for (Index d = 0; d < a; ++d) {
       const double b = bearing[plane.fastener][hole][d];
       const FrictionLoad& friction = friction_at(joint.fasteners[plane.fastener].holes[hole], d, b);
@@ -49,7 +49,7 @@ VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& 
 /// Adds what a fastener's bearing forces, (a), and their friction do to a plate in one of its holes.
 /// @param asked (m+e) S u + R Lambda + T f of the plate's rows, force.
 void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const VectorXd& bearing) {
-  for (Index d = 0; d < bearing.size(); ++d) {
+  for (Index d = 0; d < std::ssize(bearing); ++d) {
     const double b = bearing[d];
     const FrictionLoad& friction = friction_at(hole, d, b);
     state.bearing[hole.disc + d] += friction.bearing * b;
@@ -62,8 +62,8 @@ void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const V
 
 /// @param u         (m+e) displacements of the plate.
 /// @param worst_row Raised to what the plate's worst row is out of balance, force.
-PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& u, double factor,
-                       const Bearing& bearing, double& worst_row) {
+PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, double factor, const Bearing& bearing,
+                       double& worst_row) {
   const PlateModel& plate = joint.plates[at];
   const Index m = plate.n_discs();
   const VectorXd none = VectorXd::Zero(m);
@@ -75,8 +75,8 @@ PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& 
                    .traction = factor * plate.traction_force,
                    .bearing = none,
                    .friction = none};
-  for (std::size_t i = 0; i < joint.fasteners.size(); ++i)
-    for (std::size_t hole = 0; hole < joint.fasteners[i].holes.size(); ++hole)
+  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
+    for (Index hole = 0; hole < std::ssize(joint.fasteners[i].holes); ++hole)
       if (joint.fasteners[i].holes[hole].plate == at)
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
@@ -87,12 +87,12 @@ PlateState plate_state(const JointModel& joint, std::size_t at, const VectorXd& 
                              [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
                              {plate.holes, plate.axes, state.bearing, state.friction});
   worst_row = std::max(worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff());
-  for (Index i = 0; i < state.Pe.size(); ++i) {
+  for (Index i = 0; i < std::ssize(state.Pe); ++i) {
     if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];
     worst_row = std::max(worst_row, std::abs(asked[m + i] - state.Pe[i]));
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
-  for (Index i = 0; i < state.traction.size(); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
+  for (Index i = 0; i < std::ssize(state.traction); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
   for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += state.bearing[i] + state.friction[i];
   state.by_supports = -(state.applied + state.by_fasteners);
   return state;
@@ -137,7 +137,7 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
   state.largest_force = step.F.lpNorm<Eigen::Infinity>();
-  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
     const PlateState& its =
@@ -158,7 +158,7 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
                                         LoadPath& path) {
   const double allowed = std::max(1e-8, 10 * tolerance);
   std::vector<JointState> states;
-  for (std::size_t i = 0; i < path.steps.size(); ++i) {
+  for (Index i = 0; i < std::ssize(path.steps); ++i) {
     JointState state = joint_state(joint, system, path.steps[i]);
     const auto [worst, what] =
         std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
@@ -177,17 +177,16 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
 VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   constexpr double rounding = 1e-9;
   VectorXd passed = transferred;  // with the sign that it has when the lower plate comes first; amounts have none
-  std::vector<std::pair<std::size_t, std::size_t>> plates;  // of each plane, ascending
-  for (Index j = 0; j < passed.size(); ++j) {
-    const std::size_t first = joint.first_hole(joint.planes[j]).plate,
-                      second = joint.second_hole(joint.planes[j]).plate;
+  std::vector<std::pair<Index, Index>> plates;  // of each plane, ascending
+  for (Index j = 0; j < std::ssize(passed); ++j) {
+    const Index first = joint.first_hole(joint.planes[j]).plate, second = joint.second_hole(joint.planes[j]).plate;
     plates.push_back(std::minmax(first, second));
     if (joint.n_directions() == 1 && first > second) passed[j] = -passed[j];
   }
   VectorXd result(passed.size());
-  for (Index j = 0; j < result.size(); ++j) {
+  for (Index j = 0; j < std::ssize(result); ++j) {
     double sum = 0, amount = 0;
-    for (Index i = 0; i < result.size(); ++i) {
+    for (Index i = 0; i < std::ssize(result); ++i) {
       if (plates[i] != plates[j]) continue;
       sum += passed[i];
       amount += std::abs(passed[i]);

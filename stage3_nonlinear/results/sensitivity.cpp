@@ -26,7 +26,7 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
     const VectorXd here = c.segment(j * a, a);
     if (here.isZero(0) || contact.is_pulled_open(here)) continue;
     const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
-    for (std::size_t i = 0; i < slopes.size(); ++i) {
+    for (Index i = 0; i < std::ssize(slopes); ++i) {
       const Index column = i == 0 ? j : n + numbers.first_of_law[j] + i - 1;
       F.block(j * a, column, a, 1) = slopes[i].F * state.direction.col(j);
       delta.block(j * a, column, a, 1) = slopes[i].delta * state.direction.col(j);
@@ -36,7 +36,7 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
 }
 
 /// dG / dmu of a hole for a row of its fastener and the side that bears there, over the unknowns of the row's plate.
-VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side side, std::size_t by) {
+VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side side, Index by) {
   const FastenerModel& fastener = joint.fasteners[row.fastener];
   const HoleModel& hole = fastener.holes[row.hole];
   const FrictionLoad& friction = hole.friction[row.direction][side];
@@ -51,13 +51,12 @@ VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side sid
 }
 
 /// Derivatives of H by the friction of a hole, by reciprocity: dH = D_delta^T dG (docs/theory.md, section 7.1).
-FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, std::size_t fastener,
-                           std::size_t hole) {
+FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, Index fastener, Index hole) {
   FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}};
   for (Index i = 0; i < std::ssize(system.friction); ++i) {
     const FrictionRow& row = system.friction[i];
     if (row.fastener != fastener) continue;
-    const std::size_t plate = joint.fasteners[fastener].holes[row.hole].plate;
+    const Index plate = joint.fasteners[fastener].holes[row.hole].plate;
     const auto D = system.D_delta.middleRows(joint.offset(plate), joint.plates[plate].n_unknowns());
     const auto dH = [&](Side side) -> VectorXd { return D.transpose() * change_of_row(joint, row, side, hole); };
     result.rows.push_back({i, dH(plus_side), dH(minus_side)});
@@ -93,7 +92,7 @@ MatrixXd residual_changes(const CondensedSystem& system, const JointNumbers& num
 /// solve (docs/theory.md, section 7.1).
 void add_unit_loads(const JointModel& joint, const CondensedSystem& system, JointNumbers& numbers) {
   for (MatrixXd* q : {&numbers.q_force, &numbers.q_displacement}) q->resize(system.q.size(), 0);
-  for (std::size_t p = 0; p < joint.plates.size(); ++p) {
+  for (Index p = 0; p < std::ssize(joint.plates); ++p) {
     const PlateModel& plate = joint.plates[p];
     const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
     const auto add = [&](std::vector<std::string>& names, MatrixXd& q, const std::string& name, const VectorXd& load) {
@@ -108,7 +107,7 @@ void add_unit_loads(const JointModel& joint, const CondensedSystem& system, Join
       else
         add(numbers.force, numbers.q_force, plate.externals[i], VectorXd::Unit(plate.n_unknowns(), unknown));
     }
-    for (std::size_t i = 0; i < plate.tractions.size(); ++i)
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
       add(numbers.force, numbers.q_force, plate.tractions[i], -plate.T.col(i));
   }
 }
@@ -119,7 +118,7 @@ bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || pl
 /// lower triangle with half the diagonal, (n a, n a); empty of a plate of one degree.
 std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const CondensedSystem& system) {
   std::vector<MatrixXd> changes;
-  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const auto& S = joint.plates[i].degrees.S;
     MatrixXd& change = changes.emplace_back();
     if (S.size() < 2) continue;
@@ -142,11 +141,11 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
   const auto n = degrees.S.size();
   if (n < 2) return (A * D.transpose()).cwiseAbs() * (plate.S_error * u.cwiseAbs());
   constexpr double least = 0.25;  // of the bound
-  const auto load = [&](std::size_t i) -> VectorXd {
+  const auto load = [&](Index i) -> VectorXd {
     return degrees.S[i] * u + degrees.T[i] * f + degrees.R[i] * state.Lambda;
   };
   VectorXd energy(degrees.p.size());  // u . S u + 2 u . T f - f . C f at every degree
-  for (Index i = 0; i < energy.size(); ++i)
+  for (Index i = 0; i < std::ssize(energy); ++i)
     energy[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
   const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
   const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
@@ -167,7 +166,7 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
   slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
   const MatrixXd A = of_amounts(slopes, state, c);
   VectorXd result = VectorXd::Zero(A.rows());
-  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     const auto D = equations.system.D_delta.middleRows(joint.offset(i), plate.n_unknowns());
     result += plate_errors(plate, A, D, dS[i], solution.plates[i]);
@@ -182,7 +181,7 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
 JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
   JointNumbers numbers;
   add_unit_loads(joint, system, numbers);
-  for (std::size_t i = 0; i < system.friction.size(); ++i) {
+  for (Index i = 0; i < std::ssize(system.friction); ++i) {
     const FrictionRow& row = system.friction[i];
     if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
       numbers.friction.push_back(friction_hole(joint, system, row.fastener, row.hole));
@@ -224,7 +223,7 @@ std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquatio
   if (!std::ranges::all_of(joint.plates, is_known)) return std::nullopt;
   const auto dS = stiffness_changes(joint, equations.system);
   MatrixXd result(std::ssize(path.steps), joint.n_planes());
-  for (std::size_t i = 0; i < path.steps.size(); ++i)
+  for (Index i = 0; i < std::ssize(path.steps); ++i)
     result.row(i) = errors(joint, equations, dS, path.steps[i], states[i]).transpose();
   return result;
 }

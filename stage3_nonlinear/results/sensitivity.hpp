@@ -18,8 +18,8 @@ struct FrictionHole {
     Index at;              ///< among CondensedSystem::friction
     VectorXd plus, minus;  ///< (n a) dH+ / dmu, dH- / dmu, dimensionless
   };
-  std::string name;            ///< "plate:hole"
-  std::size_t fastener, hole;  ///< hole of the fastener
+  std::string name;      ///< "plate:hole"
+  Index fastener, hole;  ///< hole of the fastener
   std::vector<Row> rows;
 };
 

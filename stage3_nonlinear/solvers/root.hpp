@@ -18,9 +18,9 @@ struct RootProblem {
   std::function<MatrixXd(const VectorXd&)> jacobian;  ///< (n) -> (n, n), entry (i, j) = d residual_i / d x_j
   /// Gradient, as a function of the residual, of a convex function of x that is least at the root, if there is one,
   /// (n) -> (n).
-  VectorFunction gradient;
+  VectorFunction gradient{};
   /// Hessian of that function of x, (n) -> (n, n).
-  std::function<MatrixXd(const VectorXd&)> hessian;
+  std::function<MatrixXd(const VectorXd&)> hessian{};
 };
 
 struct RootOptions {

@@ -27,7 +27,7 @@ JointEquations row_of(int n, double friction) {
     test::add_friction(lap.b, random);
   }
   auto joint = test::joint_of(lap, test::linear_law(2e4));
-  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+  for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     if (j % 4 != 0) joint.planes[j].clearance = std::uniform_real_distribution<double>(0.001, 0.1)(random);
     if (friction > 0) test::set_friction(joint, j, friction);
   }

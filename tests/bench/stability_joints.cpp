@@ -68,7 +68,7 @@ stage3::CondensedSystem two_plates(std::mt19937& random, Family family, int n) {
     test::add_friction(lap.b, random);
   }
   auto joint = test::joint_of(lap, test::linear_law(1));
-  for (std::size_t j = 0; friction && j < joint.planes.size(); ++j)
+  for (Index j = 0; friction && j < std::ssize(joint.planes); ++j)
     if (chance(random, 0.7)) test::set_friction(joint, j, uniform(random, 0, 0.4));
   return condense(joint);
 }
@@ -124,7 +124,7 @@ void load_from_solution(std::mt19937& random, RandomJoint& joint) {
   const double scale = system.q.cwiseAbs().maxCoeff();
   VectorXd c = VectorXd::NullaryExpr(
       system.q.size(), [&] { return scale * (chance(random, 0.5) ? 1 : -1) * decades(random, 1e-2, 10); });
-  for (std::size_t j = 0; j < contacts.size(); ++j) {
+  for (Index j = 0; j < std::ssize(contacts); ++j) {
     const Contact& contact = contacts[j];
     auto here = c.segment(j * a, a);
     const double open = contact.stiffness * contact.law->gap(contact.clearance);

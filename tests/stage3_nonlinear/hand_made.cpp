@@ -130,16 +130,16 @@ stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::
   return joint;
 }
 
-void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<std::size_t, Index>>& holes,
+void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Index, Index>>& holes,
                   const std::shared_ptr<const stage3::Law>& law) {
   stage3::FastenerModel fastener{std::to_string(joint.fasteners.size() + 1), {}};
   for (const auto& [plate, disc] : holes) fastener.holes.push_back({plate, disc, 0, {}});
-  for (std::size_t first = 0; first + 1 < holes.size(); ++first)
-    joint.planes.push_back({joint.fasteners.size(), first, law, "law", 0, false});
+  for (Index first = 0; first + 1 < std::ssize(holes); ++first)
+    joint.planes.push_back({std::ssize(joint.fasteners), first, law, "law", 0, false});
   joint.fasteners.push_back(std::move(fastener));
 }
 
-void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu) {
+void set_friction(stage3::JointModel& joint, Index fastener, double mu) {
   for (auto& hole : joint.fasteners[fastener].holes) {
     const stage3::PlateModel& plate = joint.plates[hole.plate];
     hole.mu = mu;
@@ -189,7 +189,7 @@ stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
     add_friction(lap.b, random);
   }
   auto joint = joint_of(lap, linear_law(1));
-  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+  for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     auto& plane = joint.planes[j];
     plane.law = random_law(random, kind);
     if (kind.clearances && uniform(random, 0, 1) < 0.6) plane.clearance = decades(random, 1e-4, 1e-1);
@@ -201,7 +201,7 @@ stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
 
 stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations, const std::vector<double>& load_factors,
                                   const stage3::PathOptions& options) {
-  stage3::LoadPath path{.n_increments = load_factors.size(), .steps = {}, .failure = {}};
+  stage3::LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
   stage3::Walk walk(equations, options);
   for (const double factor : load_factors) {
     if (!walk.reach(factor)) {

@@ -42,11 +42,11 @@ struct Lap {
 [[nodiscard]] stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law);
 
 /// Adds a fastener through these holes (plate, disc), all its planes with one law.
-void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<std::size_t, Eigen::Index>>& holes,
+void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Eigen::Index, Eigen::Index>>& holes,
                   const std::shared_ptr<const stage3::Law>& law);
 
 /// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
-void set_friction(stage3::JointModel& joint, std::size_t fastener, double mu);
+void set_friction(stage3::JointModel& joint, Eigen::Index fastener, double mu);
 
 /// Laws as the input gives them; `text` is their JSON.
 [[nodiscard]] std::shared_ptr<const stage3::Law> law_of(const std::string& text);

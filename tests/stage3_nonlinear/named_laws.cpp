@@ -21,7 +21,7 @@ double uniform(std::mt19937& random, double low, double high) {
 }
 
 /// A law of each type in turn, of about the force F at about the displacement d.
-LawText random_law(std::mt19937& random, std::size_t type, double F, double d) {
+LawText random_law(std::mt19937& random, Index type, double F, double d) {
   const auto u = [&](double low, double high) { return uniform(random, low, high); };
   const double k = F / d * u(0.3, 3);
   switch (type % 6) {
@@ -92,20 +92,20 @@ void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
 }
 
 /// Two or three plates, fasteners through all of them; forces, a traction and a given displacement.
-stage3::JointModel random_stack(std::mt19937& random, std::size_t n_plates, const std::vector<int>& axes) {
+stage3::JointModel random_stack(std::mt19937& random, Index n_plates, const std::vector<int>& axes) {
   const Index n = std::uniform_int_distribution<Index>(2, 4)(random);
   stage3::JointModel joint;
   joint.file = "joint.json";
   joint.units = {"in", "lbf"};
   joint.axes = axes;
-  for (std::size_t i = 0; i < n_plates; ++i)
+  for (Index i = 0; i < n_plates; ++i)
     joint.plates.push_back(random_plate(random, std::string(1, static_cast<char>('a' + i)), n, axes));
   joint.plates[0].external_force[0] = 1000;
   joint.plates[0].traction_force[0] = 300;
   joint.plates.back().external_displacement[0] = 0.05;
   for (Index j = 0; j < n; ++j) {
-    std::vector<std::pair<std::size_t, Index>> holes;
-    for (std::size_t i = 0; i < n_plates; ++i) holes.emplace_back(i, j * joint.n_directions());
+    std::vector<std::pair<Index, Index>> holes;
+    for (Index i = 0; i < n_plates; ++i) holes.emplace_back(i, j * joint.n_directions());
     add_fastener(joint, holes, linear_law(1));
   }
   return joint;
@@ -169,8 +169,8 @@ NamedJoint named_joint(std::mt19937& random, int kind) {
   const double d = stiffest > 1e-9 * F ? F / stiffest : 0.01;
   const auto first = std::uniform_int_distribution<std::size_t>(0, 11)(random);
   const std::vector<std::string> names{"left", "middle", "right"};
-  for (std::size_t i = 0; i < names.size(); ++i) joint.laws[names[i]] = random_law(random, first + i, F, d);
-  for (std::size_t j = 0; j < joint.model.planes.size(); ++j) {
+  for (Index i = 0; i < std::ssize(names); ++i) joint.laws[names[i]] = random_law(random, first + i, F, d);
+  for (Index j = 0; j < std::ssize(joint.model.planes); ++j) {
     auto& plane = joint.model.planes[j];
     plane.law_name = names[(j * 2 + first) % 3];
     plane.clearance = uniform(random, 0, 1) < 0.5 ? 0 : d * uniform(random, 0, 0.4);
@@ -179,7 +179,7 @@ NamedJoint named_joint(std::mt19937& random, int kind) {
   return joint;
 }
 
-void add_to_mu(stage3::FastenerModel& fastener, std::size_t hole, double change) {
+void add_to_mu(stage3::FastenerModel& fastener, Index hole, double change) {
   const double factor = (fastener.holes[hole].mu + change) / fastener.holes[hole].mu;
   fastener.holes[hole].mu += change;
   for (auto& sides : fastener.holes[hole].friction)

@@ -36,6 +36,6 @@ inline constexpr int n_kinds = 8;
 [[nodiscard]] NamedJoint named_joint(std::mt19937& random, int kind);
 
 /// Changes the coefficient of friction of one of its holes by this, and balances the fastener again.
-void add_to_mu(stage3::FastenerModel& fastener, std::size_t hole, double change);
+void add_to_mu(stage3::FastenerModel& fastener, Eigen::Index hole, double change);
 
 }  // namespace fastjoint::test

@@ -31,7 +31,7 @@ class PlaneRun : public testing::Test {
       if (!pulled) springs.push_back({d, test::ground, 1000});
     }
     auto plate = test::spring_plate(2 * a, pulled ? 1 : 0, springs);
-    for (std::size_t i = 0; i < plate.disc_hole.size(); ++i) {
+    for (Index i = 0; i < std::ssize(plate.disc_hole); ++i) {
       plate.disc_hole[i] = std::to_string(i / directions.size() + 1);
       plate.disc_direction[i] = directions[i % directions.size()];
     }

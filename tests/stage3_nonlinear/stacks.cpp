@@ -29,7 +29,7 @@ stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates) {
   joint.file = "joint.json";
   joint.units = plates[0].header.units;
   joint.p = 8;
-  for (std::size_t i = 0; i < plates.size(); ++i) {
+  for (Index i = 0; i < std::ssize(plates); ++i) {
     const std::string name(1, static_cast<char>('a' + i));
     joint.plates.push_back(stage3::make_plate(name, name + ".h5", plates[i], 8));
   }
@@ -37,7 +37,7 @@ stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates) {
   return joint;
 }
 
-void load_discs(stage3::JointModel& joint, std::size_t plate, const VectorXd& forces) {
+void load_discs(stage3::JointModel& joint, Index plate, const VectorXd& forces) {
   joint.plates[plate].T = -forces;
   joint.plates[plate].traction_force = VectorXd::Ones(1);
   joint.plates[plate].traction_axis = {joint.axes[0]};
@@ -52,15 +52,16 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
   for (int i = 0; i < n_plates; ++i)
     plates.push_back(disc_plate(100 * random_stiffness(random, n_holes * n_directions), directions));
   auto joint = joint_of(plates);
-  for (std::size_t i = 0; i < joint.plates.size(); ++i)
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
     load_discs(joint, i, VectorXd::NullaryExpr(joint.plates[i].n_discs(), [&] { return 10 * number(random); }));
-  std::vector<std::size_t> order(joint.plates.size());
+  std::vector<Index> order(joint.plates.size());
   std::iota(order.begin(), order.end(), 0U);
   for (int hole = 0; hole < n_holes; ++hole) {
     std::shuffle(order.begin(), order.end(), random);
-    const auto count = hole == 0 ? order.size() : std::uniform_int_distribution<std::size_t>(2, order.size())(random);
-    std::vector<std::pair<std::size_t, Index>> holes;
-    for (std::size_t i = 0; i < count; ++i) holes.emplace_back(order[i], hole * n_directions);
+    const Index count =
+        hole == 0 ? std::ssize(order) : std::uniform_int_distribution<Index>(2, std::ssize(order))(random);
+    std::vector<std::pair<Index, Index>> holes;
+    for (Index i = 0; i < count; ++i) holes.emplace_back(order[i], hole * n_directions);
     add_fastener(joint, holes, linear_law(std::exp(3 + 3 * number(random))));
   }
   return joint;
@@ -69,7 +70,7 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
 LoosePlates loose_plates(const stage3::JointModel& joint) {
   const Index n = joint.n_unknowns();
   LoosePlates result{MatrixXd::Zero(n, n), VectorXd(n)};
-  for (std::size_t plate = 0; plate < joint.plates.size(); ++plate) {
+  for (Index plate = 0; plate < std::ssize(joint.plates); ++plate) {
     const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
     result.S.block(at, at, m, m) = joint.plates[plate].S;
     result.load.segment(at, m) = -joint.plates[plate].T;

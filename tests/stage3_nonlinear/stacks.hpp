@@ -21,7 +21,7 @@ namespace fastjoint::test {
 [[nodiscard]] stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates);
 
 /// Forces on the discs of a plate themselves, in place of those before, shape (m).
-void load_discs(stage3::JointModel& joint, std::size_t plate, const Eigen::VectorXd& forces);
+void load_discs(stage3::JointModel& joint, Eigen::Index plate, const Eigen::VectorXd& forces);
 
 /// Random plates, stiff in every motion, with discs in a directions and fasteners through 2 to all of them: the first
 /// through all, in a random order.

@@ -209,7 +209,7 @@ TEST_P(Friction, IsThatOfTheTheory) {
   test::add_friction(b, random);
   auto joint = test::joint_of({a, b, 100}, test::linear_law(300));
   const Eigen::Vector4d mu(0.1, 0.3, 0, 0.2);
-  for (std::size_t j = 0; j < n; ++j)
+  for (Index j = 0; j < n; ++j)
     if (mu[j] > 0) test::set_friction(joint, j, mu[j]);
 
   const CondensedSystem system = condense(joint);

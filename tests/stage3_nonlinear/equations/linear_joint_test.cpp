@@ -85,7 +85,7 @@ TEST(LinearJoint, AgreesWithTheNonlinearPath) {
     const LoadPath nonlinear = test::follow_nonlinear(equations, factors, options);
     ASSERT_TRUE(linear.linear) << "joint " << i;
     ASSERT_FALSE(nonlinear.failure) << "joint " << i;
-    for (std::size_t step = 0; step < factors.size(); ++step)
+    for (Index step = 0; step < std::ssize(factors); ++step)
       EXPECT_LT((linear.steps[step].F - nonlinear.steps[step].F).norm(), 1e-10 * force_scale(equations.system, 1))
           << "joint " << i;
   }
@@ -98,7 +98,7 @@ TEST(LinearJoint, FrictionIsTakenOnTheSidesThatBear) {
   test::add_friction(lap.a, random);
   test::add_friction(lap.b, random);
   auto joint = test::joint_of(lap, test::linear_law(500));
-  for (std::size_t j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
+  for (Index j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
   const LoadPath path = follow(make_equations(joint), {1, -1}, {});
   ASSERT_TRUE(path.linear);
   EXPECT_EQ(path.steps[0].iterations, 2) << "one solve for the signs, one with friction";

@@ -128,7 +128,7 @@ TEST(SelfLocking, IsNotMetByCosineFrictionOfAnySize) {
     test::add_friction(lap.b, random);
     auto joint = test::joint_of(lap, test::power_law(500, 0.7));
     const double mu = std::pow(10, i % 4 - 1);  // 0.1 to 100
-    for (const std::size_t fastener : {0U, 1U}) test::set_friction(joint, fastener, mu);
+    for (const Index fastener : {0, 1}) test::set_friction(joint, fastener, mu);
     const LoadPath path = follow(make_equations(joint), {0.5, 1, -1}, {});
     ASSERT_FALSE(path.failure) << i;
     for (const auto& step : path.steps) EXPECT_FALSE(step.check.locking) << i;

@@ -28,13 +28,13 @@ MatrixXd one(double k) { return MatrixXd::Constant(1, 1, k); }
 JointModel single_stack(const std::vector<double>& springs, const VectorXd& forces,
                         const std::shared_ptr<const Law>& law) {
   std::vector<formats::PlateMatrices> plates;
-  std::vector<std::pair<std::size_t, Index>> holes;
-  for (std::size_t i = 0; i < springs.size(); ++i) {
+  std::vector<std::pair<Index, Index>> holes;
+  for (Index i = 0; i < std::ssize(springs); ++i) {
     plates.push_back(test::disc_plate(one(springs[i])));
     holes.emplace_back(i, 0);
   }
   auto joint = test::joint_of(plates);
-  for (std::size_t i = 0; i < springs.size(); ++i) test::load_discs(joint, i, VectorXd::Constant(1, forces[i]));
+  for (Index i = 0; i < std::ssize(springs); ++i) test::load_discs(joint, i, VectorXd::Constant(1, forces[i]));
   test::add_fastener(joint, holes, law);
   return joint;
 }
@@ -61,7 +61,7 @@ TEST(Stack, PlanesShareByTheirStiffness) {
                                test::spring_plate(1, 1, {{0, 1, k2}})});
   test::add_fastener(joint, {{0, 0}, {1, 0}, {2, 0}}, test::linear_law(K1));
   joint.planes[1].law = test::linear_law(K2);
-  for (const std::size_t strap : {0U, 2U}) joint.plates[strap].external_displacement[0] = u;
+  for (const Index strap : {0, 2}) joint.plates[strap].external_displacement[0] = u;
   const double s1 = 1 / (1 / k1 + 1 / K1), s2 = 1 / (1 / k2 + 1 / K2);
   const double middle = (s1 + s2) * u / (k + s1 + s2);
   const PathStep step = test::solved(joint);
@@ -104,7 +104,7 @@ TEST(Stack, FloatingLayersPassTheLoadOn) {
     EXPECT_NEAR(step.F[plane], P, 1e-11);
     EXPECT_NEAR(step.delta[plane], slip, 1e-13);
   }
-  for (std::size_t i = 0; i < 5; ++i) {
+  for (Index i = 0; i < 5; ++i) {
     EXPECT_NEAR(state.plates[i].D[0], P / k + static_cast<double>(4 - i) * slip, 1e-12);
     EXPECT_NEAR(state.plates[i].by_fasteners[0], i == 0 ? -P : i == 4 ? P : 0, 1e-11);
   }
@@ -154,7 +154,7 @@ TEST(Stack, OfEqualStrapsIsOneStrapOfTwiceTheStiffness) {
 }
 
 /// R mu / c of the one hole of a plate, by sign of the bearing force.
-double friction_at(const JointModel& joint, std::size_t plate, double bearing) {
+double friction_at(const JointModel& joint, Index plate, double bearing) {
   return joint.fasteners[0].holes[plate].friction[0][bearing < 0 ? minus_side : plus_side].load[0];
 }
 
@@ -262,7 +262,7 @@ std::map<std::string, double> loads_of(const test::TemporaryFolder& folder, cons
   run({path, folder.path("result.h5"), "", true, {}}, out, log, timings);
   const auto a = formats::read_joint_result(folder.path("result.h5"));
   std::map<std::string, double> loads;
-  for (std::size_t j = 0; j < a.fastener_id.size(); ++j)
+  for (Index j = 0; j < std::ssize(a.fastener_id); ++j)
     loads[a.fastener_id[j] + a.first_hole[j] + a.second_hole[j]] = a.F(0, j);
   return loads;
 }

@@ -102,7 +102,7 @@ TEST(JointModel, TakesTheHighestCommonDegreeOrTheOneAskedFor) {
     for (auto* stack :
          {&plate.S_dd, &plate.S_ed, &plate.S_ee, &plate.R_df, &plate.R_ef, &plate.T_d, &plate.T_e, &plate.C_t})
       stack->resize(degrees.size(), stack->front());
-    for (std::size_t i = 0; i < degrees.size(); ++i) plate.S_dd[i] *= degrees[i];
+    for (Index i = 0; i < std::ssize(degrees); ++i) plate.S_dd[i] *= degrees[i];
   };
   const auto a = lap.a.S_dd[0];
   add_degrees(lap.a, {5, 6, 7});

@@ -32,7 +32,7 @@ test::Lap described(int n, const Eigen::Vector2d& shift = {0, 0}) {
 /// Fasteners "f1", ... with what else they have, by the holes of the second sheet.
 Members fasteners(const std::vector<int>& second, const std::string& more = "") {
   std::string list;
-  for (std::size_t i = 0; i < second.size(); ++i)
+  for (Index i = 0; i < std::ssize(second); ++i)
     list += (i == 0 ? "" : ", ") + std::string(R"({"id": "f)") + std::to_string(i + 1) + R"(", "between": ["a:)" +
             std::to_string(i + 1) + R"(", "b:)" + std::to_string(second[i]) + R"("], "law": "lin")" + more + "}";
   return {{"fasteners", "[" + list + "]"}};

@@ -24,7 +24,7 @@ JointEquations row_of(int n, double friction) {
   test::add_friction(lap.a, random);
   test::add_friction(lap.b, random);
   auto joint = test::joint_of(lap, test::bilinear_law(2e4, 900, 4e3));
-  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+  for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     if (j % 4 != 0) joint.planes[j].clearance = std::uniform_real_distribution<double>(0.001, 0.1)(random);
     if (friction > 0) test::set_friction(joint, j, friction);
   }
@@ -45,7 +45,7 @@ TEST_P(RowOfFasteners, HasInHundredsOfCellsTheLineOfTheirOwnFactor) {
     for (int i = 0; i < n_cells; ++i) {
       const int plane = std::uniform_int_distribution<int>(0, moving - 1)(random);
       auto& piece = cell.piece[plane];
-      piece = piece + 1 < joint.curve(plane).pieces.size() ? piece + 1 : piece - 1;
+      piece = piece + 1 < std::ssize(joint.curve(plane).pieces) ? piece + 1 : piece - 1;
       joint.follow_signs(cell);
       const auto line = lines.in(cell), own = CellLines(joint, equations.system.q).in(cell);
       ASSERT_TRUE(line && own) << i;
@@ -61,7 +61,7 @@ TEST_P(RowOfFasteners, HasThePathThatTheSolversFind) {
   const LoadPath exact = follow(equations, {0.3, 1}, {});
   const LoadPath solved = test::follow_nonlinear(equations, {0.3, 1}, {{}, {.tolerance = 1e-13}});
   ASSERT_FALSE(exact.failure || solved.failure);
-  for (const std::size_t i : {0U, 1U}) {
+  for (const Index i : {0, 1}) {
     EXPECT_TRUE(exact.steps[i].exact && !solved.steps[i].exact);
     EXPECT_GT(exact.steps[i].iterations, 20) << "pieces, which one factor for 20 columns serves";
     EXPECT_LT((exact.steps[i].F - solved.steps[i].F).norm(), 1e-10 * solved.steps[i].F.norm());

@@ -52,7 +52,7 @@ JointModel strands(const std::shared_ptr<const Law>& law, const std::array<doubl
   auto joint = test::joint_of({test::spring_plate(3, 1, {{0, 3, k}, {1, 3, k}, {2, 3, k}, {3, ground, hold}}),
                                test::spring_plate(3, 0, {{0, ground, k}, {1, ground, k}, {2, ground, k}}), 300},
                               law);
-  for (std::size_t j = 0; j < 3; ++j) joint.planes[j].clearance = gaps[j];
+  for (Index j = 0; j < 3; ++j) joint.planes[j].clearance = gaps[j];
   return joint;
 }
 
@@ -191,7 +191,7 @@ class RandomEvents : public testing::TestWithParam<test::RandomJoint> {};
 TEST_P(RandomEvents, AreAllFound) {
   std::mt19937 random(92);
   constexpr int joints = 60, samples = 20;
-  std::size_t events = 0;
+  Index events = 0;
   for (int i = 0; i < joints; ++i) {
     const JointEquations equations = make_equations(test::random_joint(random, GetParam()));
     const LoadPath path = follow_events(equations, tight);
@@ -221,7 +221,7 @@ TEST(Events, OfPiecewiseLinearJointsAreFoundBothWays) {
     for (const auto& step : exact.steps)
       if (step.load_factor > first_load_factor) late.push_back(&step);
     ASSERT_EQ(late.size(), found.steps.size()) << "joint " << i;
-    for (std::size_t k = 0; k < late.size(); ++k) {
+    for (Index k = 0; k < std::ssize(late); ++k) {
       EXPECT_NEAR(late[k]->load_factor, found.steps[k].load_factor, 1e-8) << "joint " << i;
       EXPECT_EQ(late[k]->events, found.steps[k].events) << "joint " << i;
       EXPECT_FALSE(found.steps[k].exact);

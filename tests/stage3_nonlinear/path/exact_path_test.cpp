@@ -176,7 +176,7 @@ TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
     joint.fasteners.clear();
     joint.planes.clear();
     for (int j = 0; j < n; ++j) {
-      const std::size_t at = j;
+      const Index at = j;
       test::add_fastener(joint, {{0, j}, {1, j}, {2, j}}, laws.planes[at].law);
       joint.planes[2 * at].clearance = laws.planes[at].clearance;
       joint.planes[2 * at + 1].law = laws.planes[n - 1 - j].law;
@@ -207,7 +207,7 @@ TEST(ExactPath, EndsWhereFrictionTurnsItBackAndHandsOver) {
     int ended = 0;
     for (int i = 0; i < 100; ++i) {
       auto joint = test::random_joint(random, {.friction = true, .piecewise = true});
-      for (std::size_t j = 0; j < joint.fasteners.size(); ++j) test::set_friction(joint, j, -mu);
+      for (Index j = 0; j < std::ssize(joint.fasteners); ++j) test::set_friction(joint, j, -mu);
       const JointEquations equations = make_equations(joint);
       const ExactPath path = exact_path(equations, 1);
       for (const auto& piece : path.pieces) EXPECT_LE(residual(equations, path, piece.end), 1e-11) << "joint " << i;

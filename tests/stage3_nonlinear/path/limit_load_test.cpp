@@ -50,7 +50,7 @@ TEST(Instability, CountsWithFrictionToo) {
   std::mt19937 random(3);
   for (auto* plate : {&lap.a, &lap.b}) test::add_friction(*plate, random);
   auto joint = test::joint_of(lap, falling());
-  for (const std::size_t fastener : {0U, 1U}) test::set_friction(joint, fastener, 1e-6);
+  for (const Index fastener : {0, 1}) test::set_friction(joint, fastener, 1e-6);
   const JointEquations equations = make_equations(joint);
   ASSERT_TRUE(equations.system.has_friction());
   EXPECT_EQ(unstable(equations, 7.9), 0);
@@ -195,7 +195,7 @@ TEST(LargeJoint, OfMoreThanAHundredNonlinearFastenersBalances) {
   auto joint = test::joint_of(lap, test::power_law(900, 0.6));
   const auto plastic_law = test::bilinear_law(1000, 20, 0);
   const auto cubic = test::cubic_law({0.1, 0.2, 0.3}, {100.0, 180.0, 280.0});
-  for (std::size_t j = 0; j < joint.planes.size(); ++j) {
+  for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     if (j % 3 == 1) joint.planes[j].law = plastic_law;
     if (j % 3 == 2) joint.planes[j].law = cubic;
     joint.planes[j].clearance = j % 5 == 0 ? 0.01 : 0;

@@ -21,7 +21,7 @@ TEST(Unloading, BringsForcesBackTheWayTheyCame) {
     for (const auto& path : {follow(equations, factors, tight), test::follow_nonlinear(equations, factors, tight)}) {
       ASSERT_FALSE(path.failure) << trial;
       ASSERT_EQ(path.steps.size(), factors.size()) << trial;
-      const auto F = [&](std::size_t step) { return path.steps[step].F; };
+      const auto F = [&](Index step) { return path.steps[step].F; };
       const double rounding = 1e-9 * F(1).cwiseAbs().maxCoeff();
       EXPECT_LT((F(2) - F(0)).cwiseAbs().maxCoeff(), rounding) << trial;
       EXPECT_LT(F(3).cwiseAbs().maxCoeff(), rounding) << trial;

@@ -67,7 +67,7 @@ stage3::JointModel joint_of(const Errors& errors, bool exact) {
     at_all(*matrix, MatrixXd::Zero((*matrix)[0].rows(), (*matrix)[0].cols()));
   auto joint = test::joint_of(lap, test::linear_law(400));
   joint.plates[0].traction_force = VectorXd::Constant(1, 50);
-  for (std::size_t j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
+  for (Eigen::Index j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
   return joint;
 }
 

@@ -91,7 +91,7 @@ TEST(ForceError, CoversTheChangeOfRandomJoints) {
   for (int trial = 0; trial < 50; ++trial) {
     auto joint = test::random_joint(random, {.friction = trial % 2 == 1, .floating = trial % 3 == 0});
     auto stiffer = joint;
-    for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+    for (Eigen::Index i = 0; i < std::ssize(joint.plates); ++i) {
       auto& plate = joint.plates[i];
       const MatrixXd S = plate.S;
       const double factor = 1 + 1e-6 * (1 + static_cast<double>(i));

@@ -81,7 +81,7 @@ TEST(Equilibrium, FrictionHelpsToTransferOnTheSideThatBears) {
   const LoadPath path = follow(equations, {1, -1}, {});
   const auto states = states_of(joint, equations, path);
   const double cosine = 2 / std::numbers::pi;
-  for (std::size_t step : {0U, 1U}) {
+  for (Index step : {0, 1}) {
     const VectorXd& F = path.steps[step].F;
     EXPECT_NEAR(states[step].transferred_first[0], F[0] * (1 + 0.3 * cosine), 1e-11);
     EXPECT_NEAR(states[step].transferred_second[0], F[0] * (1 + 0.3 * cosine), 1e-11);

@@ -138,7 +138,7 @@ TEST(PlaneMotion, WithoutForcesAcrossIsThatOfDiscsAlongX) {
     plane.planes = along.planes;
     for (auto& fastener : plane.fasteners)
       for (auto& hole : fastener.holes) hole.disc *= 2;
-    for (std::size_t p = 0; p < 3; ++p) {
+    for (Index p = 0; p < 3; ++p) {
       VectorXd load = VectorXd::Zero(6);
       for (Index hole = 0; hole < 3; ++hole) load[2 * hole] = -along.plates[p].T(hole, 0);
       test::load_discs(plane, p, load);
@@ -202,7 +202,7 @@ TEST(PlaneMotion, RandomStacksConverge) {
 }
 
 /// A plate of one disc with friction cases +x, -x, +y, -y of these columns and constants.
-void add_friction(JointModel& joint, std::size_t plate, const MatrixXd& R, double mu) {
+void add_friction(JointModel& joint, Index plate, const MatrixXd& R, double mu) {
   constexpr double c = 0.01;
   PlateModel& model = joint.plates[plate];
   model.R = R;

@@ -34,7 +34,7 @@ std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
   const Index a = c.size() / std::ssize(equations.contacts);
   std::vector<Index> result;
   const VectorXd lengths = amounts(c, a), F = contact_state(equations.contacts, c).F;
-  for (Index j = 0; j < lengths.size(); ++j) {
+  for (Index j = 0; j < std::ssize(lengths); ++j) {
     const Contact& contact = equations.contacts[j];
     const auto corners = contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
     const auto is_ahead = [&](double corner) { return std::abs(lengths[j]) < corner; };
@@ -60,7 +60,7 @@ class Differences {
     if (path_.failure) return;
     const PathStep& at = path_.steps[0];
     c_ = VectorXd(at.F.size());
-    for (Index i = 0; i < c_.size(); ++i) {
+    for (Index i = 0; i < std::ssize(c_); ++i) {
       const Contact& contact = equations_.contacts[i / joint_.model.n_directions()];
       c_[i] = contact.stiffness * at.delta[i] + (contact.law->rises() ? at.F[i] : 0);
     }
@@ -109,7 +109,7 @@ std::vector<Number> Differences::numbers() const {
   const Sensitivity by = sensitivity(equations_, names, path_.steps[0]);
   const double length = path_.steps[0].delta.cwiseAbs().maxCoeff();
   std::vector<Number> all{{"load factor", small, [](NamedJoint& j, double h) { j.load_factor += h; }, by.load_factor}};
-  for (std::size_t i = 0; i < joint_.model.planes.size(); ++i) {
+  for (Index i = 0; i < std::ssize(joint_.model.planes); ++i) {
     const double clearance = joint_.model.planes[i].clearance;
     all.push_back({"clearance", small * (clearance > 0 ? clearance : length),
                    [i](NamedJoint& j, double h) { j.model.planes[i].clearance += h; }, by.clearance.col(i),
@@ -160,7 +160,7 @@ struct Tally {
 /// two; nothing where there is a corner within h.
 std::optional<std::array<double, 4>> errors(const Differences& joint, const Number& number, double step) {
   std::array<VectorXd, 3> difference;
-  for (std::size_t i = 0; i < 3; ++i) {
+  for (Index i = 0; i < 3; ++i) {
     const auto found = joint.difference(number, step / (1 << i));
     if (!found) return std::nullopt;
     difference[i] = *found - number.claimed;

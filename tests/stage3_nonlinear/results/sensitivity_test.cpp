@@ -112,7 +112,7 @@ TEST(JointNumbers, LoadsAddUpToQ) {
     VectorXd q = VectorXd::Zero(system.q.size());
     Index force = 0, displacement = 0;
     for (const auto& plate : joint.plates) {
-      for (std::size_t e = 0; e < plate.externals.size(); ++e) {
+      for (Index e = 0; e < std::ssize(plate.externals); ++e) {
         if (const auto& given = plate.external_displacement[e]) {
           EXPECT_EQ(loads.displacement.at(displacement), plate.name + ":P");
           q += *given * loads.q_displacement.col(displacement++);
@@ -141,7 +141,7 @@ TEST(Sensitivity, ByTheLoadFactorIsBecauseOfTheLoads) {
     VectorXd sum = VectorXd::Zero(joint.model.n_planes());
     Index force = 0, displacement = 0;
     for (const auto& plate : joint.model.plates) {
-      for (std::size_t e = 0; e < plate.externals.size(); ++e) {
+      for (Index e = 0; e < std::ssize(plate.externals); ++e) {
         if (const auto& given = plate.external_displacement[e]) {
           sum += *given * a.by[0].displacement.col(displacement++);
         } else {
@@ -171,9 +171,9 @@ TEST(Sensitivity, FollowsTheUnits) {
     ++joints;
     const Sensitivity& by = a.by[0];
     VectorXd sum = joint.load_factor * by.load_factor;
-    for (std::size_t j = 0; j < joint.model.planes.size(); ++j)
+    for (Index j = 0; j < std::ssize(joint.model.planes); ++j)
       sum += joint.model.planes[j].clearance * by.clearance.col(j);
-    for (std::size_t l = 0; l < a.numbers.law.size(); ++l) {
+    for (Index l = 0; l < std::ssize(a.numbers.law); ++l) {
       const auto& [law, number] = a.numbers.law[l];
       sum += (number.length + number.force) * joint.laws.at(law).number(number.name) * by.law.col(l);
     }

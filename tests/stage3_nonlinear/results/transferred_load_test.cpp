@@ -126,7 +126,7 @@ VectorXd displacements(const JointModel& joint, const std::vector<std::vector<Ru
   const Index N = joint.n_unknowns(), a = joint.n_directions();
   VectorXd P(N);
   MatrixXd S = MatrixXd::Zero(N, N);
-  for (std::size_t plate = 0; plate < joint.plates.size(); ++plate) {
+  for (Index plate = 0; plate < std::ssize(joint.plates); ++plate) {
     const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
     S.block(at, at, m, m) = joint.plates[plate].S;
     P.segment(at, m) = -joint.plates[plate].T;
@@ -149,8 +149,8 @@ VectorXd displacements(const JointModel& joint, const std::vector<std::vector<Ru
         }
     }
     MatrixXd A = S;
-    for (std::size_t i = 0; i < friction.size(); ++i)
-      for (std::size_t h = 0; h < friction[i].size(); ++h) {
+    for (Index i = 0; i < std::ssize(friction); ++i)
+      for (Index h = 0; h < std::ssize(friction[i]); ++h) {
         const HoleModel& hole = joint.fasteners[i].holes[h];
         const Rubbing& rubbing = friction[i][h];
         const Index offset = joint.offset(hole.plate);
@@ -183,7 +183,7 @@ TEST(TransferredLoad, OfAnyStackIsThatOfTheDisplacementMethod) {
     const PathStep step = test::solved(joint);
     const JointState state = test::state_of(joint, step);
     VectorXd D(joint.n_unknowns());
-    for (std::size_t plate = 0; plate < joint.plates.size(); ++plate)
+    for (Index plate = 0; plate < std::ssize(joint.plates); ++plate)
       D.segment(joint.offset(plate), joint.plates[plate].n_discs()) = state.plates[plate].D;
     EXPECT_LT((D - expected).norm(), 1e-10 * expected.norm()) << "joint " << i;
     EXPECT_LT(state.out_of_balance, 1e-10) << "joint " << i;
@@ -224,7 +224,7 @@ TEST(TransferredLoad, OfTheExactPathIsThatOfTheSolvers) {
     const LoadPath exact = follow(equations, {0.4, 1, -1}, {}),
                    other = test::follow_nonlinear(equations, {0.4, 1, -1}, {});
     ASSERT_FALSE(exact.failure || other.failure) << "joint " << i;
-    for (std::size_t k = 0; k < 3; ++k)
+    for (Index k = 0; k < 3; ++k)
       EXPECT_LT((exact.steps[k].F - other.steps[k].F).norm(), 1e-7 * exact.steps[k].F.norm()) << "joint " << i;
   }
 }
