@@ -6,7 +6,7 @@
 #include <iostream>
 #include <optional>
 
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 #include "common/program/program.hpp"
 #include "stage1_plate/run/accuracy.hpp"
 #include "stage1_plate/run/solve.hpp"

@@ -9,7 +9,7 @@
 #include <map>
 
 #include "common/count.hpp"
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 
 namespace fastjoint::pfem {
 namespace {

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/count.hpp"
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 
 namespace fastjoint::plate {
 namespace {

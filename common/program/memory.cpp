@@ -13,7 +13,7 @@
 #include <string>
 
 #include "common/errors.hpp"
-#include "common/linalg/blas.hpp"
+#include "common/linalg/processor.hpp"
 
 #ifdef __GLIBC__
 #include <malloc.h>

@@ -13,8 +13,7 @@
 
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
-#include "common/linalg/blas.hpp"
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "common/linalg/blas.hpp"
+#include "common/linalg/processor.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 

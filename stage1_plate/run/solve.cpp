@@ -10,7 +10,7 @@
 #include <set>
 
 #include "common/count.hpp"
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 #include "common/plate/plate_states.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"

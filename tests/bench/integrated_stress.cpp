@@ -6,7 +6,7 @@
 #include <iostream>
 
 #include "common/h5/whole_file.hpp"
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "common/program/program.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"

@@ -18,7 +18,7 @@
 #include <cstring>
 #include <iostream>
 
-#include "common/linalg/blas.hpp"
+#include "common/linalg/processor.hpp"
 #include "tests/bench/peer_elements.hpp"
 #include "tests/bench/peer_plate.hpp"
 #include "tests/bench/peer_stresses.hpp"

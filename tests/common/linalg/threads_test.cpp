@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 
 #include <gtest/gtest.h>
 

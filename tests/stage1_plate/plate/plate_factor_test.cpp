@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/linalg/threads.hpp"
+#include "common/linalg/processor.hpp"
 #include "tests/support/plate_scenes.hpp"
 #include "tests/support/straightforward.hpp"
 
