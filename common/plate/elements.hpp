@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/element.hpp"
 #include "common/plate/springs.hpp"
 #include "common/plate/unknowns.hpp"
 

@@ -8,8 +8,7 @@
 #include <cmath>
 
 #include "common/count.hpp"
-#include "common/pfem/element_map.hpp"
-#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/element.hpp"
 
 namespace fastjoint::stage1 {
 namespace {

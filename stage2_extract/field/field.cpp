@@ -6,7 +6,7 @@
 #include <cassert>
 
 #include "common/errors.hpp"
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage2 {

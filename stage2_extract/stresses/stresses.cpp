@@ -6,7 +6,7 @@
 #include <iterator>
 
 #include "common/count.hpp"
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/program/progress.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
@@ -81,7 +81,7 @@ std::vector<std::vector<pfem::Side>> sides_of_edges(const pfem::Edges& edges) {
 Eigen::RowVectorXd side_force(const FieldSolver& solver, const pfem::Side& side, Eigen::Index component) {
   const auto& mesh = solver.plate().mesh;
   const auto& [space, p] = std::tie(solver.numbering().space, solver.numbering().p);
-  const auto rule = pfem::gauss(p + 3);  // a rational integrand: see element_stiffness.cpp
+  const auto rule = pfem::gauss(p + 3);  // a rational integrand: see ElementStiffness
   const pfem::ElementMap map(mesh, solver.edges(), side.element);
   const auto curve = pfem::edge_curve(mesh, solver.edges(), side.element, side.local_edge);
   const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);

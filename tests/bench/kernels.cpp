@@ -3,7 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "common/formats/plate_matrices.hpp"
-#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"

@@ -3,7 +3,7 @@
 
 #include <Eigen/CholmodSupport>
 
-#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/element.hpp"
 #include "common/plate/springs.hpp"
 
 namespace fastjoint::test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/support/stress.hpp"
 
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::test {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/pfem/element_stiffness.hpp"
+#include "common/pfem/element.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <numbers>
 
-#include "common/pfem/element_stiffness.hpp"
 #include "tests/support/meshes.hpp"
 
 namespace fastjoint::pfem {

@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/spaces.hpp"

@@ -9,7 +9,7 @@
 #include <random>
 
 #include "common/errors.hpp"
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"

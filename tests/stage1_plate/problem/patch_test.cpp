@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "common/pfem/element_map.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
