@@ -4,7 +4,7 @@
 #include <Eigen/SparseCore>
 #include <vector>
 
-#include "common/plate/elements.hpp"
+#include "common/plate/plate_stiffness.hpp"
 
 namespace fastjoint::plate {
 

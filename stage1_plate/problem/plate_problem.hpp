@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "common/plate/elements.hpp"
-#include "common/plate/unknowns.hpp"
+#include "common/plate/plate_stiffness.hpp"
 #include "stage1_plate/mesh/plate_mesh.hpp"
 
 namespace fastjoint::stage1 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/plate/elements.hpp"
+#include "common/plate/plate_stiffness.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -2,13 +2,42 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 #include <vector>
 
+#include "common/count.hpp"
 #include "common/pfem/element.hpp"
+#include "common/pfem/numbering.hpp"
 #include "common/plate/springs.hpp"
-#include "common/plate/unknowns.hpp"
 
 namespace fastjoint::plate {
+
+/// The degrees of freedom of a plate (pfem/numbering.hpp says how one is written), and who moves those that are
+/// controlled.
+///
+/// The nc = e + m controlled displacements are the rigid externals, then the discs: those of sprung holes, then those
+/// of point springs, each in the order of the input, directions inner. The free unknowns keep the order of the
+/// functions, so those of degree <= k come first.
+struct Unknowns {
+  Eigen::Matrix2Xi dofs;    ///< (2, n_functions) what becomes of u_x and u_y of each global function
+  std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
+  int n_externals = 0;
+  std::vector<std::string> disc_hole, disc_direction;  ///< (m)
+  int n_directions = 0;                                ///< number of directions of each disc
+  std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
+
+  [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }
+  [[nodiscard]] int n_discs() const { return count_of(disc_hole); }
+  [[nodiscard]] int n_controlled() const { return n_externals + n_discs(); }
+  /// Two for each disc of a sprung hole: bearing along + and along -.
+  [[nodiscard]] int n_friction_cases() const;
+  /// Columns of the border that act on an element with rims of these holes: of each hole the discs, then the friction
+  /// cases. Controlled displacements count from 0, friction cases behind them.
+  [[nodiscard]] std::vector<int> border_of(const std::vector<int>& holes) const;
+};
+
+/// Free unknowns of the functions of degree <= k, for every k up to the numbering's p.
+[[nodiscard]] std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matrix2Xi& dofs);
 
 /// Congruent elements that have equal springs on their rims too: they share one condensed stiffness up to the factor of
 /// thickness (docs/theory.md, section 2.6).
