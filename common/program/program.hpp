@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/program/timings.hpp"
+#include "common/program/progress.hpp"
 
 namespace fastjoint::program {
 

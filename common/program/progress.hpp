@@ -4,7 +4,10 @@
 #include <chrono>
 #include <functional>
 #include <iosfwd>
+#include <map>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace fastjoint::program {
 
@@ -38,5 +41,42 @@ class Progress {
 void report_phase(const std::string& name);
 /// Reports the share of the work that is done: 0 when it begins, 1 behind its end.
 void report_share(double done);
+
+/// The cost of a run: wall time by phase and in all, counted from the construction on, and memory.
+class Timings {
+ public:
+  using Clock = std::chrono::steady_clock;
+  explicit Timings(std::function<Clock::time_point()> now = Clock::now);
+
+  /// Ends the present phase, if any, and begins `name`, which is reported as progress; one that was there before goes
+  /// on from its time.
+  void phase(const std::string& name);
+  /// Ends the last phase and the total.
+  void stop();
+
+  /// Number of threads that the run may use; 1 unless set.
+  void set_threads(int n) { threads_ = n; }
+  /// Size of what the run solves: n unknowns at degree p.
+  void set_unknowns(int p, int n) { unknowns_[p] = n; }
+
+  /// Last line of a summary, after stop(): "  time 0.213 s: read 0.001, solve 0.030; peak memory 143 MB" and a line
+  /// break, phases in the order in which they first began.
+  [[nodiscard]] std::string line() const;
+  /// The same in full as a JSON object, after stop(): "program", "version", "threads", "blas_kernels", "seconds"
+  /// by phase, "total" in seconds, "peak_memory_bytes" and, if any were set, "unknowns" by degree.
+  [[nodiscard]] std::string json(const std::string& program, const std::string& version) const;
+
+ private:
+  /// Credits the time since `mark_` to the present phase.
+  void credit(Clock::time_point now);
+
+  std::function<Clock::time_point()> now_;
+  Clock::time_point start_, mark_;
+  Clock::duration total_{};
+  std::vector<std::pair<std::string, Clock::duration>> phases_;
+  std::size_t present_ = 0;  ///< index into phases_, if there are any
+  int threads_ = 1;
+  std::map<int, int> unknowns_;
+};
 
 }  // namespace fastjoint::program

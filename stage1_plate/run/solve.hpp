@@ -7,7 +7,7 @@
 
 #include "common/formats/plate_solution.hpp"
 #include "common/plate/plate_factor.hpp"
-#include "common/program/timings.hpp"
+#include "common/program/progress.hpp"
 #include "stage1_plate/contact/contact.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 

@@ -7,8 +7,6 @@
 #include <new>
 #include <sstream>
 
-#include "common/program/timings.hpp"
-
 namespace fastjoint::program {
 namespace {
 

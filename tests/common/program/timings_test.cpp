@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/program/timings.hpp"
+#include "common/program/progress.hpp"
 
 #include <gmock/gmock.h>
 
