@@ -101,21 +101,23 @@ void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
 }
 
 /// Uniform traction of unit total force on an edge.
-void add_uniform(const PlateMesh& plate, const External& external, int p, int column, Assembler& loads) {
+void add_uniform(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
+                 Loads& loads) {
   const auto& sides = plate.sets.at(external.on);
   double area = 0;
   for (const auto& side : sides)
     area += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, plate.edges, side, 1).ds.sum();
   for (const auto& side : sides) {
-    const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, p);
+    const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
     const Eigen::VectorXd spread = plate.mesh.thickness[side.element] / area * (rule.N * rule.ds);
-    loads.add(side.element, rule.modes, (spread * rim::axis(external.direction).transpose()).reshaped(), column);
+    add_load(problem, side.element, rule.modes, (spread * rim::axis(external.direction).transpose()).reshaped(), column,
+             loads);
   }
 }
 
 /// Cosine pressure on the half of an open hole that bears along the external's direction, of unit force along it.
-void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_index, int p, int column,
-                  Assembler& loads) {
+void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_index, const PlateProblem& problem,
+                  int column, Loads& loads) {
   const External& external = scene.externals[external_index];
   const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
   const Eigen::Vector2d d = rim::axis(external.direction);
@@ -127,14 +129,14 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
                        external.direction),
            "a hole with a rim on that side");
   for (const auto& side : rim.sides) {
-    const auto rule = rim::rim_rule(plate.mesh, plate.edges, side, p);
+    const auto rule = rim::rim_rule(plate.mesh, plate.edges, side, problem.numbering.p);
     Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
     for (int q = 0; q < rule.ds.size(); ++q) {
       const Eigen::Vector2d n = -rule.normal.col(q);
       const double pressure = rim::cosine_bearing(n, d).contact / unit_force;
       load += plate.mesh.thickness[side.element] * rule.ds[q] * pressure * rule.N.col(q) * n.transpose();
     }
-    loads.add(side.element, rule.modes, load.reshaped(), column);
+    add_load(problem, side.element, rule.modes, load.reshaped(), column, loads);
   }
 }
 
@@ -142,16 +144,19 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
 /// pressure on an open hole.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   const auto list = traction_externals(scene);
-  Assembler loads(problem.numbering, problem.unknowns, count_of(list));
+  Loads loads;
   for (int column = 0; column < count_of(list); ++column) {
     const External& external = scene.externals[list[column]];
     if (external.kind == ExternalKind::bearing)
-      add_pressure(scene, plate, list[column], problem.numbering.p, column, loads);
+      add_pressure(scene, plate, list[column], problem, column, loads);
     else
-      add_uniform(plate, external, problem.numbering.p, column, loads);
+      add_uniform(plate, external, problem, column, loads);
   }
-  problem.T_f = loads.free();
-  problem.T_c = loads.controlled();
+  const auto n_f = problem.T_f.rows(), nc = problem.T_c.rows();
+  Eigen::SparseMatrix<double> T(n_f + nc, count_of(list));
+  T.setFromTriplets(loads.begin(), loads.end());
+  problem.T_f = T.topRows(n_f);
+  problem.T_c = T.bottomRows(nc);
   for (int column = 0; column < count_of(list); ++column) {
     if (Eigen::VectorXd(problem.T_f.col(column)).isZero(0) && problem.T_c.col(column).isZero(0))
       reject(scene, fmt::format("/external/{}", list[column]), "supports hold all that it loads against it",
@@ -185,24 +190,14 @@ Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, cons
   return unknowns;
 }
 
-Assembler::Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns)
-    : numbering_(numbering),
-      unknowns_(unknowns),
-      controlled_(Eigen::MatrixXd::Zero(unknowns.n_controlled(), n_columns)) {}
-
-void Assembler::add(int element, const std::vector<int>& modes, const Eigen::VectorXd& values, int column) {
-  const auto [dof, sign] = pfem::element_dofs(numbering_, unknowns_.dofs, element, modes);
-  for (int i = 0; i < dof.size(); ++i) {
-    const double value = sign[i] * values[i];
-    if (pfem::is_free(dof[i])) free_.emplace_back(dof[i], column, value);
-    if (pfem::is_controlled(dof[i])) controlled_(pfem::controlled_index(dof[i]), column) += value;
-  }
-}
-
-Eigen::SparseMatrix<double> Assembler::free() const {
-  Eigen::SparseMatrix<double> A(unknowns_.n_free.back(), controlled_.cols());
-  A.setFromTriplets(free_.begin(), free_.end());
-  return A;
+void add_load(const plate::PlateStiffness& plate, int element, const std::vector<int>& modes,
+              const Eigen::VectorXd& values, int column, Loads& loads) {
+  const auto [dof, sign] = pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element, modes);
+  const int n_free = plate.unknowns.n_free.back();
+  for (int i = 0; i < dof.size(); ++i)
+    if (dof[i] != pfem::fixed_dof)
+      loads.emplace_back(pfem::is_free(dof[i]) ? dof[i] : n_free + pfem::controlled_index(dof[i]), column,
+                         sign[i] * values[i]);
 }
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {

@@ -31,26 +31,13 @@ struct PlateProblem : plate::PlateStiffness {
   Eigen::MatrixXd T_c;              ///< (nc, q) what of them acts on the controlled displacements directly
 };
 
-/// Collects columns of loads over the degrees of freedom.
-class Assembler {
- public:
-  /// Both must outlive this.
-  Assembler(const pfem::Numbering& numbering, const Unknowns& unknowns, int n_columns);
+/// Entries of columns of loads: n_f rows of the free unknowns, then nc of the controlled displacements.
+using Loads = std::vector<Eigen::Triplet<double>>;
 
-  /// @param values Over modes of an element, local signs, first those of u_x, then those of u_y.
-  void add(int element, const std::vector<int>& modes, const Eigen::VectorXd& values, int column);
-
-  /// Rows of the free unknowns, (n_f, n_columns).
-  [[nodiscard]] Eigen::SparseMatrix<double> free() const;
-  /// Rows of the controlled displacements, (nc, n_columns).
-  [[nodiscard]] const Eigen::MatrixXd& controlled() const { return controlled_; }
-
- private:
-  const pfem::Numbering& numbering_;
-  const Unknowns& unknowns_;
-  std::vector<Eigen::Triplet<double>> free_;
-  Eigen::MatrixXd controlled_;
-};
+/// Adds the load of one element.
+/// @param values Over modes of the element, local signs, first those of u_x, then those of u_y.
+void add_load(const plate::PlateStiffness& plate, int element, const std::vector<int>& modes,
+              const Eigen::VectorXd& values, int column, Loads& loads);
 
 /// The mesh with the scene's springs.
 [[nodiscard]] plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate);

@@ -91,6 +91,13 @@ Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p) {
                 Eigen::MatrixXd::Zero(problem.unknowns.n_free[p], nc));
 }
 
+Eigen::VectorXd on_free(const stage1::PlateProblem& problem, const stage1::Loads& loads) {
+  Eigen::VectorXd column = Eigen::VectorXd::Zero(problem.unknowns.n_free.back());
+  for (const auto& entry : loads)
+    if (entry.row() < column.size()) column[entry.row()] += entry.value();
+  return column;
+}
+
 Eigen::MatrixXd fields_under(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& loads) {
   const int n_border = problem.unknowns.n_controlled() + problem.unknowns.n_friction_cases();
   return fields(problem, p, Eigen::MatrixXd::Zero(n_border, loads.cols()), loads);

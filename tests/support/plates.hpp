@@ -28,6 +28,9 @@ struct Plate {
 };
 [[nodiscard]] Plate make_plate(const std::string& json);
 
+/// One column of loads on the free unknowns, shape (n_f).
+[[nodiscard]] Eigen::VectorXd on_free(const stage1::PlateProblem& problem, const stage1::Loads& loads);
+
 /// Plate unknowns at one degree under amounts of externals, discs and friction cases, (nc + h, k), and loads on them,
 /// (n_p, k); shape (n_p, k).
 [[nodiscard]] Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& border,

@@ -45,16 +45,16 @@ void for_outer_points(const test::Plate& plate,
 
 /// Loads of the exact tractions on the free unknowns.
 Eigen::VectorXd exact_load(const test::Plate& plate, const test::SpringInclusion& exact) {
-  stage1::Assembler loads(plate.problem.numbering, plate.problem.unknowns, 1);
+  stage1::Loads loads;
   for (const char* name : {"right", "top"})
     for (const auto& side : plate.mesh.sets.at(name)) {
       const auto rule = pfem::side_rule(plate.mesh.mesh, plate.mesh.edges, side, plate.problem.numbering.p);
       Eigen::MatrixX2d g = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
       for (Eigen::Index q = 0; q < rule.ds.size(); ++q)
         g += thickness * rule.ds[q] * rule.N.col(q) * (exact.stress(rule.x.col(q)) * rule.normal.col(q)).transpose();
-      loads.add(side.element, rule.modes, g.reshaped(), 0);
+      stage1::add_load(plate.problem, side.element, rule.modes, g.reshaped(), 0, loads);
     }
-  return Eigen::MatrixXd(loads.free()).col(0);
+  return test::on_free(plate.problem, loads);
 }
 
 /// Work of the exact tractions on the exact displacements: twice the strain energy (the springs' included).

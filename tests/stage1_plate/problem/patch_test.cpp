@@ -69,7 +69,7 @@ Eigen::VectorXd load(const test::Plate& plate, const Wave& wave) {
   const auto& [scene, mesh, problem] = plate;
   const int p = problem.numbering.p;
   const Eigen::Matrix3d& D = scene.elasticity[0];
-  stage1::Assembler loads(problem.numbering, problem.unknowns, 1);
+  stage1::Loads loads;
   const auto rule = pfem::gauss(p + 3);
   const auto n = rule.x.size();
   const Eigen::VectorXd xi = rule.x.replicate(n, 1), eta = rule.x.transpose().replicate(n, 1).reshaped();
@@ -84,7 +84,7 @@ Eigen::VectorXd load(const test::Plate& plate, const Wave& wave) {
     for (Eigen::Index q = 0; q < w.size(); ++q)
       g += thickness * w[q] * map.jacobian(xi[q], eta[q]).determinant() * N.col(q) *
            body_force(D, wave, map.point(xi[q], eta[q])).transpose();
-    loads.add(element, modes, g.reshaped(), 0);
+    stage1::add_load(problem, element, modes, g.reshaped(), 0, loads);
     for (int edge = 0; edge < 4; ++edge) {
       if (mesh.edges.n_elements[mesh.edges.of_element(edge, element)] == 2) continue;
       const auto side = pfem::side_rule(mesh.mesh, mesh.edges, {element, edge}, p);
@@ -92,10 +92,10 @@ Eigen::VectorXd load(const test::Plate& plate, const Wave& wave) {
       for (Eigen::Index q = 0; q < side.ds.size(); ++q)
         t += thickness * side.ds[q] * side.N.col(q) *
              (stress(D, wave.a * wave.slope(side.x.col(q)).transpose()) * side.normal.col(q)).transpose();
-      loads.add(element, side.modes, t.reshaped(), 0);
+      stage1::add_load(problem, element, side.modes, t.reshaped(), 0, loads);
     }
   }
-  return Eigen::MatrixXd(loads.free()).col(0);
+  return test::on_free(problem, loads);
 }
 
 /// Largest error of displacements and stresses at 9 points of each element, over the largest of each.
