@@ -39,7 +39,7 @@ void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eig
 
 /// Takes out the rounding by which matrices do not balance along a direction in which nothing supports the plate: in a
 /// joint the fasteners would have to carry it.
-void balance(const FreeTranslation& free, Level& level) {
+void balance(const FreeTranslation& free, formats::PlateCases& level) {
   if (free.motion.isZero(0)) return;
   for (int side = 0; side < 2; ++side) {
     balance(free.motion, Eigen::RowVectorXd::Zero(level.S.cols()), level.S);
@@ -50,9 +50,9 @@ void balance(const FreeTranslation& free, Level& level) {
   balance(free.motion, free.traction, level.T);
 }
 
-void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
+void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrices& a) {
   const auto e = a.n_externals(), m = a.n_discs();
-  for (const auto& [S, R, T] : levels) {
+  for (const auto& [S, R, T, C_t] : levels) {
     a.S_ee.push_back(S.topLeftCorner(e, e));
     a.S_ed.push_back(S.topRightCorner(e, m));
     a.S_dd.push_back(S.bottomRightCorner(m, m));
@@ -60,6 +60,7 @@ void store(const std::vector<Level>& levels, formats::PlateMatrices& a) {
     a.R_df.push_back(R.bottomRows(m));
     a.T_e.push_back(T.topRows(e));
     a.T_d.push_back(T.bottomRows(m));
+    a.C_t.push_back(C_t);
   }
 }
 
@@ -80,14 +81,11 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   auto& a = result.matrices;
   describe(plate, generator, a);
   matrices::CondensedLevels levels;
-  std::vector<Level> solved;
   for (const auto& each : plate.cases) {
     levels.S.push_back(each.S);
     levels.R.push_back(each.R);
-    solved.push_back({each.S, each.R, each.T});
-    a.C_t.push_back(each.C_t);
+    levels.C.push_back(each.C_t);
   }
-  levels.C = a.C_t;
   levels.rounding = plate.probe.rounding;
   const double fastest = matrices::fastest_rate(plate.elasticity);
   const Eigen::MatrixXd error = matrices::stiffness_error(levels.S, plate.p, fastest).cwiseMax(levels.rounding);
@@ -98,10 +96,11 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   a.stresses = extract_stresses(plate, solver);
   carry_over_contacts(plate, a);
   result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
-  result.checks = check(plate, a.friction_resultant, solved.back());  // before it is balanced
+  result.checks = check(plate, a.friction_resultant);
+  auto balanced = plate.cases;
   for (const auto& free : free_translations(plate, a.friction_resultant))
-    for (auto& level : solved) balance(free, level);
-  store(solved, a);
+    for (auto& level : balanced) balance(free, level);
+  store(balanced, a);
   return result;
 }
 

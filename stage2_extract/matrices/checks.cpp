@@ -12,6 +12,7 @@
 namespace fastjoint::stage2 {
 namespace {
 
+using formats::PlateCases;
 using formats::PlateSolution;
 
 /// Far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any modelling error.
@@ -33,7 +34,7 @@ std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& 
 }
 
 /// Forces of friction and tractions on externals and discs, by the probe's solutions, against R and T.
-std::optional<double> reciprocity(const PlateSolution& plate, const Level& level) {
+std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& level) {
   const auto& probe = plate.probe;
   if (level.R.size() + level.T.size() == 0) return std::nullopt;
   double worst = 0;
@@ -56,8 +57,8 @@ std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale
 }
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.
-double residual_force(const Level& level, double scale, const FreeTranslation& free) {
-  const auto& [S, R, T] = level;
+double residual_force(const PlateCases& level, double scale, const FreeTranslation& free) {
+  const auto& [S, R, T, C_t] = level;
   double worst = ratio(largest(S * free.motion), scale);
   for (Eigen::Index j = 0; j < R.cols(); ++j)
     if (free.friction[j] != 0)
@@ -65,7 +66,8 @@ double residual_force(const Level& level, double scale, const FreeTranslation& f
   return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 
-std::optional<double> equilibrium(const PlateSolution& plate, const Eigen::VectorXd& resultant, const Level& level) {
+std::optional<double> equilibrium(const PlateSolution& plate, const Eigen::VectorXd& resultant,
+                                  const PlateCases& level) {
   std::optional<double> worst;
   for (const auto& free : free_translations(plate, resultant))
     worst = std::max(worst.value_or(0), residual_force(level, scale_of(plate, level.S), free));
@@ -99,7 +101,8 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
 
 double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 
-Checks check(const PlateSolution& plate, const Eigen::VectorXd& resultant, const Level& level) {
+Checks check(const PlateSolution& plate, const Eigen::VectorXd& resultant) {
+  const PlateCases& level = plate.cases.back();  // of the highest p
   const double scale = scale_of(plate, level.S);
   return {energy(plate, level.S), reciprocity(plate, level), negative_eigenvalue(level.S, scale),
           equilibrium(plate, resultant, level), ratio(plate.probe.rounding, scale)};

@@ -12,13 +12,6 @@ namespace fastjoint::stage2 {
 /// Largest absolute entry, 0 of an empty matrix: what all checks are relative to.
 [[nodiscard]] double largest(const Eigen::MatrixXd& A);
 
-/// Forces that must act on externals and discs at one degree (docs/theory.md, section 4).
-struct Level {
-  Eigen::MatrixXd S;  ///< (nc, nc) forces per unit displacement of each
-  Eigen::MatrixXd R;  ///< (nc, h) forces under unit friction cases; by reciprocity no case is solved for it
-  Eigen::MatrixXd T;  ///< (nc, q) forces under a unit total force on each traction boundary
-};
-
 /// A direction that no support fixes and that every disc can move along, and what acts along it in unit cases.
 struct FreeTranslation {
   Eigen::VectorXd motion;       ///< (nc) of externals and discs together
@@ -40,8 +33,8 @@ struct Checks {
   double rounding = 0;  ///< what rounding may change of S, as stage 1 has estimated it; it is part of the error of S
 };
 
-/// @param resultant PlateMatrices::friction_resultant. @param level Of the highest p.
-[[nodiscard]] Checks check(const formats::PlateSolution& plate, const Eigen::VectorXd& resultant, const Level& level);
+/// @param resultant PlateMatrices::friction_resultant.
+[[nodiscard]] Checks check(const formats::PlateSolution& plate, const Eigen::VectorXd& resultant);
 
 /// Throws NumericalError with the name of the file and of the check that fails.
 void require_good(const Checks& checks, const std::string& file);
