@@ -3,13 +3,138 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <string_view>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
+#include "common/program/program.hpp"
+#include "stage2_extract/stresses/joint_sheet.hpp"
 
 namespace fastjoint::stage2 {
+namespace {
+
+using formats::PlateSolution;
+
+bool starts_as_case(const std::string& spec) {
+  constexpr std::string_view kinds[] = {"external:", "disc:", "friction:", "traction:"};
+  return std::any_of(std::begin(kinds), std::end(kinds), [&](auto kind) { return spec.starts_with(kind); });
+}
+
+/// The words of a message for what a spec may be, besides "loads".
+std::string case_sum_allowed(const PlateSolution& plate) {
+  return fmt::format("a RESULT.h5, or a sum CASE=AMOUNT,... of the cases {}", listed(case_names(plate)));
+}
+
+bool names_a_file(const std::string& spec) {
+  std::error_code ignored;
+  return spec != "loads" && !starts_as_case(spec) && (spec.ends_with(".h5") || std::filesystem::exists(spec, ignored));
+}
+
+FieldState scene_loads(const PlateSolution& plate, const std::string& file) {
+  if (plate.load_displacement.rows() == 0)
+    throw InputError(fmt::format("--field: 'loads' is not allowed: the scene of {} has no loads; allowed: {}", file,
+                                 case_sum_allowed(plate)));
+  FieldState state{Eigen::VectorXd(plate.n_cases()), "loads of the scene"};
+  state.amounts << plate.load_displacement.row(0).transpose(), plate.load_friction.row(0).transpose(),
+      plate.load_traction.row(0).transpose();
+  return state;
+}
+
+/// Index of the longest name that the text starts with and that ends there, at a comma or at "=", or -1.
+std::ptrdiff_t first_case(const std::vector<std::string>& names, std::string_view text) {
+  std::ptrdiff_t longest = -1;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const auto& name = names[i];
+    if (!text.starts_with(name)) continue;
+    if (text.size() > name.size() && text[name.size()] != ',' && text[name.size()] != '=') continue;
+    if (longest < 0 || name.size() > names[longest].size()) longest = i;
+  }
+  return longest;
+}
+
+/// The amount at the start of the text, which then loses it.
+double take_amount(std::string_view& text, const std::string& name) {
+  if (text.empty() || text[0] != '=') return 1;
+  const auto word = text.substr(1, text.find(',') - 1);
+  double amount = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), amount);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(amount))
+    throw InputError(
+        fmt::format("--field: '{}' is not allowed as the amount of {}; allowed: a number such as 0.01", word, name));
+  text.remove_prefix(1 + word.size());
+  return amount;
+}
+
+FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
+  const auto names = case_names(plate);
+  FieldState state{Eigen::VectorXd::Zero(names.size()), spec};
+  std::vector<bool> given(names.size());
+  for (std::string_view rest = spec;;) {
+    const auto found = first_case(names, rest);
+    if (found < 0)
+      throw InputError(fmt::format("--field: '{}' is not a case of the plate{}; allowed: loads, {}", rest,
+                                   starts_as_case(spec) ? "" : " nor a file", case_sum_allowed(plate)));
+    if (given[found]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[found]));
+    given[found] = true;
+    rest.remove_prefix(names[found].size());
+    state.amounts[found] = take_amount(rest, names[found]);
+    if (rest.empty()) return state;
+    rest.remove_prefix(1);  // the comma
+  }
+}
+
+FieldState joint_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {
+  const auto sheet = read_joint_sheet(plate, file, request.spec, request.plate);
+  const auto steps = count_of(sheet.joint.load_factor);
+  if (request.increment > steps)
+    throw InputError(fmt::format("--increment: {} is not allowed; {} has the increments 1..{}", request.increment,
+                                 request.spec, steps));
+  FieldState state;
+  state.increment = request.increment != 0 ? request.increment : steps;
+  state.joint_plate = sheet.joint.plates[sheet.at].name;
+  state.p = sheet.joint.p;
+  const auto step = state.increment - 1;
+  const std::string& name = sheet.joint.header.name;
+  state.words = fmt::format("{}increment {} of {}, load factor {:g}", name.empty() ? "" : fmt::format("{}, ", name),
+                            state.increment, steps, sheet.joint.load_factor[step]);
+  state.amounts = sheet.amounts.col(step);
+  return state;
+}
+
+}  // namespace
+
+void check_field_options(const FieldRequest& request, bool wanted, const std::string& output,
+                         const std::string& timings) {
+  if (!wanted && request.p != 0) throw InputError("--p: goes with --field only; matrices are of all degrees");
+  const bool of_joint = wanted && names_a_file(request.spec);
+  if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 or --stresses only");
+  if (!of_joint && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
+  for (const auto& [option, path] : {std::pair("-o", output), std::pair("--timings", timings)})
+    if (wanted) program::check_spare(option, path, request.spec, "the file of --field");
+}
+
+FieldState field_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {
+  if (names_a_file(request.spec)) return joint_state(plate, file, request);
+  return request.spec == "loads" ? scene_loads(plate, file) : case_sum(plate, request.spec);
+}
+
+int field_degree(const PlateSolution& plate, const std::string& file, const FieldRequest& request,
+                 const FieldState& state) {
+  const int highest = plate.p[plate.p.size() - 1];
+  const int p = request.p != 0 ? request.p : state.p != 0 ? state.p : highest;
+  if (p > highest)
+    throw InputError(fmt::format("--p: {} is {}not allowed; {} has unknowns of the degrees 1 to {}", p,
+                                 request.p != 0 ? "" : "the degree of the joint and ", file, highest));
+  return p;
+}
+
 using Eigen::Index;
 
 Eigen::Matrix2Xd lagrange_nodes(int p) {
@@ -29,18 +154,19 @@ Eigen::Matrix2Xd lagrange_nodes(int p) {
 }
 
 Field at_nodes(const Fields& fields, int p) {
-  const auto& solver = fields.solver();
+  const auto& [solver, amounts, states] = fields;
   const auto& mesh = solver.plate().mesh;
-  assert(fields.n_states() == 1);
+  const auto& [space, highest] = std::tie(solver.numbering().space, solver.numbering().p);
+  assert(states.size() == 1);
   const Eigen::Matrix2Xd nodes = lagrange_nodes(p);
   const Eigen::VectorXd xi = nodes.row(0), eta = nodes.row(1);
-  const Eigen::MatrixXd N = pfem::shape_values(fields.space(), fields.p(), xi, eta).N;
+  const Eigen::MatrixXd N = pfem::shape_values(space, highest, xi, eta).N;
   const Index n = nodes.cols(), n_points = n * mesh.n_elements();
   Field field{p, Eigen::Matrix2Xd(2, n_points), Eigen::Matrix2Xd(2, n_points), Eigen::Matrix3Xd(3, n_points)};
   for (int element = 0; element < mesh.n_elements(); ++element) {
     const pfem::ElementMap map(mesh, solver.edges(), element);
-    const Eigen::VectorXd c = fields.coefficients(element);
-    const Eigen::VectorXd strain = pfem::strain_operator(map, fields.space(), fields.p(), xi, eta) * c;
+    const Eigen::VectorXd c = states.coefficients(element);
+    const Eigen::VectorXd strain = pfem::strain_operator(map, space, highest, xi, eta) * c;
     const Index first = element * n;
     for (Index i = 0; i < n; ++i) field.points.col(first + i) = map.point(xi[i], eta[i]);
     field.displacement.middleCols(first, n) << c.head(N.rows()).transpose() * N, c.tail(N.rows()).transpose() * N;

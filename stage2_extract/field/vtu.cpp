@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
-
 namespace fastjoint::stage2 {
 namespace {
 
@@ -18,47 +16,37 @@ constexpr const char* description =
     "     principal stresses in the plane. thickness belongs to cells; hole_* and the labels of the units are in\n"
     "     FieldData, text as the codes of its bytes. -->\n";
 
-/// Text that grows piece by piece.
-class Text {
- public:
-  template <class... Values>
-  void add(fmt::format_string<Values...> pattern, Values&&... values) {
-    fmt::format_to(std::back_inserter(text_), pattern, std::forward<Values>(values)...);
-  }
-  [[nodiscard]] std::string str() const { return fmt::to_string(text_); }
-
- private:
-  fmt::memory_buffer text_;
-};
-
 /// An array of numbers; a vector of the plane gets its third component, which VTK wants.
 /// @param shape Attributes that say how many components and tuples there are.
-void add_array(Text& text, const char* name, const std::string& shape, const Eigen::MatrixXd& values) {
-  text.add("<DataArray type=\"Float64\" Name=\"{}\" {} format=\"ascii\">\n", name, shape);
+void add_array(std::string& text, const char* name, const std::string& shape, const Eigen::MatrixXd& values) {
+  text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" {} format=\"ascii\">\n", name, shape);
   for (Index i = 0; i < values.cols(); ++i)
-    values.rows() == 2 ? text.add("{:.9g} {:.9g} 0\n", values(0, i), values(1, i)) : text.add("{:.9g}\n", values(0, i));
-  text.add("</DataArray>\n");
+    text += values.rows() == 2 ? fmt::format("{:.9g} {:.9g} 0\n", values(0, i), values(1, i))
+                               : fmt::format("{:.9g}\n", values(0, i));
+  text += "</DataArray>\n";
 }
 
-void add_points(Text& text, const char* name, const Eigen::MatrixXd& values) {
+void add_points(std::string& text, const char* name, const Eigen::MatrixXd& values) {
   add_array(text, name, fmt::format("NumberOfComponents=\"{}\"", values.rows() == 2 ? 3 : 1), values);
 }
 
 /// Strings are the codes of their bytes, each string ended by 0: no character can break the XML, and meshio, which
 /// knows no arrays of strings, reads them too.
-void add_strings(Text& text, const char* name, const std::vector<std::string>& values) {
+void add_strings(std::string& text, const char* name, const std::vector<std::string>& values) {
   std::string bytes;
   for (const auto& value : values) bytes += value + '\0';
-  text.add("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n", name, bytes.size());
-  for (const char c : bytes) text.add("{} ", int{static_cast<unsigned char>(c)});
-  text.add("</DataArray>\n");
+  text += fmt::format("<DataArray type=\"UInt8\" Name=\"{}\" NumberOfTuples=\"{}\" format=\"ascii\">\n", name,
+                      bytes.size());
+  for (const char c : bytes) text += fmt::format("{} ", int{static_cast<unsigned char>(c)});
+  text += "</DataArray>\n";
 }
 
-void add_integer(Text& text, const char* name, int value) {
-  text.add("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n", name, value);
+void add_integer(std::string& text, const char* name, int value) {
+  text += fmt::format("<DataArray type=\"Int32\" Name=\"{}\" NumberOfTuples=\"1\" format=\"ascii\">{}</DataArray>\n",
+                      name, value);
 }
 
-void add_holes(Text& text, const formats::PlateSolution& plate) {
+void add_holes(std::string& text, const formats::PlateSolution& plate) {
   add_strings(text, "hole_id", plate.hole_id);
   Eigen::Matrix3Xd holes(3, plate.hole_rim.size());
   for (Index i = 0; i < holes.cols(); ++i) holes.col(i) << plate.hole_rim[i].center, plate.hole_rim[i].radius;
@@ -67,9 +55,9 @@ void add_holes(Text& text, const formats::PlateSolution& plate) {
   add_array(text, "hole_radius", tuples, holes.row(2));
 }
 
-void add_field_data(Text& text, const formats::PlateSolution& plate, const FieldState& state, int p) {
+void add_field_data(std::string& text, const formats::PlateSolution& plate, const FieldState& state, int p) {
   const auto& units = plate.header.units;
-  text.add("<FieldData>\n");
+  text += "<FieldData>\n";
   add_strings(text, "plate", {plate.header.name});
   add_strings(text, "state", {state.words});
   add_strings(text, "length_unit", {unit(units, 1, 0)});
@@ -80,21 +68,21 @@ void add_field_data(Text& text, const formats::PlateSolution& plate, const Field
     add_integer(text, "increment", state.increment);
   }
   if (!plate.hole_id.empty()) add_holes(text, plate);
-  text.add("</FieldData>\n");
+  text += "</FieldData>\n";
 }
 
-void add_cells(Text& text, Index n_cells, Index n_nodes) {
-  text.add("<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n");
-  for (Index i = 0; i < n_cells * n_nodes; ++i) text.add("{}{}", i, (i + 1) % n_nodes == 0 ? '\n' : ' ');
-  text.add("</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n");
-  for (Index i = 1; i <= n_cells; ++i) text.add("{}\n", i * n_nodes);
-  text.add("</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n");
-  for (Index i = 0; i < n_cells; ++i) text.add("{}\n", lagrange_quadrilateral);
-  text.add("</DataArray>\n</Cells>\n");
+void add_cells(std::string& text, Index n_cells, Index n_nodes) {
+  text += "<Cells>\n<DataArray type=\"Int64\" Name=\"connectivity\" format=\"ascii\">\n";
+  for (Index i = 0; i < n_cells * n_nodes; ++i) text += fmt::format("{}{}", i, (i + 1) % n_nodes == 0 ? '\n' : ' ');
+  text += "</DataArray>\n<DataArray type=\"Int64\" Name=\"offsets\" format=\"ascii\">\n";
+  for (Index i = 1; i <= n_cells; ++i) text += fmt::format("{}\n", i * n_nodes);
+  text += "</DataArray>\n<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">\n";
+  for (Index i = 0; i < n_cells; ++i) text += fmt::format("{}\n", lagrange_quadrilateral);
+  text += "</DataArray>\n</Cells>\n";
 }
 
-void add_point_data(Text& text, const Field& field) {
-  text.add("<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n");
+void add_point_data(std::string& text, const Field& field) {
+  text += "<PointData Scalars=\"von_mises\" Vectors=\"displacement\">\n";
   add_points(text, "displacement", field.displacement);
   add_points(text, "stress_xx", field.stress.row(0));
   add_points(text, "stress_yy", field.stress.row(1));
@@ -103,7 +91,7 @@ void add_point_data(Text& text, const Field& field) {
   const Eigen::Matrix2Xd main = principal(field.stress);
   add_points(text, "principal_1", main.row(0));
   add_points(text, "principal_2", main.row(1));
-  text.add("</PointData>\n");
+  text += "</PointData>\n";
 }
 
 }  // namespace
@@ -111,20 +99,20 @@ void add_point_data(Text& text, const Field& field) {
 std::string vtu(const formats::PlateSolution& plate, const FieldState& state, const Field& field) {
   const Index n_cells = plate.mesh.n_elements();
   const Index n_points = field.points.cols();
-  Text text;
-  text.add("<?xml version=\"1.0\"?>\n{}", description);
-  text.add("<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n");
+  std::string text;
+  text += fmt::format("<?xml version=\"1.0\"?>\n{}", description);
+  text += "<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
   add_field_data(text, plate, state, field.p);
-  text.add("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", n_points, n_cells);
+  text += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", n_points, n_cells);
   add_point_data(text, field);
-  text.add("<CellData Scalars=\"thickness\">\n");
+  text += "<CellData Scalars=\"thickness\">\n";
   add_points(text, "thickness", plate.mesh.thickness.transpose());
-  text.add("</CellData>\n<Points>\n");
+  text += "</CellData>\n<Points>\n";
   add_points(text, "points", field.points);
-  text.add("</Points>\n");
+  text += "</Points>\n";
   add_cells(text, n_cells, n_points / n_cells);
-  text.add("</Piece>\n</UnstructuredGrid>\n</VTKFile>\n");
-  return text.str();
+  text += "</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+  return text;
 }
 
 }  // namespace fastjoint::stage2

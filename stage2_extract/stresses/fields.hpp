@@ -10,7 +10,16 @@
 
 namespace fastjoint::stage2 {
 
-class Fields;
+class FieldSolver;
+
+/// Displacement fields of k states of a plate at one degree.
+struct Fields {
+  const FieldSolver& solver;  ///< must outlive this
+  /// (n_cases, k) amount of every unit case: nc controlled displacements (externals, discs), h friction cases, q
+  /// tractions.
+  Eigen::MatrixXd amounts;
+  plate::PlateStates states;  ///< the fields, element by element
+};
 
 /// A plate of which any state can be solved at any degree up to that of its file: its elements are integrated again
 /// from the file's mesh and springs, and factorised at one degree after another (schemas/plate-solution.md says why the
@@ -47,35 +56,6 @@ class FieldSolver {
   plate::Skeleton skeleton_;
   std::unique_ptr<plate::PlateFactor> factor_;
   int n_free_ = 0;  ///< at the degree of the factor
-};
-
-/// Displacement fields of k states of a plate at one degree, element by element.
-class Fields {
- public:
-  /// @param solver  Must outlive this.
-  /// @param amounts Amount of every unit case, (n_cases, k): nc controlled displacements (externals, discs), h friction
-  ///                cases, q tractions.
-  Fields(const FieldSolver& solver, Eigen::MatrixXd amounts, plate::PlateStates states)
-      : solver_(solver), amounts_(std::move(amounts)), states_(std::move(states)) {}
-
-  [[nodiscard]] const FieldSolver& solver() const { return solver_; }
-  [[nodiscard]] const Eigen::MatrixXd& amounts() const { return amounts_; }
-  [[nodiscard]] Eigen::Index n_states() const { return states_.size(); }
-  /// Degree of the shape functions by which coefficients count; those of higher degree than the fields' are zero.
-  [[nodiscard]] int p() const { return solver_.numbering().p; }
-  [[nodiscard]] pfem::Space space() const { return solver_.numbering().space; }
-
-  /// Coefficients of all local modes of an element, local signs, shape (2 n_modes, k): first those of u_x.
-  [[nodiscard]] Eigen::MatrixXd coefficients(int element) const { return states_.coefficients(element); }
-  /// Values of functions of an element's coefficients in every state, shape (k, r).
-  [[nodiscard]] Eigen::MatrixXd values(const plate::CondensedFunctions& functions) const {
-    return states_.values(functions);
-  }
-
- private:
-  const FieldSolver& solver_;
-  Eigen::MatrixXd amounts_;
-  plate::PlateStates states_;
 };
 
 }  // namespace fastjoint::stage2

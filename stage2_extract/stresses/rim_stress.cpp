@@ -180,15 +180,15 @@ void RimStress::add_tractions(const FieldSolver& solver, std::size_t hole, const
 }
 
 RimStresses RimStress::operator()(const Fields& fields) const {
-  const auto k = fields.n_states(), n = modulus_.size();
+  const auto k = fields.states.size(), n = modulus_.size();
   RimStresses sigma{Eigen::MatrixXd::Zero(k, n), Eigen::MatrixXd::Zero(k, n), Eigen::MatrixXd::Zero(k, n)};
   for (const auto& each : tractions_) {
-    sigma.rr += fields.amounts().row(each.unit_case).transpose() * each.rr;
-    sigma.rt += fields.amounts().row(each.unit_case).transpose() * each.rt;
+    sigma.rr += fields.amounts.row(each.unit_case).transpose() * each.rr;
+    sigma.rt += fields.amounts.row(each.unit_case).transpose() * each.rt;
   }
   std::vector<Eigen::MatrixXd> values;
   for (const auto& side : sides_) {
-    values.push_back(fields.values(side.u_n_and_eps_tt));
+    values.push_back(fields.states.values(side.u_n_and_eps_tt));
     for (std::size_t i = 0; i < side.points.size(); ++i) {
       const int at = side.points[i];
       sigma.rr.col(at) += side.share[i] * modulus_[at] * values.back().col(i);

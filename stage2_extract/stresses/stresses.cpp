@@ -133,7 +133,8 @@ void add_level(const FieldSolver& solver, const Rims& rims, const Eigen::MatrixX
       a.sigma_rt.back()(points, columns) = rt.transpose();
     }
     for (std::size_t i = 0; i < sections.size(); ++i)
-      for (const auto& part : sections[i]) a.section_force.back().row(i)(columns) += fields.values(part).transpose();
+      for (const auto& part : sections[i])
+        a.section_force.back().row(i)(columns) += fields.states.values(part).transpose();
   }
 }
 

@@ -11,9 +11,11 @@
 namespace fastjoint::test {
 namespace {
 
+int degree(const stage2::Fields& fields) { return fields.solver.numbering().p; }
+
 /// Coefficients of some modes of an element, first those of u_x, shape (2 n_modes, k).
 Eigen::MatrixXd coefficients(const stage2::Fields& fields, int element, std::vector<int> modes) {
-  const Eigen::MatrixXd C = fields.coefficients(element);
+  const Eigen::MatrixXd C = fields.states.coefficients(element);
   const std::size_t n = modes.size();
   for (std::size_t i = 0; i < n; ++i) modes.push_back(modes[i] + static_cast<int>(C.rows()) / 2);
   return C(modes, Eigen::all);
@@ -22,26 +24,27 @@ Eigen::MatrixXd coefficients(const stage2::Fields& fields, int element, std::vec
 }  // namespace
 
 Eigen::MatrixXd plain_rim_stress(const stage2::Fields& fields, const stage2::RimPoint& point) {
-  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, fields.n_states());
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, fields.states.size());
   for (const auto& at : point.on) {
-    const pfem::ElementMap map(fields.solver().plate().mesh, fields.solver().edges(), at.side.element);
+    const pfem::ElementMap map(fields.solver.plate().mesh, fields.solver.edges(), at.side.element);
     const Eigen::Matrix2Xd xi = pfem::along_edge(at.side.local_edge, Eigen::VectorXd::Constant(1, at.s));
-    const Eigen::MatrixXd B =
-        pfem::strain_operator(map, fields.space(), fields.p(), xi.row(0).transpose(), xi.row(1).transpose());
-    mean += pfem::polar_stress(point.angle) * fields.solver().elasticity(at.side.element) * B *
-            fields.coefficients(at.side.element) / static_cast<double>(point.on.size());
+    const Eigen::MatrixXd B = pfem::strain_operator(map, fields.solver.numbering().space, degree(fields),
+                                                    xi.row(0).transpose(), xi.row(1).transpose());
+    mean += pfem::polar_stress(point.angle) * fields.solver.elasticity(at.side.element) * B *
+            fields.states.coefficients(at.side.element) / static_cast<double>(point.on.size());
   }
   return mean;
 }
 
 Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::vector<stage2::RimPoint>& points,
                                      int highest) {
-  const auto& plate = fields.solver().plate();
+  const auto& plate = fields.solver.plate();
   const auto& rim = plate.hole_rim[0];
   const Eigen::Index n = highest / 2 + 1;
-  Eigen::MatrixXd radial = Eigen::MatrixXd::Zero(n, fields.n_states()), hoop = radial;  // of cos m theta, sin m theta
+  Eigen::MatrixXd radial = Eigen::MatrixXd::Zero(n, fields.states.size()),
+                  hoop = radial;  // of cos m theta, sin m theta
   for (const auto& side : rim.sides) {
-    const auto rule = rim::rim_rule(plate.mesh, fields.solver().edges(), side, fields.p());
+    const auto rule = rim::rim_rule(plate.mesh, fields.solver.edges(), side, degree(fields));
     const Eigen::MatrixXd C = coefficients(fields, side.element, rule.modes);
     const auto n_modes = rule.N.rows();
     for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
@@ -57,7 +60,7 @@ Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::ve
       }
     }
   }
-  Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(points.size(), fields.n_states());
+  Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(points.size(), fields.states.size());
   for (Eigen::Index k = 0; k < strain.rows(); ++k)
     for (Eigen::Index i = 0; i < n; ++i) {
       const double m = 2 * static_cast<double>(i);
@@ -75,14 +78,13 @@ struct GaussStrains {
 };
 
 GaussStrains gauss_strains(const stage2::Fields& fields, const pfem::Side& side, double radius) {
-  const auto gauss = pfem::gauss(fields.p());
-  const auto curve =
-      pfem::edge_curve(fields.solver().plate().mesh, fields.solver().edges(), side.element, side.local_edge);
+  const auto gauss = pfem::gauss(degree(fields));
+  const auto curve = pfem::edge_curve(fields.solver.plate().mesh, fields.solver.edges(), side.element, side.local_edge);
   const auto [first, second] = pfem::natural_ends(side.local_edge);
   std::vector<int> modes = {first, second};
-  for (int k = 2; k <= fields.p(); ++k) modes.push_back(pfem::edge_mode(fields.p(), side.local_edge, k));
+  for (int k = 2; k <= degree(fields); ++k) modes.push_back(pfem::edge_mode(degree(fields), side.local_edge, k));
   const Eigen::MatrixXd C = coefficients(fields, side.element, modes);
-  const Eigen::MatrixXd dN = pfem::integrated_legendre(fields.p(), gauss.x).dN * (2 / curve.sweep() / radius);
+  const Eigen::MatrixXd dN = pfem::integrated_legendre(degree(fields), gauss.x).dN * (2 / curve.sweep() / radius);
   const auto n = dN.rows();
   GaussStrains result{curve.start_angle() + (gauss.x.array() + 1) / 2 * curve.sweep(), {}};
   const Eigen::ArrayXd sine = result.theta.array().sin(), cosine = result.theta.array().cos();
@@ -102,19 +104,19 @@ Eigen::MatrixXd powers(const Eigen::VectorXd& theta, int degree) {
 }  // namespace
 
 Eigen::MatrixXd patch_hoop_strain(const stage2::Fields& fields, const std::vector<stage2::RimPoint>& points) {
-  const auto& rim = fields.solver().plate().hole_rim[0];
-  const Eigen::Index n = std::ssize(rim.sides) * fields.p();
+  const auto& rim = fields.solver.plate().hole_rim[0];
+  const Eigen::Index n = std::ssize(rim.sides) * degree(fields);
   Eigen::VectorXd theta(n);
-  Eigen::MatrixXd strain(n, fields.n_states());
+  Eigen::MatrixXd strain(n, fields.states.size());
   for (std::size_t i = 0; i < rim.sides.size(); ++i) {
     const auto side = gauss_strains(fields, rim.sides[i], rim.radius);
-    theta.segment(i * fields.p(), fields.p()) = side.theta;
-    strain.middleRows(i * fields.p(), fields.p()) = side.strain;
+    theta.segment(i * degree(fields), degree(fields)) = side.theta;
+    strain.middleRows(i * degree(fields), degree(fields)) = side.strain;
   }
-  const Eigen::MatrixXd c = powers(theta, fields.p()).colPivHouseholderQr().solve(strain);
+  const Eigen::MatrixXd c = powers(theta, degree(fields)).colPivHouseholderQr().solve(strain);
   Eigen::VectorXd at(points.size());
   for (Eigen::Index k = 0; k < at.size(); ++k) at[k] = points[k].angle;
-  return powers(at, fields.p()) * c;
+  return powers(at, degree(fields)) * c;
 }
 
 }  // namespace fastjoint::test
