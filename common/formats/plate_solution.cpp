@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 
 namespace fastjoint::formats {
@@ -43,7 +44,7 @@ struct Owned {
 template <class Owners, class Owner, class Item>
 std::vector<Owned<Item>> joined(const Owners& owners, std::vector<Item> Owner::*list) {
   std::vector<Owned<Item>> result;
-  for (std::size_t i = 0; i < owners.size(); ++i)
+  for (int i = 0; i < count_of(owners); ++i)
     for (const Item& item : owners[i].*list) result.push_back({static_cast<int>(i), item});
   return result;
 }
@@ -211,7 +212,7 @@ void datasets(File& file, Solution& a) {
   sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
   load_datasets(file, a, nc, h, q);
   if constexpr (File::reads) a.cases.resize(a.p.size());
-  for (std::size_t i = 0; i < a.cases.size(); ++i)
+  for (int i = 0; i < count_of(a.cases); ++i)
     case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, h, q, units);
   file("probe/displacement", a.probe.displacement, {nc}, length,
        "amounts of externals, then discs, in a state that is solved on its own to check S and T");
@@ -226,7 +227,7 @@ void datasets(File& file, Solution& a) {
 /// Refuses a rim that is not the one that the mesh has around that hole.
 void check_rims(const h5::Reader& file, const PlateSolution& a) {
   const rim::RimFinder find_rim(a.mesh, pfem::find_edges(a.mesh));
-  for (std::size_t hole = 0; hole < a.hole_rim.size(); ++hole) {
+  for (int hole = 0; hole < count_of(a.hole_rim); ++hole) {
     const rim::Rim& rim = a.hole_rim[hole];
     if (!(rim.sides == find_rim(rim.center, rim.radius).sides))
       throw FileError(fmt::format(

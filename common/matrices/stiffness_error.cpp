@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include "common/count.hpp"
 
 namespace fastjoint::matrices {
 namespace {
@@ -28,7 +29,7 @@ double rate(const Eigen::VectorXd& values, const Eigen::VectorXi& p) {
 /// Diagonal entry i of each matrix.
 Eigen::VectorXd diagonal(const std::vector<Eigen::MatrixXd>& S, Eigen::Index i) {
   Eigen::VectorXd values(std::ssize(S));
-  for (std::size_t level = 0; level < S.size(); ++level) values[level] = S[level](i, i);
+  for (int level = 0; level < count_of(S); ++level) values[level] = S[level](i, i);
   return values;
 }
 
@@ -81,7 +82,7 @@ std::vector<RelativeError> relative_errors(const CondensedLevels& a, const Eigen
     // `path` falls by the norms of R's differences
     Eigen::VectorXd energy = Eigen::VectorXd::Zero(p.size()), path = energy;
     for (Eigen::Index i = 0; i < a.S.back().rows(); ++i) energy += diagonal(a.S, i);
-    for (std::size_t i = a.R.size() - 1; i > 0; --i) path[i - 1] = path[i] + (a.R[i] - a.R[i - 1]).norm();
+    for (int i = count_of(a.R) - 1; i > 0; --i) path[i - 1] = path[i] + (a.R[i] - a.R[i - 1]).norm();
     errors.push_back({"R", extrapolated_error(path, p, std::min(fastest, rate(energy, p))) / R.norm()});
   }
   if (const auto& C = a.C.back(); C.size() > 0) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/pfem/numbering.hpp"
 
+#include "common/count.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::pfem {
@@ -15,10 +16,9 @@ struct DegreeBlock {
 std::vector<DegreeBlock> degree_blocks(const Mesh& mesh, const Edges& edges, const std::vector<Mode>& modes,
                                        Numbering& numbering) {
   std::vector<DegreeBlock> blocks(numbering.p + 1);
-  for (std::size_t m = edge_mode(numbering.p, n_local_edges, 2); m < modes.size(); ++m)
-    ++blocks[modes[m].degree].n_interior;
+  for (int m = edge_mode(numbering.p, n_local_edges, 2); m < count_of(modes); ++m) ++blocks[modes[m].degree].n_interior;
   numbering.n_functions = {0, mesh.n_nodes()};
-  for (std::size_t k = 2; k < blocks.size(); ++k) {
+  for (int k = 2; k < count_of(blocks); ++k) {
     blocks[k].first_edge = numbering.n_functions.back();
     blocks[k].first_interior = blocks[k].first_edge + edges.size();
     numbering.n_functions.push_back(blocks[k].first_interior + blocks[k].n_interior * mesh.n_elements());

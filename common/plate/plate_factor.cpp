@@ -44,12 +44,12 @@ class SkeletonAssembler {
     std::iota(order_.begin(), order_.end(), 0);
     std::erase_if(order_, [&](int i) { return rows[i] < 0; });
     std::sort(order_.begin(), order_.end(), [&](int i, int j) { return rows[i] < rows[j]; });
-    for (std::size_t c = 0; c < order_.size(); ++c) {
+    for (int c = 0; c < count_of(order_); ++c) {
       const int j = order_[c];
       const int column = rows[j];
       const int* end = A_.innerIndexPtr() + A_.outerIndexPtr()[column + 1];
       const int* at = A_.innerIndexPtr() + A_.outerIndexPtr()[column];
-      for (std::size_t r = c; r < order_.size(); ++r) {
+      for (int r = c; r < count_of(order_); ++r) {
         const int i = order_[r];
         const int row = rows[i];
         while (*at != row) at = at[1] == row ? at + 1 : std::lower_bound(at, end, row);

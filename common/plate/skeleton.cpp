@@ -126,21 +126,21 @@ Skeleton::Rows Skeleton::rows(const PlateStiffness& plate, int p) const {
 Skeleton::Size Skeleton::size(const Rows& rows) const {
   std::vector<Blocks> joined = higher_;
   Size size{0, 0, 0};
-  const auto n_rows = [&](std::size_t block) -> double { return rows.first[block + 1] - rows.first[block]; };
+  const auto n_rows = [&](int block) -> double { return rows.first[block + 1] - rows.first[block]; };
   const auto n_rows_of = [&](const Blocks& blocks) {
     double n = 0;
     for (const int block : blocks) n += n_rows(block);
     return n;
   };
   bool is_dense = false;
-  for (std::size_t a = 0; a < joined.size(); ++a) {
+  for (int a = 0; a < count_of(joined); ++a) {
     const double own = n_rows(a), below = n_rows_of(joined[a]);
     size.entries += own * (own + 1) / 2 + own * n_rows_of(higher_[a]);
     if (is_dense) continue;
     size.factor += own * own + own * below;
     size.largest_front = std::max(size.largest_front, below * below);
     // The border, of single rows: once one of them is joined to all others, so is each behind it.
-    is_dense = a >= function_.size() && a + joined[a].size() + 1 == joined.size();
+    is_dense = a >= count_of(function_) && a + count_of(joined[a]) + 1 == count_of(joined);
     if (is_dense) size.factor += below * (below + 1) / 2;
     if (is_dense || joined[a].empty()) continue;
     Blocks& parent = joined[joined[a].front()];
@@ -162,7 +162,7 @@ Eigen::SparseMatrix<double> Skeleton::pattern(const Rows& rows) const {
     for (const int b : higher_[a]) n_entries += Eigen::Index{size(a)} * size(b);
   }
   A.reserve(n_entries);
-  for (std::size_t a = 0; a < higher_.size(); ++a)
+  for (int a = 0; a < count_of(higher_); ++a)
     for (int column = rows.first[a]; column < rows.first[a + 1]; ++column) {
       A.startVec(column);
       for (int row = column; row < rows.first[a + 1]; ++row) A.insertBackByOuterInner(column, row) = 0;

@@ -82,7 +82,7 @@ SideSprings side_springs(const rim::HoleSpring& spring, const pfem::Mesh& mesh, 
   return spring.link > 0 ? links(spring, mesh, edges, side) : distributed(spring, mesh, edges, side, p);
 }
 
-RimTerms rim_terms(const SprungMesh& sprung, std::size_t hole, const pfem::Side& side, int p) {
+RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, int p) {
   const auto& [mesh, edges, rims, all_springs, axes] = sprung;
   const auto rule = rim::rim_rule(mesh, edges, side, p);
   const auto springs = side_springs(all_springs[hole].value(), mesh, edges, side, p);

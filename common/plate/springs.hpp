@@ -39,6 +39,6 @@ struct RimTerms {
 };
 
 /// @param hole Index of a sprung hole. @param p Degree of the plate's space.
-[[nodiscard]] RimTerms rim_terms(const SprungMesh& sprung, std::size_t hole, const pfem::Side& side, int p);
+[[nodiscard]] RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, int p);
 
 }  // namespace fastjoint::plate

@@ -23,7 +23,7 @@ bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector
 RimFinder::RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges) : mesh_(mesh) {
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) {
-      const std::size_t global = edges.of_element(edge, element);
+      const int global = edges.of_element(edge, element);
       const int arc = edges.arc[global];
       if (arc < 0 || edges.n_elements[global] != 1) continue;
       const Eigen::Vector2d& center = mesh.arcs[arc].center;

@@ -118,7 +118,7 @@ void read_peak(const Rim& rim, const Eigen::MatrixXd& hoop, RimState& state) {
 void read_sections(const formats::PlateStresses& a, const std::string& hole, const Eigen::MatrixXd& forces, double T,
                    double largest, RimState& state) {
   std::optional<Index> plus, minus;
-  for (std::size_t i = 0; i < a.section_hole.size(); ++i) {
+  for (int i = 0; i < count_of(a.section_hole); ++i) {
     if (a.section_hole[i] != hole) continue;
     if (a.section_side[i] == "+x") plus = i;
     if (a.section_side[i] == "-x") minus = i;
@@ -144,7 +144,7 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
 
 }  // namespace
 
-std::vector<RimState> rim_states(const formats::PlateStresses& a, std::size_t level, const InState& in_state,
+std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const InState& in_state,
                                  const LoadedDiscs& discs) {
   std::vector<RimState> states;
   const auto& [holes, axes, all_bearing, all_friction] = discs;
@@ -156,12 +156,12 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, std::size_t le
   const Eigen::MatrixXd hoop = with_lower_degree(a.sigma_tt), forces = with_lower_degree(a.section_force);
   const VectorXd all_radial = in_state(a.sigma_rr[level]);
   const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
-  for (std::size_t i = 0; i < a.rim_hole.size(); ++i) {
+  for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
     const int hole = index_of(holes, a.rim_hole[i]);
     const bool is_open = hole == count_of(holes);
-    for (std::size_t d = 0; d < axes.size() && !is_open; ++d) {
+    for (int d = 0; d < count_of(axes) && !is_open; ++d) {
       bearing[axes[d]] = all_bearing[hole * axes.size() + d];
       friction[axes[d]] = all_friction[hole * axes.size() + d];
     }
@@ -194,8 +194,7 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, std::size_t le
 
 int n_sections(const formats::PlateStresses& a, const std::string& hole) {
   int n = 0;
-  for (std::size_t i = 0; i < a.section_hole.size(); ++i)
-    n += a.section_hole[i] == hole && a.section_side[i].back() == 'x';
+  for (int i = 0; i < count_of(a.section_hole); ++i) n += a.section_hole[i] == hole && a.section_side[i].back() == 'x';
   return n;
 }
 

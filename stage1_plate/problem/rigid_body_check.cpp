@@ -53,7 +53,7 @@ std::vector<int> connected_parts(const pfem::Mesh& mesh) {
 }
 
 std::vector<Part> make_parts(const pfem::Mesh& mesh, const std::vector<int>& part_of_node) {
-  const std::size_t n_parts = *std::max_element(part_of_node.begin(), part_of_node.end()) + 1;
+  const int n_parts = *std::max_element(part_of_node.begin(), part_of_node.end()) + 1;
   std::vector<Eigen::AlignedBox2d> box(n_parts);
   for (int node = 0; node < mesh.n_nodes(); ++node) box[part_of_node[node]].extend(mesh.nodes.col(node));
   std::vector<Part> parts;

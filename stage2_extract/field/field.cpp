@@ -50,7 +50,7 @@ FieldState scene_loads(const PlateSolution& plate, const std::string& file) {
 /// Index of the longest name that the text starts with and that ends there, at a comma or at "=", or -1.
 std::ptrdiff_t first_case(const std::vector<std::string>& names, std::string_view text) {
   std::ptrdiff_t longest = -1;
-  for (std::size_t i = 0; i < names.size(); ++i) {
+  for (int i = 0; i < count_of(names); ++i) {
     const auto& name = names[i];
     if (!text.starts_with(name)) continue;
     if (text.size() > name.size() && text[name.size()] != ',' && text[name.size()] != '=') continue;

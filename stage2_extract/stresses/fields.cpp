@@ -5,6 +5,7 @@
 
 #include <cassert>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 
 namespace fastjoint::stage2 {
@@ -38,7 +39,7 @@ plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbe
 
 plate::SprungMesh sprung_mesh(const PlateSolution& a, const pfem::Edges& edges, const plate::Unknowns& unknowns) {
   plate::SprungMesh sprung{a.mesh, edges, a.hole_rim, {}, Eigen::Matrix2Xd(2, unknowns.n_directions)};
-  for (std::size_t i = 0; i < a.hole_id.size(); ++i)
+  for (int i = 0; i < count_of(a.hole_id); ++i)
     sprung.springs.push_back(unknowns.disc_of_hole[i] < 0 ? std::nullopt : std::optional(a.hole_spring[i]));
   for (int i = 0; i < unknowns.n_directions; ++i) sprung.axes.col(i) = rim::axis(a.disc_direction[i]);
   return sprung;

@@ -24,16 +24,15 @@ std::vector<std::string> names_of_cases(const Plate& a) {
   std::vector<std::string> names;
   names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
   for (const auto& id : a.external_id) names.push_back("external:" + id);
-  for (std::size_t i = 0; i < a.disc_hole.size(); ++i)
-    names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
-  for (std::size_t i = 0; i < a.friction_hole.size(); ++i)
+  for (int i = 0; i < count_of(a.disc_hole); ++i) names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
+  for (int i = 0; i < count_of(a.friction_hole); ++i)
     names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
   for (const auto& id : a.traction_id) names.push_back("traction:" + id);
   return names;
 }
 
-std::size_t sheet_of_joint(const PlateSolution& plate, const std::string& file, const std::string& result_file,
-                           const std::string& name, const formats::JointResult& joint) {
+int sheet_of_joint(const PlateSolution& plate, const std::string& file, const std::string& result_file,
+                   const std::string& name, const formats::JointResult& joint) {
   const auto cases = case_names(plate);
   std::vector<std::string> all, fitting;
   for (const auto& sheet : joint.plates) {
@@ -100,14 +99,14 @@ void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, c
                     result_file, history.name));
   const auto a = extract_stresses(solver, p, sheet.amounts);
   std::vector<int> axes;
-  for (std::size_t i = 0; i < plate.disc_hole.size() && plate.disc_hole[i] == plate.disc_hole[0]; ++i)
+  for (int i = 0; i < count_of(plate.disc_hole) && plate.disc_hole[i] == plate.disc_hole[0]; ++i)
     axes.push_back(plate.disc_direction[i] == "x" ? 0 : 1);
   std::vector<std::string> holes;
-  for (std::size_t i = 0; i < plate.disc_hole.size(); i += axes.size()) holes.push_back(plate.disc_hole[i]);
+  for (int i = 0; i < count_of(plate.disc_hole); i += count_of(axes)) holes.push_back(plate.disc_hole[i]);
   history.rims = stresses::rims_of(a);
   for (Eigen::Index step = 0; step < sheet.amounts.cols(); ++step) {
     const auto states = stresses::rim_states(
-        a, a.p.size() - 1, [&](const formats::StressRows& of_states) { return of_states.col(step); },
+        a, count_of(a.p) - 1, [&](const formats::StressRows& of_states) { return of_states.col(step); },
         {holes, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)});
     history.rims.values.emplace_back(states.begin(), states.end());
   }
@@ -120,8 +119,8 @@ std::string rim_summary(const JointSheet& sheet) {
                                  program::counted(rims.values.size(), "increment"), joint.p);
   formats::RimValues largest{.peak_hoop = -h5::infinite};
   std::string where;
-  for (std::size_t step = 0; step < rims.values.size(); ++step)
-    for (std::size_t hole = 0; hole < rims.hole.size(); ++hole)
+  for (int step = 0; step < count_of(rims.values); ++step)
+    for (int hole = 0; hole < count_of(rims.hole); ++hole)
       if (rims.values[step][hole].peak_hoop > largest.peak_hoop) {
         largest = rims.values[step][hole];
         where = fmt::format("hole \"{}\", increment {}", rims.hole[hole], step + 1);

@@ -20,7 +20,7 @@ namespace fastjoint::stage2 {
 /// The result of a joint, and which of its sheets a plate is.
 struct JointSheet {
   formats::JointResult joint;
-  std::size_t at;           ///< of joint.plates
+  int at;                   ///< of joint.plates
   Eigen::MatrixXd amounts;  ///< (n_cases, steps) of the plate's unit cases at every increment
 };
 

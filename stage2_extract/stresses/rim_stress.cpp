@@ -98,12 +98,12 @@ Eigen::Vector2d bearing_direction(const std::string& side) {
   return side[0] == '+' ? axis : Eigen::Vector2d(-axis);
 }
 
-RimStress::RimStress(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points) {
+RimStress::RimStress(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points) {
   for (const auto& side : solver.plate().hole_rim[hole].sides) add_side(solver, hole, side, points);
   add_tractions(solver, hole, points);
 }
 
-void RimStress::add_side(const FieldSolver& solver, std::size_t hole, const pfem::Side& side,
+void RimStress::add_side(const FieldSolver& solver, int hole, const pfem::Side& side,
                          const std::vector<RimPoint>& points) {
   const int p = solver.numbering().p;
   const double radius = solver.plate().hole_rim[hole].radius;
@@ -125,7 +125,7 @@ void RimStress::add_side(const FieldSolver& solver, std::size_t hole, const pfem
     const RimPoint& point = points[part.points[i]];
     const Frame frame = frame_at(point.angle);
     const auto shape = pfem::integrated_legendre(p, Eigen::VectorXd::Constant(1, on[i]->s));
-    for (std::size_t k = 0; k < modes.size(); ++k)
+    for (int k = 0; k < count_of(modes); ++k)
       for (const int component : {0, 1}) {
         const auto row = modes[k] + component * n_modes;
         weights(row, i) = frame.n[component] * shape.N(k, 0);
@@ -140,7 +140,7 @@ void RimStress::add_side(const FieldSolver& solver, std::size_t hole, const pfem
   sides_.push_back(std::move(part));
 }
 
-void RimStress::add_tractions(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points) {
+void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points) {
   const auto& plate = solver.plate();
   const std::string& id = plate.hole_id[hole];
   const auto& spring = plate.hole_spring[hole];
@@ -154,13 +154,13 @@ void RimStress::add_tractions(const FieldSolver& solver, std::size_t hole, const
       [&](const Frame&, Eigen::Index i) { return rim::covers(spring.acts, points[i].angle) ? spring.modulus : 0; });
   const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(n);
   Eigen::Index unit_case = plate.n_externals();
-  for (std::size_t i = 0; i < plate.disc_hole.size(); ++i, ++unit_case) {
+  for (int i = 0; i < count_of(plate.disc_hole); ++i, ++unit_case) {
     if (plate.disc_hole[i] != id) continue;
     const Eigen::Vector2d e = rim::axis(plate.disc_direction[i]);
     tractions_.push_back(
         {unit_case, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }), none});
   }
-  for (std::size_t i = 0; i < plate.friction_hole.size(); ++i, ++unit_case) {
+  for (int i = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
     if (plate.friction_hole[i] != id) continue;
     const Eigen::Vector2d d = bearing_direction(plate.friction_bearing[i]);
     tractions_.push_back({unit_case, none, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
@@ -168,7 +168,7 @@ void RimStress::add_tractions(const FieldSolver& solver, std::size_t hole, const
                             return -bearing.contact * bearing.tangent.dot(at.t);
                           })});
   }
-  for (std::size_t i = 0; i < plate.traction_hole.size(); ++i, ++unit_case) {
+  for (int i = 0; i < count_of(plate.traction_hole); ++i, ++unit_case) {
     if (plate.traction_hole[i] != id) continue;
     const Eigen::Vector2d d = rim::axis(plate.traction_direction[i]);
     const double unit_force = rim::bearing(plate.mesh, solver.edges(), plate.hole_rim[hole], d).unit_force;
@@ -189,13 +189,13 @@ RimStresses RimStress::operator()(const Fields& fields) const {
   std::vector<Eigen::MatrixXd> values;
   for (const auto& side : sides_) {
     values.push_back(fields.states.values(side.u_n_and_eps_tt));
-    for (std::size_t i = 0; i < side.points.size(); ++i) {
+    for (int i = 0; i < count_of(side.points); ++i) {
       const int at = side.points[i];
       sigma.rr.col(at) += side.share[i] * modulus_[at] * values.back().col(i);
     }
   }
-  for (std::size_t s = 0; s < sides_.size(); ++s)
-    for (std::size_t i = 0; i < sides_[s].points.size(); ++i) {
+  for (int s = 0; s < count_of(sides_); ++s)
+    for (int i = 0; i < count_of(sides_[s].points); ++i) {
       const int at = sides_[s].points[i];
       const Eigen::Vector3d hoop = sides_[s].share[i] * sides_[s].hoop.col(i);
       sigma.tt.col(at) += hoop[0] * sigma.rr.col(at) + hoop[1] * values[s].col(sides_[s].points.size() + i) +

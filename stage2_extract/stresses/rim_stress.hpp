@@ -45,7 +45,7 @@ struct RimStresses {
 /// The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other ways.
 class RimStress {
  public:
-  RimStress(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points);
+  RimStress(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
   [[nodiscard]] RimStresses operator()(const Fields& fields) const;
 
  private:
@@ -61,9 +61,8 @@ class RimStress {
     Eigen::Index unit_case;
     Eigen::RowVectorXd rr, rt;
   };
-  void add_side(const FieldSolver& solver, std::size_t hole, const pfem::Side& side,
-                const std::vector<RimPoint>& points);
-  void add_tractions(const FieldSolver& solver, std::size_t hole, const std::vector<RimPoint>& points);
+  void add_side(const FieldSolver& solver, int hole, const pfem::Side& side, const std::vector<RimPoint>& points);
+  void add_tractions(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
 
   std::vector<SidePoints> sides_;
   std::vector<CaseTraction> tractions_;

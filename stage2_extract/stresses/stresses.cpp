@@ -116,7 +116,7 @@ std::vector<std::vector<plate::CondensedFunctions>> section_forces(const FieldSo
 void add_level(const FieldSolver& solver, const Rims& rims, const Eigen::MatrixXd& amounts, formats::PlateStresses& a) {
   const auto n_states = amounts.cols();
   std::vector<RimStress> stresses;
-  for (std::size_t hole = 0; hole < rims.size(); ++hole) stresses.emplace_back(solver, hole, rims[hole]);
+  for (int hole = 0; hole < count_of(rims); ++hole) stresses.emplace_back(solver, hole, rims[hole]);
   const auto sections = section_forces(solver);
   for (auto* sigma : {&a.sigma_rr, &a.sigma_tt, &a.sigma_rt}) sigma->emplace_back(a.angle.size(), n_states);
   a.section_force.emplace_back(Eigen::MatrixXd::Zero(std::ssize(sections), n_states));
@@ -125,14 +125,14 @@ void add_level(const FieldSolver& solver, const Rims& rims, const Eigen::MatrixX
     program::report_share(level / double(a.p.size()));
     const auto columns = Eigen::seqN(first, std::min(block, n_states - first));
     const Fields fields = solver.solve(amounts(Eigen::all, columns));
-    for (std::size_t i = 0; i < rims.size(); ++i) {
+    for (int i = 0; i < count_of(rims); ++i) {
       const auto points = Eigen::seq(a.rim_start[i], a.rim_start[i + 1] - 1);
       const auto [rr, tt, rt] = stresses[i](fields);
       a.sigma_rr.back()(points, columns) = rr.transpose();
       a.sigma_tt.back()(points, columns) = tt.transpose();
       a.sigma_rt.back()(points, columns) = rt.transpose();
     }
-    for (std::size_t i = 0; i < sections.size(); ++i)
+    for (int i = 0; i < count_of(sections); ++i)
       for (const auto& part : sections[i])
         a.section_force.back().row(i)(columns) += fields.states.values(part).transpose();
   }

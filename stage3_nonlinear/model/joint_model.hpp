@@ -43,8 +43,8 @@ struct PlateModel {
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
   MatrixXd S_error;  ///< (m+e, m+e) the file's; infinite where it does not know it or p is not its highest
-  formats::PlateStresses stresses;    ///< as the file has them
-  std::optional<Index> stress_level;  ///< those of the joint's degree, if there are any
+  formats::PlateStresses stresses;  ///< as the file has them
+  std::optional<int> stress_level;  ///< those of the joint's degree, if there are any
   // Loads at load factor 1.
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)

@@ -139,9 +139,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   if (level + 1 < a.p.size()) plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
-  const auto& levels = plate.stresses.p;
-  if (const auto at = std::find(levels.begin(), levels.end(), p); at != levels.end())
-    plate.stress_level = at - levels.begin();
+  if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) plate.stress_level = at;
   plate.external_force = VectorXd::Zero(a.n_externals());
   plate.external_displacement.resize(a.external_id.size());
   plate.traction_force = VectorXd::Zero(a.n_tractions());

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "common/count.hpp"
 #include "common/stresses/rim_state.hpp"
 #include "tests/support/plates.hpp"
 
@@ -50,7 +51,7 @@ class RandomSheet {
     std::vector<std::string> names;
     for (const auto& hole : holes) names.push_back(hole.id);
     const auto& its = a.matrices.stresses;
-    return stresses::rim_states(its, its.p.size() - 1,
+    return stresses::rim_states(its, count_of(its.p) - 1,
                                 [&](const formats::StressRows& cases) { return cases * amounts; },
                                 {names, {0}, Eigen::VectorXd::Zero(m), friction});
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/CholmodSupport>
 
+#include "common/count.hpp"
 #include "common/pfem/element.hpp"
 #include "common/plate/springs.hpp"
 
@@ -29,7 +30,7 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
         stiffness(pfem::ElementMap(mesh.mesh, mesh.edges, element), scene.elasticity[mesh.mesh.material[element]],
                   mesh.mesh.thickness[element]));
   const auto sprung = stage1::sprung_mesh(scene, mesh);
-  for (std::size_t hole = 0; hole < scene.holes.size(); ++hole) {
+  for (int hole = 0; hole < count_of(scene.holes); ++hole) {
     if (!scene.holes[hole].spring) continue;
     for (const auto& side : mesh.rims[hole].sides) {
       const auto terms = plate::rim_terms(sprung, hole, side, numbering.p);

@@ -19,7 +19,7 @@ struct Plate {
   std::vector<std::string> holes;
   std::vector<int> axes;
   formats::PlateStresses stresses;
-  std::size_t level;
+  int level;
 };
 
 /// A plate with the disc "1" and two cases; the hoop stress of the first case is `hoop` at the higher degree and 1 %
