@@ -79,7 +79,7 @@ struct SolverScene {
 /// What solves the increments that no exact path reaches: unless the input says which, hybridsj up to the number of
 /// unknowns beyond which damped Newton takes less time, since GSL factorises without blocks (docs/solvers.md).
 [[nodiscard]] inline Method iterative_method(Method method, std::ptrdiff_t n_unknowns) {
-  constexpr std::ptrdiff_t most_for_hybridsj = 64;
+  constexpr std::ptrdiff_t most_for_hybridsj = 40;
   if (method == Method::hybridsj || method == Method::damped_newton) return method;
   return n_unknowns <= most_for_hybridsj ? Method::hybridsj : Method::damped_newton;
 }

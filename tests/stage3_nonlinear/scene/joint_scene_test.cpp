@@ -100,8 +100,8 @@ TEST(JointScene, HasDefaults) {
 
 TEST(JointScene, TakesDampedNewtonForManyUnknownsUnlessTheInputSaysOtherwise) {
   for (const Method by_itself : {Method::fitting, Method::exact_path}) {
-    EXPECT_EQ(iterative_method(by_itself, 64), Method::hybridsj);
-    EXPECT_EQ(iterative_method(by_itself, 65), Method::damped_newton);
+    EXPECT_EQ(iterative_method(by_itself, 40), Method::hybridsj);
+    EXPECT_EQ(iterative_method(by_itself, 41), Method::damped_newton);
   }
   for (const int n_unknowns : {1, 1000})
     for (const Method chosen : {Method::hybridsj, Method::damped_newton})
