@@ -137,7 +137,7 @@ void resize(T&& value, const Shape& shape, std::size_t k = 0) {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// What a reader takes as the entries of a dataset, and what stands in for each entry of one that a file leaves out.
+/// The entries that a reader takes of a dataset, and what stands in for each entry of one that a file leaves out.
 struct Allowed {
   std::string text = "finite numbers";  ///< what a message expects
   double low = std::numeric_limits<double>::lowest();

@@ -29,7 +29,7 @@ class Reader {
   [[nodiscard]] const std::string& path() const;
   /// Digest that the file carries; empty if it has none.
   [[nodiscard]] const std::string& digest() const;
-  /// Whether units are compared: they are unless told otherwise.
+  /// True if units are compared: they are unless told otherwise.
   void compare_units(bool compare);
   [[nodiscard]] bool has(const std::string& dataset) const;
   /// Makes the value of a dataset or group that the file may lack, and returns it to be read; null if the file lacks

@@ -39,7 +39,7 @@ void remove_unfinished() noexcept;
 /// Throws FileError unless a file could be put at `path`: asked before the work, not after it.
 void check_can_write(const std::string& path);
 
-/// Whether both paths lead to one file, which need not exist yet; an empty path leads to none.
+/// True if both paths lead to one file, which need not exist yet; an empty path leads to none.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 /// Digest of the first n bytes of a file, or of all if it has fewer, 16 hexadecimal digits: XXH3 of xxHash, 64 bits

@@ -47,7 +47,7 @@ class Writer {
       put(name, shape, spans<const Scalar>(entries), unit, meaning);
     }
   }
-  /// What the file gets of a value that may be missing; null if it is.
+  /// The part that the file gets of a value that may be missing; null if it is.
   template <class T>
   [[nodiscard]] const T* part(const std::string& /*name*/, const std::optional<T>& value) const {
     return value ? &*value : nullptr;

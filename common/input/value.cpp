@@ -69,7 +69,7 @@ constexpr std::array<std::pair<const char*, const char*>, 14> advice{{
      "this is no value; allowed: a number, a text or key in double quotes, true, false, an object, an array"},
 }};
 
-/// What is wrong with the text; else the parser's own words, without its numbers.
+/// A sentence on what is wrong with the text; else the parser's own words, without its numbers.
 std::string reason(const std::string& text, const std::string& what) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) return "the file is empty";
   for (const auto& [words, sentence] : advice)

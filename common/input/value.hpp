@@ -25,7 +25,7 @@ struct Document {
 /// Throws InputError naming the file, line and column of the first mistake.
 [[nodiscard]] Document parse(const std::string& file, const std::string& text);
 
-/// Which numbers are allowed; infinite limits are open.
+/// An interval of allowed numbers; infinite limits are open.
 struct Range {
   double low = -std::numeric_limits<double>::infinity();
   double high = std::numeric_limits<double>::infinity();

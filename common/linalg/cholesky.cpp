@@ -125,7 +125,7 @@ class RowElimination {
   }
 
  private:
-  /// What elimination up to a supernode leaves of rows of C, over the rows below it.
+  /// The rest that elimination up to a supernode leaves of rows of C, over the rows below it.
   struct Rest {
     Supernode from;
     std::vector<int> of;   ///< (r) rows of C, ascending

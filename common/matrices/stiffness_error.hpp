@@ -10,11 +10,11 @@ namespace fastjoint::matrices {
 /// Estimated absolute error of the last of condensed stiffness matrices of rising degree, shape (nc, nc), >= 0,
 /// infinite if there is but one (docs/theory.md, section 5.1).
 ///
-/// What is smooth is overestimated, 3.6 times by the median, 50 times at most without rings around the holes, up to 80
-/// times with some, and what is singular (ends of clamped edges, of steps in thickness) is not underestimated by more
-/// than 1.5 times, nor are slender cells, in 20967 cases (tests/stage2_extract/matrices/effectivity_test.cpp
-/// and error_sweep_test.cpp). Exception: springs that end inside a side of an element, up to twice: their differences
-/// fall as p^-(2 lambda + 1).
+/// The error of what is smooth is overestimated, 3.6 times by the median, 50 times at most without rings around the
+/// holes, up to 80 times with some, and what is singular (ends of clamped edges, of steps in thickness) is not
+/// underestimated by more than 1.5 times, nor are slender cells, in 20967 cases
+/// (tests/stage2_extract/matrices/effectivity_test.cpp and error_sweep_test.cpp). Exception: springs that end inside a
+/// side of an element, up to twice: their differences fall as p^-(2 lambda + 1).
 /// @param p Degrees, rising, shape (np). @param fastest The largest s that is believed.
 [[nodiscard]] Eigen::MatrixXd stiffness_error(const std::vector<Eigen::MatrixXd>& S, const Eigen::VectorXi& p,
                                               double fastest);

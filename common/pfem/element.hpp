@@ -21,7 +21,7 @@ class ElementMap {
   [[nodiscard]] Eigen::Vector2d point(double xi, double eta) const;
   /// Columns dx/dxi and dx/deta.
   [[nodiscard]] Eigen::Matrix2d jacobian(double xi, double eta) const;
-  /// Whether one of its edges is an arc.
+  /// True if one of its edges is an arc.
   [[nodiscard]] bool is_curved() const;
 
  private:

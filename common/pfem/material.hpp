@@ -16,7 +16,7 @@ struct OrthotropicConstants {
 
 [[nodiscard]] OrthotropicConstants isotropic(double E, double nu);
 
-/// Whether the strain energy is positive for every strain that the analysis knows.
+/// True if the strain energy is positive for every strain that the analysis knows.
 [[nodiscard]] bool is_stable(const OrthotropicConstants& constants, Analysis analysis);
 
 /// Stiffness that relates (sigma_x, sigma_y, tau_xy) to (eps_x, eps_y, gamma_xy), for material axes turned by

@@ -23,8 +23,8 @@ struct Numbering {
 /// elements' interior modes of that degree.
 [[nodiscard]] Numbering number_by_degree(const Mesh& mesh, const Edges& edges, Space space, int p);
 
-/// What becomes of a degree of freedom, u_x or u_y of a global function, stands in one number: i >= 0 is the free
-/// unknown i, -1 is zero, -2 - i is the controlled displacement i.
+/// One number tells what becomes of a degree of freedom, u_x or u_y of a global function: i >= 0 is the free unknown i,
+/// -1 is zero, -2 - i is the controlled displacement i.
 inline constexpr int fixed_dof = -1;
 [[nodiscard]] constexpr int controlled_dof(int index) { return -2 - index; }
 [[nodiscard]] constexpr bool is_free(int dof) { return dof >= 0; }

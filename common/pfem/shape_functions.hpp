@@ -37,8 +37,8 @@ struct Values {
 /// Highest polynomial degree of an element.
 inline constexpr int highest_p = 8;
 
-/// Which functions phi_i(xi) phi_j(eta), i, j >= 2, an element of degree p has inside, beside those of its vertices and
-/// edges. Szabo & Babuska 1991, section 6.2.
+/// The functions phi_i(xi) phi_j(eta), i, j >= 2, that an element of degree p has inside, beside those of its vertices
+/// and edges. Szabo & Babuska 1991, section 6.2.
 enum class Space {
   trunk,    ///< i + j <= p: what a polynomial of degree p needs; the paper's
   product,  ///< i, j <= p: what a polynomial of degree p in each coordinate needs

@@ -65,7 +65,7 @@ class SkeletonAssembler {
   std::vector<int> order_;
 };
 
-/// What elimination of an element's inside takes off a diagonal entry.
+/// The amount that elimination of an element's inside takes off a diagonal entry.
 double eliminated(const std::vector<int>& rows, const Eigen::VectorXd& sign, int row, const linalg::Condensed& matrix) {
   Eigen::RowVectorXd x = Eigen::RowVectorXd::Zero(matrix.n_inside());
   for (int i = 0; i < count_of(rows); ++i)

@@ -28,7 +28,7 @@ struct AngleRange {
   friend bool operator==(const AngleRange&, const AngleRange&) = default;
 };
 
-/// Whether one of the ranges covers the angle, any multiple of a full turn away.
+/// True if one of the ranges covers the angle, any multiple of a full turn away.
 [[nodiscard]] inline bool covers(const std::vector<AngleRange>& ranges, double angle) {
   return std::any_of(ranges.begin(), ranges.end(),
                      [&](const AngleRange& range) { return wrapped(angle, range.from) <= range.to; });

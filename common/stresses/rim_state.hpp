@@ -27,7 +27,7 @@ struct RimState : formats::RimValues {
   bool in_tension = false;  ///< the section of the concentrations
 };
 
-/// What fasteners do to the m discs of a plate, hole after hole.
+/// Forces of the fasteners on the m discs of a plate, hole after hole.
 struct LoadedDiscs {
   const std::vector<std::string>& holes;  ///< (m / a)
   const std::vector<int>& axes;           ///< (a) directions of each hole's discs: 0 x, 1 y

@@ -73,7 +73,7 @@ std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& ed
   return {turned / curve.sweep(), std::abs(ray.norm() - radius) / (radius * std::abs(curve.sweep()))};
 }
 
-/// Whether an edge joins two nodes, however short it is.
+/// True if an edge joins two nodes, however short it is.
 bool are_joined(const pfem::Edges& edges, int a, int b) {
   return (edges.nodes.row(0).array() == std::min(a, b) && edges.nodes.row(1).array() == std::max(a, b)).any();
 }

@@ -13,7 +13,7 @@ struct Accuracy {
   PlateScene scene;                             ///< with the space, rings and highest degree chosen
   double asked;                                 ///< relative error by the Frobenius norm
   std::vector<matrices::RelativeError> errors;  ///< estimated
-  bool free_rings;                              ///< whether the scene left the rings of a hole open
+  bool free_rings;                              ///< true if the scene left the rings of a hole open
   [[nodiscard]] double error() const { return matrices::largest(errors); }
   [[nodiscard]] bool is_reached() const { return error() <= asked; }
 };

@@ -45,8 +45,6 @@ Eigen::Matrix3d read_orthotropic(const Value& value, Analysis analysis) {
   return pfem::elasticity(c, angle ? angle->number() * rim::degree : 0, analysis);
 }
 
-using input::Value;
-
 /// Modulus for a disc in plane stress under uniform pressure, u_r = (1 - nu) p r / E: equation (29).
 double plane_stress(double E, double nu, double d) { return 2 / (1 - nu) * E / d; }
 

@@ -143,7 +143,7 @@ constexpr auto columns = std::to_array<Column>({
     {&RimState::across, "held across", 12, "{:.6g}", true},
 });
 
-/// What a column shows; only `across`, a force, is no quantity of RESULT.h5.
+/// The quantity that a column shows; only `across`, a force, is no quantity of RESULT.h5.
 formats::RimQuantity shown(const Column& column) {
   for (const auto& quantity : formats::rim_quantities())
     if (column.value == quantity.value) return quantity;
