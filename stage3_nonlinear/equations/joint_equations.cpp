@@ -143,20 +143,6 @@ LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexib
   return result;
 }
 
-std::optional<VectorXd> linear_flexibility(const JointEquations& equations) {
-  const Index n = equations.n_planes(), a = equations.n_directions();
-  VectorXd flexibility(n * a);
-  for (Index j = 0; j < n; ++j) {
-    const Contact& contact = equations.contacts[j];
-    const auto corners = contact.law->corners(contact.stiffness, contact.clearance);
-    if (!corners || !corners->empty() || contact.one_sided) return std::nullopt;
-    const Branch on = contact.law->at(1, contact.stiffness, contact.clearance);
-    if (!(on.dF > 0)) return std::nullopt;
-    flexibility.segment(j * a, a).setConstant(on.ddelta / on.dF);
-  }
-  return flexibility;
-}
-
 VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor) {
   const CondensedSystem& system = equations.system;
   const auto rows = system.q.size();

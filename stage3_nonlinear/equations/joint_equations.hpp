@@ -64,9 +64,6 @@ struct LinearForces {
 [[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility,
                                          double load_factor);
 
-/// Flexibilities of all rows if every plane is a linear spring without gap that bears both ways, shape (n a).
-[[nodiscard]] std::optional<VectorXd> linear_flexibility(const JointEquations& equations);
-
 /// Bearing forces to start from (Bortman & Szabo, section 6.1): of rigid fasteners, of linear ones of one
 /// stiffness (default: the mean of the plates' own, diag S_ud), or the rigid ones' sum spread equally over
 /// the planes. Shape (n a), force.

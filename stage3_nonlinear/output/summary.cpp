@@ -37,7 +37,6 @@ double rounded(double force, double largest) {
 
 /// Name of what solved the increments.
 std::string method(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
-  if (path.linear) return "linear";
   const Index exact = std::ranges::count(path.steps, true, &PathStep::exact);
   const Method chosen = iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions());
   const std::string& iterative = method_names[static_cast<std::size_t>(chosen) - 1];
@@ -45,9 +44,8 @@ std::string method(const JointScene& scene, const JointModel& joint, const LoadP
   return exact == path.n_increments ? "exact path" : "exact path, " + iterative;
 }
 
-std::string effort(const LoadPath& path, const PathStep& step) {
+std::string effort(const PathStep& step) {
   using program::counted;
-  if (path.linear) return counted(step.iterations, "linear solve");
   return step.exact ? counted(step.iterations, "piece") + " without iterations" : counted(step.iterations, "iteration");
 }
 
@@ -214,7 +212,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   for (Index i = 0; i < std::ssize(states); ++i) {
     const PathStep& step = path.steps[i];
     text += fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
-                        path.n_increments, step.load_factor, effort(path, step), step.residual);
+                        path.n_increments, step.load_factor, effort(step), step.residual);
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }

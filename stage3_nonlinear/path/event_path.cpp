@@ -257,7 +257,6 @@ std::vector<EventPlace> events_of(const ExactPath& path, const ContactCorners& c
 
 LoadPath follow_events(const JointEquations& equations, const PathOptions& options) {
   constexpr double at_end = 1 - 1e-10;
-  if (linear_flexibility(equations)) return follow(equations, {1}, options);
   LoadPath path{.steps = {}, .failure = {}};
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));

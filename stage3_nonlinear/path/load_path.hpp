@@ -91,7 +91,6 @@ struct PathLeft {
 };
 
 struct LoadPath {
-  bool linear = false;     ///< linear solves did it
   Index n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
@@ -103,11 +102,11 @@ struct PathOptions {
   SolverScene solver;
 };
 
-/// Follows the load factors, each increment from the last. If all fasteners are linear springs without gap, linear
-/// solves do it; if all are linear between corners, their exact path as far as it goes, unless the options are against
-/// it. Else the chosen solver in the contact coordinates from the last state, then damped Newton, then both in half
-/// steps. A load factor that cannot be reached so is tried from the first guesses: by the same solvers, with friction
-/// also by damped Newton in turns, each under the friction of the turn before, and at last in half steps.
+/// Follows the load factors, each increment from the last. If all fasteners are linear between corners, their exact
+/// path as far as it goes, unless the options are against it. Else the chosen solver in the contact coordinates from
+/// the last state, then damped Newton, then both in half steps. A load factor that cannot be reached so is tried from
+/// the first guesses: by the same solvers, with friction also by damped Newton in turns, each under the friction of the
+/// turn before, and at last in half steps.
 ///
 /// The first increment begins with the first guesses, unless the solution may be one of several: then at no load. There
 /// each step must also agree with two half steps; one that does not, however short, is a jump.

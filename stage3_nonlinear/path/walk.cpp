@@ -9,31 +9,6 @@
 #include "common/program/progress.hpp"
 
 namespace fastjoint::stage3 {
-namespace {
-
-/// Solutions for load factors 1 and -1 serve all others: with friction the two senses differ.
-std::optional<LoadPath> follow_linear(const JointEquations& equations, const std::vector<double>& load_factors,
-                                      double tolerance) {
-  const auto flexibility = linear_flexibility(equations);
-  if (!flexibility) return std::nullopt;
-  LoadPath path{.linear = true, .n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
-  std::optional<LinearForces> unit[2];
-  for (const double factor : load_factors) {
-    auto& forces = unit[factor < 0 ? 1 : 0];
-    if (!forces) forces = linear_forces(equations.system, *flexibility, factor < 0 ? -1 : 1);
-    const VectorXd F = std::abs(factor) * forces->F;
-    const VectorXd delta = flexibility->cwiseProduct(F);
-    const double residual =
-        equations.system.residual(F, delta, factor).lpNorm<Eigen::Infinity>() / force_scale(equations.system, factor);
-    if (!forces->consistent || !(residual <= tolerance)) return std::nullopt;
-    const auto state = contact_state(equations.contacts, contact_coordinates(equations.contacts, F));
-    path.steps.push_back({factor, F, delta, forces->solves, residual, check_tangent(equations, state)});
-  }
-  return path;
-}
-
-}  // namespace
-
 double force_scale(const CondensedSystem& system, double load_factor) {
   const double scale = std::abs(load_factor) * system.q.lpNorm<Eigen::Infinity>();
   return scale > 0 ? scale : 1;
@@ -220,7 +195,6 @@ void Walk::note_failure(const Root& root) {
 }
 
 LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors, const PathOptions& options) {
-  if (auto linear = follow_linear(equations, load_factors, options.solver.tolerance)) return *std::move(linear);
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) {  // one for each sign, as far as it goes
     const auto [least, most] = std::ranges::minmax(load_factors);

@@ -61,7 +61,7 @@ TEST_F(Run, PrintsATable) {
   EXPECT_EQ(log_.str(), "");
   EXPECT_THAT(out_.str(), StartsWith("joint \"lap\": 2 plates, 2 fasteners, p = 8, linear\n"
                                      "the stiffness of a is known to 0.0e+00 of its largest entry\n"));
-  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 1 linear solve, residual "));
+  EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 2: load factor 1, 1 piece without iterations, residual "));
   EXPECT_THAT(out_.str(), HasSubstr("  fastener           delta [in]          F [lbf]    transferred [lbf] share [%]\n"
                                     "  f1                       0.05               50                   50    50.000\n"
                                     "  f2                       0.05               50                   50    50.000\n"
