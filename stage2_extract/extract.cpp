@@ -41,6 +41,7 @@ void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eig
 /// joint the fasteners would have to carry it.
 void balance(const FreeTranslation& free, formats::PlateCases& level) {
   if (free.motion.isZero(0)) return;
+  level.B -= level.B.lazyProduct(free.motion).eval() * (free.motion.transpose() / free.motion.squaredNorm());
   for (int side = 0; side < 2; ++side) {
     balance(free.motion, Eigen::RowVectorXd::Zero(level.S.cols()), level.S);
     level.S.transposeInPlace();
@@ -52,7 +53,7 @@ void balance(const FreeTranslation& free, formats::PlateCases& level) {
 
 void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrices& a) {
   const auto e = a.n_externals(), m = a.n_discs();
-  for (const auto& [S, R, T, C_t] : levels) {
+  for (const auto& [S, R, T, C_t, B, C, R_p, T_p] : levels) {
     a.S_ee.push_back(S.topLeftCorner(e, e));
     a.S_ed.push_back(S.topRightCorner(e, m));
     a.S_dd.push_back(S.bottomRightCorner(m, m));
@@ -61,6 +62,11 @@ void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrice
     a.T_e.push_back(T.topRows(e));
     a.T_d.push_back(T.bottomRows(m));
     a.C_t.push_back(C_t);
+    a.B_e.push_back(B.leftCols(e));
+    a.B_d.push_back(B.rightCols(m));
+    a.C.push_back(C);
+    a.R_p.push_back(R_p);
+    a.T_p.push_back(T_p);
   }
 }
 

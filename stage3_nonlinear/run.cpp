@@ -63,8 +63,8 @@ void require_memory(const JointScene& scene, const JointModel& joint, const Join
   const double n = double(joint.n_planes());
   double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities)
-    of_plane +=
-        n + double(numbers.friction.size() + numbers.law.size() + numbers.force.size() + numbers.displacement.size());
+    of_plane += n + double(numbers.friction.size() + numbers.law.size() + numbers.force.size() +
+                           numbers.displacement.size() + numbers.gap.size());
   constexpr double number = sizeof(double), of_rim = 17, of_stiffness = 24;
   double solving = 0, of_step = of_plane * n;
   for (const auto& plate : joint.plates) {
@@ -114,7 +114,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));
   warn(log, rim_warnings(joint, states));
-  auto result = joint_result(joint, path, states);
+  auto result = joint_result(joint, equations, path, states);
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   result.F_error = force_errors(joint, equations, path, states);
   if (with_sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);

@@ -25,11 +25,11 @@ STAGES = {
     "stage3_nonlinear": {
         "laws": ["input", "program", ""],
         "scene": ["input", "program", ""],
-        "model": ["formats", ""],
+        "model": ["formats", "matrices", ""],
         "solvers": [],
-        "equations": ["matrices", ""],
+        "equations": ["matrices", "rim", ""],
         "path": ["program"],
-        "results": ["matrices", "stresses", ""],
+        "results": ["formats", "matrices", "stresses", ""],
         "output": ["formats", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],
     },
@@ -47,7 +47,7 @@ COMMON = {
     "stresses": ["", "formats", "rim"],
     "program": ["", "h5", "linalg"],
 }
-# Of finite elements the third stage knows the angles of a rim alone; of formats those without a mesh; of linear algebra
+# Of finite elements the third stage knows the angles and pressures of a rim alone; of formats those without a mesh; of linear algebra
 # nothing that takes CHOLMOD.
 THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg/cholesky.hpp", "common/linalg/condensed.hpp", "common/plate/",
                        "common/rim/rim.hpp", "common/formats/plate_solution")

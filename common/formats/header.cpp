@@ -54,6 +54,33 @@ void space(File& file, AnySpace& a) {
 template void space(h5::Writer& file, const pfem::Space& a);
 template void space(h5::Reader& file, pfem::Space& a);
 
+template <class File, class Contact>
+void contact_datasets(File& file, Contact& a, const Units& units, const std::string& group) {
+  using h5::Column;
+  const auto column = [&](const char* name, auto member, const std::string& unit, const char* meaning,
+                          const h5::Allowed& allowed) {
+    file(group + name, Column{a, member}, {std::ssize(a)}, unit, meaning, allowed);
+  };
+  file(group + "pressure/hole", Column{a, &ContactRim::hole}, {h5::any}, "1",
+       "holes whose springs push but do not pull", h5::or_else(""));
+  column(
+      "pressure/harmonics", [](auto& rim) -> auto& { return rim.pressures.highest; }, "1",
+      "number of waves around a whole circle of the shortest pressure of contact",
+      h5::integers(1, rim::most_harmonics));
+  column("pressure/start", [](auto& rim) -> auto& { return rim.pressures.start; }, "rad",
+         "where the rim that the model has begins, counter-clockwise from x", {});
+  column(
+      "pressure/sweep", [](auto& rim) -> auto& { return rim.pressures.sweep; }, "rad", "angle that this rim covers",
+      h5::positive);
+  column("pressure/modulus", &ContactRim::modulus, unit(units, -3, 1), "modulus of the springs", h5::positive);
+  column("pressure/radius", &ContactRim::radius, unit(units, 1, 0), "radius of the hole", h5::positive);
+  column("pressure/area", &ContactRim::area, unit(units, 2, 0), "area of this rim", h5::positive);
+}
+template void contact_datasets(h5::Writer& file, const std::vector<ContactRim>& a, const Units& units,
+                               const std::string& group);
+template void contact_datasets(h5::Reader& file, std::vector<ContactRim>& a, const Units& units,
+                               const std::string& group);
+
 h5::Allowed degrees(int highest) {
   return {.text = fmt::format("ascending degrees from 1 to {}", highest), .low = 1, .high = double(highest), .step = 1};
 }

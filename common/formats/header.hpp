@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <numeric>
 #include <string>
 #include <vector>
 
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
 #include "common/pfem/shape_functions.hpp"
+#include "common/rim/harmonics.hpp"
 #include "common/units.hpp"
 
 namespace fastjoint::formats {
@@ -24,8 +26,18 @@ struct Header {
   std::string digest{};  ///< of the file that this was read from; empty if that carries none
 };
 
+/// A rim whose springs push but do not pull, and the pressures that contact may add there.
+struct ContactRim {
+  std::string hole;
+  rim::Harmonics pressures;
+  double modulus;  ///< K of the springs, force / length^3
+  double radius;   ///< length
+  double area;     ///< of the rim that the model has, length^2
+};
+
 /// A plate with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,
-/// m discs (hole x direction), h friction cases (hole, direction, bearing + then -), q tractions.
+/// m discs (hole x direction), k pressures of contact (hole, distribution), h friction cases (hole, direction, bearing
+/// + then -), q tractions.
 struct UnitCases {
   Header header;
   pfem::Space space = pfem::Space::trunk;                    ///< of a plate of finite elements
@@ -33,6 +45,7 @@ struct UnitCases {
   std::vector<std::string> disc_hole, disc_direction;        ///< (m)
   std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"
   std::vector<std::string> traction_id, traction_direction;  ///< (q)
+  std::vector<ContactRim> contact{};                         ///< in the order of the holes
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h); bearing is "+x", "-x", "+y", "-y"
   /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
   Eigen::MatrixXd load_displacement;  ///< (l, e + m) length
@@ -41,10 +54,16 @@ struct UnitCases {
 
   [[nodiscard]] Eigen::Index n_externals() const { return external_id.size(); }
   [[nodiscard]] Eigen::Index n_discs() const { return disc_hole.size(); }
+  [[nodiscard]] Eigen::Index n_pressures() const {
+    return std::accumulate(contact.begin(), contact.end(), Eigen::Index{0},
+                           [](Eigen::Index sum, const ContactRim& rim) { return sum + rim.pressures.size(); });
+  }
   [[nodiscard]] Eigen::Index n_friction_cases() const { return friction_hole.size(); }
   [[nodiscard]] Eigen::Index n_tractions() const { return traction_id.size(); }
-  /// Unit cases in their order: externals, discs, friction, tractions.
-  [[nodiscard]] Eigen::Index n_cases() const { return n_externals() + n_discs() + n_friction_cases() + n_tractions(); }
+  /// Unit cases in their order: externals, discs, pressures, friction, tractions.
+  [[nodiscard]] Eigen::Index n_cases() const {
+    return n_externals() + n_discs() + n_pressures() + n_friction_cases() + n_tractions();
+  }
 };
 
 /// @tparam File An h5::Writer and a const Header, or an h5::Reader and a Header. Units are then compared only if the
@@ -55,6 +74,10 @@ void header(File& file, AnyHeader& a);
 /// The root attribute `space`, without which a file stays as it is. Throws FileError for a word that names no space.
 template <class File, class AnySpace>
 void space(File& file, AnySpace& a);
+
+/// The datasets of UnitCases::contact, in a group whose name ends with "/", or in the root.
+template <class File, class Contact>
+void contact_datasets(File& file, Contact& a, const Units& units, const std::string& group = "");
 
 /// Names of the sides of a hole.
 inline const std::vector<std::string> side_names = {"+x", "-x", "+y", "-y"};

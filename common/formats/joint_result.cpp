@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 5;
+constexpr int minor = 6;
 
 using V = RimValues;
 using enum Dimension;
@@ -55,6 +55,22 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "D", a.D, {steps, m}, length, "displacement of each disc");
   file(group + "De", a.De, {steps, e}, length, "displacement of each external");
   file(group + "Pe", a.Pe, {steps, e}, force, "force on each external");
+  contact_datasets(file, a.contact, units, group);
+  const Eigen::Index g = a.contact.size();
+  Eigen::Index k = 0;
+  for (const auto& rim : a.contact) k += rim.pressures.size();
+  file(group + "pressure/added", a.pressure, {steps, k}, unit(units, -2, 1),
+       "amount of each pressure that contact adds to that of springs all around");
+  file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
+  file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
+  file(group + "contact/from", a.contacts.from, {steps, g}, "deg", "start of the widest arc on which they touch");
+  file(group + "contact/to", a.contacts.to, {steps, g}, "deg", "end of this arc, counter-clockwise from x");
+  file(group + "contact/peak_pressure", a.contacts.peak_pressure, {steps, g}, unit(units, -2, 1),
+       "largest pressure on the rim");
+  file(group + "contact/peak_angle", a.contacts.peak_angle, {steps, g}, "deg",
+       "place of this pressure, or of the least gap");
+  file(group + "contact/least_gap", a.contacts.least_gap, {steps, g}, length,
+       "least gap between disc and rim, 0 where they touch");
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   const Eigen::Index h = a.friction_hole.size();
   file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
@@ -89,6 +105,10 @@ void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen:
   names("displacement_external", a.displacement_external, any, "plate:external with a given displacement");
   tables("displacement", a.displacement, std::ssize(a.displacement_external), stiffness,
          "dF by the displacement of each at load factor 1");
+  if constexpr (File::reads)
+    if (!file.has(group + "gap_hole")) return;  // before version 1.6
+  names("gap_hole", a.gap_hole, any, "plate:hole, each with springs that push but do not pull");
+  tables("gap", a.gap, std::ssize(a.gap_hole), stiffness, "dF by the radial gap of each");
 }
 
 template <class File, class Result>
@@ -109,7 +129,7 @@ void datasets(File& file, Result& a) {
   file("fastener/id", a.fastener_id, {any}, "1", "fastener of each shear plane, in the order of the input");
   const Eigen::Index n = a.fastener_id.size();
   file("fastener/first", a.first_hole, {n}, "1", "plate:hole on its first side");
-  file("fastener/second", a.second_hole, {n}, "1", "plate:hole on its second side");
+  file("fastener/second", a.second_hole, {n}, "1", "plate:hole on its second side, or ground");
   file("direction", a.direction, {any}, "1", "directions of the discs");
   const Eigen::Index directions = a.direction.size();
   file("delta", a.delta, {steps, n}, length, "displacement of the first plate's disc relative to the second's");

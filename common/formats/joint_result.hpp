@@ -46,14 +46,27 @@ struct DiscForces {
   Eigen::MatrixXd bearing, friction;  ///< (steps, m)
 };
 
+/// Contact at the g rims of a plate whose springs push but do not pull, one row per increment.
+struct ContactHistory {
+  Eigen::VectorXd gap;            ///< (g) radial; interference is negative, length
+  Eigen::MatrixXd touching;       ///< (steps, g) angle over which disc and rim touch, degrees
+  Eigen::MatrixXd from, to;       ///< (steps, g) ends of the widest arc on which they touch, degrees; 0 without one
+  Eigen::MatrixXd peak_pressure;  ///< (steps, g) stress
+  Eigen::MatrixXd peak_angle;     ///< (steps, g) of that pressure, or of the least gap, degrees
+  Eigen::MatrixXd least_gap;      ///< (steps, g) between disc and rim, 0 where they touch, length
+};
+
 /// Displacements and forces of one plate of a joint, one row per increment.
 struct PlateHistory {
   std::string name;
   std::vector<std::string> disc_hole, disc_direction, external_id, traction_id;
+  std::vector<ContactRim> contact{};  ///< (g)
   std::vector<std::string> friction_hole, friction_bearing;
-  Eigen::MatrixXd D;         ///< (steps, m) disc displacements, length
-  Eigen::MatrixXd De;        ///< (steps, e) displacements of the rigid externals, length
-  Eigen::MatrixXd Pe;        ///< (steps, e) forces on them, force
+  Eigen::MatrixXd D;           ///< (steps, m) disc displacements, length
+  Eigen::MatrixXd De;          ///< (steps, e) displacements of the rigid externals, length
+  Eigen::MatrixXd Pe;          ///< (steps, e) forces on them, force
+  Eigen::MatrixXd pressure{};  ///< (steps, k) amount of each pressure that contact adds to that of the springs, stress
+  ContactHistory contacts{};
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
   RimHistory rims;
@@ -74,6 +87,8 @@ struct SensitivityHistory {
   std::vector<Eigen::MatrixXd> force;                       ///< (steps) (n, u) by the force at load factor 1
   std::vector<std::string> displacement_external;           ///< (v) "plate:external" whose displacement is given
   std::vector<Eigen::MatrixXd> displacement;                ///< (steps) (n, v) by it at load factor 1, force / length
+  std::vector<std::string> gap_hole{};                      ///< (g) "plate:hole", each with springs that only push
+  std::vector<Eigen::MatrixXd> gap{};                       ///< (steps) (n, g) by its gap, force / length
 };
 
 /// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.
@@ -89,7 +104,7 @@ struct JointResult {
   // The n shear planes have one entry each: one plane for each neighbouring pair of a fastener's plates, fastener after
   // fastener.
   std::vector<std::string> fastener_id;              ///< (n)
-  std::vector<std::string> first_hole, second_hole;  ///< (n) "plate:hole"
+  std::vector<std::string> first_hole, second_hole;  ///< (n) "plate:hole"; "ground" may be second
   std::vector<std::string> direction;                ///< (a) of the joint's discs: "x", "y"
   Eigen::MatrixXd delta;                             ///< (steps, n) relative displacement of the discs, length
   Eigen::MatrixXd F;                                 ///< (steps, n) force of the law at delta

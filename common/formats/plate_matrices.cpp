@@ -16,7 +16,7 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 4;
+constexpr int minor = 5;
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
@@ -31,6 +31,7 @@ void name_datasets(File& file, Matrices& a) {
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
   file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x or y, for each traction", or_else("x"));
+  contact_datasets(file, a.contact, a.header.units);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
@@ -41,6 +42,7 @@ void matrix_datasets(File& file, Matrices& a) {
   const Units& units = a.header.units;
   const std::string area = unit(units, 2, 0), stiffness = unit(units, -1, 1);
   const auto np = a.p.size(), e = a.n_externals(), m = a.n_discs(), h = a.n_friction_cases(), q = a.n_tractions();
+  const auto k = a.n_pressures();
   const h5::Allowed error = h5::not_negative.or_else(h5::infinite);
   file("friction/unit_force", a.friction_unit_force, {h}, area, "bearing force per unit peak contact stress");
   file("friction/resultant", a.friction_resultant, {h}, area,
@@ -57,6 +59,13 @@ void matrix_datasets(File& file, Matrices& a) {
   file("T_e", a.T_e, {np, e, q}, "1", "force that holds external i per unit total force on traction boundary j");
   file("C_t", a.C_t, {np, q, q}, unit(units, 1, -1),
        "mean displacement of traction boundary i per unit total force on j, all else held");
+  file("B_e", a.B_e, {np, k, e}, area,
+       "integral over the rim of the disc's displacement against the sheet times the distribution of pressure i, per "
+       "displacement of external j; per unit of i also the force on external j");
+  file("B_d", a.B_d, {np, k, m}, area, "the same per displacement of disc j");
+  file("C", a.C, {np, k, k}, unit(units, 5, -1), "what unit pressure j takes off integral i");
+  file("R_p", a.R_p, {np, k, h}, unit(units, 5, -1), "integral i by unit friction case j");
+  file("T_p", a.T_p, {np, k, q}, unit(units, 3, -1), "integral i by a unit total force on traction boundary j");
 }
 
 template <class File, class Stresses>

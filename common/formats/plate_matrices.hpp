@@ -62,6 +62,9 @@ struct PlateMatrices : UnitCases {
   std::vector<Eigen::MatrixXd> R_ef, R_df;        ///< np x (e,h), (m,h), length^2
   std::vector<Eigen::MatrixXd> T_d, T_e;          ///< np x (m,q), (e,q), dimensionless
   std::vector<Eigen::MatrixXd> C_t;               ///< np x (q,q), length / force
+  /// Integrals of PlateCases: with pressures q of contact, (P, F) has + (B_e, B_d)^T q, and they are
+  ///   m = B_e D_e + B_d D - C q + R_p Lambda + T_p f.
+  std::vector<Eigen::MatrixXd> B_e, B_d, C, R_p, T_p;  ///< np x (k,e), (k,m), (k,k), (k,h), (k,q)
   /// Estimated absolute error at the highest p; infinite where one p alone says nothing of it.
   Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
   PlateStresses stresses;

@@ -19,16 +19,24 @@ struct PlateCases {
   Eigen::MatrixXd R;    ///< (nc, h) forces on them under unit friction cases, length^2
   Eigen::MatrixXd T;    ///< (nc, q) forces on them under a unit total force on each traction boundary
   Eigen::MatrixXd C_t;  ///< (q, q) mean displacement of the traction boundaries under these, length / force
+  // Integrals over rims of the disc's displacement relative to the sheet times each pressure's distribution.
+  Eigen::MatrixXd B;    ///< (k, nc) per unit displacement of externals and discs, length^2
+  Eigen::MatrixXd C;    ///< (k, k) what each unit pressure takes off them, length^5 / force
+  Eigen::MatrixXd R_p;  ///< (k, h) under unit friction cases, length^5 / force
+  Eigen::MatrixXd T_p;  ///< (k, q) under unit tractions, length^3 / force
 };
 
-/// Two states of the highest degree that are solved on their own, to check S, R and T by them.
+/// Two states of the highest degree that are solved on their own, to check S, R, T, B and C by them.
 struct Probe {
-  Eigen::VectorXd displacement;    ///< (nc) amount of each controlled displacement in the first, length
-  Eigen::VectorXd friction;        ///< (h) amount of each friction case in the second, stress
-  Eigen::VectorXd force;           ///< (nc) that must act on externals and discs in the first
-  Eigen::VectorXd friction_force;  ///< (nc) the same in the second
-  Eigen::VectorXd traction_work;   ///< (q) of each unit traction on the displacements of the first, length
-  double rounding = 0;             ///< what rounding may change of S, estimated by the first, force / length
+  Eigen::VectorXd displacement;     ///< (nc) amount of each controlled displacement in the first, length
+  Eigen::VectorXd pressure;         ///< (k) amount of each pressure of contact in the second, stress
+  Eigen::VectorXd friction;         ///< (h) amount of each friction case in the second, stress
+  Eigen::VectorXd force;            ///< (nc) that must act on externals and discs in the first
+  Eigen::VectorXd friction_force;   ///< (nc) the same in the second
+  Eigen::VectorXd moment;           ///< (k) integral of each pressure's distribution in the first, length^3
+  Eigen::VectorXd friction_moment;  ///< (k) the same in the second
+  Eigen::VectorXd traction_work;    ///< (q) of each unit traction on the displacements of the first, length
+  double rounding = 0;              ///< what rounding may change of S, estimated by the first, force / length
 };
 
 /// A spring between a vertex of the mesh and a disc of its own, along the disc's direction.

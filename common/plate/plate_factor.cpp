@@ -2,8 +2,10 @@
 #include "common/plate/plate_factor.hpp"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <set>
+#include <utility>
 
 #include "common/count.hpp"
 #include "common/linalg/processor.hpp"
@@ -13,22 +15,25 @@ namespace {
 
 /// Adds what a rim brings to the lower triangle of M.
 /// @param row Row of each degree of freedom of the element, -1 for those of higher degrees.
+/// @param first_border Row of the first disc of the rim's hole.
 void add_rim(const ElementClass::RimSide& rim, const std::vector<int>& row, Eigen::Index first_border,
              Eigen::MatrixXd& M) {
   const RimTerms& terms = rim.terms;
   const Eigen::Index n_modes = std::ssize(row) / 2;
   const Eigen::Index n = terms.modes.size();
-  const auto n_discs = terms.coupling.cols();
-  const auto disc = first_border + 3 * n_discs * rim.hole;
+  const auto n_discs = terms.coupling.cols(), n_pressures = terms.pressure.cols();
+  const auto disc = first_border, pressure = disc + n_discs, friction = pressure + n_pressures;
   const auto row_of = [&](Eigen::Index i) { return row[(i < n ? 0 : n_modes) + terms.modes[i % n]]; };
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     if (row_of(i) < 0) continue;
     for (Eigen::Index j = 0; j <= i; ++j)
       if (row_of(j) >= 0) M(std::max(row_of(i), row_of(j)), std::min(row_of(i), row_of(j))) += terms.plate(i, j);
     M.col(row_of(i)).segment(disc, n_discs) += terms.coupling.row(i).transpose();
-    M.col(row_of(i)).segment(disc + n_discs, 2 * n_discs) -= terms.friction.row(i).transpose();
+    M.col(row_of(i)).segment(pressure, n_pressures) -= terms.pressure.row(i).transpose();
+    M.col(row_of(i)).segment(friction, 2 * n_discs) -= terms.friction.row(i).transpose();
   }
   M.block(disc, disc, n_discs, n_discs) += terms.disc;
+  M.block(pressure, disc, n_pressures, n_discs) += terms.reaction.transpose();
 }
 
 /// Adds an element's matrix to a lower triangle whose pattern has room for it.
@@ -84,15 +89,16 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
     auto& list = elements.kept[mode] ? element.outside : element.inside;
     list.insert(list.end(), {mode, n_modes + mode});
   }
-  for (const auto& rim : elements.rims)
-    element.n_border = std::max(element.n_border, (rim.hole + 1) * 3 * rim.terms.coupling.cols());
+  std::map<int, Eigen::Index> border_of;  // by hole
+  for (const auto& rim : elements.rims) border_of[rim.hole] = 3 * rim.terms.coupling.cols() + rim.terms.pressure.cols();
+  for (auto& [hole, width] : border_of) element.n_border += std::exchange(width, element.n_border);
   std::vector<int> order = element.inside, row(2 * n_modes, -1);
   order.insert(order.end(), element.outside.begin(), element.outside.end());
   const Eigen::Index n = order.size();
   for (int i = 0; i < n; ++i) row[order[i]] = i;
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + element.n_border, n + element.n_border);
   M.topLeftCorner(n, n) = elements.thickness * K(order, order);
-  for (const auto& rim : elements.rims) add_rim(rim, row, n, M);
+  for (const auto& rim : elements.rims) add_rim(rim, row, n + border_of[rim.hole], M);
   element.matrix = {std::move(M), std::ssize(element.inside)};
   return element;
 }
@@ -120,10 +126,10 @@ PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, 
     classes_[i] = condense(elements, plate.elements.stiffness[elements.congruent], plate.numbering, p);
   });
   const Eigen::SparseMatrix<double> A = bordered_stiffness(skeleton);
-  const int n_controlled = plate.unknowns.n_controlled();
+  const int n_controlled = plate.unknowns.n_controlled(), n_rows = n_controlled + plate.unknowns.n_pressures();
   coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
   const Eigen::SparseMatrix<double> lower = A.bottomRightCorner(rows_.n_border, rows_.n_border);
-  border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>()).topRows(n_controlled);
+  border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>()).topRows(n_rows);
   held_ += lower.diagonal().head(n_controlled);
   diagonal_ = A.diagonal().head(rows_.n_skeleton);
   factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_skeleton);
@@ -161,10 +167,12 @@ Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skel
 
 Eigen::MatrixXd PlateFactor::condensed() const {
   constexpr double rounding = 1e-12;
-  const auto nc = border_.rows();
-  Eigen::MatrixXd forces = Eigen::MatrixXd(border_) - factor_->products(coupling_, nc);
-  auto S = forces.leftCols(nc);
-  S.triangularView<Eigen::StrictlyUpper>() = S.transpose();  // products are symmetric but for their last digits
+  const auto n_rows = border_.rows(), nc = held_.size();
+  Eigen::MatrixXd forces = Eigen::MatrixXd(border_) - factor_->products(coupling_, n_rows);
+  auto square = forces.leftCols(n_rows);
+  square.triangularView<Eigen::StrictlyUpper>() =
+      square.transpose();  // products are symmetric but for their last digits
+  auto S = forces.topLeftCorner(nc, nc);
   if (nc > 0 && S.cwiseAbs().maxCoeff() < rounding * held_.maxCoeff()) S.setZero();
   return forces;
 }

@@ -12,8 +12,9 @@
 namespace fastjoint::plate {
 
 /// A class of elements at one degree, condensed onto the functions that it shares and onto its border: by hole the
-/// discs, then the friction cases. The border's rows are those of a bordered stiffness [K_ff K_fc -L; . K_cc -L_c], in
-/// which a friction case has an amplitude as a disc has a displacement.
+/// discs, the pressures of contact, the friction cases. The border's rows are those of a bordered stiffness
+/// [K_ff K_fc -P -L; . K_cc H^T -L_c; . . 0 0], in which a pressure or friction case has an amplitude as a disc has a
+/// displacement.
 struct CondensedElement {
   std::vector<int> inside, outside;  ///< degrees of freedom of the element: mode, or n_modes + mode for u_y
   Eigen::Index n_border;
@@ -36,16 +37,19 @@ struct FactorBytes {
 
 /// The plate's stiffness at one degree, factorised with all controlled displacements held: elements are condensed onto
 /// their skeletons, each class once; what is left of all is one sparse system. It is bordered by the controlled
-/// displacements and the friction cases, which are eliminated with it (condensed) or given (PlateStates).
+/// displacements, the pressures of contact and the friction cases, which are eliminated with it (condensed) or given
+/// (PlateStates).
 class PlateFactor {
  public:
   /// @param plate Must outlive this.
   /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
   PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p);
 
-  /// [S R], shape (nc, nc + h): forces that must act on the controlled displacements per unit of each of them, then per
-  /// unit friction case, as products in energy of the unit fields, which makes them superconvergent (docs/theory.md,
-  /// section 4.4). S is zero where rounding is all that is left of its terms, as in a sheet held by one disc alone.
+  /// [S B^T R; B -C R_p], shape (nc + k, nc + k + h), by unit of each controlled displacement, pressure of contact and
+  /// friction case: forces that must act on the controlled displacements, then the integrals over the rims of the
+  /// disc's displacement relative to the sheet, each times the distribution of a pressure, as products in energy of the
+  /// unit fields, which makes them superconvergent (docs/theory.md, section 4.4). S is zero where rounding is all that
+  /// is left of its terms, as in a sheet held by one disc alone.
   [[nodiscard]] Eigen::MatrixXd condensed() const;
   /// Stiffness of each controlled displacement with all of the plate held, shape (nc): the diagonal of K_cc.
   [[nodiscard]] const Eigen::VectorXd& held_stiffness() const { return held_; }
@@ -61,8 +65,8 @@ class PlateFactor {
   Skeleton::Rows rows_;
   Eigen::VectorXd held_;
   Eigen::VectorXd diagonal_;              ///< of the skeleton's stiffness
-  Eigen::SparseMatrix<double> coupling_;  ///< (nc + h, skeleton) between border and skeleton
-  Eigen::SparseMatrix<double> border_;    ///< (nc, nc + h) of the border with the skeleton held
+  Eigen::SparseMatrix<double> coupling_;  ///< (nc + k + h, skeleton) between border and skeleton
+  Eigen::SparseMatrix<double> border_;    ///< (nc + k, nc + k + h) of the border with the skeleton held
   std::unique_ptr<linalg::Cholesky> factor_;
 };
 

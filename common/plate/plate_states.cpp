@@ -49,10 +49,10 @@ void PlateStates::eliminate(const Eigen::SparseMatrix<double>& loads) {
 }
 
 MatrixXd PlateStates::forces() const {
-  const auto nc = factor_.border_.rows();
+  const auto n_rows = factor_.border_.rows();
   MatrixXd forces = factor_.border_ * border_.transpose();
-  forces += factor_.coupling_.topRows(nc) * skeleton_.transpose();
-  if (border_loads_.size() > 0) forces -= border_loads_.leftCols(nc).transpose();
+  forces += factor_.coupling_.topRows(n_rows) * skeleton_.transpose();
+  if (border_loads_.size() > 0) forces -= border_loads_.leftCols(n_rows).transpose();
   return forces;
 }
 

@@ -21,11 +21,13 @@ struct CondensedFunctions {
 class PlateStates {
  public:
   /// @param factor Factor to solve with; must outlive this.
-  /// @param border Amounts of controlled displacements, then friction cases, shape (nc + h, k).
+  /// @param border Amounts of controlled displacements, pressures of contact and friction cases, shape (nc + np + h,
+  /// k).
   /// @param loads  On the plate's unknowns beside, shape (n_p, k); few of them are not zero.
   PlateStates(const PlateFactor& factor, const Eigen::MatrixXd& border, const Eigen::SparseMatrix<double>& loads);
 
-  /// Forces that must act on the controlled displacements in every state beside those of the loads on them, (nc, k).
+  /// Forces that must act on the controlled displacements in every state beside those of the loads on them, then the
+  /// integrals of PlateFactor::condensed, (nc + np, k).
   [[nodiscard]] Eigen::MatrixXd forces() const;
   /// Work of the loads of every state on the displacements of each, shape (k, k).
   [[nodiscard]] Eigen::MatrixXd work() const;
@@ -52,9 +54,9 @@ class PlateStates {
   [[nodiscard]] Eigen::MatrixXd outside(int element) const;
 
   const PlateFactor& factor_;
-  Eigen::MatrixXd border_;                         ///< (k, nc + h)
+  Eigen::MatrixXd border_;                         ///< (k, nc + np + h)
   Eigen::MatrixXd skeleton_;                       ///< (k, skeleton): what an element takes of it lies together
-  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (k, skeleton), (k, nc + h); empty if there are no loads
+  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (k, skeleton), (k, nc + np + h); empty if there are no loads
   std::map<int, Eigen::MatrixXd> inside_;          ///< of the elements with loads inside, eliminated, (n_inside, k)
 };
 

@@ -77,6 +77,11 @@ class ElementClassifier {
         bits(arc.from);
         bits(arc.to);
       }
+      if (spring->contact) {
+        key.push_back(spring->contact->highest);
+        bits(spring->contact->start);
+        bits(spring->contact->sweep);
+      }
     }
     return key;
   }
@@ -118,9 +123,17 @@ std::vector<int> Unknowns::border_of(const std::vector<int>& holes) const {
   for (const int hole : holes) {
     const int disc = disc_of_hole[hole];
     for (int a = 0; a < n_directions; ++a) list.push_back(controlled_of_disc(disc + a));
-    for (int c = 0; c < 2 * n_directions; ++c) list.push_back(n_controlled() + 2 * disc + c);
+    for (int k = first_pressure[hole]; k < first_pressure[hole + 1]; ++k) list.push_back(n_controlled() + k);
+    for (int c = 0; c < 2 * n_directions; ++c) list.push_back(n_controlled() + n_pressures() + 2 * disc + c);
   }
   return list;
+}
+
+std::vector<int> first_pressures(const SprungMesh& sprung) {
+  std::vector<int> first{0};
+  for (const auto& spring : sprung.springs)
+    first.push_back(first.back() + (spring && spring->contact ? spring->contact->size() : 0));
+  return first;
 }
 
 std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matrix2Xi& dofs) {

@@ -25,16 +25,21 @@ struct Unknowns {
   std::vector<std::string> disc_hole, disc_direction;  ///< (m)
   int n_directions = 0;                                ///< number of directions of each disc
   std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
+  std::vector<int> first_pressure;                     ///< (holes + 1) first pressure of contact of each hole
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }
   [[nodiscard]] int n_discs() const { return count_of(disc_hole); }
   [[nodiscard]] int n_controlled() const { return n_externals + n_discs(); }
+  [[nodiscard]] int n_pressures() const { return first_pressure.back(); }
   /// Two for each disc of a sprung hole: bearing along + and along -.
   [[nodiscard]] int n_friction_cases() const;
-  /// Columns of the border that act on an element with rims of these holes: of each hole the discs, then the friction
-  /// cases. Controlled displacements count from 0, friction cases behind them.
+  /// Columns of the border that act on an element with rims of these holes: of each hole the discs, the pressures of
+  /// contact, the friction cases. Controlled displacements count from 0, pressures and friction cases behind them.
   [[nodiscard]] std::vector<int> border_of(const std::vector<int>& holes) const;
 };
+
+/// Unknowns::first_pressure.
+[[nodiscard]] std::vector<int> first_pressures(const SprungMesh& sprung);
 
 /// Free unknowns of the functions of degree <= k, for every k up to the numbering's p.
 [[nodiscard]] std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matrix2Xi& dofs);

@@ -47,7 +47,8 @@ Skeleton::Skeleton(const PlateStiffness& plate) {
   for (int element = 0; element < n_elements; ++element) cliques.push_back(on_skeleton_of(plate, element));
   order(cliques);
   const int first_border = count_of(function_);
-  higher_.resize(function_.size() + plate.unknowns.n_controlled() + plate.unknowns.n_friction_cases());
+  higher_.resize(function_.size() + plate.unknowns.n_controlled() + plate.unknowns.n_pressures() +
+                 plate.unknowns.n_friction_cases());
   for (int i = 0; i < n_elements; ++i) {
     const auto border = border_beside(plate, i, cliques[i]);
     for (int& block : cliques[i]) block = position_[block];

@@ -9,8 +9,8 @@
 namespace fastjoint::plate {
 
 /// The vertices and edges on the skeletons of the elements as blocks of unknowns, in the order in which they are
-/// eliminated, and behind them the border: the controlled displacements, then the friction cases, each a block. Ordered
-/// once for all degrees.
+/// eliminated, and behind them the border: the controlled displacements, the pressures of contact and the friction
+/// cases, each a block. Ordered once for all degrees.
 class Skeleton {
  public:
   explicit Skeleton(const PlateStiffness& plate);

@@ -27,13 +27,16 @@ struct SideSprings {
 [[nodiscard]] SideSprings side_springs(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
                                        const pfem::Side& side, int p);
 
-/// Stiffness of the springs on one side of a sprung hole's rim, and loads of the unit friction cases there, over the
-/// coefficients of the side's modes: first all of u_x, then all of u_y, local signs. a disc directions, n modes.
+/// Stiffness of the springs on one side of a sprung hole's rim, and loads of the unit pressures of contact (k, none of
+/// springs that also pull) and of the unit friction cases there, over the coefficients of the side's modes: first all
+/// of u_x, then all of u_y, local signs. a disc directions, n modes.
 struct RimTerms {
   std::vector<int> modes;    ///< (n) local modes of the element
   Eigen::MatrixXd plate;     ///< (2n, 2n) int k t (v.n)(u.n) ds, force / length
   Eigen::MatrixXd coupling;  ///< (2n, a) -int k t (v.n)(e.n) ds, force / length
   Eigen::MatrixXd disc;      ///< (a, a) int k t (e.n)(e'.n) ds, force / length
+  Eigen::MatrixXd pressure;  ///< (2n, k) int phi t (v.n) ds, length^2
+  Eigen::MatrixXd reaction;  ///< (a, k) int phi t (e.n) ds, which holds the disc against them, length^2
   Eigen::MatrixXd friction;  ///< (2n, 2a) loads of unit friction, direction outer, bearing side + then -, length^2
   double stiffness;          ///< sum of the springs, force / length; 0 if none acts on the side
 };

@@ -42,6 +42,34 @@ Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius) const {
   return rim;
 }
 
+std::vector<SideAngles> side_angles(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim) {
+  std::vector<SideAngles> sides;
+  sides.reserve(rim.sides.size());
+  for (const auto& side : rim.sides) {
+    const auto curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
+    sides.push_back({side, curve.start_angle(), curve.sweep()});
+  }
+  return sides;
+}
+
+std::vector<AngleRange> open_pieces(const std::vector<SideAngles>& sides) {
+  const auto meets = [](double end, double start) {
+    return std::abs(wrapped(end, start - same_angle) - start) < same_angle;
+  };
+  std::vector<AngleRange> pieces;
+  for (const auto& first : sides) {
+    const auto ends_here = [&](const SideAngles& other) { return meets(other.high(), first.low()); };
+    if (std::any_of(sides.begin(), sides.end(), ends_here)) continue;
+    AngleRange piece{first.low(), first.high()};
+    const auto goes_on = [&](const SideAngles& other) { return meets(piece.to, other.low()); };
+    for (auto next = std::find_if(sides.begin(), sides.end(), goes_on); next != sides.end();
+         next = std::find_if(sides.begin(), sides.end(), goes_on))
+      piece.to += next->high() - next->low();
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
 double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim) {
   double sum = 0;
   for (const auto& side : rim.sides)

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "common/pfem/mesh.hpp"
-#include "common/rim/angles.hpp"
+#include "common/rim/harmonics.hpp"
 
 namespace fastjoint::rim {
 
@@ -32,6 +34,22 @@ class RimFinder {
   std::map<double, std::map<double, std::vector<std::pair<pfem::Side, int>>>> arcs_;  ///< by x and y of the centre
 };
 
+/// A side of a rim by its angles, radians.
+struct SideAngles {
+  pfem::Side side;
+  double start, sweep;  ///< at s = -1, and its increase up to s = 1
+
+  [[nodiscard]] double low() const { return std::min(start, start + sweep); }
+  [[nodiscard]] double high() const { return std::max(start, start + sweep); }
+};
+[[nodiscard]] std::vector<SideAngles> side_angles(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
+
+/// Two angles as close as this are one, radians.
+inline constexpr double same_angle = 1e-7;
+
+/// The pieces of a rim that end somewhere; none of a closed one.
+[[nodiscard]] std::vector<AngleRange> open_pieces(const std::vector<SideAngles>& sides);
+
 /// Angle that the rim covers, radians.
 [[nodiscard]] double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
 
@@ -45,6 +63,9 @@ struct HoleSpring {
   double modulus = 0;                 ///< force / length^3; 0 with links, and of an open hole
   double link = 0;                    ///< force / length at each node, half of it for either side that ends there
   std::vector<AngleRange> acts = {};  ///< the sprung parts of the rim
+  /// Pressures that contact may add to that of the springs, where they push but do not pull (docs/theory.md,
+  /// section 6.2).
+  std::optional<Harmonics> contact = {};
 };
 
 /// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.

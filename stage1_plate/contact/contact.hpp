@@ -29,7 +29,7 @@ struct RimContactState {
 /// Finds the arcs on which springs push but do not pull, and the state of the plate under the scene's loads.
 ///
 /// Each iteration solves with springs on the present arcs and takes as next arcs where the disc presses on the rim,
-/// until no end moves by more than 1e-6 rad: Newton's method (docs/theory.md, section 6.3). The first arcs are the
+/// until no end moves by more than 1e-6 rad: Newton's method (docs/theory.md, section 6.5). The first arcs are the
 /// halves that bear under the forces on the discs when all springs act.
 /// @param problem Of the scene with the whole rims sprung.
 /// Throws NumericalError if contact is lost or the arcs do not come to rest.

@@ -64,7 +64,7 @@ ContactSystem::ContactSystem(const PlateScene& scene, const PlateMesh& plate, co
   }
 }
 
-/// Solves the system of docs/theory.md, section 6.2, for x = (u_r, D, P / kappa), kappa the largest stiffness of the
+/// Solves the system of docs/theory.md, section 6.5, for x = (u_r, D, P / kappa), kappa the largest stiffness of the
 /// springs. Its three rows of blocks are the rim's displacements, the forces and the given values.
 ContactSystem::State ContactSystem::solve(const std::vector<Arcs>& arcs) {
   PlateScene sprung = scene_;

@@ -5,7 +5,7 @@
 
 namespace fastjoint::stage1 {
 
-/// The plate condensed to its rim unknowns r and its controlled displacements c (docs/theory.md, section 6.2). Under
+/// The plate condensed to its rim unknowns r and its controlled displacements c (docs/theory.md, section 6.5). Under
 /// displacements D, tractions f, friction amplitudes Lambda and additional loads phi on r:
 /// u_r = U_r D + V_r f + W_r Lambda + C phi,  P_c = S D + R Lambda + T f - U_r^T phi.
 struct RimCondensation {
@@ -22,7 +22,7 @@ struct RimCondensation {
 ///
 /// The plate has the springs on the whole rims; those off the arcs are taken away again by the change of stiffness dM
 /// over z. What is left is a system of three blocks for the rim's displacements, the controlled displacements and the
-/// forces on these (docs/theory.md, section 6.2).
+/// forces on these (docs/theory.md, section 6.5).
 class ContactSystem {
  public:
   ContactSystem(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem);

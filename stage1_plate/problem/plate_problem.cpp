@@ -69,6 +69,26 @@ std::vector<int> externals(const PlateScene& scene, bool rigid) {
   return list;
 }
 
+/// Pressures of contact on the rim of a hole. Throws InputError if the rim is in several pieces or of several
+/// thicknesses.
+rim::Harmonics contact_of(const PlateScene& scene, const PlateMesh& plate, int hole) {
+  const auto refuse = [&](const std::string& found, const char* allowed) {
+    reject(scene, fmt::format("/holes/{}/spring/compression_only", hole), found, allowed);
+  };
+  const rim::Rim& rim = plate.rims[hole];
+  const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, rim));
+  if (pieces.size() > 1)
+    refuse(fmt::format("the rim of hole \"{}\" is in {} pieces", scene.holes[hole].id, pieces.size()),
+           "springs that push but do not pull on a whole rim or one part of it");
+  for (const auto& side : rim.sides)
+    if (plate.mesh.thickness[side.element] != plate.mesh.thickness[rim.sides[0].element])
+      refuse(fmt::format("the sheet has several thicknesses around hole \"{}\"", scene.holes[hole].id),
+             "springs that push but do not pull on a rim of one thickness");
+  rim::Harmonics contact{scene.holes[hole].sprung().harmonics};
+  if (!pieces.empty()) contact.start = pieces[0].from, contact.sweep = pieces[0].to - pieces[0].from;
+  return contact;
+}
+
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   std::vector<plate::PointTie> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
@@ -202,7 +222,11 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
   plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, Eigen::Matrix2Xd(2, scene.disc_directions.size())};
-  for (const auto& hole : scene.holes) sprung.springs.emplace_back(hole.spring);
+  for (int i = 0; i < count_of(scene.holes); ++i) {
+    const auto& spring = sprung.springs.emplace_back(scene.holes[i].spring);
+    if (spring && scene.holes[i].spring->compression_only && !scene.loads)
+      sprung.springs.back()->contact = contact_of(scene, plate, i);
+  }
   for (int a = 0; a < count_of(scene.disc_directions); ++a) sprung.axes.col(a) = rim::axis(scene.disc_directions[a]);
   return sprung;
 }
@@ -211,7 +235,9 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   PlateProblem problem;
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
-  problem.elements = plate::classify_elements(sprung_mesh(scene, plate), problem.numbering, problem.unknowns);
+  const plate::SprungMesh sprung = sprung_mesh(scene, plate);
+  problem.unknowns.first_pressure = plate::first_pressures(sprung);
+  problem.elements = plate::classify_elements(sprung, problem.numbering, problem.unknowns);
   const Eigen::Index n_tractions = traction_externals(scene).size();
   problem.T_f.resize(problem.unknowns.n_free.back(), n_tractions);
   problem.T_c = Eigen::MatrixXd::Zero(problem.unknowns.n_controlled(), n_tractions);

@@ -43,9 +43,14 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.header = {generator, scene.name, scene.units, scene.text};
   a.mesh = plate.mesh;
   a.elasticity = scene.elasticity;
-  for (const auto& hole : scene.holes) {
-    a.hole_id.push_back(hole.id);
-    a.hole_spring.push_back(hole.spring ? rim::HoleSpring(*hole.spring) : rim::HoleSpring{});
+  const auto springs = sprung_mesh(scene, plate).springs;
+  for (int i = 0; i < count_of(scene.holes); ++i) {
+    a.hole_id.push_back(scene.holes[i].id);
+    a.hole_spring.push_back(springs[i].value_or(rim::HoleSpring{}));
+    if (const auto& contact = a.hole_spring[i].contact) {
+      const double radius = plate.rims[i].radius, thickness = plate.mesh.thickness[plate.rims[i].sides[0].element];
+      a.contact.push_back({a.hole_id[i], *contact, springs[i]->modulus, radius, thickness * radius * contact->sweep});
+    }
   }
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
@@ -93,18 +98,20 @@ void add_contact(const RimContactState& state, formats::PlateSolution& a) {
 /// The states solved for are the unit tractions, then the two of the probe.
 SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p) {
   const Eigen::Index nc = problem.unknowns.n_controlled(), h = problem.unknowns.n_friction_cases();
-  const Eigen::Index q = problem.T_c.cols();
-  const Eigen::VectorXd displacement = amounts(nc), friction = amounts(h);
-  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(nc + h, q + 2);
+  const Eigen::Index k = problem.unknowns.n_pressures(), q = problem.T_c.cols();
+  const Eigen::VectorXd displacement = amounts(nc), pressure = amounts(k), friction = amounts(h);
+  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(nc + k + h, q + 2);
   border.col(q).head(nc) = displacement;
-  border.col(q + 1).tail(h) = friction;
+  border.col(q + 1).tail(k + h) << pressure, friction;
   Eigen::SparseMatrix<double> loads = problem.T_f.topRows(problem.unknowns.n_free[p]);
   loads.conservativeResize(loads.rows(), q + 2);
   const plate::PlateStates states(K, border, loads);
   const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed();
-  return {{SR.leftCols(nc), SR.rightCols(h), forces.leftCols(q) - problem.T_c, work.topLeftCorner(q, q)},
-          {displacement, friction, forces.col(q), forces.col(q + 1),
-           work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
+  return {{SR.topLeftCorner(nc, nc), SR.topRightCorner(nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
+           work.topLeftCorner(q, q), SR.bottomLeftCorner(k, nc), -SR.block(nc, nc, k, k), SR.bottomRightCorner(k, h),
+           forces.bottomLeftCorner(k, q)},
+          {displacement, pressure, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), forces.col(q).tail(k),
+           forces.col(q + 1).tail(k), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
            states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
 }
 
@@ -188,7 +195,8 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
     const auto of_degree = plate::factor_bytes(problem, skeleton, degree);
     need = {of_degree.elements, need.condensed + of_degree.condensed, need.factor + of_degree.factor};
   }
-  const double nc = problem.unknowns.n_controlled(), h = count_of(problem.friction_hole);
+  const double nc = problem.unknowns.n_controlled() + problem.unknowns.n_pressures();
+  const double h = count_of(problem.friction_hole);
   const double q = double(problem.T_c.cols()), r = n_rim;
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   // A step's results stand beside those of the step before: two copies of the fields, three of S and R.

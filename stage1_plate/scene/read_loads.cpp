@@ -97,7 +97,7 @@ std::optional<SceneLoads> read_loads(const Value& root, const PlateScene& scene)
     if (list) list->fail("given, but no hole has springs with \"compression_only\"", "loads with such a hole only");
     return std::nullopt;
   }
-  return LoadReader(scene).read(list ? *list : root.at("loads"));
+  return list ? std::optional(LoadReader(scene).read(*list)) : std::nullopt;
 }
 
 }  // namespace fastjoint::stage1

@@ -100,7 +100,7 @@ const std::vector<SpringLaw>& spring_laws() {
 }
 
 Spring read_spring(const Value& value, double radius) {
-  value.only({"disk", "modulus", "links", "arc", "compression_only"});
+  value.only({"disk", "modulus", "links", "arc", "compression_only", "harmonics"});
   const auto disk = value.find("disk");
   const auto modulus = value.find("modulus");
   const auto links = value.find("links");
@@ -121,6 +121,10 @@ Spring read_spring(const Value& value, double radius) {
   if (const auto only = value.find("compression_only")) {
     spring.compression_only = only->boolean();
     if (links || arc) only->fail(links ? "given with \"links\"" : "given with \"arc\"", "with neither of them");
+  }
+  if (const auto harmonics = value.find("harmonics")) {
+    if (!spring.compression_only) harmonics->fail("given of springs that also pull", "with \"compression_only\": true");
+    spring.harmonics = harmonics->integer(1, rim::most_harmonics);
   }
   return spring;
 }

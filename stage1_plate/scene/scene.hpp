@@ -44,7 +44,8 @@ struct Spring : rim::HoleSpring {
   Spring() : HoleSpring{.acts = {{-rim::full_turn / 2, rim::full_turn / 2}}} {}
   double disk_E = 0;              ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
   bool has_arc = false;           ///< whether the scene says on which part of the rim they act
-  bool compression_only = false;  ///< under the scene's loads it pushes but does not pull
+  bool compression_only = false;  ///< it pushes but does not pull
+  int harmonics = 16;             ///< rim::Harmonics::highest of a spring that only pushes
 };
 
 struct Hole {
@@ -112,7 +113,7 @@ struct PlateScene {
   std::vector<std::string> disc_directions;
   std::vector<Support> supports;
   std::vector<External> externals;
-  std::optional<SceneLoads> loads;  ///< there if and only if springs of a hole push but do not pull
+  std::optional<SceneLoads> loads;  ///< only if springs of a hole push but do not pull; without, a joint loads them
   pfem::Space space = pfem::Space::trunk;
   bool has_space = false;  ///< whether the scene says which
   int p_low = 1, p_high = pfem::highest_p;

@@ -36,9 +36,19 @@ std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& 
 /// Forces of friction and tractions on externals and discs, by the probe's solutions, against R and T.
 std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& level) {
   const auto& probe = plate.probe;
-  if (level.R.size() + level.T.size() == 0) return std::nullopt;
+  if (level.R.size() + level.T.size() + level.B.size() == 0) return std::nullopt;
   double worst = 0;
-  if (level.R.size() > 0) worst = ratio(largest(probe.friction_force - level.R * probe.friction), largest(level.R));
+  const auto add = [&](const Eigen::MatrixXd& error, double scale) {
+    worst = std::max(worst, ratio(largest(error), scale));
+  };
+  const auto by = [](const auto& A, const Eigen::VectorXd& x) -> Eigen::VectorXd {
+    return A.lazyProduct(x);  // OpenBLAS refuses matrices without rows
+  };
+  add(probe.friction_force - by(level.R, probe.friction) - by(level.B.transpose(), probe.pressure),
+      std::max(largest(level.R), largest(level.B)));
+  add(probe.moment - by(level.B, probe.displacement), largest(level.B));
+  add(probe.friction_moment - by(level.R_p, probe.friction) + by(level.C, probe.pressure),
+      std::max(largest(level.C), largest(level.R_p)));
   if (level.T.size() > 0) {
     const double scale = std::max(largest(level.T), 1e-3);
     worst = std::max(worst, ratio(largest(probe.traction_work + level.T.transpose() * probe.displacement), scale));
@@ -58,8 +68,9 @@ std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.
 double residual_force(const PlateCases& level, double scale, const FreeTranslation& free) {
-  const auto& [S, R, T, C_t] = level;
-  double worst = ratio(largest(S * free.motion), scale);
+  const auto& [S, R, T, C_t, B, C, R_p, T_p] = level;
+  double worst =
+      std::max(ratio(largest(S * free.motion), scale), ratio(largest(B.lazyProduct(free.motion)), largest(B)));
   for (Eigen::Index j = 0; j < R.cols(); ++j)
     if (free.friction[j] != 0)
       worst = std::max(worst, ratio(std::abs(R.col(j).dot(free.motion) + free.friction[j]), largest(R)));
@@ -104,8 +115,12 @@ double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs
 Checks check(const PlateSolution& plate, const Eigen::VectorXd& resultant) {
   const PlateCases& level = plate.cases.back();  // of the highest p
   const double scale = scale_of(plate, level.S);
-  return {energy(plate, level.S), reciprocity(plate, level), negative_eigenvalue(level.S, scale),
-          equilibrium(plate, resultant, level), ratio(plate.probe.rounding, scale)};
+  return {energy(plate, level.S),
+          reciprocity(plate, level),
+          negative_eigenvalue(level.S, scale),
+          negative_eigenvalue(level.C, largest(level.C)),
+          equilibrium(plate, resultant, level),
+          ratio(plate.probe.rounding, scale)};
 }
 
 void require_good(const Checks& checks, const std::string& file) {
@@ -116,6 +131,7 @@ void require_good(const Checks& checks, const std::string& file) {
                     file, what, value, worst_allowed));
   };
   if (checks.negative_eigenvalue) fail("smallest eigenvalue of S", *checks.negative_eigenvalue);
+  if (checks.negative_compliance) fail("smallest eigenvalue of C", *checks.negative_compliance);
   if (!(checks.energy.value_or(0) < worst_allowed)) fail("error of S", checks.energy.value_or(0));
   if (!(checks.reciprocity.value_or(0) < worst_allowed)) fail("error of reciprocity", checks.reciprocity.value_or(0));
   if (!(checks.equilibrium.value_or(0) < worst_allowed))

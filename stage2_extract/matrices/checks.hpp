@@ -27,8 +27,9 @@ struct FreeTranslation {
 /// compares.
 struct Checks {
   std::optional<double> energy;  ///< forces under a mixture of unit displacements, by S against by its own solution
-  std::optional<double> reciprocity;          ///< the same of friction and tractions, by R and T
+  std::optional<double> reciprocity;          ///< the same of pressures, friction and tractions, by B, C, R and T
   std::optional<double> negative_eigenvalue;  ///< the smallest of S, if it is further below zero than allowed
+  std::optional<double> negative_compliance;  ///< the same of C
   std::optional<double> equilibrium;  ///< force left when all discs and boundaries move together; none if supports hold
   double rounding = 0;  ///< what rounding may change of S, as stage 1 has estimated it; it is part of the error of S
 };

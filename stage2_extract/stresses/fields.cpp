@@ -20,7 +20,7 @@ plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbe
                                 a.unknown.cols(), numbering.n_functions.back(), numbering.p,
                                 pfem::name_of(numbering.space)));
   plate::Unknowns unknowns{
-      a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole, a.disc_direction, 0,
+      a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole, a.disc_direction, 0, {},
       {}};
   for (const auto& name : a.disc_hole) unknowns.n_directions += name == a.disc_hole[0];
   for (const auto& id : a.hole_id) {
@@ -49,7 +49,9 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
   plate::PlateStiffness K;
   K.numbering = pfem::number_by_degree(a.mesh, edges, a.space, a.p[a.p.size() - 1]);
   K.unknowns = unknowns_of(a, K.numbering, file);
-  K.elements = plate::classify_elements(sprung_mesh(a, edges, K.unknowns), K.numbering, K.unknowns);
+  const plate::SprungMesh sprung = sprung_mesh(a, edges, K.unknowns);
+  K.unknowns.first_pressure = plate::first_pressures(sprung);
+  K.elements = plate::classify_elements(sprung, K.numbering, K.unknowns);
   K.elements.stiffness = pfem::integrate(K.elements.congruent, a.mesh, edges, a.elasticity, a.space, K.numbering.p);
   for (const auto& point : a.points) {
     const int axis = a.disc_direction[point.disc] == "x" ? 0 : 1;

@@ -15,8 +15,8 @@ class FieldSolver;
 /// Displacement fields of k states of a plate at one degree.
 struct Fields {
   const FieldSolver& solver;  ///< must outlive this
-  /// (n_cases, k) amount of every unit case: nc controlled displacements (externals, discs), h friction cases, q
-  /// tractions.
+  /// (n_cases, k) amount of every unit case: nc controlled displacements (externals, discs), k pressures of
+  /// contact, h friction cases, q tractions.
   Eigen::MatrixXd amounts;
   plate::PlateStates states;  ///< the fields, element by element
 };

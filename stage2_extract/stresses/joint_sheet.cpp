@@ -25,6 +25,8 @@ std::vector<std::string> names_of_cases(const Plate& a) {
   names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
   for (const auto& id : a.external_id) names.push_back("external:" + id);
   for (int i = 0; i < count_of(a.disc_hole); ++i) names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
+  for (const auto& rim : a.contact)
+    for (int k = 0; k < rim.pressures.size(); ++k) names.push_back(fmt::format("pressure:{}:{}", rim.hole, k));
   for (int i = 0; i < count_of(a.friction_hole); ++i)
     names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
   for (const auto& id : a.traction_id) names.push_back("traction:" + id);
@@ -81,7 +83,8 @@ JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file,
   if (result.joint.load_factor.size() == 0)
     throw InputError(fmt::format("{}: holds no increment that converged", result_file));
   result.amounts.resize(plate.n_cases(), result.joint.load_factor.size());
-  result.amounts << sheet.De.transpose(), sheet.D.transpose(), sheet.Lambda.transpose(), sheet.traction.transpose();
+  result.amounts << sheet.De.transpose(), sheet.D.transpose(), sheet.pressure.transpose(), sheet.Lambda.transpose(),
+      sheet.traction.transpose();
   return result;
 }
 

@@ -12,57 +12,11 @@
 namespace fastjoint::stage2 {
 namespace {
 
-constexpr double same_angle = 1e-7;
-
-/// A side of a rim by its angles.
-struct SideAngles {
-  pfem::Side side;
-  double start, sweep;  ///< at s = -1, and its increase up to s = 1
-
-  [[nodiscard]] double low() const { return std::min(start, start + sweep); }
-  [[nodiscard]] double high() const { return std::max(start, start + sweep); }
-};
-
-/// The multiple of a full turn away from `angle` in [low - same_angle, low - same_angle + full turn).
-double turned(double angle, double low) { return rim::wrapped(angle, low - same_angle); }
-
-std::vector<SideAngles> all_sides(const pfem::Mesh& mesh, const pfem::Edges& edges, const rim::Rim& rim) {
-  std::vector<SideAngles> sides;
-  sides.reserve(rim.sides.size());
-  for (const auto& side : rim.sides) {
-    const auto curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
-    sides.push_back({side, curve.start_angle(), curve.sweep()});
-  }
-  return sides;
-}
-
-/// A part of a rim without gaps.
-struct Piece {
-  double from, to;
-};
-
-/// The pieces that end somewhere; none of a closed rim.
-std::vector<Piece> open_pieces(const std::vector<SideAngles>& sides) {
-  const auto meets = [](double end, double start) { return std::abs(turned(end, start) - start) < same_angle; };
-  std::vector<Piece> pieces;
-  for (const auto& first : sides) {
-    const auto ends_here = [&](const SideAngles& other) { return meets(other.high(), first.low()); };
-    if (std::any_of(sides.begin(), sides.end(), ends_here)) continue;
-    Piece piece{first.low(), first.high()};
-    const auto goes_on = [&](const SideAngles& other) { return meets(piece.to, other.low()); };
-    for (auto next = std::find_if(sides.begin(), sides.end(), goes_on); next != sides.end();
-         next = std::find_if(sides.begin(), sides.end(), goes_on))
-      piece.to += next->high() - next->low();
-    pieces.push_back(piece);
-  }
-  return pieces;
-}
-
-RimPoint point_at(const std::vector<SideAngles>& sides, double angle) {
+RimPoint point_at(const std::vector<rim::SideAngles>& sides, double angle) {
   RimPoint point{angle, {}};
   for (const auto& side : sides) {
-    const double inside = turned(angle, side.low());
-    if (inside > side.high() + same_angle) continue;
+    const double inside = rim::wrapped(angle, side.low() - rim::same_angle);
+    if (inside > side.high() + rim::same_angle) continue;
     const double s = -1 + 2 * (inside - side.start) / side.sweep;
     point.on.push_back({side.side, std::clamp(s, -1.0, 1.0), 2 / side.sweep});
   }
@@ -78,11 +32,11 @@ Frame frame_at(double angle) { return {{std::cos(angle), std::sin(angle)}, {-std
 }  // namespace
 
 std::vector<RimPoint> rim_points(const pfem::Mesh& mesh, const pfem::Edges& edges, const rim::Rim& rim) {
-  const auto sides = all_sides(mesh, edges, rim);
+  const auto sides = rim::side_angles(mesh, edges, rim);
   constexpr double step = rim::full_turn / n_points_per_turn;
   std::vector<RimPoint> points;
   if (sides.empty()) return points;
-  const auto pieces = open_pieces(sides);
+  const auto pieces = rim::open_pieces(sides);
   if (pieces.empty())
     for (int i = 0; i < n_points_per_turn; ++i) points.push_back(point_at(sides, i * step));
   for (const auto& piece : pieces) {
@@ -160,6 +114,12 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
     tractions_.push_back(
         {unit_case, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }), none});
   }
+  for (const auto& rim : plate.contact)
+    for (int k = 0; k < rim.pressures.size(); ++k, ++unit_case)
+      if (rim.hole == id)
+        tractions_.push_back(
+            {unit_case, -at_points([&](const Frame&, Eigen::Index i) { return rim.pressures.at(points[i].angle)[k]; }),
+             none});
   for (int i = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
     if (plate.friction_hole[i] != id) continue;
     const Eigen::Vector2d d = bearing_direction(plate.friction_bearing[i]);

@@ -66,7 +66,9 @@ class RigidJoint {
 };
 
 /// The joint's rows S u + G+ b+ + G- b- + B F = load, and their displacements u = Z z + Y delta + given: those of the
-/// stiffest plate's disc of each fastener are in z, the others lie behind it by the delta of the planes between.
+/// stiffest plate's disc of each fastener are in z, the others lie behind it by the delta of the planes between. All
+/// discs of a fastener that the ground holds lie behind the ground. The moments of rims are entries of delta
+/// themselves.
 struct Rows {
   MatrixXd S;                         ///< (N, N)
   SparseMatrix Y;                     ///< (N, n a), of -1, 0 and 1; B^T Y = I
@@ -85,14 +87,16 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
   rows.own.segment(offset, n).setConstant(plate.S.diagonal().maxCoeff());
   rows.load.segment(offset, n) = -plate.T * plate.traction_force;
   rows.load.segment(offset + m, plate.n_externals()) += plate.external_force;
-  for (Index i = m; i < n; ++i) rows.given[offset + i] = plate.external_displacement[i - m].value_or(0);
+  for (Index i = 0; i < plate.n_externals(); ++i)
+    rows.given[offset + m + i] = plate.external_displacement[i].value_or(0);
 }
 
 /// First unknown of a disc in the joint's list.
 Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset(hole.plate) + hole.disc; }
 
-/// Hole in the stiffest plate of a fastener.
-Index stiffest(const JointModel& joint, const Rows& rows, const FastenerModel& fastener) {
+/// Hole of a fastener that the others lie behind: that in the stiffest plate, or the ground, which is behind the last.
+Index reference(const JointModel& joint, const Rows& rows, const FastenerModel& fastener) {
+  if (fastener.grounded) return std::ssize(fastener.holes);
   const auto own = [&](const HoleModel& hole) { return rows.own[disc(joint, hole)]; };
   return std::ranges::max_element(fastener.holes, {}, own) - fastener.holes.begin();
 }
@@ -102,7 +106,7 @@ void add_planes(Rows& rows, const JointModel& joint) {
   for (Index at = 0; at < joint.n_planes(); ++at) {
     const ShearPlane& plane = joint.planes[at];
     const auto& holes = joint.fasteners[plane.fastener].holes;
-    const bool beyond = stiffest(joint, rows, joint.fasteners[plane.fastener]) > plane.first;
+    const bool beyond = reference(joint, rows, joint.fasteners[plane.fastener]) > plane.first;
     for (Index d = 0; d < joint.n_directions(); ++d) {
       const Index column = at * joint.n_directions() + d;
       for (Index hole = 0; hole < std::ssize(holes); ++hole)
@@ -116,22 +120,32 @@ void add_planes(Rows& rows, const JointModel& joint) {
       if (row.hole == plane.first + 1) rows.E(i, column) = 1;
     }
   }
-  rows.Y.resize(rows.S.rows(), joint.n_planes() * joint.n_directions());
+  Index column = joint.n_planes() * joint.n_directions();
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (Index unknown = joint.plates[i].first_moment(); unknown < joint.plates[i].n_unknowns(); ++unknown)
+      Y.emplace_back(joint.offset(i) + unknown, column++, 1);
+  rows.Y.resize(rows.S.rows(), column);
   rows.Y.setFromTriplets(Y.begin(), Y.end());
 }
 
-/// Gives each free unknown that follows no other its column of Z, and those of a fastener that of its stiffest plate.
+/// Gives each free unknown that follows no other its column of Z, and those of a fastener that of its stiffest plate;
+/// the ground has none.
 void add_free_unknowns(Rows& rows, const JointModel& joint) {
   const Index N = rows.S.rows();
   std::vector<Index> leader(N);
   std::iota(leader.begin(), leader.end(), Index{0});
-  for (Index i = 0; i < std::ssize(joint.plates); ++i)
-    for (Index e = 0; e < joint.plates[i].n_externals(); ++e)
-      if (joint.plates[i].external_displacement[e]) leader[joint.offset(i) + joint.plates[i].n_discs() + e] = -1;
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    for (Index e = 0; e < plate.n_externals(); ++e)
+      if (plate.external_displacement[e]) leader[joint.offset(i) + plate.n_discs() + e] = -1;
+    for (Index unknown = plate.first_moment(); unknown < plate.n_unknowns(); ++unknown)
+      leader[joint.offset(i) + unknown] = -1;
+  }
   for (const auto& fastener : joint.fasteners) {
-    const Index first = disc(joint, fastener.holes[stiffest(joint, rows, fastener)]);
+    const Index at = reference(joint, rows, fastener);
     for (const auto& hole : fastener.holes)
-      for (Index d = 0; d < joint.n_directions(); ++d) leader[disc(joint, hole) + d] = first + d;
+      for (Index d = 0; d < joint.n_directions(); ++d)
+        leader[disc(joint, hole) + d] = fastener.grounded ? -1 : disc(joint, fastener.holes[at]) + d;
   }
   std::vector<Index> column(N, -1);
   Index r = 0;
@@ -158,7 +172,7 @@ void add_friction(Rows& rows, const JointModel& joint, Index at) {
 
 Rows assemble(const JointModel& joint) {
   const Index N = joint.n_unknowns();
-  const Index n = joint.n_planes() * joint.n_directions();
+  const Index n = joint.n_planes() * joint.n_directions() + joint.n_moments();
   Rows rows;
   rows.S = MatrixXd::Zero(N, N);
   rows.load = rows.given = rows.own = VectorXd::Zero(N);
@@ -186,8 +200,8 @@ Rows assemble(const JointModel& joint) {
   }
   throw NumericalError(
       fmt::format("{}: the joint is a mechanism: plate {} can move freely even with rigid fasteners, nothing "
-                  "holds the joint there; give a plate a support (stage 1), or hold an external with "
-                  "\"displacement\": 0",
+                  "holds the joint there; give a plate a support (stage 1), hold an external with "
+                  "\"displacement\": 0, or a fastener by the \"ground\"",
                   joint.file, fmt::join(names, " with plate ")));
 }
 
@@ -237,7 +251,9 @@ CondensedSystem condense(const JointModel& joint) {
     for (SparseMatrix::InnerIterator at(rows.Z, j); at; ++at) own[j] = std::max(own[j], rows.own[at.row()]);
   const RigidJoint rigid(rows.Z.transpose() * SZ, own);
   if (!rigid.is_held()) fail_as_mechanism(joint, rows.Z * rigid.free_motions());
-  const VectorXd load = rows.load - rows.S * rows.given;
+  const VectorXd load = rows.load - rows.S * rows.given, amounts = load.cwiseAbs();
+  const double largest_load = std::max((rows.Z.transpose() * amounts).lpNorm<Eigen::Infinity>(),
+                                       (rows.Y.transpose() * amounts).lpNorm<Eigen::Infinity>());
   const auto moved = [&](const MatrixXd& forces) -> MatrixXd {
     return rows.Z * rigid.restore(rigid.half_solve(rows.Z.transpose() * forces));
   };
@@ -245,7 +261,7 @@ CondensedSystem condense(const JointModel& joint) {
   const MatrixXd D_delta = MatrixXd(rows.Y) - rows.Z * rigid.restore(half);
   MatrixXd S_ud = rows.Y.transpose() * SY;
   S_ud.noalias() -= half.transpose() * half;
-  return {.q = without_rounding(D_delta.transpose() * load, (rows.Z.transpose() * load.cwiseAbs()).maxCoeff()),
+  return {.q = without_rounding(D_delta.transpose() * load, largest_load),
           .S_ud = S_ud,
           .friction = rows.friction,
           .E = rows.E,

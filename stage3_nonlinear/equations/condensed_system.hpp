@@ -14,8 +14,9 @@ struct FrictionRow {
   Index direction;       ///< of the joint's directions
 };
 
-/// Linear part of a joint, condensed on its n shear planes in a directions, for any stack of plates
-/// (docs/theory.md, section 7.1).
+/// Linear part of a joint, condensed on its n shear planes in a directions and on the moments of its rims of contact,
+/// for any stack of plates (docs/theory.md, section 7.1). The r rows are those of the planes, then those of the
+/// moments: below, delta holds the moments too, and F the forces of their springs.
 ///
 /// The rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D leave
 ///   F + S_ud delta + H+ b+ + H- b- = lambda q,   b = E F, b+ = max(b, 0), b- = max(-b, 0),
@@ -23,22 +24,22 @@ struct FrictionRow {
 /// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
 /// S_ud is the parallel sum of the plates' matrices, and exists also when a plate floats.
 struct CondensedSystem {
-  VectorXd q;                         ///< (n a) forces of rigid fasteners at load factor 1, force
-  MatrixXd S_ud;                      ///< (n a, n a) force / length
+  VectorXd q;                         ///< (r) forces of rigid fasteners at load factor 1, force
+  MatrixXd S_ud;                      ///< (r, r) force / length
   std::vector<FrictionRow> friction;  ///< (f)
-  MatrixXd E;                         ///< (f, n a) +1 of a plane that pushes the rim's plate, -1 of one that pulls
-  MatrixXd H_plus, H_minus;           ///< (n a, f) for b > 0 and b < 0, dimensionless
+  MatrixXd E;                         ///< (f, r) +1 of a plane that pushes the rim's plate, -1 of one that pulls
+  MatrixXd H_plus, H_minus;           ///< (r, f) for b > 0 and b < 0, dimensionless
   // Displacements of the joint's N unknowns, given ones included.
   VectorXd D_load;           ///< (N) at load factor 1 and delta = 0, length
-  MatrixXd D_delta;          ///< (N, n a) per relative displacement, dimensionless
+  MatrixXd D_delta;          ///< (N, r) per relative displacement, dimensionless
   MatrixXd D_plus, D_minus;  ///< (N, f) per unit b+, b-, length / force
 
   [[nodiscard]] bool has_friction() const { return !friction.empty(); }
-  /// F + S_ud delta + H+ b+ + H- b- - lambda q, shape (n a), force.
+  /// F + S_ud delta + H+ b+ + H- b- - lambda q, shape (r), force.
   [[nodiscard]] VectorXd residual(const VectorXd& F, const VectorXd& delta, double load_factor) const;
-  /// Forces of friction on the planes, H+ b+ + H- b-, shape (n a), force.
+  /// Forces of friction on the planes, H+ b+ + H- b-, shape (r), force.
   [[nodiscard]] VectorXd friction_forces(const VectorXd& F) const;
-  /// d friction_forces / d F on the sides that bear under F, shape (n a, n a), dimensionless.
+  /// d friction_forces / d F on the sides that bear under F, shape (r, r), dimensionless.
   [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
   /// Displacements of all discs and rigid externals, shape (N), length.
   [[nodiscard]] VectorXd displacements(const VectorXd& F, const VectorXd& delta, double load_factor) const;

@@ -19,8 +19,13 @@ VectorXd amounts(const VectorXd& vectors, Index n_directions) {
 
 MatrixXd ContactState::times(const MatrixXd& A, const Blocks& blocks) const {
   const Index a = direction.rows();
-  if (a == 1) return A * blocks.along.asDiagonal();
+  if (a == 1 && blocks.rims.empty()) return A * blocks.along.asDiagonal();
   MatrixXd result(A.rows(), A.cols());
+  Index first = a * direction.cols();
+  for (const auto& rim : blocks.rims) {
+    result.middleCols(first, rim.cols()).noalias() = A.middleCols(first, rim.cols()) * rim;
+    first += rim.cols();
+  }
   for (Index j = 0; j < direction.cols(); ++j) {
     const VectorXd e = direction.col(j);
     const auto columns = A.middleCols(j * a, a);

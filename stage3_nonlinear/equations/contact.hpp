@@ -26,27 +26,32 @@ struct Contact {
   [[nodiscard]] bool is_pulled_open(const VectorXd& c) const { return one_sided && c[0] < 0; }
 };
 
-/// Derivative of a vector by c for each plane: `along` c and `across` it (of one direction only `along` counts).
+/// Derivative of a vector by c for each plane: `along` c and `across` it (of one direction only `along` counts), and
+/// for each rim of contact.
 struct Blocks {
-  VectorXd along, across;  ///< (n)
+  VectorXd along, across;           ///< (n)
+  std::vector<MatrixXd> rims = {};  ///< symmetric
 };
 
-/// Forces and displacements of n shear planes in a directions, row plane * a + direction, and their derivatives by c.
+/// Forces and displacements of n shear planes in a directions, row plane * a + direction, behind them those of the
+/// moments of rims of contact, r rows in all, and their derivatives by c.
 struct ContactState {
-  VectorXd F;                  ///< (n a) bearing forces, force
-  VectorXd delta;              ///< (n a) relative displacements of the discs, length
+  VectorXd F;                  ///< (r) bearing forces, force
+  VectorXd delta;              ///< (r) relative displacements of the discs, length
   MatrixXd direction;          ///< (a, n) unit vectors along c
   Blocks dF;                   ///< dF / dc, dimensionless; 0 where open
   Blocks ddelta;               ///< d delta / dc, length / force
   std::optional<Index> spent;  ///< a plane past all that it can carry
 
-  /// Product of A and the block diagonal matrix, shape as A, (rows, n a).
+  /// Product of A and the block diagonal matrix, shape as A, (rows, r).
   [[nodiscard]] MatrixXd times(const MatrixXd& A, const Blocks& blocks) const;
 };
 
 /// Lengths of vectors in a directions, row plane * a + direction, or with one direction the entries with their signs,
 /// (n).
 [[nodiscard]] VectorXd amounts(const VectorXd& vectors, Index n_directions);
+
+// What follows is of the planes alone: r = n a.
 
 /// @param c Contact coordinates, shape (n a), force.
 [[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c);

@@ -25,20 +25,40 @@ void set_reference_stiffnesses(const MatrixXd& S, std::vector<Contact>& contacts
   }
 }
 
-/// Stiffness of the softer of the two plates at its discs.
+/// Stiffness of the softer of the plane's plates at its discs.
 double plate_stiffness(const JointModel& joint, const ShearPlane& plane) {
   const auto at = [&](const HoleModel& hole) {
     return joint.plates[hole.plate].S.diagonal().segment(hole.disc, joint.n_directions()).maxCoeff();
   };
-  const auto [softer, stiffer] = std::minmax({at(joint.first_hole(plane)), at(joint.second_hole(plane))});
+  const auto [softer, stiffer] = std::minmax({at(joint.holes(plane).front()), at(joint.holes(plane).back())});
   return softer > 0 ? softer : stiffer > 0 ? stiffer : 1.0;
 }
 
-MatrixXd metric_of(const MatrixXd& S, const std::vector<Contact>& contacts) {
-  const Index a = S.rows() / contacts.size();
-  MatrixXd W = -0.5 * (S + S.transpose());
-  for (Index i = 0; i < W.rows(); ++i) W(i, i) += contacts[i / a].stiffness;
-  return matrices::inverse_of_positive(std::move(W)).value();
+/// Rims of contact of all plates, plate after plate, each with the gap of the fastener in it.
+std::vector<RimContact> rims_of(const JointModel& joint) {
+  std::vector<RimContact> rims;
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (const auto& rim : joint.plates[i].contact)
+      rims.emplace_back(rim.pressures, rim.modulus * rim.area, joint.gap(i, rim.hole));
+  return rims;
+}
+
+/// JointEquations::metric.
+///
+/// The unknowns behind those of the planes have S = [S_11 S_12; S_21 S_22] and the stiffness k: with L = S_12 / k the
+/// matrix is [W^-1 W^-1 L; L^T W^-1 S_22 / k^2 + L^T W^-1 L].
+MatrixXd metric_of(const MatrixXd& S, const std::vector<Contact>& contacts, const VectorXd& k) {
+  const Index n = S.rows() - k.size(), a = n / std::ssize(contacts);
+  MatrixXd W = -0.5 * (S.topLeftCorner(n, n) + S.topLeftCorner(n, n).transpose());
+  for (Index i = 0; i < n; ++i) W(i, i) += contacts[i / a].stiffness;
+  MatrixXd inverse = matrices::inverse_of_positive(std::move(W)).value();
+  if (k.size() == 0) return inverse;
+  const MatrixXd L = S.topRightCorner(n, k.size()) * k.cwiseInverse().asDiagonal(), WL = inverse * L;
+  MatrixXd metric(S.rows(), S.rows());
+  metric << inverse, WL, WL.transpose(), L.transpose() * WL;
+  metric.bottomRightCorner(k.size(), k.size()) +=
+      k.cwiseInverse().asDiagonal() * S.bottomRightCorner(k.size(), k.size()) * k.cwiseInverse().asDiagonal();
+  return metric;
 }
 
 /// Gives open and yielded fasteners a trace of stiffness in the Jacobian, not in the residual: without it the Jacobian
@@ -58,6 +78,7 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
     add(state.dF.along[j], state.ddelta.along[j]);
     add(state.dF.across[j], state.ddelta.across[j]);
   }
+  for (auto& rim : state.dF.rims) rim.diagonal().array() += trace;
 }
 
 }  // namespace
@@ -66,22 +87,82 @@ JointEquations make_equations(const JointModel& joint) {
   std::vector<Contact> contacts;
   for (const auto& plane : joint.planes)
     contacts.push_back({plane.law, plane.clearance, plate_stiffness(joint, plane), plane.one_sided});
-  return make_equations(condense(joint), std::move(contacts));
+  return make_equations(condense(joint), std::move(contacts), rims_of(joint));
 }
 
-JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts) {
+JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts, std::vector<RimContact> rims) {
   constexpr double rounding = 1e-13;  // of what a plate that one fastener alone holds resists: nothing
-  const VectorXd rows = system.S_ud.cwiseAbs().rowwise().sum();
-  for (Index i = 0; i < std::ssize(rows); ++i) {
-    const Index plane = i * std::ssize(contacts) / rows.size();
-    if (rows[i] > rounding * contacts[plane].stiffness) continue;
-    system.S_ud.row(i).setZero();
-    system.S_ud.col(i).setZero();
+  JointEquations equations{std::move(system), std::move(contacts), {}, std::move(rims)};
+  MatrixXd& S = equations.system.S_ud;
+  const Index n = equations.n_plane_rows(), a = equations.n_directions();
+  const VectorXd rows = S.topRows(n).cwiseAbs().rowwise().sum();
+  for (Index i = 0; i < n; ++i) {
+    if (rows[i] > rounding * equations.contacts[i / a].stiffness) continue;
+    S.row(i).setZero();
+    S.col(i).setZero();
   }
-  set_reference_stiffnesses(system.S_ud, contacts);
-  const bool rise = std::ranges::all_of(contacts, [](const Contact& each) { return each.law->rises(); });
-  MatrixXd metric = rise ? metric_of(system.S_ud, contacts) : MatrixXd();
-  return {std::move(system), std::move(contacts), std::move(metric)};
+  set_reference_stiffnesses(S.topLeftCorner(n, n), equations.contacts);
+  if (std::ranges::all_of(equations.contacts, [](const Contact& each) { return each.law->rises(); }))
+    equations.metric = metric_of(S, equations.contacts, equations.rim_stiffness());
+  return equations;
+}
+
+Index JointEquations::n_plane_rows() const {
+  Index n = n_unknowns();
+  for (const auto& rim : rims) n -= rim.size();
+  return n;
+}
+
+VectorXd JointEquations::rim_stiffness() const {
+  VectorXd stiffness(n_unknowns() - n_plane_rows());
+  Index first = 0;
+  for (const auto& rim : rims) {
+    stiffness.segment(first, rim.size()).setConstant(rim.stiffness());
+    first += rim.size();
+  }
+  return stiffness;
+}
+
+double JointEquations::interference() const {
+  double force = 0;
+  for (const auto& rim : rims) force = std::max(force, -rim.stiffness() * rim.gap());
+  return force;
+}
+
+ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
+  Index first = equations.n_plane_rows();
+  ContactState state = contact_state(equations.contacts, c.head(first));
+  if (equations.rims.empty()) return state;
+  for (VectorXd* vector : {&state.F, &state.delta}) vector->conservativeResize(c.size());
+  for (const auto& rim : equations.rims) {
+    const double k = rim.stiffness();
+    const VectorXd m = c.segment(first, rim.size()) / k;
+    Touching touching = rim.touching(m);
+    state.F.segment(first, rim.size()) = rim.forces(touching, m);
+    state.delta.segment(first, rim.size()) = m;
+    state.dF.rims.push_back(std::move(touching.share));
+    state.ddelta.rims.emplace_back(MatrixXd::Identity(rim.size(), rim.size()) / k);
+    first += rim.size();
+  }
+  return state;
+}
+
+VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const VectorXd& delta) {
+  const Index n = equations.n_plane_rows();
+  VectorXd c(F.size());
+  c << coordinates(equations.contacts, F.head(n), delta.head(n)),
+      equations.rim_stiffness().cwiseProduct(delta.tail(F.size() - n));
+  return c;
+}
+
+VectorXd gradient(const JointEquations& equations, const VectorXd& residual) {
+  const Index n = equations.n_plane_rows(), k = residual.size() - n;
+  VectorXd g(residual.size());
+  g.head(n) = equations.metric.topLeftCorner(n, n) * residual.head(n);
+  if (k > 0)
+    g.tail(k) = (residual.tail(k) + equations.system.S_ud.bottomLeftCorner(k, n) * g.head(n))
+                    .cwiseQuotient(equations.rim_stiffness());
+  return g;
 }
 
 MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction) {
@@ -98,6 +179,12 @@ MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
     H.block(j * a, j * a, a, a).diagonal().array() -= state.ddelta.across[j];
     H.block(j * a, j * a, a, a) -= (state.ddelta.along[j] - state.ddelta.across[j]) * e * e.transpose();
   }
+  Index first = equations.n_plane_rows();
+  for (Index i = 0; i < std::ssize(equations.rims); ++i) {
+    const Index size = equations.rims[i].size();
+    H.block(first, first, size, size) += state.dF.rims[i] / equations.rims[i].stiffness();
+    first += size;
+  }
   return H;
 }
 
@@ -108,13 +195,13 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   const bool friction = system.has_friction() && !frozen;
   RootProblem problem;
   problem.residual = [&equations, load, scale, friction](const VectorXd& x) -> VectorXd {
-    const auto state = contact_state(equations.contacts, scale * x);
+    const auto state = contact_state(equations, scale * x);
     VectorXd r = state.F + equations.system.S_ud * state.delta - load;
     if (friction) r += equations.system.friction_forces(state.F);
     return r / scale;
   };
   const auto traced = [&equations, residual = problem.residual, scale](const VectorXd& x) {
-    auto state = contact_state(equations.contacts, scale * x);
+    auto state = contact_state(equations, scale * x);
     add_trace(equations, residual(x).cwiseAbs().maxCoeff(), state);
     return state;
   };
@@ -122,7 +209,7 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
     return tangent(equations.system, traced(x), friction);
   };
   if (equations.metric.size() > 0 && !friction) {
-    problem.gradient = [&metric = equations.metric](const VectorXd& r) -> VectorXd { return metric * r; };
+    problem.gradient = [&equations](const VectorXd& r) { return gradient(equations, r); };
     problem.hessian = [&equations, traced](const VectorXd& x) -> MatrixXd { return hessian(equations, traced(x)); };
   }
   return problem;
@@ -145,17 +232,26 @@ LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexib
 
 VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor) {
   const CondensedSystem& system = equations.system;
-  const auto rows = system.q.size();
+  const Index n = equations.n_plane_rows();
+  VectorXd flexibility = VectorXd::Zero(system.q.size());
+  flexibility.tail(flexibility.size() - n) = equations.rim_stiffness().cwiseInverse();
   if (initial.guess == Guess::linear) {
-    const double mean = system.S_ud.diagonal().mean();
-    const double K = initial.stiffness.value_or(mean);
-    const double flexibility = K > 0 ? 1 / K : 0;
-    return linear_forces(system, VectorXd::Constant(rows, flexibility), load_factor).F;
+    const double K = initial.stiffness.value_or(system.S_ud.diagonal().head(n).mean());
+    flexibility.head(n).setConstant(K > 0 ? 1 / K : 0);
+    return linear_forces(system, flexibility, load_factor).F;
   }
-  VectorXd rigid = linear_forces(system, VectorXd::Zero(rows), load_factor).F;
+  VectorXd rigid = linear_forces(system, flexibility, load_factor).F;
   if (initial.guess == Guess::rigid) return rigid;
-  const VectorXd mean = rigid.reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
-  return mean.replicate(equations.n_planes(), 1);
+  const VectorXd mean = rigid.head(n).reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
+  rigid.head(n) = mean.replicate(equations.n_planes(), 1);
+  return rigid;
+}
+
+VectorXd guessed_coordinates(const JointEquations& equations, const VectorXd& F) {
+  const Index n = equations.n_plane_rows();
+  VectorXd c = F;  // of rims whose springs also pull
+  c.head(n) = contact_coordinates(equations.contacts, F.head(n));
+  return c;
 }
 
 std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial, double load_factor) {
@@ -164,7 +260,7 @@ std::vector<VectorXd> first_guesses(const JointEquations& equations, const Initi
     if (guess != initial.guess) order.push_back({guess, std::nullopt});
   std::vector<VectorXd> guesses;
   for (const auto& each : order)
-    guesses.push_back(contact_coordinates(equations.contacts, guessed_forces(equations, each, load_factor)));
+    guesses.push_back(guessed_coordinates(equations, guessed_forces(equations, each, load_factor)));
   return guesses;
 }
 

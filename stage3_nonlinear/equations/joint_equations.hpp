@@ -7,25 +7,35 @@
 
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 #include "stage3_nonlinear/equations/contact.hpp"
+#include "stage3_nonlinear/equations/rim_contact.hpp"
 #include "stage3_nonlinear/scene/joint_scene.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
 
 namespace fastjoint::stage3 {
 
 /// The nonlinear equations of a joint: the condensed system with the fasteners' laws put in, for the contact
-/// coordinates c.
+/// coordinates c: those of the n shear planes in a directions, then for each rim of contact its stiffness times its
+/// moments, r in all.
 struct JointEquations {
   CondensedSystem system;
   std::vector<Contact> contacts;  ///< (n)
-  /// Inverse of W = K - S_ud, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
-  /// length / force (docs/theory.md, section 8.4).
+  /// Constant part of the Hessian of the convex function that is least at the solution, if no law falls, else empty;
+  /// shape (r, r), length / force (docs/theory.md, section 8.4). Of the planes alone it is the inverse of W = K - S_ud,
+  /// K the reference stiffnesses.
   MatrixXd metric;
+  std::vector<RimContact> rims = {};
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
   /// Number a of directions.
-  [[nodiscard]] Index n_directions() const { return n_unknowns() / n_planes(); }
-  /// Number n a of unknowns.
+  [[nodiscard]] Index n_directions() const { return n_plane_rows() / n_planes(); }
+  /// Number n a of unknowns of the planes.
+  [[nodiscard]] Index n_plane_rows() const;
+  /// Number r of unknowns.
   [[nodiscard]] Index n_unknowns() const { return system.q.size(); }
+  /// Stiffness of the rims' unknowns, (r - n a), force / length.
+  [[nodiscard]] VectorXd rim_stiffness() const;
+  /// Force of the greatest interference alone, all around its rim, force; 0 without any.
+  [[nodiscard]] double interference() const;
 };
 
 /// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in
@@ -33,26 +43,36 @@ struct JointEquations {
 /// rounding, the plate's own stiffness takes its place.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
 /// @param contacts Contacts whose stiffness is that of the plate itself, and is replaced.
-[[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts);
+[[nodiscard]] JointEquations make_equations(CondensedSystem system, std::vector<Contact> contacts,
+                                            std::vector<RimContact> rims = {});
 
-/// Derivative of the residual by c, shape (n a, n a), at the state of the contact coordinates c.
+/// @param c Contact coordinates, shape (r), force.
+[[nodiscard]] ContactState contact_state(const JointEquations& equations, const VectorXd& c);
+
+/// Contact coordinates of a solution, (r), exact whatever the law.
+[[nodiscard]] VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const VectorXd& delta);
+
+/// Gradient of the convex function of `metric` at the residual r, (r).
+[[nodiscard]] VectorXd gradient(const JointEquations& equations, const VectorXd& residual);
+
+/// Derivative of the residual by c, shape (r, r), at the state of the contact coordinates c.
 ///
 /// @param friction False: without that of friction.
 [[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
-/// Hessian of the convex function whose gradient is metric * residual, W^-1 - d delta / dc, symmetric, shape (n a,
-/// n a), length / force; the tangent is W times it (docs/theory.md, section 8.4). To be called where no law falls.
+/// Hessian of the convex function of `metric`, symmetric, shape (r, r), length / force; of the planes alone
+/// W^-1 - d delta / dc, and the tangent is W times it (docs/theory.md, section 8.4). To be called where no law falls.
 [[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
 
 /// The equations at a load factor, unknowns and residuals over `scale` (force).
 ///
-/// @param frozen If not null, friction acts as under these bearing forces instead of its own, (n a).
+/// @param frozen If not null, friction acts as under these bearing forces instead of its own, (r).
 [[nodiscard]] RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
                                        const VectorXd* frozen = nullptr);
 
 /// Bearing forces when every fastener is a linear spring.
 struct LinearForces {
-  VectorXd F;               ///< (n a) force
+  VectorXd F;               ///< (r) force
   int solves = 0;           ///< with friction the sides that bear are found by trial
   bool consistent = false;  ///< friction acts on the sides that bear
 };
@@ -60,16 +80,19 @@ struct LinearForces {
 /// Solves (I + S_ud diag(flexibility) + H E) F = lambda q, with the columns of H by the sides that bear
 /// (docs/theory.md, section 8.8).
 ///
-/// @param flexibility One for each row, length / force, >= 0, shape (n a); zero is a rigid fastener.
+/// @param flexibility One for each row, length / force, >= 0, shape (r); zero is a rigid fastener.
 [[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility,
                                          double load_factor);
 
 /// Bearing forces to start from (Bortman & Szabo, section 6.1): of rigid fasteners, of linear ones of one
 /// stiffness (default: the mean of the plates' own, diag S_ud), or the rigid ones' sum spread equally over
-/// the planes. Shape (n a), force.
+/// the planes; rims as if their springs also pulled. Shape (r), force.
 [[nodiscard]] VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor);
 
-/// The user's guess, then the others, as contact coordinates; each of shape (n a), force.
+/// Contact coordinates at which the bearing forces are F, or about that, (r), force.
+[[nodiscard]] VectorXd guessed_coordinates(const JointEquations& equations, const VectorXd& F);
+
+/// The user's guess, then the others, as contact coordinates; each of shape (r), force.
 [[nodiscard]] std::vector<VectorXd> first_guesses(const JointEquations& equations, const InitialScene& initial,
                                                   double load_factor);
 

@@ -62,7 +62,8 @@ Index soft_modes(const CondensedSystem& system, const ContactState& state, doubl
     return (eigen.eigenvalues().real().array() < least).count();
   }
   // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
-  const Blocks root{state.ddelta.along.cwiseSqrt(), state.ddelta.across.cwiseSqrt()};
+  Blocks root{state.ddelta.along.cwiseSqrt(), state.ddelta.across.cwiseSqrt()};
+  for (const auto& rim : state.ddelta.rims) root.rims.emplace_back(rim.cwiseSqrt());
   const MatrixXd PS = state.times(system.S_ud, root).transpose();
   const MatrixXd A = state.times(PS, root) + state.times(MatrixXd::Identity(PS.rows(), PS.rows()), state.dF);
   const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A, Eigen::EigenvaluesOnly);
@@ -82,10 +83,10 @@ bool has_hessian(const JointEquations& equations) {
 /// Reciprocal condition of H above which no tangent is near singular.
 constexpr double surely_regular = 1e3 * singular_tangent;
 
-/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it has a Hessian H that is surely
-/// regular.
+/// Inverse of the tangent of planes alone, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it has a Hessian
+/// H that is surely regular.
 std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
-  if (!has_hessian(equations)) return std::nullopt;
+  if (!has_hessian(equations) || !equations.rims.empty()) return std::nullopt;
   const MatrixXd H = hessian(equations, state);
   const auto inverse = matrices::inverse_of_positive(H);
   const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
@@ -154,7 +155,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
 
 std::vector<Index> level_planes(const JointEquations& equations, const VectorXd& c) {
   constexpr double nearly_level = 1e-3, nearly_singular = 1e-4;  // where a try that failed ended
-  ContactState state = contact_state(equations.contacts, c);
+  ContactState state = contact_state(equations, c);
   std::vector<Index> level;
   for (Index j = 0; j < equations.n_planes(); ++j) {
     const bool open = state.F.segment(j * equations.n_directions(), equations.n_directions()).isZero(0);
@@ -209,10 +210,9 @@ void bear(const JointEquations& equations, ContactState& state) {
 }
 
 MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const VectorXd& c) {
-  const Index a = state.direction.rows();
-  MatrixXd result = slopes.F;
+  const Index a = state.direction.rows(), n = state.direction.cols();
+  MatrixXd result = slopes.F.topRows(n);
   if (a > 1) {
-    result.resize(state.direction.cols(), slopes.F.cols());
     for (Index j = 0; j < result.rows(); ++j) {
       const auto block = slopes.F.middleRows(j * a, a);
       result.row(j) = state.direction.col(j).transpose() * block;
@@ -222,7 +222,8 @@ MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const Vecto
   }
   constexpr double none = std::numeric_limits<double>::infinity();
   for (const Index i : slopes.no_column) result.col(i).setConstant(none);
-  for (const Index i : slopes.no_row) result.row(i / a).setConstant(none);
+  for (const Index i : slopes.no_row)
+    if (i < n * a) result.row(i / a).setConstant(none);
   return result;
 }
 

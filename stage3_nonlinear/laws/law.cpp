@@ -11,16 +11,17 @@ namespace fastjoint::stage3 {
 /// Readers, one for each "type" of a law, each beside the law that it reads; "one_sided" is left to the caller.
 using LawReader = LawPointer(const input::Value& law);
 LawReader read_linear_law, read_power_law, read_cubic_law, read_bilinear_law, read_four_stage_law, read_table_law,
-    read_formula_law;
+    read_formula_law, read_rigid_law;
 
 LawPointer read_law(const input::Value& law) {
-  constexpr std::array<std::pair<const char*, LawReader*>, 7> kinds{{{"linear", read_linear_law},
+  constexpr std::array<std::pair<const char*, LawReader*>, 8> kinds{{{"linear", read_linear_law},
                                                                      {"power", read_power_law},
                                                                      {"cubic", read_cubic_law},
                                                                      {"bilinear", read_bilinear_law},
                                                                      {"four stage", read_four_stage_law},
                                                                      {"table", read_table_law},
-                                                                     {"formula", read_formula_law}}};
+                                                                     {"formula", read_formula_law},
+                                                                     {"rigid", read_rigid_law}}};
   std::vector<std::string> types;
   for (const auto& [type, read] : kinds) types.emplace_back(type);
   return kinds[index_of(types, law.at("type").choice(types))].second(law);

@@ -2,12 +2,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "stage3_nonlinear/laws/law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Corner of a piecewise linear curve.
 struct Vertex {
@@ -17,7 +20,7 @@ struct Vertex {
 /// Piecewise linear curve: from (0, 0) through its vertices, then on with a last slope.
 struct Polyline {
   std::vector<Vertex> vertices;  ///< neither delta nor F falls
-  double last_slope;             ///< force / length, >= 0
+  double last_slope;             ///< force / length, >= 0; infinite of a rigid law
 };
 
 /// Number of the input and what it does to the curve.
@@ -113,7 +116,8 @@ class PiecewiseLinearLaw final : public Law {
       start = end;
     }
     const double sum = curve_.last_slope + k;
-    return {curve_.vertices.size(), c0, start.F, start.delta, curve_.last_slope / sum, 1 / sum};
+    const double dF = sum < infinite ? curve_.last_slope / sum : 1;
+    return {curve_.vertices.size(), c0, start.F, start.delta, dF, 1 / sum};
   }
 
   /// Change of F at fixed c with a number that changes the curve by `derivative`.
@@ -154,6 +158,12 @@ LawPointer linear_law(double k, std::optional<Source> source) {
 LawPointer read_linear_law(const input::Value& law) {
   law.only({"type", "k", "one_sided"});
   return linear_law(law.at("k").number(input::positive), std::nullopt);
+}
+
+/// {"type": "rigid"}: any force without displacement.
+LawPointer read_rigid_law(const input::Value& law) {
+  law.only({"type", "one_sided"});
+  return piecewise_linear_law({{{0, 0}}, infinite}, 0, {});
 }
 
 /// {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.

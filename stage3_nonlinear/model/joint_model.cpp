@@ -134,6 +134,13 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   if (model.n_directions() > 1) check_rim_all_around(plate, hole.name);
   const double mu = fastener.friction[at];
   HoleModel result{plate_at, index * model.n_directions(), mu, {}};
+  if (!fastener.gap.empty()) {
+    if (!plate.is_in_contact(hole.name))
+      refuse(fastener.where + "/gap",
+             fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole.name, plate.file),
+             "a gap in holes with \"compression_only\", \"clearance\" in others");
+    result.gap = fastener.gap[at];
+  }
   if (mu == 0) return result;
   const auto sides = bearing_sides(scene, fastener, at);
   for (const int axis : model.axes) {
@@ -154,10 +161,15 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
     model.planes.push_back(
         {std::ssize(model.fasteners), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
   }
-  FastenerModel result{fastener.id, {}, fastener.law_includes_friction};
+  FastenerModel result{fastener.id, {}, fastener.law_includes_friction, fastener.grounded};
   for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
   balance(result);
   model.fasteners.push_back(std::move(result));
+}
+
+/// Name of the plate on the second side of a plane, or that of the ground.
+std::string second_plate(const JointModel& joint, const ShearPlane& plane) {
+  return joint.is_to_ground(plane) ? ground_name : joint.plates[joint.second_hole(plane).plate].name;
 }
 
 void apply_load(JointModel& model, const LoadScene& load) {
@@ -188,7 +200,7 @@ double part_of_mean_share(const FastenerModel& fastener, Index of, Index hole, I
   if (friction.empty()) return 0;
   const auto& sides = friction[d];
   const double n = double(fastener.holes.size());
-  if (fastener.holes.size() == 2) return sides[of == hole ? side : 1 - side].share() / n;
+  if (fastener.n_planes() == 1) return sides[of == hole ? side : 1 - side].share() / n;
   const auto bears = std::ranges::count_if(sides, [](const auto& each) { return each.load.size() > 0; });
   return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / double(bears) / n;
 }
@@ -216,6 +228,19 @@ Index JointModel::offset(Index plate) const {
   return offset;
 }
 
+Index JointModel::n_moments() const {
+  Index n = 0;
+  for (const auto& plate : plates) n += plate.n_unknowns() - plate.first_moment();
+  return n;
+}
+
+double JointModel::gap(Index plate, const std::string& hole) const {
+  for (const auto& fastener : fasteners)
+    for (const auto& its : fastener.holes)
+      if (its.plate == plate && plates[plate].hole_of(its.disc) == hole) return its.gap;
+  return 0;
+}
+
 std::string JointModel::name(const HoleModel& hole) const {
   return plates[hole.plate].name + ":" + plates[hole.plate].hole_of(hole.disc);
 }
@@ -223,16 +248,15 @@ std::string JointModel::name(const HoleModel& hole) const {
 std::string JointModel::name(const ShearPlane& plane) const {
   const FastenerModel& fastener = fasteners[plane.fastener];
   std::string id = fmt::format("fastener \"{}\"", fastener.id);
-  if (fastener.holes.size() == 2) return id;
+  if (fastener.n_planes() == 1) return id;
   return fmt::format("{} between \"{}\" and \"{}\"", id, plates[first_hole(plane).plate].name,
-                     plates[second_hole(plane).plate].name);
+                     second_plate(*this, plane));
 }
 
 std::string JointModel::short_name(const ShearPlane& plane) const {
   const FastenerModel& fastener = fasteners[plane.fastener];
-  if (fastener.holes.size() == 2) return fastener.id;
-  return fmt::format("{} ({}-{})", fastener.id, plates[first_hole(plane).plate].name,
-                     plates[second_hole(plane).plate].name);
+  if (fastener.n_planes() == 1) return fastener.id;
+  return fmt::format("{} ({}-{})", fastener.id, plates[first_hole(plane).plate].name, second_plate(*this, plane));
 }
 
 JointModel load_joint(const JointScene& scene, int p) {

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,23 +28,26 @@ struct PlateDegrees {
   std::vector<MatrixXd> C;  ///< (q, q) C_t, length / force
 };
 
-/// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, as unknowns of one list.
+/// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, then the k moments of
+/// contact of the rims whose springs push but do not pull (RimContact), as unknowns of one list.
 ///
-/// Forces that must act on it from outside: S u + R Lambda + T f (docs/theory.md, section 4).
+/// Forces that must act on it from outside: S u + R Lambda + T f (docs/theory.md, section 4). The springs of such a rim
+/// are not in S: what they transmit is minus the force on its moments.
 struct PlateModel {
   std::string name, file;
   std::string matrices_digest, plate_digest;                 ///< of its MATRICES.h5, and of its PLATE.h5
   std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
   std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
   std::vector<bool> on_springs;                              ///< (m / a) the plate's own bearing is in S
-  MatrixXd S;                                                ///< (m+e, m+e), force / length
-  MatrixXd R;                                                ///< (m+e, h), length^2
-  MatrixXd T;                                                ///< (m+e, q), dimensionless
+  std::vector<formats::ContactRim> contact;                  ///< (g) rims whose springs push but do not pull
+  MatrixXd S;                                                ///< (m+e+k, m+e+k), force / length
+  MatrixXd R;                                                ///< (m+e+k, h), length^2
+  MatrixXd T;                                                ///< (m+e+k, q), dimensionless
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
-  MatrixXd S_error;  ///< (m+e, m+e) the file's; infinite where it does not know it or p is not its highest
+  MatrixXd S_error;  ///< (m+e+k, m+e+k) the file's; infinite where it does not know it or p is not its highest
   formats::PlateStresses stresses;  ///< as the file has them
   std::optional<int> stress_level;  ///< those of the joint's degree, if there are any
   // Loads at load factor 1.
@@ -56,7 +61,13 @@ struct PlateModel {
   /// Hole of a disc unknown.
   [[nodiscard]] const std::string& hole_of(Index disc) const { return holes[disc / axes.size()]; }
   [[nodiscard]] int axis_of(Index disc) const { return axes[disc % axes.size()]; }
-  [[nodiscard]] Index n_unknowns() const { return n_discs() + n_externals(); }
+  [[nodiscard]] Index n_unknowns() const { return S.rows(); }
+  /// True if the springs of a hole push but do not pull.
+  [[nodiscard]] bool is_in_contact(const std::string& hole) const {
+    return std::ranges::find(contact, hole, &formats::ContactRim::hole) != contact.end();
+  }
+  /// First unknown of the moments of contact.
+  [[nodiscard]] Index first_moment() const { return n_discs() + n_externals(); }
 };
 
 /// The matrices at degree p, checked: the same directions of all discs, names that stand once, S symmetric and positive
@@ -86,6 +97,7 @@ struct HoleModel {
   double mu = 0;   ///< coefficient of friction
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
   std::vector<std::array<FrictionLoad, 2>> friction;
+  double gap = 0;  ///< radial, between the fastener and a rim whose springs push but do not pull, length
 };
 
 /// A fastener through its holes in their order.
@@ -93,10 +105,14 @@ struct FastenerModel {
   std::string id;
   std::vector<HoleModel> holes;
   bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
+  bool grounded = false;  ///< its last plane lies between the last hole and the ground, which does not move
+
+  [[nodiscard]] Index n_planes() const { return std::ssize(holes) - (grounded ? 0 : 1); }
 };
 
 /// Part that friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears
-/// on `side` in direction d. Two holes bear on opposite sides; each of more may bear on any, and its sides count alike.
+/// on `side` in direction d. The two holes of a single plane bear on opposite sides; of several planes each may bear on
+/// any, and its sides count alike. The ground is no hole.
 [[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, Index of, Index hole, Index d, Side side);
 
 /// Gives each hole of a fastener the bearing force with which bearing and friction together transfer the load of the
@@ -104,10 +120,10 @@ struct FastenerModel {
 void balance(FastenerModel& fastener);
 
 /// Plane between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F
-/// and the first with -F.
+/// and the first with -F. The second may be the ground, D = 0.
 struct ShearPlane {
   Index fastener = 0;
-  Index first = 0;  ///< hole of the fastener; the second is the next
+  Index first = 0;  ///< hole of the fastener; the second is the next, or the ground behind the last
   LawPointer law;
   std::string law_name;
   double clearance = 0;  ///< length
@@ -128,6 +144,8 @@ struct JointModel {
 
   [[nodiscard]] Index n_directions() const { return axes.size(); }
   [[nodiscard]] Index n_planes() const { return planes.size(); }
+  /// Number of moments of contact of all plates.
+  [[nodiscard]] Index n_moments() const;
   /// "x" or "y": direction d of the discs.
   [[nodiscard]] const char* axis_name(Index d) const { return axis_names[axes[d]]; }
   /// First unknown of a plate in the joint's list, plate after plate.
@@ -136,8 +154,18 @@ struct JointModel {
   [[nodiscard]] const HoleModel& first_hole(const ShearPlane& plane) const {
     return fasteners[plane.fastener].holes[plane.first];
   }
+  /// Hole on the other side of a plane that is not to the ground.
   [[nodiscard]] const HoleModel& second_hole(const ShearPlane& plane) const {
     return fasteners[plane.fastener].holes[plane.first + 1];
+  }
+  /// Radial gap of the fastener in a hole of a plate, length; 0 without a fastener.
+  [[nodiscard]] double gap(Index plate, const std::string& hole) const;
+  /// Holes of the plane: the first alone if it is to the ground.
+  [[nodiscard]] std::span<const HoleModel> holes(const ShearPlane& plane) const {
+    return {&first_hole(plane), is_to_ground(plane) ? 1U : 2U};
+  }
+  [[nodiscard]] bool is_to_ground(const ShearPlane& plane) const {
+    return plane.first + 1 == std::ssize(fasteners[plane.fastener].holes);
   }
   /// "plate:hole"
   [[nodiscard]] std::string name(const HoleModel& hole) const;

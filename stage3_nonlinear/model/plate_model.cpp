@@ -9,6 +9,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
+#include "common/matrices/inverse.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 
 namespace fastjoint::stage3 {
@@ -88,7 +89,64 @@ MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   return A;
 }
 
-PlateDegrees degrees_up_to(const formats::PlateMatrices& a, Index level) {
+/// Gives pressures that load no function of the sheet's degree, whose waves are too short for it, a little compliance.
+void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
+  constexpr double little = 1e-3;  // of the largest of the rim
+  Index row = 0;
+  for (const auto& rim : a.contact) {
+    const Index k = rim.pressures.size();
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(compliance.block(row, row, k, k));
+    const double least = little * eigen.eigenvalues()[k - 1];
+    const auto n = (eigen.eigenvalues().array() < least).count();
+    const auto unresolved = eigen.eigenvectors().leftCols(n);
+    compliance.block(row, row, k, k) += least * unresolved * unresolved.transpose();
+    row += k;
+  }
+}
+
+/// Replaces the matrices of a plate with all its springs, in which its rims of contact have pressures q beside them, by
+/// those of the plate with the moments of these rims as unknowns and their springs outside. With B, C, R_p, T_p in the
+/// units of the moments, F = S u + B^T q + R Lambda + T f and m = B u - C q + R_p Lambda + T_p f give q, and the force
+/// on the moments is K A m - q (docs/theory.md, section 6.3).
+void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level, PlateDegrees& degrees) {
+  const Index k = a.n_pressures(), n = degrees.S.back().rows();
+  if (k == 0) return;
+  VectorXd area(k), springs(k);
+  Index row = 0;
+  for (const auto& rim : a.contact) {
+    area.segment(row, rim.pressures.size()).setConstant(rim.area);
+    springs.segment(row, rim.pressures.size()).setConstant(rim.modulus * rim.area);
+    row += rim.pressures.size();
+  }
+  const auto mean = area.cwiseInverse().asDiagonal();
+  MatrixXd B(k, n);
+  B << a.B_d[level], a.B_e[level];
+  B = mean * B;
+  MatrixXd compliance = mean * a.C[level] * mean;
+  auto inverse = matrices::inverse_of_positive(compliance);
+  constexpr double stiffest = 1e6;  // of the springs
+  if (!inverse || !((inverse->diagonal().array() / springs.array()).maxCoeff() < stiffest)) {
+    soften_unresolved(a, compliance);
+    inverse = matrices::inverse_of_positive(compliance);
+  }
+  if (!inverse) throw FileError(file + ":C: is not positive definite, expected what unit pressures take off");
+  const MatrixXd& stiffness = *inverse;
+  const MatrixXd by_motion = stiffness * B, by_traction = stiffness * mean * a.T_p[level];
+  const auto extended = [&](MatrixXd& load, const MatrixXd& moments) {
+    const MatrixXd by_load = stiffness * mean * moments;
+    load += B.transpose() * by_load;
+    load = stacked(load, -by_load);
+  };
+  degrees.C.back() -= a.T_p[level].transpose() * mean * by_traction;
+  extended(degrees.R.back(), a.R_p[level]);
+  extended(degrees.T.back(), a.T_p[level]);
+  MatrixXd S(n + k, n + k);
+  S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose(), -by_motion, stiffness;
+  S.diagonal().tail(k) -= springs;
+  degrees.S.back() = std::move(S);
+}
+
+PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level) {
   constexpr Index most = 4;  // no estimate looks further back
   const Index n = std::min(level + 1, most), first = level + 1 - n;
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
@@ -97,6 +155,7 @@ PlateDegrees degrees_up_to(const formats::PlateMatrices& a, Index level) {
     degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
     degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
     degrees.C.push_back(a.C_t[i]);
+    free_rims(file, a, i, degrees);
   }
   return degrees;
 }
@@ -125,7 +184,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.tractions = a.traction_id;
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
-  plate.degrees = degrees_up_to(a, level);
+  plate.degrees = degrees_up_to(file, a, level);
   plate.S = plate.degrees.S.back();
   plate.R = plate.degrees.R.back();
   plate.T = plate.degrees.T.back();
@@ -137,7 +196,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
-  if (level + 1 < a.p.size()) plate.S_error.setConstant(std::numeric_limits<double>::infinity());
+  plate.contact = a.contact;
+  if (a.n_pressures() > 0) plate.S_error.resizeLike(plate.S);
+  if (level + 1 < a.p.size() || a.n_pressures() > 0) plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
   if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) plate.stress_level = at;
   plate.external_force = VectorXd::Zero(a.n_externals());

@@ -9,6 +9,7 @@
 
 #include "common/count.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/contact_history.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {
@@ -25,6 +26,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   }
   history.external_id = plate.externals;
   history.traction_id = plate.tractions;
+  history.contact = plate.contact;
   history.friction_hole = plate.friction_hole;
   history.friction_bearing = plate.friction_bearing;
   const auto rows = [&](VectorXd PlateState::*values, Index n) {
@@ -35,6 +37,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.D = rows(&PlateState::D, plate.n_discs());
   history.De = rows(&PlateState::De, plate.n_externals());
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
+  history.pressure = rows(&PlateState::pressure, plate.n_unknowns() - plate.first_moment());
   history.Lambda = rows(&PlateState::Lambda, plate.friction_unit_force.size());
   history.traction = rows(&PlateState::traction, plate.traction_force.size());
   history.disc_forces = {rows(&PlateState::bearing, plate.n_discs()), rows(&PlateState::friction, plate.n_discs())};
@@ -89,7 +92,7 @@ std::string csv_heads(const JointModel& joint) {
 
 }  // namespace
 
-formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
+formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                                   const std::vector<JointState>& states) {
   const Index steps = path.steps.size(), n = joint.n_planes(), a = joint.n_directions();
   formats::JointResult result;
@@ -117,11 +120,14 @@ formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
   for (const auto& plane : joint.planes) {
     result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
     result.first_hole.push_back(joint.name(joint.first_hole(plane)));
-    result.second_hole.push_back(joint.name(joint.second_hole(plane)));
+    result.second_hole.push_back(joint.is_to_ground(plane) ? ground_name : joint.name(joint.second_hole(plane)));
   }
   for (Index d = 0; d < std::ssize(joint.axes); ++d) result.direction.emplace_back(joint.axis_name(d));
-  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+  auto contacts = contact_histories(joint, equations, path);
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     result.plates.push_back(plate_history(joint.plates[i], states, i));
+    result.plates.back().contacts = std::move(contacts[i]);
+  }
   return result;
 }
 
@@ -137,6 +143,7 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
   }
   history.force_external = numbers.force;
   history.displacement_external = numbers.displacement;
+  history.gap_hole = numbers.gap;
   history.load_factor.resize(std::ssize(path.steps), joint.n_planes());
   for (const auto& step : path.steps) {
     Sensitivity each = sensitivity(equations, numbers, step);
@@ -146,6 +153,7 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
     history.mu.push_back(std::move(each.mu));
     history.force.push_back(std::move(each.force));
     history.displacement.push_back(std::move(each.displacement));
+    history.gap.push_back(std::move(each.gap));
   }
   return history;
 }
@@ -164,8 +172,9 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       for (const auto* vectors : {&a.delta_vector, &a.F_vector})
         for (Index d = 0; directions > 1 && d < directions; ++d)
           text += fmt::format(",{}", (*vectors)(i, j * directions + d));
-      for (const HoleModel* hole : {&joint.first_hole(joint.planes[j]), &joint.second_hole(joint.planes[j])})
-        text += rim_fields(a.plates[hole->plate].rims, joint.plates[hole->plate].hole_of(hole->disc), i);
+      for (const HoleModel& hole : joint.holes(joint.planes[j]))
+        text += rim_fields(a.plates[hole.plate].rims, joint.plates[hole.plate].hole_of(hole.disc), i);
+      if (joint.is_to_ground(joint.planes[j])) text += rim_fields({}, "", i);
       text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "", field(a.event[i]));
     }
   }

@@ -11,8 +11,8 @@
 namespace fastjoint::stage3 {
 
 /// The path as RESULT.h5 holds it, one state per step; the header is left to the caller.
-[[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const LoadPath& path,
-                                                const std::vector<JointState>& states);
+[[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations,
+                                                const LoadPath& path, const std::vector<JointState>& states);
 
 /// The derivatives of the bearing forces at every step of the path, as RESULT.h5 holds them.
 [[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,

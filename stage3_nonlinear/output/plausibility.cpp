@@ -18,7 +18,8 @@ using Eigen::Array2d;
 using Eigen::Vector2d;
 using Plates = std::pair<Index, Index>;
 
-/// A shear plane whose holes MATRICES.h5 describes; t and E are 0 where it does not tell them.
+/// A shear plane whose holes MATRICES.h5 describes; t and E are 0 where it does not tell them. The ground is taken for
+/// one more hole like the first.
 struct KnownPlane {
   Index at;
   Plates plates;    ///< ascending
@@ -30,14 +31,14 @@ std::vector<KnownPlane> known_planes(const JointModel& joint) {
   std::vector<KnownPlane> result;
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
-    const HoleModel &first = joint.first_hole(plane), &second = joint.second_hole(plane);
+    const HoleModel &first = joint.holes(plane).front(), &second = joint.holes(plane).back();
     KnownPlane known{j, std::minmax(first.plate, second.plate), Vector2d::Zero(), {0, 0}, {0, 0}, {0, 0}};
-    for (const HoleModel* hole : {&first, &second}) {
-      const auto& a = joint.plates[hole->plate].stresses;
-      const int at = index_of(a.rim_hole, joint.plates[hole->plate].hole_of(hole->disc));
+    for (const Index side : {0, 1}) {
+      const HoleModel& hole = side == 0 ? first : second;
+      const auto& a = joint.plates[hole.plate].stresses;
+      const int at = index_of(a.rim_hole, joint.plates[hole.plate].hole_of(hole.disc));
       if (at == count_of(a.rim_hole)) continue;
-      const Index side = hole == &first ? 0 : 1;
-      known.offset += (hole->plate == known.plates.first ? 1 : -1) * a.rim_center.row(at).transpose();
+      known.offset += ((side == 0) == (first.plate <= second.plate) ? 1 : -1) * a.rim_center.row(at).transpose();
       known.t[side] = a.rim_thickness[at];
       known.d[side] = 2 * a.rim_radius[at];
       const bool one_E = joint.n_directions() == 1 ||
@@ -93,14 +94,14 @@ constexpr std::array<RimDoubt, 6> doubts = {{
      "loads; give the hole's spring the other \"arc\" in PLATE.json"},
     {[](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
      "the springs all around {at} pull on its rim by up to {pull:.4g} {unit}, beside a bearing stress of {stress:.4g}: "
-     "a fastener only pushes, and hoop peaks come out too low; give the hole's spring the \"arc\" that bears in "
+     "a fastener only pushes, and hoop peaks come out too low; give the hole's spring \"compression_only\": true in "
      "PLATE.json"},
     {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
      "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
-     "peak, {peak:.4g} {unit}, too low; give the hole's spring the \"arc\" that bears in PLATE.json"},
+     "peak, {peak:.4g} {unit}, too low; give the hole's spring \"compression_only\": true in PLATE.json"},
     {[](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
-     "springs pull on its rim; give the hole's spring the \"arc\" that bears in PLATE.json"},
+     "springs pull on its rim; give the hole's spring \"compression_only\": true in PLATE.json"},
     {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? std::abs(rim.across) : 0; },
      "the disc of {at} is held across its one direction by {across:.4g} {force}, beside a bearing force of "
      "{bearing:.4g}, and nothing in the joint gives that; let the discs move: \"disc_directions\": [\"x\", \"y\"] in "
@@ -140,7 +141,7 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
               "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius {:.6g}: one "
               "of them may be another fastener's hole, or the sheets are drawn in different coordinates",
               where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
-    const auto formula = plane.law->source();
+    const auto formula = joint.is_to_ground(plane) ? std::nullopt : plane.law->source();
     const std::string other = formula ? unlike(*formula, known, plane.clearance) : "";
     if (!other.empty() && compared.insert(plane.law_name).second)
       formulas.push_back(fmt::format(
@@ -172,8 +173,8 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
 std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
   std::set<std::string> loose;
   for (const auto& plane : joint.planes)
-    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
-      if (plane.clearance > 0) loose.insert(joint.name(*hole));
+    for (const HoleModel& hole : joint.holes(plane))
+      if (plane.clearance > 0) loose.insert(joint.name(hole));
   std::vector<std::string> result;
   for (const auto& doubt : doubts) {
     double most = 0;

@@ -38,7 +38,8 @@ double rounded(double force, double largest) {
 /// Name of what solved the increments.
 std::string method(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
   const Index exact = std::ranges::count(path.steps, true, &PathStep::exact);
-  const Method chosen = iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions());
+  const Method chosen =
+      iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions() + joint.n_moments());
   const std::string& iterative = method_names[static_cast<std::size_t>(chosen) - 1];
   if (exact == 0) return iterative;
   return exact == path.n_increments ? "exact path" : "exact path, " + iterative;
@@ -178,8 +179,27 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   return rows.empty() ? rows : row("hole", std::mem_fn(&Column::heading)) + row("", unit_below) + rows;
 }
 
+/// Every rim of contact of every plate at one increment. Empty if there is none.
+std::string contact_table(const JointModel& joint, const formats::JointResult& result, Index step) {
+  std::string rows;
+  for (const auto& plate : result.plates)
+    for (Index i = 0; i < std::ssize(plate.contact); ++i) {
+      const auto& a = plate.contacts;
+      rows += fmt::format("  {:<24} {:>14.6g} {:>10.2f} {:>10.2f} {:>10.2f} {:>14.6g} {:>9.1f} {:>14.6g}\n",
+                          plate.name + ":" + plate.contact[i].hole, a.gap[i], a.touching(step, i), a.from(step, i),
+                          a.to(step, i), a.peak_pressure(step, i), a.peak_angle(step, i), a.least_gap(step, i));
+    }
+  if (rows.empty()) return rows;
+  return fmt::format("  {:<24} {:>14} {:>10} {:>10} {:>10} {:>14} {:>9} {:>14}\n", "contact", "gap", "touches", "from",
+                     "to", "peak pressure", "at", "gap left") +
+         fmt::format("  {:<24} {:>14} {:>10} {:>10} {:>10} {:>14} {:>9} {:>14}\n", "",
+                     head("", unit(joint.units, 1, 0)), "[deg]", "[deg]", "[deg]", head("", unit(joint.units, -2, 1)),
+                     "[deg]", head("", unit(joint.units, 1, 0))) +
+         rows;
+}
+
 std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,
-                          bool all) {
+                          const formats::JointResult& result, bool all) {
   std::string text;
   for (const auto& plate : joint.plates) {
     if (plate.stress_level) continue;
@@ -196,7 +216,7 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
   const bool past_peak =
       !all && std::ranges::any_of(path.steps, [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
   for (Index i = all ? 0 : states.size() - 1; i < std::ssize(states); ++i)
-    if (const std::string table = rim_table(joint, states[i]); !table.empty())
+    if (const std::string table = rim_table(joint, states[i]) + contact_table(joint, result, i); !table.empty())
       text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
                           past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",
                           table);
@@ -218,7 +238,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   }
   if (states.empty()) return text;
   if (result.F_error) text += error_bar(joint, result);
-  return text + legend + stress_tables(joint, path, states, all_stresses);
+  return text + legend + stress_tables(joint, path, states, result, all_stresses);
 }
 
 }  // namespace fastjoint::stage3

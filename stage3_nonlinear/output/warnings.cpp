@@ -85,12 +85,12 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& re
   for (const auto& plane : joint.planes) {
     const auto source = plane.law->source();
     if (!source || !source->bearing_of_plate) continue;
-    for (const HoleModel* hole : {&joint.first_hole(plane), &joint.second_hole(plane)})
-      if (joint.plates[hole->plate].on_springs[hole->disc / joint.n_directions()] && said.insert(plane.law_name).second)
+    for (const HoleModel& hole : joint.holes(plane))
+      if (joint.plates[hole.plate].on_springs[hole.disc / joint.n_directions()] && said.insert(plane.law_name).second)
         result.push_back(
             fmt::format("/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole "
                         "\"{}\" have already: the joint comes out too soft; take \"fastener only\"",
-                        plane.law_name, joint.name(*hole)));
+                        plane.law_name, joint.name(hole)));
   }
 }
 
@@ -155,7 +155,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
   const ContactCorners corners(equations.contacts);
   MatrixXd most = MatrixXd::Zero(equations.n_directions(), equations.n_planes());
   for (const PathStep& step : path.steps) {
-    const VectorXd all = coordinates(equations.contacts, step.F, step.delta);
+    const VectorXd all = coordinates(equations, step.all_F(), step.all_delta());
     std::vector<Index> unloaded;
     for (Index j = 0; j < most.cols(); ++j) {
       const VectorXd c = all.segment(j * most.rows(), most.rows());
@@ -176,6 +176,19 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
   }
 }
 
+/// Says what friction is at rims of contact: its cases have a distribution of their own.
+void warn_of_cosine_friction(const JointModel& joint, std::vector<std::string>& result) {
+  for (const auto& fastener : joint.fasteners)
+    for (const auto& hole : fastener.holes)
+      if (hole.mu > 0 && joint.plates[hole.plate].is_in_contact(joint.plates[hole.plate].hole_of(hole.disc))) {
+        result.push_back(
+            fmt::format("friction at hole \"{}\", whose springs push but do not pull, is distributed as the cosine of "
+                        "the angle from the bearing direction, not as the pressure of contact is",
+                        joint.name(hole)));
+        return;
+      }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
@@ -187,6 +200,7 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   warn_of_other_solutions(joint, equations, path, result);
   warn_of_locking(path, result);
   warn_of_unloading(joint, equations, path, result);
+  warn_of_cosine_friction(joint, result);
   for (auto& each : result) each.insert(0, joint.file + ": ");
   return result;
 }

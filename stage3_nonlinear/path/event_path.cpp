@@ -68,7 +68,7 @@ class Search {
  private:
   std::optional<Sample> solved(double load) {
     program::report_share(load);
-    if (walk_.reach(load)) return Sample{load, walk_.here().c, corners_.passed(walk_.here().c)};
+    if (walk_.reach(load)) return Sample{load, walk_.here().c, passed(walk_.here().c)};
     found_.failed = load;
     return std::nullopt;
   }
@@ -140,7 +140,7 @@ class Search {
     double load = (1 - share) * a.load + share * b.load;
     int iterations = 0;
     for (const bool again : {false, true}) {  // relative to the full load, then if need be to its own
-      unit = force_scale(equations_.system, again ? load : 1);
+      unit = force_scale(equations_, again ? load : 1);
       VectorXd start(rows + 1);
       start << c / unit, load;
       const Root root = newton_root(problem, start, {again ? enough : tolerance, most_iterations});
@@ -173,9 +173,9 @@ class Search {
       all.push_back(*found);
     }
     const auto first = std::ranges::min_element(all, {}, [](const EventPlace& e) { return e.place.load_factor; });
-    if (first == all.end() || contact_state(equations_.contacts, first->place.c).spent) return std::nullopt;
+    if (first == all.end() || contact_state(equations_, first->place.c).spent) return std::nullopt;
     const VectorXd& c = first->place.c;
-    const VectorXi here = corners_.passed(c);
+    const VectorXi here = passed(c);
     for (Index j = 0; j < std::ssize(here); ++j) {
       const bool passes = a.passed[j] != b.passed[j] && is_on(c, j, next_corner(j, a.passed[j], b.passed[j]));
       if (here[j] != a.passed[j] && !passes) return std::nullopt;
@@ -183,8 +183,10 @@ class Search {
     return *first;
   }
 
+  [[nodiscard]] VectorXi passed(const VectorXd& c) const { return corners_.passed(c.head(equations_.n_plane_rows())); }
+
   [[nodiscard]] double position(const VectorXd& c, Index plane) const {
-    return amounts(c, equations_.n_directions())[plane];
+    return amounts(c.head(equations_.n_plane_rows()), equations_.n_directions())[plane];
   }
 
   [[nodiscard]] bool is_on(const VectorXd& c, Index plane, double corner) const {
@@ -202,7 +204,7 @@ class Search {
 
   /// dc / d load factor.
   [[nodiscard]] VectorXd rate(const Sample& at) const {
-    const double unit = force_scale(equations_.system, at.load);
+    const double unit = force_scale(equations_, at.load);
     const MatrixXd J = root_problem(equations_, at.load, unit).jacobian(at.c / unit);
     return J.partialPivLu().solve(equations_.system.q);
   }
@@ -216,9 +218,9 @@ class Search {
     for (const double t : {0.1, 0.25, 0.5, 0.75, 0.9}) {
       const double s = 1 - t;
       const VectorXd c = s * s * (1 + 2 * t) * a.c + t * t * (1 + 2 * s) * b.c + s * t * (s * rate_a - t * rate_b);
-      const VectorXi passed = corners_.passed(c);
-      for (Index j = 0; j < std::ssize(passed); ++j)
-        if (passed[j] != a.passed[j] && !is_on_a_corner(a.c, j) && !is_on_a_corner(b.c, j)) return true;
+      const VectorXi there = passed(c);
+      for (Index j = 0; j < std::ssize(there); ++j)
+        if (there[j] != a.passed[j] && !is_on_a_corner(a.c, j) && !is_on_a_corner(b.c, j)) return true;
     }
     return false;
   }

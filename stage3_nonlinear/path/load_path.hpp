@@ -65,7 +65,19 @@ struct PathStep {
   double residual;    ///< largest, relative to the largest |q| at this load factor
   TangentCheck check;
   bool exact = false;                     ///< on an exact path
+  VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
   std::vector<ContactEvent> events = {};  ///< what happens exactly here
+
+  /// Forces and displacements of all rows of the condensed system, (r).
+  [[nodiscard]] VectorXd all_F() const { return behind(F, rim_F); }
+  [[nodiscard]] VectorXd all_delta() const { return behind(delta, moments); }
+
+ private:
+  static VectorXd behind(const VectorXd& planes, const VectorXd& rims) {
+    VectorXd all(planes.size() + rims.size());
+    all << planes, rims;
+    return all;
+  }
 };
 
 /// Place and reason of an early end of a path.

@@ -46,7 +46,8 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
 }  // namespace
 
 bool is_piecewise_linear(const JointEquations& equations) {
-  return equations.n_directions() == 1 && std::ranges::all_of(equations.contacts, [](const Contact& each) {
+  return equations.n_directions() == 1 && equations.rims.empty() &&
+         std::ranges::all_of(equations.contacts, [](const Contact& each) {
            return each.law->corners(each.stiffness, each.clearance).has_value();
          });
 }

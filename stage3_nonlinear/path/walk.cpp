@@ -9,8 +9,9 @@
 #include "common/program/progress.hpp"
 
 namespace fastjoint::stage3 {
-double force_scale(const CondensedSystem& system, double load_factor) {
-  const double scale = std::abs(load_factor) * system.q.lpNorm<Eigen::Infinity>();
+double force_scale(const JointEquations& equations, double load_factor) {
+  const double scale =
+      std::max(std::abs(load_factor) * equations.system.q.lpNorm<Eigen::Infinity>(), equations.interference());
   return scale > 0 ? scale : 1;
 }
 
@@ -49,17 +50,20 @@ bool Walk::reach(double target) {
 }
 
 PathStep Walk::step() const {
-  const auto state = contact_state(equations_.contacts, here_.c);
+  const auto state = contact_state(equations_, here_.c);
   const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor);
   // On a corner of its law the side counts on which a fastener bears more.
   const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
+  const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
   return {.load_factor = here_.load_factor,
-          .F = state.F,
-          .delta = state.delta,
+          .F = state.F.head(planes),
+          .delta = state.delta.head(planes),
           .iterations = iterations_,
-          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_.system, here_.load_factor),
-          .check = check_tangent(equations_, contact_state(equations_.contacts, beyond)),
-          .exact = here_.exact};
+          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_, here_.load_factor),
+          .check = check_tangent(equations_, contact_state(equations_, beyond)),
+          .exact = here_.exact,
+          .rim_F = state.F.tail(rims),
+          .moments = state.delta.tail(rims)};
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) const {
@@ -70,7 +74,7 @@ PathFailure Walk::failure(Index increment, double load_factor) const {
 }
 
 std::optional<double> Walk::locking(double load_factor) const {
-  const auto last = self_locking(equations_.system, contact_state(equations_.contacts, here_.c).F);
+  const auto last = self_locking(equations_.system, contact_state(equations_, here_.c).F);
   const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q);
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
@@ -108,15 +112,15 @@ bool Walk::solve_from_here(double target) { return take_known(target) || solve_f
 
 bool Walk::take_known(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
-  scale_ = force_scale(equations_.system, target);
-  if (target == 0) {  // without load the joint as it was built is in equilibrium, exactly
+  scale_ = force_scale(equations_, target);
+  if (target == 0 && equations_.interference() == 0) {  // the joint as it was built is in equilibrium, exactly
     here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
     return true;
   }
   for (const auto& path : exact_) {
     if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
     const VectorXd c = path.at(target);
-    const auto state = contact_state(equations_.contacts, c);
+    const auto state = contact_state(equations_, c);
     if (!is_small(equations_.system.residual(state.F, state.delta, target).lpNorm<Eigen::Infinity>())) return false;
     iterations_ += int(path.piece_of(target)) + 1;
     here_ = {target, c, true};
@@ -154,7 +158,7 @@ bool Walk::solve_by_turns(double target) {
   const auto problem = root_problem(equations_, target, scale_);
   VectorXd c = here_.c;
   for (int turn = 0; turn < most_turns; ++turn) {
-    const VectorXd F = contact_state(equations_.contacts, c).F;
+    const VectorXd F = contact_state(equations_, c).F;
     const Root root = run(root_problem(equations_, target, scale_, &F), c, newton_root);
     if (!root.converged) return false;
     c = scale_ * root.x;
@@ -172,7 +176,7 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
 bool Walk::take(const Root& root, double target) {
   if (!converged(root)) return false;
   const VectorXd c = scale_ * root.x;
-  if (const auto spent = contact_state(equations_.contacts, c).spent) {
+  if (const auto spent = contact_state(equations_, c).spent) {
     if (std::isinf(worst_residual_)) {
       worst_row_ = *spent * equations_.n_directions();
       best_ = c;
@@ -187,7 +191,8 @@ bool Walk::take(const Root& root, double target) {
 void Walk::note_failure(const Root& root) {
   if (converged(root)) return;  // past all that a law carries
   Index at = 0;
-  const double worst = root.residual.cwiseAbs().maxCoeff(&at);
+  root.residual.head(equations_.n_plane_rows()).cwiseAbs().maxCoeff(&at);
+  const double worst = root.residual.cwiseAbs().maxCoeff();
   if (!(worst < worst_residual_)) return;
   worst_residual_ = worst;
   worst_row_ = at;
@@ -212,7 +217,8 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
       break;
     }
     path.steps.push_back(walk.step());
-    path.steps.back().events = corners.at(before, walk.here().c);
+    const Index planes = equations.n_plane_rows();
+    path.steps.back().events = corners.at(before.head(planes), walk.here().c.head(planes));
   }
   path.left = walk.left();
   return path;

@@ -73,7 +73,7 @@ class Walk {
   VectorXd best_;  ///< contact coordinates of the best try
 };
 
-/// Largest |q| at a load factor, force; 1 if nothing reaches the fasteners.
-[[nodiscard]] double force_scale(const CondensedSystem& system, double load_factor);
+/// Largest |q| at a load factor, or that of interference if it is larger, force; 1 if nothing reaches the fasteners.
+[[nodiscard]] double force_scale(const JointEquations& equations, double load_factor);
 
 }  // namespace fastjoint::stage3

@@ -9,13 +9,13 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// The laws' forces on the plates by fastener and hole, each (a), force.
+/// The laws' forces on the plates by fastener and hole, that on the ground behind the last, each (a), force.
 using Bearing = std::vector<std::vector<VectorXd>>;
 
 Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
   const Index a = joint.n_directions();
   Bearing bearing;
-  for (const auto& fastener : joint.fasteners) bearing.emplace_back(fastener.holes.size(), VectorXd::Zero(a));
+  for (const auto& fastener : joint.fasteners) bearing.emplace_back(fastener.n_planes() + 1, VectorXd::Zero(a));
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     bearing[plane.fastener][plane.first] -= F.segment(j * a, a);
@@ -30,13 +30,13 @@ const FrictionLoad& friction_at(const HoleModel& hole, Index direction, double b
   return hole.friction.empty() ? none : hole.friction[direction][bearing < 0 ? minus_side : plus_side];
 }
 
-/// @param side 0: in the first hole of each plane, 1: in the second.
+/// @param side 0: in the first hole of each plane, 1: in the second; the ground gets what leaves the last hole.
 VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, Index side) {
   const Index a = joint.n_directions();
   VectorXd result = F;
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
-    const Index hole = plane.first + side;
+    const Index hole = joint.is_to_ground(plane) ? plane.first : plane.first + side;
     for (Index d = 0; d < a; ++d) {
       const double b = bearing[plane.fastener][hole][d];
       const FrictionLoad& friction = friction_at(joint.fasteners[plane.fastener].holes[hole], d, b);
@@ -60,17 +60,33 @@ void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const V
   }
 }
 
-/// @param u         (m+e) displacements of the plate.
+/// Pressures that contact adds to those of springs that also pull, by the moments and forces of a plate's rims, (k),
+/// stress.
+VectorXd added_pressure(const PlateModel& plate, const VectorXd& moments, const VectorXd& forces) {
+  VectorXd result = forces;
+  Index row = 0;
+  for (const auto& rim : plate.contact) {
+    const Index k = rim.pressures.size();
+    result.segment(row, k) = forces.segment(row, k) / rim.area - rim.modulus * moments.segment(row, k);
+    row += k;
+  }
+  return result;
+}
+
+/// @param u         (m+e+k) displacements of the plate and moments of its rims.
+/// @param rim_F     (k) forces of these.
 /// @param worst_row Raised to what the plate's worst row is out of balance, force.
-PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, double factor, const Bearing& bearing,
-                       double& worst_row) {
+PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F, double factor,
+                       const Bearing& bearing, double& worst_row) {
   const PlateModel& plate = joint.plates[at];
-  const Index m = plate.n_discs();
+  const Index m = plate.n_discs(), k = rim_F.size();
   const VectorXd none = VectorXd::Zero(m);
   VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_force);
   PlateState state{.D = u.head(m),
-                   .De = u.tail(plate.n_externals()),
+                   .De = u.segment(m, plate.n_externals()),
                    .Pe = factor * plate.external_force,
+                   .moments = u.tail(k),
+                   .pressure = added_pressure(plate, u.tail(k), rim_F),
                    .Lambda = VectorXd::Zero(plate.friction_unit_force.size()),
                    .traction = factor * plate.traction_force,
                    .bearing = none,
@@ -80,13 +96,20 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, dou
       if (joint.fasteners[i].holes[hole].plate == at)
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
-  amounts << state.De, state.D, state.Lambda, state.traction;
+  amounts << state.De, state.D, state.pressure, state.Lambda, state.traction;
   if (plate.stress_level)
     state.rims =
         stresses::rim_states(plate.stresses, *plate.stress_level,
                              [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
                              {plate.holes, plate.axes, state.bearing, state.friction});
-  worst_row = std::max(worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff());
+  for (Index rim = 0; rim < std::ssize(state.rims); ++rim)
+    if (plate.is_in_contact(plate.stresses.rim_hole[rim])) {
+      auto& its = state.rims[rim];  // what looks like pull is what the pressures of contact do not resolve
+      its.pulls = its.filled = false;
+      its.pull = 0;
+    }
+  worst_row = std::max({worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff(),
+                        (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
     if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];
     worst_row = std::max(worst_row, std::abs(asked[m + i] - state.Pe[i]));
@@ -98,10 +121,12 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, dou
   return state;
 }
 
-/// Worst component of what the holes of a fastener give it altogether, bearing and friction, of all fasteners, force.
+/// Worst component of what the holes of a fastener give it altogether, bearing and friction, of all fasteners that
+/// the ground does not hold, force.
 double worst_fastener(const JointModel& joint, const std::vector<PlateState>& plates) {
   double worst = 0;
   for (const auto& fastener : joint.fasteners) {
+    if (fastener.grounded) continue;
     VectorXd sum = VectorXd::Zero(joint.n_directions());
     for (const auto& hole : fastener.holes) {
       const PlateState& plate = plates[hole.plate];
@@ -120,6 +145,7 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
   for (const int axis : {0, 1}) {
     const VectorXd motion = VectorXd::NullaryExpr(plate.n_unknowns(), [&](Index i) {
       const Index external = i - plate.n_discs();
+      if (i >= plate.first_moment()) return 0.0;
       return double((external < 0 ? plate.axis_of(i) : plate.external_axis[external]) == axis);
     });
     if (motion.isZero(0) || (plate.S * motion).norm() > rounding * plate.S.norm()) continue;
@@ -131,17 +157,20 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
 }  // namespace
 
 JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
-  const VectorXd D = system.displacements(step.F, step.delta, step.load_factor);
+  const VectorXd D = system.displacements(step.all_F(), step.all_delta(), step.load_factor);
   JointState state;
   const Bearing bearing = bearing_forces(joint, step.F);
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
-  state.largest_force = step.F.lpNorm<Eigen::Infinity>();
+  state.largest_force = step.all_F().lpNorm<Eigen::Infinity>();
+  Index first_moment = 0;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
-    const PlateState& its =
-        state.plates.emplace_back(plate_state(joint, i, u, step.load_factor, bearing, state.out_of_balance));
+    const Index k = plate.n_unknowns() - plate.first_moment();
+    const PlateState& its = state.plates.emplace_back(
+        plate_state(joint, i, u, step.rim_F.segment(first_moment, k), step.load_factor, bearing, state.out_of_balance));
+    first_moment += k;
     if (const auto worst = given_by_no_support(plate, its))
       state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), *worst);
     for (const VectorXd* forces : {&its.Pe, &its.traction})
@@ -179,7 +208,10 @@ VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   VectorXd passed = transferred;  // with the sign that it has when the lower plate comes first; amounts have none
   std::vector<std::pair<Index, Index>> plates;  // of each plane, ascending
   for (Index j = 0; j < std::ssize(passed); ++j) {
-    const Index first = joint.first_hole(joint.planes[j]).plate, second = joint.second_hole(joint.planes[j]).plate;
+    const ShearPlane& plane = joint.planes[j];
+    const Index ground = joint.plates.size();
+    const Index first = joint.first_hole(plane).plate;
+    const Index second = joint.is_to_ground(plane) ? ground : joint.second_hole(plane).plate;
     plates.push_back(std::minmax(first, second));
     if (joint.n_directions() == 1 && first > second) passed[j] = -passed[j];
   }

@@ -15,6 +15,8 @@ namespace fastjoint::stage3 {
 struct PlateState {
   VectorXd D;                  ///< (m) disc displacements, length
   VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
+  VectorXd moments;            ///< (k) of the rims of contact, length
+  VectorXd pressure;           ///< (k) amount of each pressure that contact adds to that of the springs, stress
   VectorXd Lambda;             ///< (h) peak stress of each friction case, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
@@ -34,7 +36,7 @@ struct JointState {
   double largest_force = 0;  ///< of externals, tractions and fasteners
   // Over the largest force:
   double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
-  double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of a fastener give it
+  double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of one without ground give it
   /// Worst sum of all forces on a plate along an axis along which nothing supports it; none if there is none.
   std::optional<double> plates_out_of_balance;
 };
@@ -46,8 +48,8 @@ struct JointState {
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 
-/// Shares in per cent of the sum over all planes between the same two plates, whichever their fasteners name first,
-/// shape (n); NaN where the sum is nothing but rounding.
+/// Shares in per cent of the sum over all planes between the same two plates, or a plate and the ground, whichever
+/// their fasteners name first, shape (n); NaN where the sum is nothing but rounding.
 [[nodiscard]] VectorXd shares(const JointModel& joint, const VectorXd& transferred);
 
 }  // namespace fastjoint::stage3

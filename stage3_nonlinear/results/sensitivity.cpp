@@ -14,12 +14,12 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Derivatives dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (n a, n +
+/// Derivatives dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (r, n +
 /// l).
 std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const JointNumbers& numbers,
                                           const ContactState& state, const VectorXd& c) {
   const Index a = state.direction.rows(), n = state.direction.cols();
-  MatrixXd F = MatrixXd::Zero(n * a, n + std::ssize(numbers.law));
+  MatrixXd F = MatrixXd::Zero(c.size(), n + std::ssize(numbers.law));
   MatrixXd delta = F;
   for (Index j = 0; j < n; ++j) {
     const Contact& contact = equations.contacts[j];
@@ -75,16 +75,31 @@ MatrixXd friction_changes(const CondensedSystem& system, const std::vector<Frict
   return changes;
 }
 
-/// Changes of the residual at fixed c by all numbers, (n a, columns): load factor, clearances, laws, mu, forces,
-/// displacements.
+/// Changes of the residual by the gap of each rim of contact, (r, g).
+MatrixXd gap_changes(const JointEquations& equations, const ContactState& state) {
+  Index first = equations.n_plane_rows();
+  MatrixXd changes = MatrixXd::Zero(state.F.size(), std::ssize(equations.rims));
+  for (Index i = 0; i < changes.cols(); ++i) {
+    const RimContact& rim = equations.rims[i];
+    changes.col(i).segment(first, rim.size()) = -rim.stiffness() * state.dF.rims[i].col(0);
+    first += rim.size();
+  }
+  return changes;
+}
+
+/// Changes of the residual at fixed c by all numbers, (r, columns): load factor, clearances, laws, mu, forces,
+/// displacements, gaps.
 /// @param F, delta Those of law_changes.
-MatrixXd residual_changes(const CondensedSystem& system, const JointNumbers& numbers, const ContactState& state,
+MatrixXd residual_changes(const JointEquations& equations, const JointNumbers& numbers, const ContactState& state,
                           const MatrixXd& F, const MatrixXd& delta, double load_factor) {
+  const CondensedSystem& system = equations.system;
   MatrixXd by_law = F + system.S_ud * delta;
   if (system.has_friction()) by_law += system.friction_matrix(state.F) * F;
   const MatrixXd by_mu = friction_changes(system, numbers.friction, state.F);
-  MatrixXd all(F.rows(), 1 + by_law.cols() + by_mu.cols() + numbers.q_force.cols() + numbers.q_displacement.cols());
-  all << -system.q, by_law, by_mu, -load_factor * numbers.q_force, -load_factor * numbers.q_displacement;
+  const MatrixXd by_gap = gap_changes(equations, state);
+  MatrixXd all(F.rows(), 1 + by_law.cols() + by_mu.cols() + numbers.q_force.cols() + numbers.q_displacement.cols() +
+                             by_gap.cols());
+  all << -system.q, by_law, by_mu, -load_factor * numbers.q_force, -load_factor * numbers.q_displacement, by_gap;
   return all;
 }
 
@@ -135,7 +150,7 @@ std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const Condensed
 VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::Ref<const MatrixXd>& D,
                       const MatrixXd& dS, const PlateState& state) {
   VectorXd u(plate.n_unknowns());
-  u << state.D, state.De;
+  u << state.D, state.De, state.moments;
   const VectorXd& f = state.traction;
   const PlateDegrees& degrees = plate.degrees;
   const auto n = degrees.S.size();
@@ -159,8 +174,8 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
 /// @param dS Results of stiffness_changes.
 VectorXd errors(const JointModel& joint, const JointEquations& equations, const std::vector<MatrixXd>& dS,
                 const PathStep& step, const JointState& solution) {
-  const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
-  ContactState state = contact_state(equations.contacts, c);
+  const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+  ContactState state = contact_state(equations, c);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
   Slopes slopes = implicit_slopes(equations, state);
   slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
@@ -172,7 +187,8 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
     result += plate_errors(plate, A, D, dS[i], solution.plates[i]);
   }
   if (step.check.at_limit_load()) result.setConstant(infinite);
-  for (const Index row : slopes.no_row) result[row / joint.n_directions()] = infinite;
+  for (const Index row : slopes.no_row)
+    if (row < equations.n_plane_rows()) result[row / joint.n_directions()] = infinite;
   return result;
 }
 
@@ -186,6 +202,8 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
     if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
       numbers.friction.push_back(friction_hole(joint, system, row.fastener, row.hole));
   }
+  for (const auto& plate : joint.plates)
+    for (const auto& rim : plate.contact) numbers.gap.push_back(plate.name + ":" + rim.hole);
   std::map<std::string, Index> first;
   for (const auto& plane : joint.planes) {
     const auto [at, is_new] = first.try_emplace(plane.law_name, std::ssize(numbers.law));
@@ -197,10 +215,10 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
 }
 
 Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
-  const VectorXd c = coordinates(equations.contacts, step.F, step.delta);
-  ContactState state = contact_state(equations.contacts, c);
+  const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+  ContactState state = contact_state(equations, c);
   const auto [F, delta] = law_changes(equations, numbers, state, c);
-  const MatrixXd residual = residual_changes(equations.system, numbers, state, F, delta, step.load_factor);
+  const MatrixXd residual = residual_changes(equations, numbers, state, F, delta, step.load_factor);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
   Slopes slopes = implicit_slopes(equations, state, residual);
   slopes.F.middleCols(1, F.cols()) += F;
@@ -215,7 +233,8 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
           .law = next(std::ssize(numbers.law)),
           .mu = next(std::ssize(numbers.friction)),
           .force = next(numbers.q_force.cols()),
-          .displacement = next(numbers.q_displacement.cols())};
+          .displacement = next(numbers.q_displacement.cols()),
+          .gap = next(std::ssize(equations.rims))};
 }
 
 std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations, const LoadPath& path,

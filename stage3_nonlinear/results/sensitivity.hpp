@@ -34,6 +34,7 @@ struct JointNumbers {
   MatrixXd q_force;                       ///< (n a, u) per unit force, dimensionless
   std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
   MatrixXd q_displacement;                ///< (n a, v) per unit displacement, force / length
+  std::vector<std::string> gap{};         ///< (g) "plate:hole" of each rim of contact, in their order
 };
 
 [[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system);
@@ -47,6 +48,7 @@ struct Sensitivity {
   MatrixXd mu;            ///< (n, f) force
   MatrixXd force;         ///< (n, u) by JointNumbers::force at load factor 1, dimensionless
   MatrixXd displacement;  ///< (n, v) by JointNumbers::displacement at load factor 1, force / length
+  MatrixXd gap;           ///< (n, g) by the gap of each rim of contact, force / length
 };
 
 /// Derivatives at one step, by the implicit function theorem with one factorisation of the tangent for all numbers

@@ -10,7 +10,6 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/program/program.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -31,11 +30,10 @@ std::string listed(const std::vector<Item>& items, std::string Item::*name) {
 }
 
 /// Splits at the first colon: the names of holes may hold colons, those of plates may not.
-Reference read_reference(const Value& value, const JointScene& scene, const char* kind) {
+Reference read_reference(const Value& value, const JointScene& scene, const char* allowed) {
   const std::string text = value.text();
   const auto colon = text.find(':');
-  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size())
-    value.not_allowed(fmt::format("\"plate:{}\"", kind));
+  if (colon == std::string::npos || colon == 0 || colon + 1 == text.size()) value.not_allowed(allowed);
   Reference result{text.substr(0, colon), text.substr(colon + 1), where(value)};
   if (index_of(scene.plates, result.plate, &PlateScene::name) == count_of(scene.plates))
     value.fail(fmt::format("plate \"{}\" does not exist", result.plate), listed(scene.plates, &PlateScene::name));
@@ -46,14 +44,14 @@ std::vector<PlateScene> read_plates(const Value& plates) {
   const auto folder = std::filesystem::path(plates.file()).parent_path();
   std::vector<PlateScene> result;
   for (const auto& [name, plate] : plates.members()) {
-    if (name.find_first_of(":/") != std::string::npos || name == ".")
-      plate.fail("name of a plate", "names without ':' and '/', other than \".\"");
+    if (name.find_first_of(":/") != std::string::npos || name == "." || name == ground_name)
+      plate.fail("name of a plate", "names without ':' and '/', other than \".\" and \"ground\"");
     if (plate.is_object()) plate.only({"file", "digest"});
     const Value path = plate.is_object() ? plate.at("file") : plate;
     const auto digest = plate.is_object() ? plate.find("digest") : std::nullopt;
     result.push_back({name, (folder / path.text()).string(), where(plate), digest ? digest->text() : ""});
   }
-  if (result.size() < 2) plates.fail(program::counted(result.size(), "plate"), "at least 2");
+  if (result.empty()) plates.fail("no plate", "at least one");
   return result;
 }
 
@@ -90,29 +88,37 @@ std::vector<double> read_friction(const Value& value, const std::vector<Referenc
   return friction;
 }
 
-/// One value for all shear planes, or a list with one for each.
+/// One value for all of n shear planes or holes, or a list with one for each.
 template <class Read>
-auto for_each_plane(const Value& value, std::size_t n_planes, Read read) {
-  if (!value.is_array()) return std::vector(n_planes, read(value));
+auto for_each_of(const Value& value, std::size_t n, Read read) {
+  if (!value.is_array()) return std::vector(n, read(value));
   std::vector<decltype(read(value))> result;
-  for (const auto& item : value.items(n_planes, n_planes)) result.push_back(read(item));
+  for (const auto& item : value.items(n, n)) result.push_back(read(item));
   return result;
 }
 
 FastenerScene read_fastener(const Value& value, const JointScene& scene) {
-  value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction"});
+  value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction", "gap"});
   FastenerScene fastener;
   fastener.where = where(value);
   fastener.id = value.at("id").text();
-  for (const auto& hole : value.at("between").items(2)) fastener.between.push_back(read_reference(hole, scene, "hole"));
-  const std::size_t n_planes = fastener.between.size() - 1;
+  auto between = value.at("between").items(2);
+  fastener.grounded = between.back().is_string() && between.back().text() == ground_name;
+  const std::size_t n_planes = between.size() - 1;
+  if (fastener.grounded) between.pop_back();
+  for (const auto& hole : between)
+    fastener.between.push_back(read_reference(hole, scene, R"("plate:hole", or "ground" as the last)"));
   std::vector<std::string> laws;
   for (const auto& [name, law] : scene.laws) laws.push_back(name);
-  fastener.law = for_each_plane(value.at("law"), n_planes, [&](const Value& law) { return law.choice(laws); });
+  fastener.law = for_each_of(value.at("law"), n_planes, [&](const Value& law) { return law.choice(laws); });
   fastener.clearance.assign(n_planes, 0.0);
   if (const auto clearance = value.find("clearance"))
     fastener.clearance =
-        for_each_plane(*clearance, n_planes, [](const Value& gap) { return gap.number(input::not_negative); });
+        for_each_of(*clearance, n_planes, [](const Value& gap) { return gap.number(input::not_negative); });
+  if (const auto gap = value.find("gap")) {
+    if (value.find("clearance")) gap->fail("given beside \"clearance\"", "one of them");
+    fastener.gap = for_each_of(*gap, fastener.between.size(), [](const Value& each) { return each.number(); });
+  }
   fastener.friction.assign(fastener.between.size(), 0.0);
   if (const auto friction = value.find("friction")) fastener.friction = read_friction(*friction, fastener.between);
   if (const auto includes = value.find("law_includes_friction")) fastener.law_includes_friction = includes->boolean();
@@ -144,7 +150,7 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
 
 LoadScene read_load(const Value& value, const JointScene& scene) {
   value.only({"external", "force", "displacement"});
-  LoadScene load{.external = read_reference(value.at("external"), scene, "external")};
+  LoadScene load{.external = read_reference(value.at("external"), scene, "\"plate:external\"")};
   for (const auto& [before, amount, is_displacement] : scene.loads)
     if (before.plate == load.external.plate && before.name == load.external.name)
       refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
@@ -186,8 +192,9 @@ void check_exact_path(const JointScene& scene, const Value& method) {
   for (const auto& fastener : scene.fasteners)
     for (const auto& name : fastener.law)
       if (!scene.laws.at(name).law->corners(1, 0))
-        method.fail(fmt::format("\"exact path\", but law \"{}\" of fastener \"{}\" is curved", name, fastener.id),
-                    "another method, or linear, formula, bilinear and four stage laws and power laws with n = 1");
+        method.fail(
+            fmt::format("\"exact path\", but law \"{}\" of fastener \"{}\" is curved", name, fastener.id),
+            "another method, or rigid, linear, formula, bilinear and four stage laws and power laws with n = 1");
 }
 
 SolverScene read_solver(const Value& value, const JointScene& scene) {

@@ -30,13 +30,19 @@ struct LawScene {
   bool one_sided = false;
 };
 
-/// A fastener through h >= 2 holes in their order along its axis: h - 1 shear planes, each between neighbours.
+/// Last word of "between" for a body that does not move; no plate has this name.
+inline constexpr const char* ground_name = "ground";
+
+/// A fastener through h holes in their order along its axis: n shear planes, each between neighbours, the last between
+/// the last hole and the ground if the fastener is held there.
 struct FastenerScene {
   std::string id;
   std::vector<Reference> between;  ///< (h) "plate:hole"
-  std::vector<std::string> law;    ///< (h - 1) keys of JointScene::laws
-  std::vector<double> clearance;   ///< (h - 1) radial gap, length
-  std::vector<double> friction;    ///< (h) mu in each hole
+  bool grounded = false;
+  std::vector<std::string> law;   ///< (n) keys of JointScene::laws
+  std::vector<double> clearance;  ///< (n) radial gap, length
+  std::vector<double> gap{};     ///< (h) radial, in holes whose springs push but do not pull, length; none if not given
+  std::vector<double> friction;  ///< (h) mu in each hole
   bool law_includes_friction = false;
   std::string where;
 };

@@ -119,7 +119,7 @@ stage3::CondensedSystem random_system(std::mt19937& random, Family family, int n
 /// Makes the load from a solution: coordinates at random, of which some stop exactly where a fastener begins to bear,
 /// slips or yields. Then there is a solution also of fasteners that carry a limited force only.
 void load_from_solution(std::mt19937& random, RandomJoint& joint) {
-  auto& [system, contacts, metric] = joint.equations;
+  auto& [system, contacts, metric, rims] = joint.equations;
   const Index a = std::ssize(system.q) / contacts.size();
   const double scale = system.q.cwiseAbs().maxCoeff();
   VectorXd c = VectorXd::NullaryExpr(

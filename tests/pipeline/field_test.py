@@ -166,7 +166,7 @@ def check_arrows(script):
     with h5py.File("hand_made.h5", "w") as f:
         f["direction"] = ["x", "y"]
         f["fastener/first"] = ["center:1", "other:3", "center:3"]
-        f["fastener/second"] = ["other:1", "center:3", "other:3"]
+        f["fastener/second"] = ["other:1", "center:3", "ground"]
         f["F"] = [[1.0, 2, 0], [5, 2, 0], [5, 0, 1]]
         f["F"].attrs["unit"] = "lbf"
         f["F_vector"] = [[[1.0, 0], [2, 0], [0, 0]], [[3, 4], [0, -2], [0, 0]], [[5, 0], [0, 0], [1, 0]]]

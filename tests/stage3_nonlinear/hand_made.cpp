@@ -131,10 +131,10 @@ stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::
 }
 
 void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Index, Index>>& holes,
-                  const std::shared_ptr<const stage3::Law>& law) {
-  stage3::FastenerModel fastener{std::to_string(joint.fasteners.size() + 1), {}};
+                  const std::shared_ptr<const stage3::Law>& law, bool grounded) {
+  stage3::FastenerModel fastener{std::to_string(joint.fasteners.size() + 1), {}, false, grounded};
   for (const auto& [plate, disc] : holes) fastener.holes.push_back({plate, disc, 0, {}});
-  for (Index first = 0; first + 1 < std::ssize(holes); ++first)
+  for (Index first = 0; first < fastener.n_planes(); ++first)
     joint.planes.push_back({std::ssize(joint.fasteners), first, law, "law", 0, false});
   joint.fasteners.push_back(std::move(fastener));
 }

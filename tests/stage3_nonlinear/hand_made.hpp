@@ -41,9 +41,9 @@ struct Lap {
 /// A joint of those two without files, all fasteners with this law.
 [[nodiscard]] stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law);
 
-/// Adds a fastener through these holes (plate, disc), all its planes with one law.
+/// Adds a fastener through these holes (plate, disc), into the ground if `grounded`, all its planes with one law.
 void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Eigen::Index, Eigen::Index>>& holes,
-                  const std::shared_ptr<const stage3::Law>& law);
+                  const std::shared_ptr<const stage3::Law>& law, bool grounded = false);
 
 /// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
 void set_friction(stage3::JointModel& joint, Eigen::Index fastener, double mu);

@@ -91,8 +91,10 @@ void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
   }
 }
 
-/// Two or three plates, fasteners through all of them; forces, a traction and a given displacement.
-stage3::JointModel random_stack(std::mt19937& random, Index n_plates, const std::vector<int>& axes) {
+/// Plates with fasteners through all of them, the second of which and every other one the ground may hold; forces, a
+/// traction and a given displacement.
+stage3::JointModel random_stack(std::mt19937& random, Index n_plates, const std::vector<int>& axes,
+                                bool grounded = false) {
   const Index n = std::uniform_int_distribution<Index>(2, 4)(random);
   stage3::JointModel joint;
   joint.file = "joint.json";
@@ -106,7 +108,7 @@ stage3::JointModel random_stack(std::mt19937& random, Index n_plates, const std:
   for (Index j = 0; j < n; ++j) {
     std::vector<std::pair<Index, Index>> holes;
     for (Index i = 0; i < n_plates; ++i) holes.emplace_back(i, j * joint.n_directions());
-    add_fastener(joint, holes, linear_law(1));
+    add_fastener(joint, holes, linear_law(1), grounded && (n_plates == 1 || j % 2 == 1));
   }
   return joint;
 }
@@ -127,8 +129,12 @@ stage3::JointModel random_model(std::mt19937& random, int kind) {
       return random_stack(random, 3, x);
     case 6:
       return random_stack(random, 2, xy);
-    default:
+    case 7:
       return random_stack(random, 3, xy);
+    case 8:
+      return random_stack(random, 1, x, true);
+    default:
+      return random_stack(random, 3, xy, true);
   }
 }
 
@@ -160,7 +166,7 @@ stage3::JointEquations NamedJoint::equations() {
 
 NamedJoint named_joint(std::mt19937& random, int kind) {
   NamedJoint joint{random_model(random, kind), {}};
-  if (kind == 5 || kind == 7) add_random_friction(random, joint.model);
+  if (kind == 5 || kind >= 7) add_random_friction(random, joint.model);
   const auto system = condense(joint.model);
   const double q = system.q.cwiseAbs().maxCoeff();
   const double F = q > 0 ? q : 1;  // a sheet that one fastener alone holds and nothing loads
@@ -170,6 +176,7 @@ NamedJoint named_joint(std::mt19937& random, int kind) {
   const auto first = std::uniform_int_distribution<std::size_t>(0, 11)(random);
   const std::vector<std::string> names{"left", "middle", "right"};
   for (Index i = 0; i < std::ssize(names); ++i) joint.laws[names[i]] = random_law(random, first + i, F, d);
+  if (kind > 7) joint.laws["middle"] = {"rigid", {}};
   for (Index j = 0; j < std::ssize(joint.model.planes); ++j) {
     auto& plane = joint.model.planes[j];
     plane.law_name = names[(j * 2 + first) % 3];

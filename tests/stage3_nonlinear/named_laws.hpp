@@ -32,7 +32,7 @@ struct NamedJoint {
 };
 
 /// Random joints of all kinds: one of them per number from 0 to n_kinds - 1.
-inline constexpr int n_kinds = 8;
+inline constexpr int n_kinds = 10;
 [[nodiscard]] NamedJoint named_joint(std::mt19937& random, int kind);
 
 /// Changes the coefficient of friction of one of its holes by this, and balances the fastener again.

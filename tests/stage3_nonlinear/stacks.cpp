@@ -43,7 +43,7 @@ void load_discs(stage3::JointModel& joint, Index plate, const VectorXd& forces) 
   joint.plates[plate].traction_axis = {joint.axes[0]};
 }
 
-stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions) {
+stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions, bool grounded) {
   std::uniform_real_distribution<double> number(-1, 1);
   const std::vector<std::string> directions =
       n_directions == 1 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"};
@@ -62,7 +62,7 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
         hole == 0 ? std::ssize(order) : std::uniform_int_distribution<Index>(2, std::ssize(order))(random);
     std::vector<std::pair<Index, Index>> holes;
     for (Index i = 0; i < count; ++i) holes.emplace_back(order[i], hole * n_directions);
-    add_fastener(joint, holes, linear_law(std::exp(3 + 3 * number(random))));
+    add_fastener(joint, holes, linear_law(std::exp(3 + 3 * number(random))), grounded && hole % 2 == 0);
   }
   return joint;
 }

@@ -24,8 +24,9 @@ namespace fastjoint::test {
 void load_discs(stage3::JointModel& joint, Eigen::Index plate, const Eigen::VectorXd& forces);
 
 /// Random plates, stiff in every motion, with discs in a directions and fasteners through 2 to all of them: the first
-/// through all, in a random order.
-[[nodiscard]] stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions);
+/// through all, in a random order; with `grounded` it and every other one into the ground.
+[[nodiscard]] stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions,
+                                              bool grounded = false);
 
 /// Stiffness and load of the plates of a joint without fasteners, in the joint's list of unknowns.
 struct LoosePlates {

@@ -69,7 +69,7 @@ TEST(LinearJoint, AgreesWithTheNonlinearPath) {
     ASSERT_TRUE(linear.steps[0].exact) << "joint " << i;
     ASSERT_FALSE(nonlinear.failure) << "joint " << i;
     for (Index step = 0; step < std::ssize(factors); ++step)
-      EXPECT_LT((linear.steps[step].F - nonlinear.steps[step].F).norm(), 1e-10 * force_scale(equations.system, 1))
+      EXPECT_LT((linear.steps[step].F - nonlinear.steps[step].F).norm(), 1e-10 * force_scale(equations, 1))
           << "joint " << i;
   }
 }

@@ -32,6 +32,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{R"({"k": 1})", R"(key "type" is missing)"},
         Refusal{R"({"type": "linear", "k": 0})", "/k: 0 is not allowed; allowed: a number > 0"},
         Refusal{R"({"type": "linear", "k": 1, "n": 1})", "/n: unknown key; allowed: type, k, one_sided"},
+        Refusal{R"({"type": "rigid", "k": 1})", "/k: unknown key; allowed: type, one_sided"},
         Refusal{R"({"type": "power", "A": -1, "n": 1})", "/A: -1 is not allowed; allowed: a number > 0"},
         Refusal{R"({"type": "power", "A": 1, "n": 1.1})", "/n: 1.1 is not allowed; allowed: a number > 0 and <= 1"},
         Refusal{R"({"type": "power", "A": 1, "n": 0})", "/n: 0 is not allowed; allowed: a number > 0 and <= 1"},

@@ -176,5 +176,31 @@ TEST(PiecewiseLinearLaw, HasCornersWhereItsSlopeJumps) {
   EXPECT_THAT(read(R"({"type": "linear", "k": 100})")->corners(50, 0).value(), IsEmpty());
 }
 
+TEST(RigidLaw, DoesNotMovePastItsClearance) {
+  const auto law = read(R"({"type": "rigid"})");
+  constexpr double k = 4e4;
+  EXPECT_THAT(law->parameters(), IsEmpty());
+  EXPECT_THAT(law->corners(k, 0).value(), IsEmpty());
+  for (const double c : {0.0, 1.0, 8000.0}) {
+    const Branch on = law->at(c, k, 0);
+    EXPECT_EQ(on.F, c);
+    EXPECT_EQ(on.delta, 0);
+    EXPECT_EQ(on.dF, 1);
+    EXPECT_EQ(on.ddelta, 0);
+    EXPECT_EQ(law->coordinate(c, k, 0), c);
+  }
+  constexpr double gap = 0.013;
+  EXPECT_THAT(law->corners(k, gap).value(), ElementsAre(k * gap));
+  EXPECT_EQ(law->at(500, k, gap).F, 0);
+  EXPECT_DOUBLE_EQ(law->at(500, k, gap).delta, 500 / k);
+  EXPECT_DOUBLE_EQ(law->at(500, k, gap).ddelta, 1 / k);
+  EXPECT_EQ(law->slopes(500, k, gap)[0].F, 0);
+  EXPECT_DOUBLE_EQ(law->at(800, k, gap).F, 800 - k * gap);
+  EXPECT_EQ(law->at(800, k, gap).delta, gap);
+  EXPECT_DOUBLE_EQ(law->slopes(800, k, gap)[0].F, -k);
+  EXPECT_DOUBLE_EQ(law->slopes(800, k, gap)[0].delta, 1);
+  EXPECT_DOUBLE_EQ(law->coordinate(30, k, gap), 30 + k * gap);
+}
+
 }  // namespace
 }  // namespace fastjoint::stage3

@@ -65,6 +65,22 @@ TEST_F(Plausibility, TheOnlyFastenerOfTwoSheetsIsComparedAsTheyAreDrawn) {
   EXPECT_THAT(warnings(fasteners({1}), described(1, {0, 18})), HasSubstr("\"b:1\" are 18 apart"));
 }
 
+TEST_F(Plausibility, TheGroundHasNoHoleToCompareWith) {
+  const auto held = [](const std::string& more) {
+    return Members{
+        {"plates", R"({"a": "a.h5"})"},
+        {"laws", R"({"lin": {"type": "formula", "formula": "swift", "mode": "fastener only", "shear": "single",
+                             "t": [2, 9], "E": [72000, 9000], "d": 5, "E_f": 110000}})"},
+        {"fasteners", R"([{"id": "f1", "between": ["a:1", "ground"], "law": "lin"},
+                          {"id": "f2", "between": ["a:2", "ground"], "law": "lin"},
+                          {"id": "f3", "between": ["a:3", "ground"], "law": "lin")" +
+                          more + "}]"}};
+  };
+  EXPECT_EQ(warnings(held(""), described(3)), "");
+  EXPECT_THAT(warnings(held(R"(, "clearance": 3)"), described(3)),
+              HasSubstr("/fasteners/2/clearance: the gap 3 (that of law \"lin\" included) is above the radius 2.5"));
+}
+
 TEST_F(Plausibility, SheetsMayHaveCoordinatesOfTheirOwn) {
   EXPECT_EQ(warnings(fasteners({1, 2, 3}), described(3, {-100, 30})), "");
   const std::string said = warnings(fasteners({1, 2, 4, 3, 5}), described(5, {-100, 30}));

@@ -149,7 +149,7 @@ TEST(Events, LostContactIsAnEventToo) {
 void expect_all_events(const JointEquations& equations, const LoadPath& path, bool floats, int samples, int joint) {
   ASSERT_FALSE(path.failure) << "joint " << joint;
   const ContactCorners corners(equations.contacts);
-  const double scale = force_scale(equations.system, 1);
+  const double scale = force_scale(equations, 1);
   Walk walk(equations, tight);
   double begin = first_load_factor;
   for (const auto& step : path.steps) {

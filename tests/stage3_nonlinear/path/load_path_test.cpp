@@ -92,7 +92,7 @@ TEST(LoadPath, FirstGuessesAgree) {
       const LoadPath path = follow(equations, {1}, {initial, {.tolerance = 1e-12, .max_iterations = 200}});
       ASSERT_FALSE(path.failure) << "joint " << i;
       if (first.size() == 0) first = path.steps[0].F;
-      EXPECT_LT((path.steps[0].F - first).norm(), 1e-8 * force_scale(equations.system, 1)) << "joint " << i;
+      EXPECT_LT((path.steps[0].F - first).norm(), 1e-8 * force_scale(equations, 1)) << "joint " << i;
     }
   }
 }
@@ -128,7 +128,7 @@ TEST(LoadPath, ReversedLoadMirrorsOddLaws) {
     const JointEquations equations = make_equations(test::random_joint(random, {.cubics = true}));
     const LoadPath path = follow(equations, {1, -1}, tight);
     ASSERT_FALSE(path.failure) << "joint " << i;
-    EXPECT_LT((path.steps[0].F + path.steps[1].F).norm(), 1e-9 * force_scale(equations.system, 1)) << "joint " << i;
+    EXPECT_LT((path.steps[0].F + path.steps[1].F).norm(), 1e-9 * force_scale(equations, 1)) << "joint " << i;
   }
 }
 
@@ -139,7 +139,7 @@ TEST(LoadPath, UnloadingReturnsTheWayItCame) {
     const JointEquations equations = make_equations(test::random_joint(random, {.friction = true}));
     const LoadPath path = follow(equations, {0.5, 1, 0.5, 0}, tight);
     ASSERT_FALSE(path.failure) << "joint " << i;
-    EXPECT_LT((path.steps[2].F - path.steps[0].F).norm(), 1e-9 * force_scale(equations.system, 1)) << "joint " << i;
+    EXPECT_LT((path.steps[2].F - path.steps[0].F).norm(), 1e-9 * force_scale(equations, 1)) << "joint " << i;
     EXPECT_EQ(path.steps[3].F.norm(), 0) << "joint " << i;
     EXPECT_EQ(path.steps[3].residual, 0) << "joint " << i;
   }
@@ -221,7 +221,7 @@ TEST(LoadPath, SmallStepsReachWhatOneStepWithFewIterationsDoesNot) {
     if (path.failure) continue;
     // More than every start of both solvers in one step.
     halved += path.steps[0].iterations > 2 * 4 * 3;
-    EXPECT_LT((path.steps[0].F - enough.steps[0].F).norm(), 1e-8 * force_scale(equations.system, 1)) << "joint " << i;
+    EXPECT_LT((path.steps[0].F - enough.steps[0].F).norm(), 1e-8 * force_scale(equations, 1)) << "joint " << i;
   }
   EXPECT_GT(halved, 0);
 }

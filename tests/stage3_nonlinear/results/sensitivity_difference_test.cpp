@@ -78,7 +78,7 @@ class Differences {
     if (number.only_up) return (4 * above->F - 3 * here->F - other->F) / (2 * step);
     return (above->F - other->F) / (2 * step);
   }
-  [[nodiscard]] double force_scale() const { return stage3::force_scale(equations_.system, joint_.load_factor); }
+  [[nodiscard]] double force_scale() const { return stage3::force_scale(equations_, joint_.load_factor); }
 
  private:
   [[nodiscard]] std::optional<Solution> solve(const Number& number, double change) const {

@@ -119,6 +119,17 @@ TEST(JointScene, DoesNotWarnOfALawThatNoFastenerHas) {
       IsEmpty());
 }
 
+TEST(JointScene, TheGroundMayHoldAFastener) {
+  const auto scene =
+      read({{"plates", R"({"a": "a.h5"})"},
+            {"fasteners", R"([{"id": "1", "between": ["a:1", "ground"], "law": "lin", "friction": 0.1}])"}});
+  EXPECT_TRUE(scene.fasteners[0].grounded);
+  EXPECT_EQ(scene.fasteners[0].between.size(), 1U);
+  EXPECT_THAT(scene.fasteners[0].law, ElementsAre("lin"));
+  EXPECT_THAT(scene.fasteners[0].friction, ElementsAre(0.1));
+  EXPECT_FALSE(read({}).fasteners[0].grounded);
+}
+
 struct Refusal {
   Members members;
   const char* message;
@@ -146,7 +157,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{{{"version", "2"}}, "/version: 2 is not allowed"},
         Refusal{{{"weight", "2"}}, "/weight: unknown key; allowed: $schema, format"},
         Refusal{{{"plates", ""}}, R"(key "plates" is missing)"},
-        Refusal{{{"plates", R"({"a": "a.h5"})"}}, "/plates: 1 plate; allowed: at least 2"},
+        Refusal{{{"plates", "{}"}}, "/plates: no plate; allowed: at least one"},
+        Refusal{{{"plates", R"({"a": "a.h5"})"}}, R"(/fasteners/0/between/1: plate "b" does not exist; allowed: a)"},
+        Refusal{{{"plates", R"({"a": "a.h5", "ground": "b.h5"})"}},
+                R"(/plates/ground: name of a plate; allowed: names without ':' and '/', other than "." and "ground")"},
         Refusal{{{"plates", R"({"a:b": "a.h5", "b": "b.h5"})"}},
                 R"(/plates/a:b: name of a plate; allowed: names without ':' and '/')"},
         Refusal{{{"plates", R"({"a/b": "a.h5", "b": "b.h5"})"}},
@@ -160,7 +174,17 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{fasteners(R"("id": "1", "between": ["a:1"], "law": "lin")"),
                 "/fasteners/0/between: array of 1; allowed: at least 2"},
         Refusal{fasteners(R"("id": "1", "between": ["a:1", "b"], "law": "lin")"),
-                R"(/fasteners/0/between/1: "b" is not allowed; allowed: "plate:hole")"},
+                R"(/fasteners/0/between/1: "b" is not allowed; allowed: "plate:hole", or "ground" as the last)"},
+        Refusal{fasteners(R"("id": "1", "between": ["ground", "a:1"], "law": "lin")"),
+                R"(/fasteners/0/between/0: "ground" is not allowed; allowed: "plate:hole", or "ground" as the last)"},
+        Refusal{fasteners(R"("id": "1", "between": ["a:1", "ground", "ground"], "law": "lin")"),
+                R"(/fasteners/0/between/1: "ground" is not allowed; allowed: "plate:hole", or "ground" as the last)"},
+        Refusal{fasteners(R"("id": "1", "between": ["ground"], "law": "lin")"),
+                "/fasteners/0/between: array of 1; allowed: at least 2"},
+        Refusal{fasteners(R"("id": "1", "between": ["a:1", "b:1", "ground"], "law": ["lin"])"),
+                "/fasteners/0/law: array of 1; allowed: exactly 2"},
+        Refusal{fasteners(R"("id": "1", "between": ["a:1", "ground"], "law": "lin", "friction": {"ground": 0.1})"),
+                "/fasteners/0/friction/ground: not a plate of this fastener; allowed: a"},
         Refusal{fasteners(R"("id": "1", "between": ["a:1", "b:1"], "law": "bolt")"),
                 R"(/fasteners/0/law: "bolt" is not allowed; allowed: "lin")"},
         Refusal{fasteners(R"("id": "1", "between": ["a:1", "b:1"], "law": "lin", "clearance": -1)"),
@@ -199,7 +223,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{
             {{"laws", R"({"lin": {"type": "power", "A": 1, "n": 0.5}})"}, {"solver", R"({"method": "exact path"})"}},
             R"(/solver/method: "exact path", but law "lin" of fastener "f1" is curved; allowed: another method, or )"
-            "linear, formula, bilinear and four stage laws and power laws with n = 1"},
+            "rigid, linear, formula, bilinear and four stage laws and power laws with n = 1"},
         Refusal{{{"solver", R"({"max_iterations": 0})"}}, "/solver/max_iterations: 0 is not allowed"},
         Refusal{{{"units", R"({"length": "in"})"}}, R"(/units: key "force" is missing)"}));
 

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/rim_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "stage3_nonlinear/laws/law.hpp"
+
+namespace fastjoint::stage3 {
+
+RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double gap)
+    : pressures_(pressures), stiffness_(stiffness), gap_(gap) {
+  constexpr double points_per_wave = 8;
+  const double waves = std::max(1.0, pressures.highest * pressures.sweep / rim::full_turn);
+  const auto n = static_cast<Index>(std::ceil(points_per_wave * waves)) + 1;
+  angles_ = VectorXd::LinSpaced(n, pressures.start, pressures.start + pressures.sweep);
+  samples_.resize(n, pressures.size());
+  for (Index i = 0; i < n; ++i) samples_.row(i) = pressures.at(angles_[i]).transpose();
+}
+
+double RimContact::end_between(const VectorXd& m, double low, double high, bool rises) const {
+  const double sign = rises ? 1 : -1;
+  return rising_root(
+      [&](double angle) { return std::pair(sign * depth(m, angle), sign * pressures_.slope(angle).dot(m)); }, low,
+      high);
+}
+
+double RimContact::extremum(const VectorXd& m, double angle, double sign) const {
+  const double step = angles_[1] - angles_[0];
+  double low = angle - step, high = angle + step;
+  if (!pressures_.is_whole()) low = std::max(low, angles_[0]), high = std::min(high, angles_[angles_.size() - 1]);
+  constexpr int halvings = 50;
+  for (int i = 0; i < halvings; ++i) {
+    const double middle = 0.5 * (low + high);
+    (sign * pressures_.slope(middle).dot(m) > 0 ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const VectorXd& depth) const {
+  const Index n = depth.size(), last = n - 1;
+  std::vector<Point> points;
+  for (Index i = 0; i < n; ++i) points.push_back({angles_[i], depth[i]});
+  for (Index i = pressures_.is_whole() ? 0 : 1; i < last; ++i) {
+    const double sign = depth[i] > 0 ? -1 : 1, here = sign * depth[i];
+    const double before = sign * depth[i > 0 ? i - 1 : last - 1], after = sign * depth[i + 1];
+    // Between the samples it rises above the highest of three by less than that is above the lowest.
+    if (before > here || after > here || 2 * here < std::min(before, after)) continue;
+    double angle = extremum(m, angles_[i], sign);
+    const double there = this->depth(m, angle);
+    if (angle < angles_[0]) angle += pressures_.sweep;
+    if (sign * there > 0) points.push_back({angle, there});
+  }
+  std::ranges::sort(points, {}, &Point::angle);
+  return points;
+}
+
+Touching RimContact::touching(const VectorXd& m) const {
+  const VectorXd depth = samples_ * m - VectorXd::Constant(samples_.rows(), gap_);
+  const auto all = points(m, depth);
+  Touching result{{}, MatrixXd::Zero(size(), size())};
+  if (std::ranges::all_of(all, [](const Point& at) { return at.depth >= 0; })) {
+    result.arcs.push_back({all.front().angle, all.back().angle});
+    result.share.setIdentity();
+    return result;
+  }
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool touches = all[i].depth > 0, before = i > 0 && all[i - 1].depth > 0;
+    if (touches && !before)
+      result.arcs.push_back({i > 0 ? end_between(m, all[i - 1].angle, all[i].angle, true) : all[i].angle, 0});
+    if (before && !touches) result.arcs.back().to = end_between(m, all[i - 1].angle, all[i].angle, false);
+  }
+  if (all.back().depth > 0) result.arcs.back().to = all.back().angle;
+  for (const auto& arc : result.arcs) result.share += pressures_.products(arc.from, arc.to);
+  result.share /= pressures_.sweep;
+  return result;
+}
+
+VectorXd RimContact::forces(const Touching& at, const VectorXd& m) const {
+  return stiffness_ * (at.share * m - gap_ * at.share.col(0));
+}
+
+double RimContact::deepest(const VectorXd& m) const {
+  Index at = 0;
+  (samples_ * m).maxCoeff(&at);
+  return extremum(m, angles_[at], 1);
+}
+
+}  // namespace fastjoint::stage3

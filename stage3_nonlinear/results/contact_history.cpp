@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/contact_history.hpp"
+
+#include <algorithm>
+
+namespace fastjoint::stage3 {
+namespace {
+
+double in_degrees(double angle) { return rim::wrapped(angle) / rim::degree; }
+
+/// Arcs of a rim, of which those that meet at the start of a whole one are one.
+std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim::AngleRange> arcs) {
+  const auto& [highest, start, sweep] = rim.pressures();
+  if (!rim.pressures().is_whole() || arcs.size() < 2 || arcs.front().from > start || arcs.back().to < start + sweep)
+    return arcs;
+  arcs.back().to = arcs.front().to + sweep;
+  arcs.erase(arcs.begin());
+  return arcs;
+}
+
+/// Writes what a rim does at a step.
+/// @param modulus K of its springs.
+void describe(const RimContact& rim, const VectorXd& moments, double modulus, Index step, Index at,
+              formats::ContactHistory& a) {
+  const auto arcs = joined_arcs(rim, rim.touching(moments).arcs);
+  const auto width = [](const rim::AngleRange& arc) { return arc.to - arc.from; };
+  double touching = 0;
+  for (const auto& arc : arcs) touching += width(arc);
+  a.touching(step, at) = touching / rim::degree;
+  if (!arcs.empty()) {
+    const auto& widest = *std::ranges::max_element(arcs, {}, width);
+    a.from(step, at) = in_degrees(widest.from);
+    a.to(step, at) = a.from(step, at) + width(widest) / rim::degree;
+  }
+  const double deepest = rim.deepest(moments), depth = rim.depth(moments, deepest);
+  a.peak_pressure(step, at) = modulus * std::max(depth, 0.0);
+  a.peak_angle(step, at) = in_degrees(deepest);
+  a.least_gap(step, at) = std::max(-depth, 0.0);
+}
+
+}  // namespace
+
+std::vector<formats::ContactHistory> contact_histories(const JointModel& joint, const JointEquations& equations,
+                                                       const LoadPath& path) {
+  std::vector<formats::ContactHistory> histories;
+  const Index steps = std::ssize(path.steps);
+  Index rim = 0, moment = 0;
+  for (const auto& plate : joint.plates) {
+    const Index g = std::ssize(plate.contact);
+    formats::ContactHistory& a = histories.emplace_back();
+    a.gap.resize(g);
+    for (auto* table : {&a.touching, &a.from, &a.to, &a.peak_pressure, &a.peak_angle, &a.least_gap})
+      *table = MatrixXd::Zero(steps, g);
+    for (Index at = 0; at < g; ++at, ++rim) {
+      const RimContact& contact = equations.rims[rim];
+      a.gap[at] = contact.gap();
+      for (Index step = 0; step < steps; ++step)
+        describe(contact, path.steps[step].moments.segment(moment, contact.size()), plate.contact[at].modulus, step, at,
+                 a);
+      moment += contact.size();
+    }
+  }
+  return histories;
+}
+
+}  // namespace fastjoint::stage3

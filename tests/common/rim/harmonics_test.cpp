@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/rim/harmonics.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace fastjoint::rim {
+namespace {
+
+const Harmonics kinds[] = {{5}, {5, -full_turn / 4, full_turn / 2}, {6, 0, full_turn / 4}, {7, 0.3, 2.1}};
+
+/// Mean over an angle range by the trapezoidal rule, exact to rounding for whole waves, else to 1e-9.
+Eigen::MatrixXd integral_of_products(const Harmonics& a, double from, double to) {
+  constexpr int n = 100000;
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(a.size(), a.size());
+  for (int i = 0; i <= n; ++i) {
+    const Eigen::VectorXd phi = a.at(from + (to - from) * i / n);
+    sum += (i == 0 || i == n ? 0.5 : 1.0) * phi * phi.transpose();
+  }
+  return sum * (to - from) / n;
+}
+
+TEST(Harmonics, AreOrthonormalInTheMeanOverTheirRim) {
+  for (const auto& a : kinds) {
+    const Eigen::MatrixXd mean = a.products(a.start, a.start + a.sweep) / a.sweep;
+    EXPECT_LT((mean - Eigen::MatrixXd::Identity(a.size(), a.size())).cwiseAbs().maxCoeff(), 1e-14) << a.sweep;
+  }
+}
+
+TEST(Harmonics, IntegralsOfProductsAreThoseOfAQuadrature) {
+  for (const auto& a : kinds)
+    for (const double from : {0.0, 0.4}) {
+      const double low = a.start + from, high = a.start + 0.7 * a.sweep;
+      EXPECT_LT((a.products(low, high) - integral_of_products(a, low, high)).cwiseAbs().maxCoeff(), 1e-7) << a.sweep;
+    }
+}
+
+TEST(Harmonics, SlopesAreDerivatives) {
+  constexpr double step = 1e-6;
+  for (const auto& a : kinds) {
+    const Eigen::VectorXd difference = (a.at(1 + step) - a.at(1 - step)) / (2 * step);
+    EXPECT_LT((a.slope(1) - difference).cwiseAbs().maxCoeff(), 1e-8) << a.sweep;
+  }
+}
+
+TEST(Harmonics, OfPartsMeetLinesOfSymmetryLevelAndHaveTheWavesOfAWholeRim) {
+  const Harmonics half{5, -full_turn / 4, full_turn / 2}, quarter{6, 0, full_turn / 4};
+  EXPECT_EQ(Harmonics{5}.size(), 11);
+  EXPECT_EQ(half.size(), 6);
+  EXPECT_EQ(quarter.size(), 4);
+  for (const auto& a : {half, quarter})
+    for (const double end : {a.start, a.start + a.sweep}) EXPECT_LT(a.slope(end).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_NEAR(half.at(0.3)[5], std::sqrt(2) * std::cos(5 * (0.3 + full_turn / 4)), 1e-14);
+}
+
+}  // namespace
+}  // namespace fastjoint::rim

@@ -1,0 +1,195 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Contact of fasteners with their holes inside a joint, against closed forms and against numbers of other programs.
+
+Usage: contact_test.py FOLDER_OF_PROGRAMS"""
+import json
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+PROGRAMS = Path(sys.argv[1]).resolve()
+
+
+def run(folder, program, *arguments):
+    done = subprocess.run([PROGRAMS / program, *arguments, "--quiet"], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    return done.stderr
+
+
+def sheet(x, y, thickness, material, holes, disc, *, contact=True, radius, p=(5, 8), harmonics=16,
+          directions=("x", "y"), **more):
+    """PLATE.json of a grid with holes {id: (x, y)}, each with springs of a disc (E, nu)."""
+    spring = {"disk": {"E": disc[0], "nu": disc[1]}, "compression_only": contact}
+    if contact:
+        spring["harmonics"] = harmonics
+    return {"format": "plate", "version": 1, "analysis": "plane stress", "p": list(p),
+            "disc_directions": directions,
+            "materials": {"sheet": {"E": material[0], "nu": material[1]}},
+            "geometry": {"grid": {"x": x, "y": y, "thickness": thickness, "material": "sheet"}},
+            "holes": [{"id": id, "center": at, "radius": radius, "spring": spring} for id, at in holes.items()], **more}
+
+
+def joint(folder, plates, laws, fasteners, loads, **more):
+    """RESULT.h5 of a joint of these sheets, as an open file."""
+    for name, plate in plates.items():
+        (folder / f"{name}.json").write_text(json.dumps(plate))
+        run(folder, "stage1_plate", f"{name}.json", "-o", f"{name}.plate.h5")
+        run(folder, "stage2_extract", f"{name}.plate.h5", "-o", f"{name}.h5")
+    return again(folder, plates, laws, fasteners, loads, **more)
+
+
+def again(folder, plates, laws, fasteners, loads, **more):
+    """The same without making the matrices anew."""
+    text = {"format": "joint", "version": 1, "plates": {name: f"{name}.h5" for name in plates}, "laws": laws,
+            "fasteners": fasteners, "loads": loads, **more}
+    (folder / "joint.json").write_text(json.dumps(text))
+    run(folder, "stage3_nonlinear", "joint.json", "-o", "result.h5")
+    return h5py.File(folder / "result.h5")
+
+
+def near(name, value, expected, share):
+    worst = np.max(np.abs(np.asarray(value) / np.asarray(expected) - 1))
+    print(f"{name}: {np.round(value, 6)}, expected {expected}, off by {worst:.1e}, allowed {share:.0e}")
+    assert worst <= share, name
+
+
+def pin_in_a_strip(folder):
+    """A pin pushed along a strip; its displacement, peak pressure and arc were found by another program."""
+    plate = sheet([0, 40, 80, 100], [0, 40], 2, (72000, 0.3), {"1": (60, 20)}, (210000, 0.3), radius=5, space="product", harmonics=32,
+                  supports=[{"on": "left", "fix": ["y"]}],
+                  external=[{"id": "P", "on": "left", "direction": "x", "kind": "rigid"}])
+    pin = {"id": "pin", "between": ["strip:1", "ground"], "law": "rigid"}
+    arguments = ({"strip": plate}, {"rigid": {"type": "rigid"}}, [pin], [{"external": "strip:P", "force": -10000}])
+    joint(folder, *arguments)
+    for gap, D, peak, half_angle in ((0, 0.184910, 1.1465, 88.2), (0.02, 0.211543, 1.2218, 76.8),
+                                     (-0.02, 0.158588, 1.1061, 104.8)):
+        pin["gap"] = gap
+        with again(folder, *arguments) as result:
+            strip = result["plates/strip"]
+            near(f"pin, gap {gap}: displacement", -strip["De"][0, 0], D, 1e-4)
+            near("  peak pressure over F / (d t)", strip["contact/peak_pressure"][0, 0] / 500, peak, 1e-3)
+            near("  half angle, of which that program counted points", strip["contact/touching"][0, 0] / 2, half_angle, 0.015)
+
+
+def interference(folder):
+    """Pressure without load, and the load at which contact is lost, of a disc pressed into a large sheet."""
+    r, t, delta = 2.4, 1.6, 0.01
+    E, E_disc, nu, nu_disc = 72000, 210000, 0.33, 0.3
+    p = delta / r / ((1 + nu) / E + (1 - nu_disc) / E_disc)
+    lost = math.pi / 2 * 2 * r * t * p
+    assert abs(p - 191.083) < 5e-4 and abs(lost - 2305.17) < 5e-3
+    side = [-200, -40, -10, 10, 40, 200]
+    plate = sheet(side, side, t, (E, nu), {"1": (0, 0)}, (E_disc, nu_disc), radius=r, p=(8, 8),
+                  external=[{"id": "P", "on": "left", "direction": "x", "kind": "rigid"}])
+    pin = {"id": "pin", "between": ["sheet:1", "ground"], "law": "rigid", "gap": -delta}
+    factors = [0, 0.5, 0.95, 1.05]
+    with joint(folder, {"sheet": plate}, {"rigid": {"type": "rigid"}}, [pin],
+               [{"external": "sheet:P", "force": -lost}], increments=factors) as result:
+        contact = result["plates/sheet/contact"]
+        near("interference, pressure without load", contact["peak_pressure"][0, 0], p, 1e-3)
+        assert np.all(contact["touching"][:3, 0] == 360) and contact["touching"][3, 0] < 360
+        moved = result["plates/sheet/De"][0, 0] - result["plates/sheet/De"][:, 0]
+        near("  it moves as springs that also pull until contact is lost", moved[2] / moved[1], 1.9, 1e-9)
+        assert moved[3] / moved[1] > 2.1 * (1 + 1e-6), "beyond, it bends"
+
+
+def lap_joint(folder):
+    """Four fasteners between two sheets, as examples/lap_joint has them; forces by a prototype of the method."""
+    holes = {"a": (50, 10), "b": (50, 30), "c": (68, 10), "d": (68, 30)}
+    common = (1.6, (72400, 0.33), holes, (71000, 0.33))
+    upper = sheet([40, 60, 80, 120], [0, 20, 40], *common, radius=2.4, supports=[{"on": "bottom", "fix": ["y"]}],
+                  external=[{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])
+    lower = sheet([0, 40, 60, 80], [0, 20, 40], *common, radius=2.4,
+                  supports=[{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}])
+    fasteners = [{"id": id, "between": [f"upper:{id}", f"lower:{id}"], "law": "bolt"} for id in holes]
+    arguments = ({"upper": upper, "lower": lower}, {"bolt": {"type": "linear", "k": 30000}}, fasteners,
+                 [{"external": "upper:P", "force": 4000}])
+    with joint(folder, *arguments) as result:
+        F = result["F_vector"][0]
+        near("lap joint, forces along x", F[:, 0], [971.25, 1023.86, 974.49, 1030.41], 1e-3)
+        near("  along y", F[:, 1], [21.22, 70.31, -20.94, -68.97], 1e-3)
+        near("  peak pressures", result["plates/upper/contact/peak_pressure"][0], [145.50, 155.58, 136.09, 144.79], 1e-3)
+    fasteners[1]["gap"] = [0.02, 0.02]
+    with again(folder, *arguments) as result:
+        F = result["F_vector"][0]
+        near("  a loose bolt at b, along x", F[:, 0], [1117.11, 497.70, 1119.77, 1265.42], 1e-3)
+        near("  along y", F[:, 1], [32.32, 47.30, -33.44, -77.00], 2e-3)
+        touching = result["plates/upper/contact/touching"][0, 1]
+        assert 80 < touching < 86, touching
+
+
+def column_of_rivets(folder):
+    """One column of a lap splice of three rivets, with contact and with springs all around."""
+    def solve(contact, y=(0, 20), k=50000, **how):
+        holes = {"1": (90, 10), "2": (110, 10), "3": (130, 10)}
+        more = {"supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}], "radius": 2,
+                "external": [{"id": "T", "on": "top", "direction": "y", "kind": "rigid"}], "contact": contact, **how}
+        common = (1.6, (72400, 0.33), holes, (72400, 0.33))
+        lower = sheet([0, 40, 80, 100, 120, 140], list(y), *common, **more)
+        more["supports"] = more["supports"][1:]
+        more["external"] = more["external"] + [{"id": "P", "on": "right", "direction": "x", "kind": "traction"}]
+        upper = sheet([80, 100, 120, 140, 180, 220], list(y), *common, **more)
+        fasteners = [{"id": id, "between": [f"upper:{id}", f"lower:{id}"], "law": "rivet"} for id in holes]
+        return joint(folder, {"upper": upper, "lower": lower}, {"rivet": {"type": "linear", "k": k}}, fasteners,
+                     [{"external": "upper:P", "force": 160 * (y[1] - y[0])}])
+
+    with solve(True) as result:
+        whole = result["F_vector"][0, :, 0], result["plates/lower/contact/peak_pressure"][0]
+        near("column of rivets, forces", whole[0], [1129.94, 940.12, 1129.94], 1e-4)
+        near("  peak pressures", whole[1], [187.4, 155.1, 191.8], 2e-3)
+        here = result["plates/lower/rim/peak_hoop"][0]
+    run(folder, "stage2_extract", "lower.plate.h5", "--stresses", "result.h5", "--plate", "lower", "-o", "again.h5")
+    with h5py.File(folder / "again.h5") as result:
+        near("  hoop stresses by the state itself", result["plates/lower/rim/peak_hoop"][0], here, 1e-9)
+    with solve(True, (10, 20), 25000, directions=["x"]) as result:
+        near("  forces by half the column, whose holes are halves", 2 * result["F"][0], whole[0], 1e-5)
+        near("  peak pressures", result["plates/lower/contact/peak_pressure"][0], whole[1], 1e-3)
+        assert np.all(result["plates/lower/pressure/sweep"][:] == np.pi)
+    with solve(False) as result:
+        near("  forces by springs all around", result["F_vector"][0, :, 0], [1146.75, 906.50, 1146.75], 1e-4)
+
+
+def limits(folder):
+    """So much interference that nothing opens is springs that also pull; so large a gap that nothing touches is an
+    open hole."""
+    def plates(contact):
+        holes = {"1": (10, 10), "2": (30, 10)}
+        common = ([0, 20, 40], [0, 20], 2, (70000, 0.3), holes, (70000, 0.3))
+        a = sheet(*common, contact=contact, radius=3, p=(4, 5), external=[
+            {"id": "P", "on": "left", "direction": "x", "kind": "rigid"}], supports=[{"on": "bottom", "fix": ["y"]}])
+        b = sheet(*common, contact=contact, radius=3, p=(4, 5), supports=[{"on": "right", "fix": ["x", "y"]}])
+        return {"a": a, "b": b}
+
+    def solve(contact, gaps, make=joint):
+        fasteners = [{"id": id, "between": [f"a:{id}", f"b:{id}"], "law": "bolt"} for id in ("1", "2")]
+        for fastener, gap in zip(fasteners, gaps):
+            if contact:
+                fastener["gap"] = gap
+        return make(folder, plates(contact), {"bolt": {"type": "linear", "k": 20000}}, fasteners,
+                    [{"external": "a:P", "force": -1000}], increments=2)
+
+    names = ("F_vector", "delta_vector", "plates/a/D", "plates/b/D", "plates/a/De")
+    with solve(False, (0, 0)) as result:
+        two_sided = [result[name][:] for name in names]
+    with solve(True, (-0.1, -0.1)) as result:
+        F = result["F_vector"]
+        for name, before in zip(names, two_sided):
+            moved = result[name][1] - result[name][0]
+            worst = np.max(np.abs(moved - (before[1] - before[0]))) / np.max(np.abs(before))
+            print(f"limits, {name} moves as that of springs that also pull but for {worst:.1e} of the largest")
+            assert worst < 1e-9
+    with solve(True, (0, 1), again) as result:
+        assert np.all(np.abs(result["F_vector"][1, 1]) < 1e-9) and np.all(result["plates/a/contact/touching"][:, 1] == 0)
+        loose = result["F_vector"][1, 0].copy()
+    near("  one bolt carries all beside a loose one", loose[0], -1000, 1e-9)
+
+
+with tempfile.TemporaryDirectory() as name:
+    for check in (pin_in_a_strip, interference, lap_joint, column_of_rivets, limits):
+        check(Path(name))

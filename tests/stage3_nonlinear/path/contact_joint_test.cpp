@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Joints whose rims push but do not pull: elastic bodies of random stiffness with discs in their holes.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/path/walk.hpp"
+#include "stage3_nonlinear/results/sensitivity.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+constexpr int n_waves = 4;
+
+double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+double decades(std::mt19937& random, double low, double high) {
+  return std::exp(uniform(random, std::log(low), std::log(high)));
+}
+
+/// What a random joint is made of.
+struct Kind {
+  Index n_holes, n_directions;
+  bool floating;  ///< the first plate hangs on its fasteners alone
+  double gaps;    ///< their size beside what the load moves
+};
+
+/// A body with `n_holes` rims of contact and one external along x. With the moments v of the rims' own displacement and
+/// the external's as unknowns its stiffness P is symmetric and positive definite, or zero for a translation; moments of
+/// the discs against the rims, m = H D - v, make of it that of discs, external and moments.
+PlateModel random_body(std::mt19937& random, const Kind& kind, bool floating) {
+  const rim::Harmonics pressures{n_waves};
+  const Index k = pressures.size(), n = kind.n_holes * k + 1, a = kind.n_directions, m = kind.n_holes * a;
+  MatrixXd P = MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -1, 1); });
+  P = (1000.0 / double(n) * P * P.transpose()).eval();
+  P.diagonal().array() += 300;
+  MatrixXd H = MatrixXd::Zero(k, a);  // means of the distributions times cos theta and sin theta
+  H(1, 0) = std::numbers::sqrt2 / 2;
+  if (a > 1) H(2, 1) = std::numbers::sqrt2 / 2;
+  if (floating) {  // no stiffness against moving along the axes
+    MatrixXd motion = MatrixXd::Zero(n, a);
+    for (Index i = 0; i < kind.n_holes; ++i) motion.middleRows(i * k, k) = H;
+    motion(n - 1, 0) = 1;
+    const MatrixXd rest =
+        MatrixXd::Identity(n, n) - motion * (motion.transpose() * motion).inverse() * motion.transpose();
+    P = (rest * P * rest).eval();
+  }
+  MatrixXd G = MatrixXd::Zero(n, m + 1 + n - 1);
+  for (Index i = 0; i < kind.n_holes; ++i) {
+    G.block(i * k, i * a, k, a) = H;
+    G.block(i * k, m + 1 + i * k, k, k) = -MatrixXd::Identity(k, k);
+  }
+  G(n - 1, m) = 1;
+  PlateModel body;
+  for (Index i = 0; i < kind.n_holes; ++i) {
+    body.holes.push_back(std::to_string(i + 1));
+    body.contact.push_back({body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
+  }
+  body.on_springs.assign(body.holes.size(), true);
+  for (Index d = 0; d < a; ++d) body.axes.push_back(static_cast<int>(d));
+  body.externals = {"P"};
+  body.external_axis = {0};
+  body.S = G.transpose() * P * G;
+  body.R = body.T = MatrixXd::Zero(body.S.rows(), 0);
+  body.degrees = {Eigen::VectorXi::Constant(1, 8), {body.S}, {body.R}, {body.T}, {MatrixXd::Zero(0, 0)}};
+  body.S_error = MatrixXd::Zero(body.S.rows(), body.S.rows());
+  body.external_force = VectorXd::Zero(1);
+  body.external_displacement.resize(1);
+  body.traction_force = VectorXd::Zero(0);
+  return body;
+}
+
+std::shared_ptr<const Law> random_law(std::mt19937& random) {
+  const double kind = uniform(random, 0, 1), k = decades(random, 100, 100000);
+  if (kind < 0.2) return test::law_of(R"({"type": "rigid"})");
+  if (kind < 0.5) return test::linear_law(k);
+  if (kind < 0.75) return test::bilinear_law(k, decades(random, 0.1, 10), 0.2 * k);
+  return test::power_law(decades(random, 10, 10000), uniform(random, 0.4, 1));
+}
+
+JointModel random_contact_joint(std::mt19937& random, const Kind& kind) {
+  JointModel joint;
+  joint.file = "joint.json";
+  joint.p = 8;
+  joint.plates = {random_body(random, kind, kind.floating), random_body(random, kind, false)};
+  joint.plates[0].name = "a", joint.plates[1].name = "b";
+  joint.axes = joint.plates[0].axes;
+  joint.plates[0].external_force[0] = 1;
+  if (!kind.floating && uniform(random, 0, 1) < 0.3) joint.plates[0].external_displacement[0] = 0.01;
+  for (Index i = 0; i < kind.n_holes; ++i) {
+    test::add_fastener(joint, {{0, i * kind.n_directions}, {1, i * kind.n_directions}}, random_law(random));
+    joint.planes.back().law_name = joint.fasteners.back().id;
+    for (HoleModel& hole : joint.fasteners.back().holes)
+      hole.gap = (uniform(random, 0, 1) < 0.3 ? -1 : 1) * kind.gaps * 0.003 * uniform(random, 0, 1);
+  }
+  return joint;
+}
+
+class ContactJoint : public testing::Test {
+ protected:
+  std::mt19937 random_{14};
+  Kind kind(int i) { return {1 + i % 4, 1 + i % 2, i % 3 == 0, decades(random_, 1e-4, 1e2)}; }
+};
+
+TEST_F(ContactJoint, AThousandAreSolvedFromNothingAndHaveOneSolution) {
+  Index most = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const JointModel joint = random_contact_joint(random_, kind(i));
+    const JointEquations equations = make_equations(joint);
+    const double scale = force_scale(equations, 1);
+    const RootProblem problem = root_problem(equations, 1, scale);
+    const Index n = equations.n_unknowns();
+    const VectorXd far = VectorXd::NullaryExpr(n, [&] { return uniform(random_, -10, 10); });
+    std::vector<VectorXd> F;
+    for (const VectorXd& start : {VectorXd(VectorXd::Zero(n)), far}) {
+      const Root root = newton_root(problem, start, {1e-12, 200});
+      EXPECT_LT(root.residual.lpNorm<Eigen::Infinity>(), 1e-10) << "joint " << i;
+      F.push_back(contact_state(equations, scale * root.x).F);
+      if (start.isZero(0)) most = std::max<Index>(most, root.iterations);
+    }
+    EXPECT_LT((F[0] - F[1]).lpNorm<Eigen::Infinity>(), 1e-8 * scale) << "joint " << i;
+  }
+  EXPECT_LE(most, 60);
+  RecordProperty("most_iterations", static_cast<int>(most));
+}
+
+/// The Hessian is the derivative of the gradient, and positive semi-definite.
+TEST_F(ContactJoint, HaveAConvexFunction) {
+  constexpr double step = 1e-7;
+  for (int i = 0; i < 60; ++i) {
+    const JointModel joint = random_contact_joint(random_, kind(i));
+    const JointEquations equations = make_equations(joint);
+    const RootProblem problem = root_problem(equations, 1, 1);
+    const Index n = equations.n_unknowns();
+    const VectorXd x = VectorXd::NullaryExpr(n, [&] { return uniform(random_, -1, 1); });
+    const VectorXd direction = VectorXd::NullaryExpr(n, [&] { return uniform(random_, -1, 1); });
+    const auto gradient = [&](const VectorXd& at) { return problem.gradient(problem.residual(at)); };
+    const auto slope = [&](double side) { return gradient(x + side * step * direction); };
+    const VectorXd difference = (slope(1) - slope(-1)) / (2 * step);
+    const MatrixXd H = hessian(equations, contact_state(equations, x));
+    EXPECT_LT((H * direction - difference).norm(), 1e-4 * (H * direction).norm()) << "joint " << i;
+    EXPECT_LT((H - H.transpose()).norm(), 1e-12 * H.norm());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(H).eigenvalues()[0], -1e-12 * H.norm()) << "joint " << i;
+  }
+}
+
+TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
+  for (int i = 0; i < 60; ++i) {
+    const JointModel joint = random_contact_joint(random_, kind(i));
+    const JointEquations equations = make_equations(joint);
+    const LoadPath path = follow(equations, {0.5, 1, -1, 0.5, 0}, {});
+    ASSERT_FALSE(path.failure) << "joint " << i;
+    const double scale = force_scale(equations, 1);
+    EXPECT_LT((path.steps[0].F - path.steps[3].F).norm(), 1e-8 * scale) << "joint " << i;
+    EXPECT_LT((path.steps[0].rim_F - path.steps[3].rim_F).norm(), 1e-7 * scale) << "joint " << i;
+    if (equations.interference() == 0) {
+      EXPECT_LT(path.steps[4].F.norm(), 1e-9 * scale) << "joint " << i;
+    }
+  }
+}
+
+/// dF by each gap against central differences of joints solved anew.
+TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
+  constexpr double step = 1e-6;
+  int compared = 0;
+  for (int i = 0; i < 40; ++i) {
+    JointModel joint = random_contact_joint(random_, kind(i));
+    const PathOptions options{{}, {.tolerance = 1e-13}};
+    const JointEquations equations = make_equations(joint);
+    const LoadPath path = follow(equations, {1}, options);
+    ASSERT_FALSE(path.failure);
+    const MatrixXd by_gap = sensitivity(equations, joint_numbers(joint, equations.system), path.steps[0]).gap;
+    ASSERT_EQ(by_gap.cols(), 2 * std::ssize(joint.fasteners));
+    for (Index rim = 0; rim < by_gap.cols(); ++rim) {
+      const Index n = std::ssize(joint.fasteners);
+      double& gap = joint.fasteners[rim % n].holes[rim / n].gap;  // rims stand plate after plate
+      const auto at = [&](double change) {
+        gap += change;
+        const LoadPath changed = follow(make_equations(joint), {1}, options);
+        gap -= change;
+        return amounts(changed.steps.at(0).F, joint.n_directions());
+      };
+      const VectorXd difference = (at(step) - at(-step)) / (2 * step), finer = (at(step / 2) - at(-step / 2)) / step;
+      if ((difference - finer).norm() > 1e-3 * (1 + finer.norm())) continue;  // a corner is near
+      ++compared;
+      EXPECT_LT((by_gap.col(rim) - finer).norm(), 2e-3 * (1 + finer.norm())) << "joint " << i << ", rim " << rim;
+    }
+  }
+  EXPECT_GT(compared, 120);
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3
