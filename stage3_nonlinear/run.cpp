@@ -102,6 +102,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (scene.solver.method == Method::exact_path && joint.n_directions() > 1)
     refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",
            "another method, or plates whose discs have one direction");
+  if (scene.solver.method == Method::exact_path && joint.n_moments() > 0)
+    refuse(scene.file + ": /solver/method", "\"exact path\", but springs of holes push and do not pull",
+           "another method, or holes without \"compression_only\"");
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
   require_memory(scene, joint, equations, !csv_file.empty(), with_sensitivities);

@@ -135,7 +135,7 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   const double mu = fastener.friction[at];
   HoleModel result{plate_at, index * model.n_directions(), mu, {}};
   if (!fastener.gap.empty()) {
-    if (!plate.is_in_contact(hole.name))
+    if (fastener.gap[at] != 0 && !plate.is_in_contact(hole.name))
       refuse(fastener.where + "/gap",
              fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole.name, plate.file),
              "a gap in holes with \"compression_only\", \"clearance\" in others");

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact of a pin in a strip by Newton's method on all finite-element unknowns, with springs at quadrature points of
+// the rim instead of pressures of contact: the reference for B, C and for joints.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "stage1_plate/problem/plate_problem.hpp"
+#include "stage3_nonlinear/path/load_path.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/support/plates.hpp"
+
+namespace fastjoint {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr int p = 7;
+constexpr double force = 10000;
+
+/// A strip with a hole, its left edge an external that moves along x.
+std::string strip(const std::string& contact) {
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "p": {},
+    "materials": {{"al": {{"E": 72000, "nu": 0.3}}}},
+    "geometry": {{"grid": {{"x": [0, 40, 80, 100], "y": [0, 40], "thickness": 2}}}},
+    "holes": [{{"id": "1", "center": [60, 20], "radius": 5, "spring": {{"disk": {{"E": 210000, "nu": 0.3}}{}}}}}],
+    "disc_directions": ["x", "y"], "supports": [{{"on": "left", "fix": ["y"]}}],
+    "external": [{{"id": "P", "on": "left", "direction": "x", "kind": "rigid"}}]}})",
+                     p, contact);
+}
+
+/// The strip with springs all around, and pressures at quadrature points of its rim.
+class Reference {
+ public:
+  Reference() : plate_(test::make_plate(strip(""))) {
+    const auto& mesh = plate_.mesh;
+    std::vector<rim::AngleRange> pieces;
+    constexpr int n_pieces = 64;
+    for (int i = 0; i < n_pieces; ++i)
+      pieces.push_back({i * rim::full_turn / n_pieces, (i + 1) * rim::full_turn / n_pieces});
+    stage1::Loads loads;
+    for (const auto& side : mesh.rims[0].sides) {
+      const auto rule = rim::rim_rule(mesh.mesh, mesh.edges, side, p, pieces);
+      for (Index q = 0; q < rule.ds.size(); ++q) {
+        const Eigen::Vector2d n = -rule.normal.col(q);
+        const double weight = mesh.mesh.thickness[side.element] * rule.ds[q];
+        stage1::add_load(plate_.problem, side.element, rule.modes, weight * (rule.N.col(q) * n.transpose()).reshaped(),
+                         static_cast<int>(weight_.size()), loads);
+        angle_.push_back(std::atan2(n.y(), n.x()));
+        weight_.push_back(weight);
+      }
+    }
+    const Index points = std::ssize(weight_), n_free = plate_.problem.unknowns.n_free.back();
+    Eigen::SparseMatrix<double> L(n_free + 3, points);
+    L.setFromTriplets(loads.begin(), loads.end());
+    const MatrixXd free = MatrixXd(L.topRows(n_free));
+    const VectorXd inverse = weights().cwiseInverse();
+    const auto per_weight = inverse.asDiagonal();
+    by_motion_ = -(per_weight * free.transpose()) * test::unit_fields(plate_.problem, p);
+    for (Index q = 0; q < points; ++q) by_motion_.row(q).tail(2) += normal(q).transpose();
+    by_pressure_ = per_weight * free.transpose() * test::fields_under(plate_.problem, p, free);
+    S_ = test::solve(plate_).cases.back().S;
+  }
+
+  [[nodiscard]] VectorXd weights() const { return Eigen::Map<const VectorXd>(weight_.data(), std::ssize(weight_)); }
+  [[nodiscard]] double modulus() const { return plate_.scene.holes[0].sprung().modulus; }
+  /// Distributions at the points, (points, k).
+  [[nodiscard]] MatrixXd distributions(const rim::Harmonics& pressures) const {
+    MatrixXd phi(std::ssize(angle_), pressures.size());
+    for (Index q = 0; q < phi.rows(); ++q) phi.row(q) = pressures.at(angle_[q]).transpose();
+    return phi;
+  }
+  /// Displacement of the disc against the rim at the points per unit displacement of external, disc x, disc y.
+  [[nodiscard]] const MatrixXd& by_motion() const { return by_motion_; }
+  /// What a pressure at each point moves the rim along the normal at every point.
+  [[nodiscard]] const MatrixXd& by_pressure() const { return by_pressure_; }
+
+  struct Solution {
+    double displacement, peak_pressure;
+    int steps;
+  };
+  /// Displacement of the external under the force, with the disc held and this gap.
+  [[nodiscard]] Solution solve(double gap) const {
+    const Index n = std::ssize(weight_);
+    const double K = modulus();
+    const VectorXd motion = by_motion_.col(0);
+    VectorXd x = VectorXd::Zero(n + 1);  // w at the points, displacement
+    for (int step = 1; step < 50; ++step) {
+      const VectorXd w = x.head(n);
+      const auto touches = (w.array() > gap).eval();
+      const VectorXd added = K * (touches.select(w.array() - gap, 0) - w.array());
+      const VectorXd slope = K * (touches.cast<double>() - 1);
+      VectorXd r(n + 1);
+      r << w + by_pressure_ * added - motion * x[n],
+          (S_(0, 0) * x[n] + motion.dot(weights().cwiseProduct(added)) + force) / K;
+      if (r.lpNorm<Eigen::Infinity>() < 1e-13) return {x[n], K * (w.maxCoeff() - gap), step};
+      MatrixXd J(n + 1, n + 1);
+      J << MatrixXd::Identity(n, n) + by_pressure_ * slope.asDiagonal(), -motion,
+          motion.cwiseProduct(weights()).cwiseProduct(slope).transpose() / K, S_(0, 0) / K;
+      x -= J.partialPivLu().solve(r);
+    }
+    ADD_FAILURE() << "Newton's method did not end";
+    return {};
+  }
+
+ private:
+  [[nodiscard]] Eigen::Vector2d normal(Index q) const { return {std::cos(angle_[q]), std::sin(angle_[q])}; }
+
+  test::Plate plate_;
+  std::vector<double> angle_, weight_;
+  MatrixXd by_motion_, by_pressure_, S_;
+};
+
+class ContactReference : public testing::Test {
+ protected:
+  static void SetUpTestSuite() { reference_ = std::make_unique<Reference>(); }
+  static void TearDownTestSuite() { reference_.reset(); }
+  static std::unique_ptr<Reference> reference_;
+};
+std::unique_ptr<Reference> ContactReference::reference_;
+
+formats::PlateMatrices with_harmonics(int n) {
+  return test::extract(strip(fmt::format(R"(, "compression_only": true, "harmonics": {})", n)), false).matrices;
+}
+
+TEST_F(ContactReference, BAndCAreMomentsOfSolvedFields) {
+  const auto a = with_harmonics(9);
+  const MatrixXd phi = reference_->distributions(a.contact[0].pressures);
+  const MatrixXd moments = phi.transpose() * reference_->weights().asDiagonal();
+  const MatrixXd B = moments * reference_->by_motion(), C = moments * reference_->by_pressure() * phi;
+  EXPECT_NEAR(a.contact[0].area, reference_->weights().sum(), 1e-9);
+  EXPECT_LT((a.B_e[0] - B.leftCols(1)).norm(), 1e-10 * B.norm());
+  EXPECT_LT((a.B_d[0] - B.rightCols(2)).norm(), 1e-10 * B.norm());
+  EXPECT_LT((a.C[0] - C).norm(), 1e-10 * C.norm());
+}
+
+/// The error of the displacement falls as the square of that of the pressure, with the shortest wave that is resolved.
+TEST_F(ContactReference, JointsComeCloserWithEveryWave) {
+  for (const double gap : {0.0, 0.02, -0.02}) {
+    const auto exact = reference_->solve(gap);
+    EXPECT_LT(exact.steps, 15);
+    double before = 1;
+    for (const int harmonics : {4, 8, 16, 32}) {
+      stage3::JointModel joint;
+      joint.file = "joint.json";
+      joint.plates = {stage3::make_plate("strip", "strip.h5", with_harmonics(harmonics), p)};
+      joint.axes = {0, 1};
+      joint.plates[0].external_force[0] = -force;
+      test::add_fastener(joint, {{0, 0}}, test::law_of(R"({"type": "rigid"})"), true);
+      joint.fasteners[0].holes[0].gap = gap;
+      const auto equations = stage3::make_equations(joint);
+      const auto path = stage3::follow(equations, {1}, {});
+      ASSERT_FALSE(path.failure);
+      const auto& step = path.steps[0];
+      const VectorXd u = equations.system.displacements(step.all_F(), step.all_delta(), 1);
+      const double error = std::abs(u[2] / exact.displacement - 1);
+      EXPECT_LT(error, before / 2) << harmonics << " waves, gap " << gap;
+      before = error;
+      const double depth = equations.rims[0].depth(step.moments, equations.rims[0].deepest(step.moments));
+      if (harmonics == 32) {
+        EXPECT_LT(error, 1e-6) << gap;
+        EXPECT_NEAR(reference_->modulus() * depth / exact.peak_pressure, 1, 1e-3) << gap;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace fastjoint
