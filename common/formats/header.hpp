@@ -32,7 +32,7 @@ struct ContactRim {
   rim::Harmonics pressures;
   double modulus;  ///< K of the springs, force / length^3
   double radius;   ///< length
-  double area;     ///< of the rim that the model has, length^2
+  double area;     ///< thickness times length of the rim that the model has, length^2
 };
 
 /// A plate with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,

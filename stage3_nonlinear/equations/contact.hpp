@@ -51,7 +51,7 @@ struct ContactState {
 /// (n).
 [[nodiscard]] VectorXd amounts(const VectorXd& vectors, Index n_directions);
 
-// What follows is of the planes alone: r = n a.
+// The functions below know the planes alone: r = n a.
 
 /// @param c Contact coordinates, shape (n a), force.
 [[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c);

@@ -56,7 +56,7 @@ class RimContact {
 
   rim::Harmonics pressures_;
   double stiffness_, gap_;
-  VectorXd angles_;   ///< of points close enough to see every wave
+  VectorXd angles_;   ///< (points) places close enough to see every wave
   MatrixXd samples_;  ///< (points, size) distributions there
 };
 

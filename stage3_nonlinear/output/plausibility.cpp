@@ -134,6 +134,14 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
                         fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
                                     "{:.6g} of the hole: one of them may be in another unit of length",
                                     where, gap, plane.law_name, radius));
+    for (const HoleModel& hole : joint.holes(plane)) {
+      constexpr double most_interference = 0.05;  // far beyond what metals bear without yielding
+      if (hole.gap < radius && -hole.gap < most_interference * radius) continue;
+      gaps.emplace_back(
+          std::abs(hole.gap) / radius,
+          fmt::format("{}/gap: {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length", where,
+                      hole.gap, joint.name(hole), radius));
+    }
     if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
       distances.emplace_back(
           apart / radius,

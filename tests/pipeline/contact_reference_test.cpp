@@ -76,7 +76,7 @@ class Reference {
   }
   /// Displacement of the disc against the rim at the points per unit displacement of external, disc x, disc y.
   [[nodiscard]] const MatrixXd& by_motion() const { return by_motion_; }
-  /// What a pressure at each point moves the rim along the normal at every point.
+  /// Displacement of the rim along its normal at every point per pressure at each point.
   [[nodiscard]] const MatrixXd& by_pressure() const { return by_pressure_; }
 
   struct Solution {

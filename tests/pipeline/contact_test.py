@@ -124,6 +124,16 @@ def lap_joint(folder):
         assert 80 < touching < 86, touching
 
 
+def doubtful_gaps(folder):
+    """Gaps that hardly any joint has are said; uses the joint before."""
+    text = json.loads((folder / "joint.json").read_text())
+    for gap, said in ((3, "/fasteners/1/gap: 3 at hole"), (-0.5, "/fasteners/1/gap: -0.5 at hole"), (0.2, ""), (-0.05, "")):
+        text["fasteners"][1]["gap"] = gap
+        (folder / "joint.json").write_text(json.dumps(text))
+        told = run(folder, "stage3_nonlinear", "joint.json", "-o", "result.h5")
+        assert said in told if said else "/gap" not in told, (gap, told)
+
+
 def column_of_rivets(folder):
     """One column of a lap splice of three rivets, with contact and with springs all around."""
     def solve(contact, y=(0, 20), k=50000, **how):
@@ -191,5 +201,5 @@ def limits(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (pin_in_a_strip, interference, lap_joint, column_of_rivets, limits):
+    for check in (pin_in_a_strip, interference, lap_joint, doubtful_gaps, column_of_rivets, limits):
         check(Path(name))

@@ -24,7 +24,7 @@ double decades(std::mt19937& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
 
-/// What a random joint is made of.
+/// Size of a random joint.
 struct Kind {
   Index n_holes, n_directions;
   bool floating;  ///< the first plate hangs on its fasteners alone
