@@ -85,6 +85,8 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
   file("rim/start", a.rim_start, {r + 1}, "1", "first point of each rim, and the number of points");
   file("rim/angle", a.angle, {any}, "deg", "place of each point on its rim, counter-clockwise from x");
   const Eigen::Index k = a.angle.size(), n_cases = l > 0 ? all_cases : 0;
+  file("rim/hoop_by_pressure", a.hoop_by_pressure, {k}, "1",
+       "hoop stress over radial stress of short waves of pressure, 0 on rims without contact", or_else(0));
   file("rim/sigma_rr", a.sigma_rr, {l, k, n_cases}, per_case, "radial stress at each point in each unit case");
   file("rim/sigma_tt", a.sigma_tt, {l, k, n_cases}, per_case, "hoop stress at each point in each unit case");
   file("rim/sigma_rt", a.sigma_rt, {l, k, n_cases}, per_case, "shear stress at each point in each unit case");

@@ -28,7 +28,9 @@ struct PlateStresses {
   Eigen::MatrixXd bearing_area;       ///< (r, 2) d t of a whole hole, for bearing along x and along y, length^2
   /// (r + 1) first point of each rim
   Eigen::VectorXi rim_start = Eigen::VectorXi::Zero(1);
-  Eigen::VectorXd angle;                                 ///< (k) of each point, degrees counter-clockwise from x
+  Eigen::VectorXd angle;  ///< (k) of each point, degrees counter-clockwise from x
+  /// (k) hoop stress over radial stress of short waves of pressure; 0 on rims without contact
+  Eigen::VectorXd hoop_by_pressure;
   std::vector<StressRows> sigma_rr, sigma_tt, sigma_rt;  ///< l x (k, n_cases)
   std::vector<std::string> section_hole, section_side;   ///< (s)
   Eigen::VectorXd gross_area, net_area;                  ///< (s) length^2

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <utility>
 
 #include "common/count.hpp"
 #include "common/rim/angles.hpp"
@@ -33,19 +34,14 @@ double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 /// Points of one rim.
 class Rim {
  public:
+  /// @param angles   Of its points, (n), degrees.
   /// @param friction Resultants along x and y that jump, each at its bearing direction, else 0.
-  Rim(const formats::PlateStresses& a, Index rim, const Eigen::Vector2d& friction)
-      : first_(a.rim_start[rim]), angle_(a.angle.segment(first_, a.rim_start[rim + 1] - first_)) {
+  Rim(VectorXd angles, const Eigen::Vector2d& friction) : angle_(std::move(angles)) {
     const auto jumps = [&](double angle, int axis) {
       const double jump = 90 * axis + (friction[axis] > 0 ? 0 : 180);
       return friction[axis] != 0 && std::abs(turn(angle - jump)) <= left_out;
     };
     for (const double angle : angle_) allowed_.push_back(!jumps(angle, 0) && !jumps(angle, 1));
-  }
-
-  /// The rows of its points.
-  [[nodiscard]] Eigen::MatrixXd of(const Eigen::MatrixXd& sigma) const {
-    return sigma.middleRows(first_, angle_.size());
   }
 
   /// Largest value, at the top of the parabola through it and its neighbours; none if all points are left out.
@@ -98,7 +94,6 @@ class Rim {
 
   /// Counter-clockwise, degrees; negative or 0 where that is not the shorter way.
   [[nodiscard]] double distance(Index from, Index to) const { return turn(angle_[to] - angle_[from]); }
-  Index first_;
   VectorXd angle_;
   std::vector<bool> allowed_;  ///< (n) not close to the jump
 };
@@ -145,7 +140,7 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
 }  // namespace
 
 std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const InState& in_state,
-                                 const LoadedDiscs& discs) {
+                                 const LoadedDiscs& discs, const Contacts& contacts) {
   std::vector<RimState> states;
   const auto& [holes, axes, all_bearing, all_friction] = discs;
   const auto with_lower_degree = [&](const std::vector<formats::StressRows>& levels) {
@@ -154,7 +149,8 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     return columns;
   };
   const Eigen::MatrixXd hoop = with_lower_degree(a.sigma_tt), forces = with_lower_degree(a.section_force);
-  const VectorXd all_radial = in_state(a.sigma_rr[level]);
+  const Eigen::MatrixXd all_radial =
+      contacts.rims.empty() ? Eigen::MatrixXd(in_state(a.sigma_rr[level])) : with_lower_degree(a.sigma_rr);
   const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
@@ -173,9 +169,14 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     // twice its resultant over F.
     const Eigen::Vector2d jumps = (friction.array().abs() > 0.01 / 2 * bearing.norm()).select(friction, 0);
     state.by_components = jumps[0] != 0 && jumps[1] != 0;
-    const Rim points(a, i, jumps);
-    read_peak(points, points.of(hoop), state);
-    const VectorXd radial = points.of(all_radial);
+    const auto rows = Eigen::seq(a.rim_start[i], a.rim_start[i + 1] - 1);
+    const VectorXd radial = all_radial(rows, 0);
+    const Rim points(a.angle(rows), jumps);
+    RimHoop around{a.angle(rows), hoop(rows, Eigen::all)};
+    if (const int rim = index_of(contacts.rims, a.rim_hole[i], &formats::ContactRim::hole);
+        rim < count_of(contacts.rims))
+      around = under_contact(around, all_radial(rows, Eigen::all), a.hoop_by_pressure(rows), contacts, rim);
+    read_peak(Rim(around.angle, jumps), around.hoop, state);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();

@@ -9,6 +9,7 @@
 
 #include "common/formats/joint_result.hpp"
 #include "common/formats/plate_matrices.hpp"
+#include "common/stresses/contact_hoop.hpp"
 
 namespace fastjoint::stresses {
 
@@ -44,8 +45,9 @@ using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;
 /// hole that bears (docs/theory.md, sections 11.2 to 11.4).
 /// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
 /// @param in_state Makes of a matrix of `a`, (k, n) or (s, n), its column in the state.
+/// @param contacts At rims whose springs push but do not pull.
 [[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const InState& in_state,
-                                               const LoadedDiscs& discs);
+                                               const LoadedDiscs& discs, const Contacts& contacts = {});
 
 /// Number of sections across x that the plate has beside a hole.
 [[nodiscard]] int n_sections(const formats::PlateStresses& a, const std::string& hole);

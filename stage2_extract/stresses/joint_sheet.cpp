@@ -110,7 +110,8 @@ void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, c
   for (Eigen::Index step = 0; step < sheet.amounts.cols(); ++step) {
     const auto states = stresses::rim_states(
         a, count_of(a.p) - 1, [&](const formats::StressRows& of_states) { return of_states.col(step); },
-        {holes, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)});
+        {holes, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)},
+        {history.contact, history.pressure.row(step), history.contacts.gap});
     history.rims.values.emplace_back(states.begin(), states.end());
   }
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/count.hpp"
+#include "common/pfem/element.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
 
@@ -28,6 +29,16 @@ struct Frame {
 };
 
 Frame frame_at(double angle) { return {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}}; }
+
+/// Hoop stress of the finite elements at a point of a rim, per coefficient of the element, (2 n_modes).
+Eigen::VectorXd hoop_stress(const FieldSolver& solver, const OnSide& at, double angle) {
+  const auto& [element, local_edge] = at.side;
+  const pfem::ElementMap map(solver.plate().mesh, solver.edges(), element);
+  const Eigen::Matrix2Xd xi = pfem::along_edge(local_edge, Eigen::VectorXd::Constant(1, at.s));
+  const Eigen::MatrixXd B =
+      pfem::strain_operator(map, solver.numbering().space, solver.numbering().p, xi.row(0), xi.row(1));
+  return (pfem::polar_stress(angle).row(1) * solver.elasticity(element) * B).transpose();
+}
 
 }  // namespace
 
@@ -85,12 +96,15 @@ void RimStress::add_side(const FieldSolver& solver, int hole, const pfem::Side& 
         weights(row, i) = frame.n[component] * shape.N(k, 0);
         weights(row, n + i) = frame.t[component] * shape.dN(k, 0) * on[i]->ds_dtheta / radius;
       }
+    part.share[i] = 1.0 / count_of(point.on);
     const Eigen::Matrix3d to_global = pfem::polar_stress(-point.angle);
     const Eigen::Vector3d c = (to_global.transpose() * compliance * to_global).row(1);
     part.hoop.col(i) << -c[0] / c[1], 1 / c[1], -c[2] / c[1];
-    part.share[i] = 1.0 / count_of(point.on);
+    if (!solver.plate().hole_spring[hole].contact) continue;
+    weights.col(n + i) = hoop_stress(solver, *on[i], point.angle);
+    part.hoop.col(i) = Eigen::Vector3d::UnitY();
   }
-  part.u_n_and_eps_tt = solver.condense(side.element, weights);
+  part.u_n_and_hoop = solver.condense(side.element, weights);
   sides_.push_back(std::move(part));
 }
 
@@ -148,7 +162,7 @@ RimStresses RimStress::operator()(const Fields& fields) const {
   }
   std::vector<Eigen::MatrixXd> values;
   for (const auto& side : sides_) {
-    values.push_back(fields.states.values(side.u_n_and_eps_tt));
+    values.push_back(fields.states.values(side.u_n_and_hoop));
     for (int i = 0; i < count_of(side.points); ++i) {
       const int at = side.points[i];
       sigma.rr.col(at) += side.share[i] * modulus_[at] * values.back().col(i);

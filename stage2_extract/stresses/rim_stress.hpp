@@ -42,6 +42,7 @@ struct RimStresses {
 ///
 /// sigma_rr and sigma_rt are the known tractions of springs, bearing load and friction; sigma_tt follows from them and
 /// the strain along the rim by the material's law, without a derivative across the rim (docs/theory.md, section 11.1).
+/// On rims of contact, whose waves of pressure are shorter than elements follow, it is that of the finite elements.
 /// The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other ways.
 class RimStress {
  public:
@@ -52,9 +53,10 @@ class RimStress {
   /// One side with its points.
   struct SidePoints {
     std::vector<int> points;
-    plate::CondensedFunctions u_n_and_eps_tt;  ///< radial displacements of all its points, then their hoop strains
-    Eigen::Matrix3Xd hoop;                     ///< what sigma_rr, eps_tt and sigma_rt give of sigma_tt at each
-    Eigen::RowVectorXd share;                  ///< of this side in the mean at each
+    /// Radial displacements of all its points, then their hoop strains; of contact their hoop stresses.
+    plate::CondensedFunctions u_n_and_hoop;
+    Eigen::Matrix3Xd hoop;     ///< what sigma_rr, that strain or stress and sigma_rt give of sigma_tt at each
+    Eigen::RowVectorXd share;  ///< of this side in the mean at each
   };
   /// Traction of a unit case at every point.
   struct CaseTraction {

@@ -7,6 +7,7 @@
 
 #include "common/count.hpp"
 #include "common/pfem/element.hpp"
+#include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/program/progress.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
@@ -31,7 +32,7 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
   a.rim_modulus = Eigen::MatrixXd::Zero(r, 2);
   a.bearing_area.resize(r, 2);
   a.rim_start = Eigen::VectorXi::Zero(r + 1);
-  std::vector<double> angle;
+  std::vector<double> angle, hoop_by_pressure;
   for (Eigen::Index i = 0; i < r; ++i) {
     a.rim_center.row(i) = plate.hole_rim[i].center.transpose();
     a.rim_radius[i] = plate.hole_rim[i].radius;
@@ -46,10 +47,18 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
       return rim::bearing(plate.mesh, edges, plate.hole_rim[i], bearing_direction(side)).area;
     };
     a.bearing_area.row(i) << std::max(area("+x"), area("-x")), std::max(area("+y"), area("-y"));
-    for (const auto& point : rims[i]) angle.push_back(point.angle / rim::degree);
+    const auto share = [&](const RimPoint& point) {
+      const auto& D = plate.elasticity[plate.mesh.material[point.on[0].side.element]];
+      return plate.hole_spring[i].contact ? pfem::hoop_by_pressure(D.inverse(), point.angle) : 0;
+    };
+    for (const auto& point : rims[i]) {
+      angle.push_back(point.angle / rim::degree);
+      hoop_by_pressure.push_back(share(point));
+    }
     a.rim_start[i + 1] = count_of(angle);
   }
   a.angle = Eigen::Map<const Eigen::VectorXd>(angle.data(), angle.size());
+  a.hoop_by_pressure = Eigen::Map<const Eigen::VectorXd>(hoop_by_pressure.data(), angle.size());
 }
 
 /// Sets the places of the sections and their areas, net of what the hole takes.

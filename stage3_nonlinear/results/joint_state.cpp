@@ -97,11 +97,13 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
   amounts << state.De, state.D, state.pressure, state.Lambda, state.traction;
+  VectorXd gaps(std::ssize(plate.contact));
+  for (Index i = 0; i < gaps.size(); ++i) gaps[i] = joint.gap(at, plate.contact[i].hole);
   if (plate.stress_level)
-    state.rims =
-        stresses::rim_states(plate.stresses, *plate.stress_level,
-                             [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
-                             {plate.holes, plate.axes, state.bearing, state.friction});
+    state.rims = stresses::rim_states(
+        plate.stresses, *plate.stress_level,
+        [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
+        {plate.holes, plate.axes, state.bearing, state.friction}, {plate.contact, state.pressure, gaps});
   for (Index rim = 0; rim < std::ssize(state.rims); ++rim)
     if (plate.is_in_contact(plate.stresses.rim_hole[rim])) {
       auto& its = state.rims[rim];  // what looks like pull is what the pressures of contact do not resolve

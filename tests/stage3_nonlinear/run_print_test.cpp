@@ -23,6 +23,7 @@ void add_stresses(formats::PlateMatrices& plate) {
   a.rim_start.resize(2);
   a.rim_start << 0, 4;
   a.angle = Eigen::Vector4d(0, 90, 180, 270);
+  a.hoop_by_pressure = Eigen::Vector4d::Zero();
   a.sigma_rr = a.sigma_tt = a.sigma_rt = {Eigen::MatrixXd::Zero(4, plate.n_cases())};
   a.sigma_tt[0].col(plate.n_externals()).setOnes();
   a.gross_area = a.net_area = Eigen::VectorXd(0);
