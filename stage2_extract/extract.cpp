@@ -25,6 +25,7 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
   const auto edges = pfem::find_edges(plate.mesh);
   a.friction_unit_force = a.friction_resultant = Eigen::VectorXd::Zero(a.n_friction_cases());
   for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
+    if (index_of(formats::side_names, a.friction_bearing[j]) == count_of(formats::side_names)) continue;  // a shear
     const auto& rim = plate.hole_rim[index_of(plate.hole_id, a.friction_hole[j])];
     const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.friction_bearing[j]));
     a.friction_unit_force[j] = bearing.unit_force;

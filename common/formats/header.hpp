@@ -46,7 +46,8 @@ struct UnitCases {
   std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"
   std::vector<std::string> traction_id, traction_direction;  ///< (q)
   std::vector<ContactRim> contact{};                         ///< in the order of the holes
-  std::vector<std::string> friction_hole, friction_bearing;  ///< (h); bearing is "+x", "-x", "+y", "-y"
+  std::vector<std::string> friction_hole;                    ///< (h)
+  std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y", or a rim::shear_name at rims of contact
   /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
   Eigen::MatrixXd load_displacement;  ///< (l, e + m) length
   Eigen::MatrixXd load_friction;      ///< (l, h) stress
@@ -81,6 +82,9 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
 
 /// Names of the sides of a hole.
 inline const std::vector<std::string> side_names = {"+x", "-x", "+y", "-y"};
+
+/// Names of all friction cases that there may be.
+[[nodiscard]] h5::Allowed friction_case_names();
 
 /// Degrees from 1 to `highest`, each above the one before.
 [[nodiscard]] h5::Allowed degrees(int highest);

@@ -73,7 +73,8 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
        "least gap between disc and rim, 0 where they touch");
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   const Eigen::Index h = a.friction_hole.size();
-  file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
+  file(group + "friction/bearing", a.friction_bearing, {h}, "1",
+       "bearing side of each friction case: +x, -x, +y, -y; at rims of contact t0, t1, ...: which shear");
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
   file(group + "traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");

@@ -34,7 +34,8 @@ void name_datasets(File& file, Matrices& a) {
   contact_datasets(file, a.contact, a.header.units);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
+       "bearing side of each friction case: +x, -x, +y, -y; at rims of contact t0, t1, ...: which shear",
+       friction_case_names());
 }
 
 template <class File, class Matrices>

@@ -134,7 +134,8 @@ void name_datasets(File& file, Solution& a) {
   file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
+       "bearing side of each friction case: +x, -x, +y, -y; at rims of contact t0, t1, ...: which shear",
+       friction_case_names());
   file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1",
        "vertex of the mesh that each spring of a point holds", h5::index_into(a.mesh.n_nodes()));
   const Index n_points = a.points.size();

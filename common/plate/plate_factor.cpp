@@ -30,10 +30,11 @@ void add_rim(const ElementClass::RimSide& rim, const std::vector<int>& row, Eige
       if (row_of(j) >= 0) M(std::max(row_of(i), row_of(j)), std::min(row_of(i), row_of(j))) += terms.plate(i, j);
     M.col(row_of(i)).segment(disc, n_discs) += terms.coupling.row(i).transpose();
     M.col(row_of(i)).segment(pressure, n_pressures) -= terms.pressure.row(i).transpose();
-    M.col(row_of(i)).segment(friction, 2 * n_discs) -= terms.friction.row(i).transpose();
+    M.col(row_of(i)).segment(friction, terms.friction.cols()) -= terms.friction.row(i).transpose();
   }
   M.block(disc, disc, n_discs, n_discs) += terms.disc;
   M.block(pressure, disc, n_pressures, n_discs) += terms.reaction.transpose();
+  M.block(friction, disc, terms.drag.cols(), n_discs) += terms.drag.transpose();
 }
 
 /// Adds an element's matrix to a lower triangle whose pattern has room for it.
@@ -90,7 +91,8 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
     list.insert(list.end(), {mode, n_modes + mode});
   }
   std::map<int, Eigen::Index> border_of;  // by hole
-  for (const auto& rim : elements.rims) border_of[rim.hole] = 3 * rim.terms.coupling.cols() + rim.terms.pressure.cols();
+  for (const auto& [hole, terms] : elements.rims)
+    border_of[hole] = terms.coupling.cols() + terms.pressure.cols() + terms.friction.cols();
   for (auto& [hole, width] : border_of) element.n_border += std::exchange(width, element.n_border);
   std::vector<int> order = element.inside, row(2 * n_modes, -1);
   order.insert(order.end(), element.outside.begin(), element.outside.end());

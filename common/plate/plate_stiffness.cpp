@@ -113,27 +113,25 @@ PlateElements classify_elements(const SprungMesh& sprung, const pfem::Numbering&
   return ElementClassifier(sprung, numbering, unknowns).run();
 }
 
-int Unknowns::n_friction_cases() const {
-  const auto n_sprung = std::ranges::count_if(disc_of_hole, [](int disc) { return disc >= 0; });
-  return 2 * n_directions * static_cast<int>(n_sprung);
-}
-
 std::vector<int> Unknowns::border_of(const std::vector<int>& holes) const {
   std::vector<int> list;
   for (const int hole : holes) {
     const int disc = disc_of_hole[hole];
     for (int a = 0; a < n_directions; ++a) list.push_back(controlled_of_disc(disc + a));
     for (int k = first_pressure[hole]; k < first_pressure[hole + 1]; ++k) list.push_back(n_controlled() + k);
-    for (int c = 0; c < 2 * n_directions; ++c) list.push_back(n_controlled() + n_pressures() + 2 * disc + c);
+    for (int k = first_friction[hole]; k < first_friction[hole + 1]; ++k)
+      list.push_back(n_controlled() + n_pressures() + k);
   }
   return list;
 }
 
-std::vector<int> first_pressures(const SprungMesh& sprung) {
-  std::vector<int> first{0};
-  for (const auto& spring : sprung.springs)
-    first.push_back(first.back() + (spring && spring->contact ? spring->contact->size() : 0));
-  return first;
+void count_rim_cases(const SprungMesh& sprung, Unknowns& unknowns) {
+  auto &pressure = unknowns.first_pressure = {0}, &friction = unknowns.first_friction = {0};
+  for (const auto& spring : sprung.springs) {
+    pressure.push_back(pressure.back() + (spring && spring->contact ? spring->contact->size() : 0));
+    friction.push_back(friction.back() +
+                       (spring ? static_cast<int>(n_friction_cases(*spring, sprung.axes.cols())) : 0));
+  }
 }
 
 std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matrix2Xi& dofs) {

@@ -22,24 +22,23 @@ struct Unknowns {
   Eigen::Matrix2Xi dofs;    ///< (2, n_functions) what becomes of u_x and u_y of each global function
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_externals = 0;
-  std::vector<std::string> disc_hole, disc_direction;  ///< (m)
-  int n_directions = 0;                                ///< number of directions of each disc
-  std::vector<int> disc_of_hole;                       ///< (holes) first disc of the hole, or -1 for an open hole
-  std::vector<int> first_pressure;                     ///< (holes + 1) first pressure of contact of each hole
+  std::vector<std::string> disc_hole, disc_direction;   ///< (m)
+  int n_directions = 0;                                 ///< number of directions of each disc
+  std::vector<int> disc_of_hole;                        ///< (holes) first disc of the hole, or -1 for an open hole
+  std::vector<int> first_pressure{}, first_friction{};  ///< (holes + 1) first pressure and friction case of each hole
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }
   [[nodiscard]] int n_discs() const { return count_of(disc_hole); }
   [[nodiscard]] int n_controlled() const { return n_externals + n_discs(); }
   [[nodiscard]] int n_pressures() const { return first_pressure.back(); }
-  /// Two for each disc of a sprung hole: bearing along + and along -.
-  [[nodiscard]] int n_friction_cases() const;
+  [[nodiscard]] int n_friction_cases() const { return first_friction.back(); }
   /// Columns of the border that act on an element with rims of these holes: of each hole the discs, the pressures of
   /// contact, the friction cases. Controlled displacements count from 0, pressures and friction cases behind them.
   [[nodiscard]] std::vector<int> border_of(const std::vector<int>& holes) const;
 };
 
-/// Unknowns::first_pressure.
-[[nodiscard]] std::vector<int> first_pressures(const SprungMesh& sprung);
+/// Sets Unknowns::first_pressure and first_friction.
+void count_rim_cases(const SprungMesh& sprung, Unknowns& unknowns);
 
 /// Free unknowns of the functions of degree <= k, for every k up to the numbering's p.
 [[nodiscard]] std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matrix2Xi& dofs);

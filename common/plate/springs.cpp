@@ -75,19 +75,23 @@ Eigen::VectorXd friction_load(const pfem::SideRule& rule, double thickness, cons
   return tested(rule, traction);
 }
 
-/// Pressures of contact, on pieces short enough for their waves.
-void add_pressures(const SprungMesh& sprung, const rim::Harmonics& contact, const pfem::Side& side, int p,
-                   RimTerms& terms) {
+/// Pressures and shears of contact, on pieces short enough for their waves.
+void add_contact(const SprungMesh& sprung, const rim::Harmonics& contact, const pfem::Side& side, int p,
+                 RimTerms& terms) {
   const double step = rim::full_turn / 4 / contact.highest;
   std::vector<rim::AngleRange> pieces;
   for (int i = 0; i < 4 * contact.highest; ++i) pieces.push_back({i * step, (i + 1) * step});
   const auto rule = rim::rim_rule(sprung.mesh, sprung.edges, side, p, pieces);
   const double thickness = sprung.mesh.thickness[side.element];
   for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
-    const Eigen::Vector2d n = -rule.normal.col(q);
-    const Eigen::RowVectorXd weighted = thickness * rule.ds[q] * contact.at(angle_of(n)).transpose();
-    terms.pressure += (rule.N.col(q) * n.transpose()).reshaped() * weighted;
-    terms.reaction += sprung.axes.transpose() * n * weighted;
+    const Eigen::Vector2d n = -rule.normal.col(q), t(-n.y(), n.x());
+    const double angle = angle_of(n), weight = thickness * rule.ds[q];
+    const Eigen::RowVectorXd pressure = weight * contact.at(angle).transpose();
+    const Eigen::RowVectorXd shear = weight * contact.shears_at(angle).transpose();
+    terms.pressure += (rule.N.col(q) * n.transpose()).reshaped() * pressure;
+    terms.reaction += sprung.axes.transpose() * n * pressure;
+    terms.friction += (rule.N.col(q) * t.transpose()).reshaped() * shear;
+    terms.drag += sprung.axes.transpose() * t * shear;
   }
 }
 
@@ -98,23 +102,29 @@ SideSprings side_springs(const rim::HoleSpring& spring, const pfem::Mesh& mesh, 
   return spring.link > 0 ? links(spring, mesh, edges, side) : distributed(spring, mesh, edges, side, p);
 }
 
+Eigen::Index n_friction_cases(const rim::HoleSpring& spring, Eigen::Index n_directions) {
+  return spring.contact ? spring.contact->n_shears() : 2 * n_directions;
+}
+
 RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, int p) {
   const auto& [mesh, edges, rims, all_springs, axes] = sprung;
   const auto rule = rim::rim_rule(mesh, edges, side, p);
   const auto springs = side_springs(all_springs[hole].value(), mesh, edges, side, p);
   const auto& contact = all_springs[hole]->contact;
   const Eigen::Index n = rule.modes.size(), a = axes.cols(), k = contact ? contact->size() : 0;
+  const Eigen::Index h = n_friction_cases(*all_springs[hole], axes.cols());
   RimTerms terms{rule.modes,
                  Eigen::MatrixXd::Zero(2 * n, 2 * n),
                  Eigen::MatrixXd(2 * n, a),
                  Eigen::MatrixXd(a, a),
                  Eigen::MatrixXd::Zero(2 * n, k),
                  Eigen::MatrixXd::Zero(a, k),
-                 Eigen::MatrixXd(2 * n, 2 * a),
+                 Eigen::MatrixXd::Zero(2 * n, h),
+                 Eigen::MatrixXd::Zero(a, h),
                  springs.weight.sum()};
   add_springs(springs, axes, terms);
-  if (contact) add_pressures(sprung, *contact, side, p, terms);
-  for (Eigen::Index i = 0; i < a; ++i) {
+  if (contact) add_contact(sprung, *contact, side, p, terms);
+  for (Eigen::Index i = 0; i < a && !contact; ++i) {
     terms.friction.col(2 * i) = friction_load(rule, mesh.thickness[side.element], axes.col(i));
     terms.friction.col(2 * i + 1) = friction_load(rule, mesh.thickness[side.element], -axes.col(i));
   }

@@ -28,7 +28,7 @@ struct SideSprings {
                                        const pfem::Side& side, int p);
 
 /// Stiffness of the springs on one side of a sprung hole's rim, and loads of the unit pressures of contact (k, none of
-/// springs that also pull) and of the unit friction cases there, over the coefficients of the side's modes: first all
+/// springs that also pull) and of the h unit friction cases there, over the coefficients of the side's modes: first all
 /// of u_x, then all of u_y, local signs. a disc directions, n modes.
 struct RimTerms {
   std::vector<int> modes;    ///< (n) local modes of the element
@@ -37,9 +37,15 @@ struct RimTerms {
   Eigen::MatrixXd disc;      ///< (a, a) int k t (e.n)(e'.n) ds, force / length
   Eigen::MatrixXd pressure;  ///< (2n, k) int phi t (v.n) ds, length^2
   Eigen::MatrixXd reaction;  ///< (a, k) int phi t (e.n) ds, which holds the disc against them, length^2
-  Eigen::MatrixXd friction;  ///< (2n, 2a) loads of unit friction, direction outer, bearing side + then -, length^2
-  double stiffness;          ///< sum of the springs, force / length; 0 if none acts on the side
+  /// (2n, h) loads of unit friction, length^2: of springs that also pull 2 a, direction outer, bearing side + then -;
+  /// of contact the shears of its distributions, whose reaction the disc takes too.
+  Eigen::MatrixXd friction;
+  Eigen::MatrixXd drag;  ///< (a, h) int psi t (e.t) ds, which holds the disc against them, length^2
+  double stiffness;      ///< sum of the springs, force / length; 0 if none acts on the side
 };
+
+/// Number of friction cases of a hole whose disc moves in so many directions.
+[[nodiscard]] Eigen::Index n_friction_cases(const rim::HoleSpring& spring, Eigen::Index n_directions);
 
 /// @param hole Index of a sprung hole. @param p Degree of the plate's space.
 [[nodiscard]] RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, int p);

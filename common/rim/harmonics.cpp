@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/rim/harmonics.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace fastjoint::rim {
 namespace {
@@ -14,12 +17,55 @@ struct Wave {
   double amplitude;
 };
 
-Wave wave(const Harmonics& a, int k) {
+Wave pressure_wave(const Harmonics& a, int k) {
   return {a.is_whole() ? (k + 1) / 2 : k, a.is_whole() && k > 0 && k % 2 == 0, k == 0 ? 1 : std::numbers::sqrt2};
+}
+
+Wave shear_wave(const Harmonics& a, int k) {
+  return a.is_whole() ? pressure_wave(a, k) : Wave{k + 1, true, std::numbers::sqrt2};
 }
 
 /// The angle of which a wave is a multiple, per radian along the rim.
 double unit(const Harmonics& a) { return a.is_whole() ? 1 : std::numbers::pi / a.sweep; }
+
+constexpr double mean_of_wave = 1 / std::numbers::sqrt2;  ///< mean of sqrt(2) cos^2
+
+bool is_half(const Harmonics& a) { return std::abs(a.sweep - std::numbers::pi) < 1e-7; }
+
+double value(const Wave& wave, double phase) {
+  return wave.amplitude * (wave.is_sine ? std::sin(wave.multiple * phase) : std::cos(wave.multiple * phase));
+}
+
+/// Integrals of the products of waves between two angles, (rows, columns).
+Eigen::MatrixXd integrals(const std::vector<Wave>& rows, const std::vector<Wave>& columns, double unit, double a,
+                          double b) {
+  const int most = rows.back().multiple + columns.back().multiple;
+  Eigen::VectorXd cosine(most + 1), sine(most + 1);  // integrals of cos(j phase) and sin(j phase)
+  cosine[0] = b - a, sine[0] = 0;
+  for (int j = 1; j <= most; ++j) {
+    const double width = 2.0 / j * std::sin(j * (b - a) / 2);
+    cosine[j] = width * std::cos(j * (a + b) / 2);
+    sine[j] = width * std::sin(j * (a + b) / 2);
+  }
+  Eigen::MatrixXd result(std::ssize(rows), std::ssize(columns));
+  for (Eigen::Index k = 0; k < result.rows(); ++k)
+    for (Eigen::Index l = 0; l < result.cols(); ++l) {
+      const Wave &row = rows[k], &column = columns[l];
+      const int sum = row.multiple + column.multiple, difference = row.multiple - column.multiple;
+      const double of_difference = std::copysign(1.0, difference) * sine[std::abs(difference)];
+      double integral = sine[sum] + (row.is_sine ? of_difference : -of_difference);
+      if (row.is_sine == column.is_sine) integral = cosine[std::abs(difference)] + (row.is_sine ? -1 : 1) * cosine[sum];
+      result(k, l) = row.amplitude * column.amplitude / 2 / unit * integral;
+    }
+  return result;
+}
+
+template <class WaveOf>
+std::vector<Wave> waves(const Harmonics& a, int n, WaveOf wave_of) {
+  std::vector<Wave> list;
+  for (int k = 0; k < n; ++k) list.push_back(wave_of(a, k));
+  return list;
+}
 
 }  // namespace
 
@@ -30,40 +76,48 @@ int Harmonics::size() const {
 
 Eigen::VectorXd Harmonics::at(double angle) const {
   const double phase = unit(*this) * (angle - start);
-  return Eigen::VectorXd::NullaryExpr(size(), [&](Eigen::Index k) {
-    const auto [multiple, is_sine, amplitude] = wave(*this, static_cast<int>(k));
-    return amplitude * (is_sine ? std::sin(multiple * phase) : std::cos(multiple * phase));
-  });
+  return Eigen::VectorXd::NullaryExpr(
+      size(), [&](Eigen::Index k) { return value(pressure_wave(*this, static_cast<int>(k)), phase); });
 }
 
 Eigen::VectorXd Harmonics::slope(double angle) const {
   const double phase = unit(*this) * (angle - start);
   return Eigen::VectorXd::NullaryExpr(size(), [&](Eigen::Index k) {
-    const auto [multiple, is_sine, amplitude] = wave(*this, static_cast<int>(k));
+    const auto [multiple, is_sine, amplitude] = pressure_wave(*this, static_cast<int>(k));
     return amplitude * multiple * unit(*this) * (is_sine ? std::cos(multiple * phase) : -std::sin(multiple * phase));
   });
 }
 
+Eigen::VectorXd Harmonics::shears_at(double angle) const {
+  const double phase = unit(*this) * (angle - start);
+  return Eigen::VectorXd::NullaryExpr(
+      n_shears(), [&](Eigen::Index k) { return value(shear_wave(*this, static_cast<int>(k)), phase); });
+}
+
+std::string shear_name(int k) { return fmt::format("t{}", k); }
+
+Eigen::VectorXd Harmonics::push(int axis) const {
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(size());
+  if (is_whole()) means[1 + axis] = mean_of_wave;
+  if (is_half(*this)) means[1] = mean_of_wave * (axis == 0 ? std::cos(start) : std::sin(start));
+  return means;
+}
+
+Eigen::VectorXd Harmonics::drag(int axis) const {
+  Eigen::VectorXd means = Eigen::VectorXd::Zero(n_shears());
+  if (is_whole()) means[2 - axis] = axis == 0 ? -mean_of_wave : mean_of_wave;
+  if (is_half(*this)) means[0] = -mean_of_wave * (axis == 0 ? std::cos(start) : std::sin(start));
+  return means;
+}
+
 Eigen::MatrixXd Harmonics::products(double from, double to) const {
-  const double a = unit(*this) * (from - start), b = unit(*this) * (to - start);
-  const int n = size(), most = 2 * wave(*this, n - 1).multiple;
-  Eigen::VectorXd cosine(most + 1), sine(most + 1);  // integrals of cos(j phase) and sin(j phase)
-  cosine[0] = b - a, sine[0] = 0;
-  for (int j = 1; j <= most; ++j) {
-    const double width = 2.0 / j * std::sin(j * (b - a) / 2);
-    cosine[j] = width * std::cos(j * (a + b) / 2);
-    sine[j] = width * std::sin(j * (a + b) / 2);
-  }
-  Eigen::MatrixXd result(n, n);
-  for (int k = 0; k < n; ++k)
-    for (int l = 0; l <= k; ++l) {
-      const Wave high = wave(*this, k), low = wave(*this, l);
-      const int sum = high.multiple + low.multiple, difference = high.multiple - low.multiple;
-      double value = high.is_sine ? sine[sum] + sine[difference] : sine[sum] - sine[difference];
-      if (high.is_sine == low.is_sine) value = cosine[difference] + (high.is_sine ? -1 : 1) * cosine[sum];
-      result(k, l) = result(l, k) = high.amplitude * low.amplitude / 2 / unit(*this) * value;
-    }
-  return result;
+  const auto all = waves(*this, size(), pressure_wave);
+  return integrals(all, all, unit(*this), unit(*this) * (from - start), unit(*this) * (to - start));
+}
+
+Eigen::MatrixXd Harmonics::shear_products(double from, double to) const {
+  return integrals(waves(*this, n_shears(), shear_wave), waves(*this, size(), pressure_wave), unit(*this),
+                   unit(*this) * (from - start), unit(*this) * (to - start));
 }
 
 }  // namespace fastjoint::rim

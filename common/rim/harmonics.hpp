@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string>
 
 #include "common/rim/angles.hpp"
 
@@ -10,10 +11,10 @@ namespace fastjoint::rim {
 /// Most waves of a pressure around a hole.
 inline constexpr int most_harmonics = 200;
 
-/// Distributions of pressure over the part of a hole's circle that the model has, orthonormal in the mean over it: of a
-/// whole circle 1, sqrt(2) cos(j theta), sqrt(2) sin(j theta), j = 1..highest; of the part from `start` on over
-/// `sweep`, whose ends lie on lines of symmetry, 1 and sqrt(2) cos(j pi (theta - start) / sweep) up to the same wave
-/// length.
+/// Distributions of pressure and of shear over the part of a hole's circle that the model has, each kind orthonormal in
+/// the mean over it: of a whole circle 1, sqrt(2) cos(j theta), sqrt(2) sin(j theta), j = 1..highest, for both; of the
+/// part from `start` on over `sweep`, whose ends lie on lines of symmetry, 1 and sqrt(2) cos(j pi (theta - start) /
+/// sweep) up to the same wave length, and of shear the sines of the same waves.
 struct Harmonics {
   int highest;               ///< j of the shortest wave of a whole circle
   double start = 0;          ///< radians counter-clockwise from x
@@ -21,14 +22,27 @@ struct Harmonics {
 
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
   [[nodiscard]] bool is_whole() const { return sweep == full_turn; }
-  /// Number of distributions.
+  /// Number of pressures.
   [[nodiscard]] int size() const;
-  /// Values of all of them at an angle, (size).
+  /// Number of shears.
+  [[nodiscard]] int n_shears() const { return is_whole() ? size() : size() - 1; }
+  /// Values of all pressures at an angle, (size).
   [[nodiscard]] Eigen::VectorXd at(double angle) const;
   /// Their derivatives by the angle, (size).
   [[nodiscard]] Eigen::VectorXd slope(double angle) const;
-  /// Integrals over theta of their products between two angles, shape (size, size), radians.
+  /// Values of all shears at an angle, (n_shears).
+  [[nodiscard]] Eigen::VectorXd shears_at(double angle) const;
+  /// Means over the whole circle, or over the part that the model has along its line of symmetry, of pressures times
+  /// the normal and of shears times the tangent (-sin theta, cos theta) along x (0) or y (1), (size), (n_shears).
+  [[nodiscard]] Eigen::VectorXd push(int axis) const;
+  [[nodiscard]] Eigen::VectorXd drag(int axis) const;
+  /// Integrals over theta of the products of pressures between two angles, shape (size, size), radians.
   [[nodiscard]] Eigen::MatrixXd products(double from, double to) const;
+  /// The same of shears with pressures, shape (n_shears, size), radians.
+  [[nodiscard]] Eigen::MatrixXd shear_products(double from, double to) const;
 };
+
+/// "t0", "t1", ...: name of the friction case that is a shear of a rim of contact.
+[[nodiscard]] std::string shear_name(int k);
 
 }  // namespace fastjoint::rim

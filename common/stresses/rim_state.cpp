@@ -31,17 +31,42 @@ struct Peak {
 
 double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 
+/// Friction whose peak is below 1 % of the bearing stress does not jump: that of the other axis must not hide the peak
+/// beside the hole under a force almost along one axis. The cosine distribution's peak stress over F / (d t) is twice
+/// its resultant over F.
+constexpr double hardly_jumps = 0.01 / 2;
+
+/// Places, degrees, at which friction jumps that has a case for each side: at the bearing direction along either axis.
+std::vector<double> jumps_of_sides(const Eigen::Vector2d& friction) {
+  std::vector<double> jumps;
+  for (const int axis : {0, 1})
+    if (friction[axis] != 0) jumps.push_back(90 * axis + (friction[axis] > 0 ? 0 : 180));
+  return jumps;
+}
+
+/// Places, degrees, at which friction jumps that follows the pressure of contact: in the direction of its force, and
+/// opposite if there is pressure too.
+/// @param angle Points of the rim, degrees. @param radial Stress there.
+std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
+                                     const VectorXd& angle, const VectorXd& radial) {
+  if (!(friction.norm() > hardly_jumps * bearing.norm())) return {};
+  const double direction = std::atan2(bearing.y(), bearing.x()) / rim::degree;
+  Index opposite = 0;
+  angle.unaryExpr([&](double at) { return std::abs(turn(at - direction - 180)); }).minCoeff(&opposite);
+  const bool presses = radial[opposite] < -0.01 * radial.lpNorm<Eigen::Infinity>();
+  return presses ? std::vector{direction, direction + 180} : std::vector{direction};
+}
+
 /// Points of one rim.
 class Rim {
  public:
-  /// @param angles   Of its points, (n), degrees.
-  /// @param friction Resultants along x and y that jump, each at its bearing direction, else 0.
-  Rim(VectorXd angles, const Eigen::Vector2d& friction) : angle_(std::move(angles)) {
-    const auto jumps = [&](double angle, int axis) {
-      const double jump = 90 * axis + (friction[axis] > 0 ? 0 : 180);
-      return friction[axis] != 0 && std::abs(turn(angle - jump)) <= left_out;
+  /// @param angles Of its points, (n), degrees.
+  /// @param jumps  Places at which friction jumps, degrees.
+  Rim(VectorXd angles, const std::vector<double>& jumps) : angle_(std::move(angles)) {
+    const auto is_near = [](double angle) {
+      return [angle](double jump) { return std::abs(turn(angle - jump)) <= left_out; };
     };
-    for (const double angle : angle_) allowed_.push_back(!jumps(angle, 0) && !jumps(angle, 1));
+    for (const double angle : angle_) allowed_.push_back(std::ranges::none_of(jumps, is_near(angle)));
   }
 
   /// Largest value, at the top of the parabola through it and its neighbours; none if all points are left out.
@@ -164,19 +189,18 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     state.bearing_load = bearing[0];
     state.bearing_load_y = bearing[1];
     state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(i).transpose()).norm();
-    // Friction whose peak is below 1 % of the bearing stress does not jump: that of the other axis must not hide the
-    // peak beside the hole under a force almost along one axis. The cosine distribution's peak stress over F / (d t) is
-    // twice its resultant over F.
-    const Eigen::Vector2d jumps = (friction.array().abs() > 0.01 / 2 * bearing.norm()).select(friction, 0);
-    state.by_components = jumps[0] != 0 && jumps[1] != 0;
+    const int contact = index_of(contacts.rims, a.rim_hole[i], &formats::ContactRim::hole);
+    const bool in_contact = contact < count_of(contacts.rims);
+    const Eigen::Vector2d jumps = (friction.array().abs() > hardly_jumps * bearing.norm()).select(friction, 0);
+    state.by_components = !in_contact && jumps[0] != 0 && jumps[1] != 0;
     const auto rows = Eigen::seq(a.rim_start[i], a.rim_start[i + 1] - 1);
     const VectorXd radial = all_radial(rows, 0);
-    const Rim points(a.angle(rows), jumps);
+    const auto places = in_contact ? jumps_of_contact(bearing, friction, a.angle(rows), radial) : jumps_of_sides(jumps);
+    const Rim points(a.angle(rows), places);
     RimHoop around{a.angle(rows), hoop(rows, Eigen::all)};
-    if (const int rim = index_of(contacts.rims, a.rim_hole[i], &formats::ContactRim::hole);
-        rim < count_of(contacts.rims))
-      around = under_contact(around, all_radial(rows, Eigen::all), a.hoop_by_pressure(rows), contacts, rim);
-    read_peak(Rim(around.angle, jumps), around.hoop, state);
+    if (in_contact)
+      around = under_contact(around, all_radial(rows, Eigen::all), a.hoop_by_pressure(rows), contacts, contact);
+    read_peak(Rim(around.angle, places), around.hoop, state);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
     state.pulls = bearing.norm() > 1e-9 * largest && points.bearing_share(radial, bearing) < hardly;
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();

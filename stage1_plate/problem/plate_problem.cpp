@@ -89,6 +89,16 @@ rim::Harmonics contact_of(const PlateScene& scene, const PlateMesh& plate, int h
   return contact;
 }
 
+/// Names of the friction cases of a hole.
+std::vector<std::string> friction_names(const PlateScene& scene, const std::optional<rim::Harmonics>& contact) {
+  std::vector<std::string> names;
+  for (int k = 0; contact && k < contact->n_shears(); ++k) names.push_back(rim::shear_name(k));
+  for (const auto& direction : scene.disc_directions)
+    for (const char* sign : {"+", "-"})
+      if (!contact) names.push_back(sign + direction);
+  return names;
+}
+
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   std::vector<plate::PointTie> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
@@ -236,19 +246,17 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   problem.numbering = pfem::number_by_degree(plate.mesh, plate.edges, scene.space, scene.p_high);
   problem.unknowns = classify_unknowns(scene, plate, problem.numbering);
   const plate::SprungMesh sprung = sprung_mesh(scene, plate);
-  problem.unknowns.first_pressure = plate::first_pressures(sprung);
+  plate::count_rim_cases(sprung, problem.unknowns);
   problem.elements = plate::classify_elements(sprung, problem.numbering, problem.unknowns);
   const Eigen::Index n_tractions = traction_externals(scene).size();
   problem.T_f.resize(problem.unknowns.n_free.back(), n_tractions);
   problem.T_c = Eigen::MatrixXd::Zero(problem.unknowns.n_controlled(), n_tractions);
   problem.ties = tie_points(scene, plate, problem.unknowns);
-  for (const auto& hole : scene.holes) {
-    if (!hole.spring) continue;
-    for (const auto& direction : scene.disc_directions)
-      for (const char* sign : {"+", "-"}) {
-        problem.friction_hole.push_back(hole.id);
-        problem.friction_bearing.push_back(fmt::format("{}{}", sign, direction));
-      }
+  for (int i = 0; i < count_of(scene.holes); ++i) {
+    if (!scene.holes[i].spring) continue;
+    const auto names = friction_names(scene, sprung.springs[i]->contact);
+    problem.friction_hole.insert(problem.friction_hole.end(), names.size(), scene.holes[i].id);
+    problem.friction_bearing.insert(problem.friction_bearing.end(), names.begin(), names.end());
   }
   return problem;
 }

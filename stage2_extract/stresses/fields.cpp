@@ -50,7 +50,7 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
   K.numbering = pfem::number_by_degree(a.mesh, edges, a.space, a.p[a.p.size() - 1]);
   K.unknowns = unknowns_of(a, K.numbering, file);
   const plate::SprungMesh sprung = sprung_mesh(a, edges, K.unknowns);
-  K.unknowns.first_pressure = plate::first_pressures(sprung);
+  plate::count_rim_cases(sprung, K.unknowns);
   K.elements = plate::classify_elements(sprung, K.numbering, K.unknowns);
   K.elements.stiffness = pfem::integrate(K.elements.congruent, a.mesh, edges, a.elasticity, a.space, K.numbering.p);
   for (const auto& point : a.points) {

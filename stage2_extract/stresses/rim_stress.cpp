@@ -134,8 +134,15 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
         tractions_.push_back(
             {unit_case, -at_points([&](const Frame&, Eigen::Index i) { return rim.pressures.at(points[i].angle)[k]; }),
              none});
-  for (int i = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
+  for (int i = 0, shear = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
     if (plate.friction_hole[i] != id) continue;
+    if (spring.contact) {
+      tractions_.push_back({unit_case, none, -at_points([&](const Frame&, Eigen::Index k) {
+                              return spring.contact->shears_at(points[k].angle)[shear];
+                            })});
+      ++shear;
+      continue;
+    }
     const Eigen::Vector2d d = bearing_direction(plate.friction_bearing[i]);
     tractions_.push_back({unit_case, none, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
                             const auto bearing = rim::cosine_bearing(at.n, d);

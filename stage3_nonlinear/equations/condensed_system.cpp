@@ -76,6 +76,7 @@ struct Rows {
   std::vector<FrictionRow> friction;  ///< (f)
   MatrixXd E;                         ///< (f, n a)
   MatrixXd G_plus, G_minus;           ///< (N, f)
+  MatrixXd G_shear;                   ///< (N, s)
   VectorXd load;                      ///< (N) at load factor 1
   VectorXd given;                     ///< (N) given displacements at load factor 1, else 0
   VectorXd own;                       ///< (N) stiffness of each unknown's plate, force / length
@@ -170,6 +171,22 @@ void add_friction(Rows& rows, const JointModel& joint, Index at) {
   rows.G_minus(offset + hole.disc + row.direction, at) -= 1 - minus.bearing;
 }
 
+/// Unit forces of the shears of all rims of contact with friction.
+void add_shears(Rows& rows, const JointModel& joint) {
+  rows.G_shear.resize(rows.S.rows(), 0);
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    for (const auto& rim : plate.contact) {
+      if (joint.mu(i, rim.hole) == 0) continue;
+      const Index n = rim.pressures.n_shears();
+      rows.G_shear.conservativeResize(Eigen::NoChange, rows.G_shear.cols() + n);
+      rows.G_shear.rightCols(n).setZero();
+      rows.G_shear.block(joint.offset(i), rows.G_shear.cols() - n, plate.n_unknowns(), n) =
+          plate.R.middleCols(plate.first_shear(rim), n) / rim.area;
+    }
+  }
+}
+
 Rows assemble(const JointModel& joint) {
   const Index N = joint.n_unknowns();
   const Index n = joint.n_planes() * joint.n_directions() + joint.n_moments();
@@ -187,6 +204,7 @@ Rows assemble(const JointModel& joint) {
   add_planes(rows, joint);
   add_free_unknowns(rows, joint);
   for (Index i = 0; i < f; ++i) add_friction(rows, joint, i);
+  add_shears(rows, joint);
   return rows;
 }
 
@@ -207,18 +225,23 @@ Rows assemble(const JointModel& joint) {
 
 }  // namespace
 
-VectorXd CondensedSystem::residual(const VectorXd& F, const VectorXd& delta, double load_factor) const {
-  VectorXd r = F + S_ud * delta - load_factor * q;
-  if (has_friction()) r += friction_forces(F);
-  return r;
+VectorXd CondensedSystem::residual(const VectorXd& F, const VectorXd& delta, double load_factor,
+                                   const VectorXd& shear) const {
+  return F + S_ud * delta - load_factor * q + friction_forces(F, shear);
 }
 
-VectorXd CondensedSystem::friction_forces(const VectorXd& F) const {
+// OpenBLAS complains on stderr about matrices without rows or columns, which the conditions keep from it.
+
+VectorXd CondensedSystem::friction_forces(const VectorXd& F, const VectorXd& shear) const {
+  VectorXd forces = VectorXd::Zero(F.size());
+  if (shear.size() > 0) forces += H_shear * shear;
+  if (friction.empty()) return forces;
   const VectorXd b = E * F;
-  return H_plus * b.cwiseMax(0) + H_minus * (-b).cwiseMax(0);
+  return forces + H_plus * b.cwiseMax(0) + H_minus * (-b).cwiseMax(0);
 }
 
 MatrixXd CondensedSystem::friction_matrix(const VectorXd& F) const {
+  if (friction.empty()) return MatrixXd::Zero(F.size(), F.size());
   const VectorXd b = E * F;
   MatrixXd H = H_plus;
   for (Index i = 0; i < std::ssize(b); ++i)
@@ -226,9 +249,11 @@ MatrixXd CondensedSystem::friction_matrix(const VectorXd& F) const {
   return H * E;
 }
 
-VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta, double load_factor) const {
+VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta, double load_factor,
+                                        const VectorXd& shear) const {
   VectorXd D = load_factor * D_load + D_delta * delta;
-  if (!has_friction()) return D;
+  if (shear.size() > 0) D += D_shear * shear;
+  if (friction.empty()) return D;
   const VectorXd b = E * F;
   return D + D_plus * b.cwiseMax(0) + D_minus * (-b).cwiseMax(0);
 }
@@ -267,10 +292,12 @@ CondensedSystem condense(const JointModel& joint) {
           .E = rows.E,
           .H_plus = D_delta.transpose() * rows.G_plus,
           .H_minus = D_delta.transpose() * rows.G_minus,
+          .H_shear = D_delta.transpose() * rows.G_shear,
           .D_load = rows.given + moved(load),
           .D_delta = D_delta,
           .D_plus = -moved(rows.G_plus),
-          .D_minus = -moved(rows.G_minus)};
+          .D_minus = -moved(rows.G_minus),
+          .D_shear = -moved(rows.G_shear)};
 }
 
 }  // namespace fastjoint::stage3

@@ -21,6 +21,7 @@ struct FrictionRow {
 /// The rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D leave
 ///   F + S_ud delta + H+ b+ + H- b- = lambda q,   b = E F, b+ = max(b, 0), b- = max(-b, 0),
 /// with the laws' forces b on the rims that friction acts on, and every displacement follows from lambda, delta, b.
+/// Rims of contact with friction add H_shear tau, with the forces tau of their shears (RimFriction).
 /// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
 /// S_ud is the parallel sum of the plates' matrices, and exists also when a plate floats.
 struct CondensedSystem {
@@ -29,20 +30,25 @@ struct CondensedSystem {
   std::vector<FrictionRow> friction;  ///< (f)
   MatrixXd E;                         ///< (f, r) +1 of a plane that pushes the rim's plate, -1 of one that pulls
   MatrixXd H_plus, H_minus;           ///< (r, f) for b > 0 and b < 0, dimensionless
+  MatrixXd H_shear{};                 ///< (r, s) of the shears of rims of contact with friction, dimensionless
   // Displacements of the joint's N unknowns, given ones included.
   VectorXd D_load;           ///< (N) at load factor 1 and delta = 0, length
   MatrixXd D_delta;          ///< (N, r) per relative displacement, dimensionless
   MatrixXd D_plus, D_minus;  ///< (N, f) per unit b+, b-, length / force
+  MatrixXd D_shear{};        ///< (N, s) per unit of each shear's force, length / force
 
-  [[nodiscard]] bool has_friction() const { return !friction.empty(); }
-  /// F + S_ud delta + H+ b+ + H- b- - lambda q, shape (r), force.
-  [[nodiscard]] VectorXd residual(const VectorXd& F, const VectorXd& delta, double load_factor) const;
-  /// Forces of friction on the planes, H+ b+ + H- b-, shape (r), force.
-  [[nodiscard]] VectorXd friction_forces(const VectorXd& F) const;
+  [[nodiscard]] bool has_friction() const { return !friction.empty() || H_shear.cols() > 0; }
+  /// F + S_ud delta + H+ b+ + H- b- + H_shear tau - lambda q, shape (r), force.
+  /// @param shear tau, (s).
+  [[nodiscard]] VectorXd residual(const VectorXd& F, const VectorXd& delta, double load_factor,
+                                  const VectorXd& shear = {}) const;
+  /// Forces of friction on the planes, H+ b+ + H- b- + H_shear tau, shape (r), force.
+  [[nodiscard]] VectorXd friction_forces(const VectorXd& F, const VectorXd& shear = {}) const;
   /// d friction_forces / d F on the sides that bear under F, shape (r, r), dimensionless.
   [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
   /// Displacements of all discs and rigid externals, shape (N), length.
-  [[nodiscard]] VectorXd displacements(const VectorXd& F, const VectorXd& delta, double load_factor) const;
+  [[nodiscard]] VectorXd displacements(const VectorXd& F, const VectorXd& delta, double load_factor,
+                                       const VectorXd& shear = {}) const;
 };
 
 /// Forces q with zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to

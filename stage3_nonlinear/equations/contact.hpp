@@ -36,12 +36,14 @@ struct Blocks {
 /// Forces and displacements of n shear planes in a directions, row plane * a + direction, behind them those of the
 /// moments of rims of contact, r rows in all, and their derivatives by c.
 struct ContactState {
-  VectorXd F;                  ///< (r) bearing forces, force
-  VectorXd delta;              ///< (r) relative displacements of the discs, length
-  MatrixXd direction;          ///< (a, n) unit vectors along c
-  Blocks dF;                   ///< dF / dc, dimensionless; 0 where open
-  Blocks ddelta;               ///< d delta / dc, length / force
-  std::optional<Index> spent;  ///< a plane past all that it can carry
+  VectorXd F;                         ///< (r) bearing forces, force
+  VectorXd delta;                     ///< (r) relative displacements of the discs, length
+  MatrixXd direction;                 ///< (a, n) unit vectors along c
+  Blocks dF;                          ///< dF / dc, dimensionless; 0 where open
+  Blocks ddelta;                      ///< d delta / dc, length / force
+  std::optional<Index> spent;         ///< a plane past all that it can carry
+  VectorXd shear = {};                ///< (s) forces of the shears of rims of contact with friction, rim after rim
+  std::vector<MatrixXd> dshear = {};  ///< of each rim of contact its shears by its c; no rows without friction
 
   /// Product of A and the block diagonal matrix, shape as A, (rows, r).
   [[nodiscard]] MatrixXd times(const MatrixXd& A, const Blocks& blocks) const;

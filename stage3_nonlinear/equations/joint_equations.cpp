@@ -3,9 +3,11 @@
 
 #include <Eigen/LU>
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "common/matrices/inverse.hpp"
+#include "stage3_nonlinear/equations/rim_friction.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -39,7 +41,7 @@ std::vector<RimContact> rims_of(const JointModel& joint) {
   std::vector<RimContact> rims;
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (const auto& rim : joint.plates[i].contact)
-      rims.emplace_back(rim.pressures, rim.modulus * rim.area, joint.gap(i, rim.hole));
+      rims.emplace_back(rim.pressures, rim.modulus * rim.area, joint.gap(i, rim.hole), joint.mu(i, rim.hole));
   return rims;
 }
 
@@ -79,6 +81,17 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
     add(state.dF.across[j], state.ddelta.across[j]);
   }
   for (auto& rim : state.dF.rims) rim.diagonal().array() += trace;
+}
+
+/// Adds the shears of a rim of contact.
+void add_friction(const RimContact& rim, const Touching& at, const VectorXd& m, ContactState& state) {
+  state.dshear.emplace_back(MatrixXd::Zero(0, rim.size()));
+  if (rim.mu() == 0) return;
+  RimFriction friction = rim_friction(rim, at, m);
+  VectorXd shear(state.shear.size() + friction.forces.size());
+  shear << state.shear, friction.forces;
+  state.shear = std::move(shear);
+  state.dshear.back() = std::move(friction.slopes);
 }
 
 }  // namespace
@@ -140,6 +153,7 @@ ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
     Touching touching = rim.touching(m);
     state.F.segment(first, rim.size()) = rim.forces(touching, m);
     state.delta.segment(first, rim.size()) = m;
+    if (equations.system.H_shear.cols() > 0) add_friction(rim, touching, m, state);
     state.dF.rims.push_back(std::move(touching.share));
     state.ddelta.rims.emplace_back(MatrixXd::Identity(rim.size(), rim.size()) / k);
     first += rim.size();
@@ -165,10 +179,27 @@ VectorXd gradient(const JointEquations& equations, const VectorXd& residual) {
   return g;
 }
 
+MatrixXd shear_slopes(const CondensedSystem& system, const ContactState& state) {
+  const Index moments = std::accumulate(state.dshear.begin(), state.dshear.end(), Index{0},
+                                        [](Index sum, const MatrixXd& rim) { return sum + rim.cols(); });
+  MatrixXd slopes(system.H_shear.rows(), moments);
+  Index shear = 0, moment = 0;
+  for (const MatrixXd& rim : state.dshear) {
+    auto its = slopes.middleCols(moment, rim.cols());
+    its.setZero();
+    if (rim.rows() > 0) its = system.H_shear.middleCols(shear, rim.rows()) * rim;
+    shear += rim.rows();
+    moment += rim.cols();
+  }
+  return slopes;
+}
+
 MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction) {
   MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
-  if (friction && system.has_friction()) F += system.friction_matrix(state.F);
-  return state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
+  if (friction) F += system.friction_matrix(state.F);
+  MatrixXd J = state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
+  if (const MatrixXd shears = shear_slopes(system, state); friction) J.rightCols(shears.cols()) += shears;
+  return J;
 }
 
 MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
@@ -188,16 +219,17 @@ MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
   return H;
 }
 
-RootProblem root_problem(const JointEquations& equations, double load_factor, double scale, const VectorXd* frozen) {
+RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
+                         const ContactState* frozen) {
   const CondensedSystem& system = equations.system;
   VectorXd load = load_factor * system.q;
-  if (frozen) load -= system.friction_forces(*frozen);
+  if (frozen) load -= system.friction_forces(frozen->F, frozen->shear);
   const bool friction = system.has_friction() && !frozen;
   RootProblem problem;
   problem.residual = [&equations, load, scale, friction](const VectorXd& x) -> VectorXd {
     const auto state = contact_state(equations, scale * x);
     VectorXd r = state.F + equations.system.S_ud * state.delta - load;
-    if (friction) r += equations.system.friction_forces(state.F);
+    if (friction) r += equations.system.friction_forces(state.F, state.shear);
     return r / scale;
   };
   const auto traced = [&equations, residual = problem.residual, scale](const VectorXd& x) {
@@ -220,7 +252,7 @@ LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexib
   MatrixXd A = system.S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
   const VectorXd rhs = load_factor * system.q;
-  LinearForces result{A.partialPivLu().solve(rhs), 1, !system.has_friction()};
+  LinearForces result{A.partialPivLu().solve(rhs), 1, system.friction.empty()};
   while (!result.consistent && result.solves < most_tries) {
     const VectorXd before = system.E * result.F;
     result.F = (A + system.friction_matrix(result.F)).partialPivLu().solve(rhs);

@@ -55,6 +55,10 @@ struct JointEquations {
 /// Gradient of the convex function of `metric` at the residual r, (r).
 [[nodiscard]] VectorXd gradient(const JointEquations& equations, const VectorXd& residual);
 
+/// Derivative of the forces of friction at rims of contact by their c, (r, moments of all rims), dimensionless; no
+/// columns if there are none.
+[[nodiscard]] MatrixXd shear_slopes(const CondensedSystem& system, const ContactState& state);
+
 /// Derivative of the residual by c, shape (r, r), at the state of the contact coordinates c.
 ///
 /// @param friction False: without that of friction.
@@ -66,9 +70,9 @@ struct JointEquations {
 
 /// The equations at a load factor, unknowns and residuals over `scale` (force).
 ///
-/// @param frozen If not null, friction acts as under these bearing forces instead of its own, (r).
+/// @param frozen If not null, friction acts as in this state instead of its own.
 [[nodiscard]] RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
-                                       const VectorXd* frozen = nullptr);
+                                       const ContactState* frozen = nullptr);
 
 /// Bearing forces when every fastener is a linear spring.
 struct LinearForces {

@@ -8,8 +8,8 @@
 
 namespace fastjoint::stage3 {
 
-RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double gap)
-    : pressures_(pressures), stiffness_(stiffness), gap_(gap) {
+RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double gap, double mu)
+    : pressures_(pressures), stiffness_(stiffness), gap_(gap), mu_(mu) {
   constexpr double points_per_wave = 8;
   const double waves = std::max(1.0, pressures.highest * pressures.sweep / rim::full_turn);
   const auto n = static_cast<Index>(std::ceil(points_per_wave * waves)) + 1;

@@ -25,12 +25,13 @@ struct Touching {
 /// springs transmit. The forces are the gradient of a convex function of m.
 class RimContact {
  public:
-  /// @param stiffness K A: modulus of the springs times area of the rim, force / length.
-  RimContact(const rim::Harmonics& pressures, double stiffness, double gap);
+  /// @param stiffness K A: modulus of the springs times area of the rim, force / length. @param mu Friction.
+  RimContact(const rim::Harmonics& pressures, double stiffness, double gap, double mu = 0);
 
   [[nodiscard]] Index size() const { return samples_.cols(); }
   [[nodiscard]] double stiffness() const { return stiffness_; }
   [[nodiscard]] double gap() const { return gap_; }
+  [[nodiscard]] double mu() const { return mu_; }
   [[nodiscard]] const rim::Harmonics& pressures() const { return pressures_; }
 
   /// Part of the rim on which w > gap; its ends are exact.
@@ -55,7 +56,7 @@ class RimContact {
   [[nodiscard]] double end_between(const VectorXd& m, double low, double high, bool rises) const;
 
   rim::Harmonics pressures_;
-  double stiffness_, gap_;
+  double stiffness_, gap_, mu_;
   VectorXd angles_;   ///< (points) places close enough to see every wave
   MatrixXd samples_;  ///< (points, size) distributions there
 };

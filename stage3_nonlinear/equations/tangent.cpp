@@ -116,7 +116,7 @@ Slopes solve_singular(const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rh
 }  // namespace
 
 std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F) {
-  if (!system.has_friction()) return std::nullopt;
+  if (system.friction.empty()) return std::nullopt;
   const MatrixXd H = system.friction_matrix(F);
   if (friction_norm(H) < 1) return std::nullopt;
   constexpr double real = 1e-9;  // imaginary part of a real eigenvalue, by rounding
@@ -147,7 +147,8 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   }
   // Only large friction makes a joint of rising laws unstable.
   const bool falls = (state.dF.along.array() < 0).any();
-  if (falls || (system.has_friction() && friction_norm(system.friction_matrix(state.F)) >= 1))
+  const auto shears = shear_slopes(system, state);
+  if (falls || friction_norm(system.friction_matrix(state.F)) >= 1 || (shears.size() > 0 && friction_norm(shears) >= 1))
     check.unstable = soft_modes(system, state, -singular_tangent);
   check.locking = self_locking(system, state.F);
   return check;
@@ -202,7 +203,7 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
 void bear(const JointEquations& equations, ContactState& state) {
   constexpr int most_tries = 8;
   const CondensedSystem& system = equations.system;
-  for (int i = 0; i < most_tries; ++i) {
+  for (int i = 0; i < most_tries && !system.friction.empty(); ++i) {
     const VectorXd before = system.E * state.F;
     state.F = implicit_slopes(equations, state, -system.q).F;
     if (i > 0 && ((system.E * state.F).array() * before.array() >= 0).all()) return;

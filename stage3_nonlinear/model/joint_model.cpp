@@ -116,11 +116,21 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
 /// but the bearing of half a rim would push its disc off.
 void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
   for (Index i = 0; i < std::ssize(plate.friction_hole); ++i)
-    if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0))
+    if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0) && !plate.is_in_contact(hole))
       throw InputError(fmt::format(
           "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, off its "
           "line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
           plate.file, hole, plate.friction_bearing[i]));
+}
+
+/// Refuses friction at a rim of contact whose file has no shears for it.
+void check_shears(const PlateModel& plate, const std::string& hole) {
+  const Index first = index_of(plate.friction_hole, hole);
+  if (first == std::ssize(plate.friction_hole) || plate.friction_bearing[first] != rim::shear_name(0))
+    throw InputError(
+        fmt::format("{}:friction/bearing: has no shears of hole \"{}\", whose springs push but do not pull; allowed: "
+                    "a file that stages 1 and 2 of this version make, or friction 0",
+                    plate.file, hole));
 }
 
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, Index at) {
@@ -142,6 +152,10 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
     result.gap = fastener.gap[at];
   }
   if (mu == 0) return result;
+  if (plate.is_in_contact(hole.name)) {
+    check_shears(plate, hole.name);
+    return result;
+  }
   const auto sides = bearing_sides(scene, fastener, at);
   for (const int axis : model.axes) {
     auto& friction = result.friction.emplace_back();
@@ -163,6 +177,8 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
   }
   FastenerModel result{fastener.id, {}, fastener.law_includes_friction, fastener.grounded};
   for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
+  for (const auto& hole : result.holes)  // a disc takes the friction of a rim of contact: the shank carries both
+    result.law_includes_friction |= model.plates[hole.plate].is_in_contact(model.plates[hole.plate].hole_of(hole.disc));
   balance(result);
   model.fasteners.push_back(std::move(result));
 }
@@ -170,6 +186,15 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
 /// Name of the plate on the second side of a plane, or that of the ground.
 std::string second_plate(const JointModel& joint, const ShearPlane& plane) {
   return joint.is_to_ground(plane) ? ground_name : joint.plates[joint.second_hole(plane).plate].name;
+}
+
+/// Place of a fastener in a hole of a plate; one without gap and friction if the hole has none.
+const HoleModel& fastened(const JointModel& joint, Index plate, const std::string& hole) {
+  static const HoleModel none;
+  for (const auto& fastener : joint.fasteners)
+    for (const auto& its : fastener.holes)
+      if (its.plate == plate && joint.plates[plate].hole_of(its.disc) == hole) return its;
+  return none;
 }
 
 void apply_load(JointModel& model, const LoadScene& load) {
@@ -234,12 +259,9 @@ Index JointModel::n_moments() const {
   return n;
 }
 
-double JointModel::gap(Index plate, const std::string& hole) const {
-  for (const auto& fastener : fasteners)
-    for (const auto& its : fastener.holes)
-      if (its.plate == plate && plates[plate].hole_of(its.disc) == hole) return its.gap;
-  return 0;
-}
+double JointModel::gap(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).gap; }
+
+double JointModel::mu(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).mu; }
 
 std::string JointModel::name(const HoleModel& hole) const {
   return plates[hole.plate].name + ":" + plates[hole.plate].hole_of(hole.disc);

@@ -66,6 +66,10 @@ struct PlateModel {
   [[nodiscard]] bool is_in_contact(const std::string& hole) const {
     return std::ranges::find(contact, hole, &formats::ContactRim::hole) != contact.end();
   }
+  /// First friction case of a rim of contact: the first of its shears.
+  [[nodiscard]] Index first_shear(const formats::ContactRim& rim) const {
+    return std::ranges::find(friction_hole, rim.hole) - friction_hole.begin();
+  }
   /// First unknown of the moments of contact.
   [[nodiscard]] Index first_moment() const { return n_discs() + n_externals(); }
 };
@@ -96,6 +100,7 @@ struct HoleModel {
   Index disc = 0;  ///< first unknown of its disc among the plate's
   double mu = 0;   ///< coefficient of friction
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
+  /// Empty at a rim of contact, whose friction follows its pressure (RimFriction).
   std::vector<std::array<FrictionLoad, 2>> friction;
   double gap = 0;  ///< radial, between the fastener and a rim whose springs push but do not pull, length
 };
@@ -160,6 +165,8 @@ struct JointModel {
   }
   /// Radial gap of the fastener in a hole of a plate, length; 0 without a fastener.
   [[nodiscard]] double gap(Index plate, const std::string& hole) const;
+  /// Its coefficient of friction there; 0 without a fastener.
+  [[nodiscard]] double mu(Index plate, const std::string& hole) const;
   /// Holes of the plane: the first alone if it is to the ground.
   [[nodiscard]] std::span<const HoleModel> holes(const ShearPlane& plane) const {
     return {&first_hole(plane), is_to_ground(plane) ? 1U : 2U};

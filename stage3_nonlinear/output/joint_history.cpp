@@ -136,6 +136,7 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
   const JointNumbers numbers = joint_numbers(joint, equations.system);
   formats::SensitivityHistory history;
   for (const auto& hole : numbers.friction) history.mu_hole.push_back(hole.name);
+  history.mu_hole.insert(history.mu_hole.end(), numbers.shears.begin(), numbers.shears.end());
   for (const auto& [law, number] : numbers.law) {
     history.law_name.push_back(law);
     history.law_number.push_back(number.name);

@@ -176,19 +176,6 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
   }
 }
 
-/// Says what friction is at rims of contact: its cases have a distribution of their own.
-void warn_of_cosine_friction(const JointModel& joint, std::vector<std::string>& result) {
-  for (const auto& fastener : joint.fasteners)
-    for (const auto& hole : fastener.holes)
-      if (hole.mu > 0 && joint.plates[hole.plate].is_in_contact(joint.plates[hole.plate].hole_of(hole.disc))) {
-        result.push_back(
-            fmt::format("friction at hole \"{}\", whose springs push but do not pull, is distributed as the cosine of "
-                        "the angle from the bearing direction, not as the pressure of contact is",
-                        joint.name(hole)));
-        return;
-      }
-}
-
 }  // namespace
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
@@ -200,7 +187,6 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   warn_of_other_solutions(joint, equations, path, result);
   warn_of_locking(path, result);
   warn_of_unloading(joint, equations, path, result);
-  warn_of_cosine_friction(joint, result);
   for (auto& each : result) each.insert(0, joint.file + ": ");
   return result;
 }

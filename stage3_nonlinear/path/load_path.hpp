@@ -66,6 +66,7 @@ struct PathStep {
   TangentCheck check;
   bool exact = false;                     ///< on an exact path
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
+  VectorXd shear = {};                    ///< (s) forces of the shears of rims of contact with friction, force
   std::vector<ContactEvent> events = {};  ///< what happens exactly here
 
   /// Forces and displacements of all rows of the condensed system, (r).

@@ -51,7 +51,7 @@ bool Walk::reach(double target) {
 
 PathStep Walk::step() const {
   const auto state = contact_state(equations_, here_.c);
-  const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor);
+  const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor, state.shear);
   // On a corner of its law the side counts on which a fastener bears more.
   const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
   const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
@@ -63,7 +63,8 @@ PathStep Walk::step() const {
           .check = check_tangent(equations_, contact_state(equations_, beyond)),
           .exact = here_.exact,
           .rim_F = state.F.tail(rims),
-          .moments = state.delta.tail(rims)};
+          .moments = state.delta.tail(rims),
+          .shear = state.shear};
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) const {
@@ -121,7 +122,8 @@ bool Walk::take_known(double target) {
     if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
     const VectorXd c = path.at(target);
     const auto state = contact_state(equations_, c);
-    if (!is_small(equations_.system.residual(state.F, state.delta, target).lpNorm<Eigen::Infinity>())) return false;
+    if (!is_small(equations_.system.residual(state.F, state.delta, target, state.shear).lpNorm<Eigen::Infinity>()))
+      return false;
     iterations_ += int(path.piece_of(target)) + 1;
     here_ = {target, c, true};
     return true;
@@ -158,8 +160,8 @@ bool Walk::solve_by_turns(double target) {
   const auto problem = root_problem(equations_, target, scale_);
   VectorXd c = here_.c;
   for (int turn = 0; turn < most_turns; ++turn) {
-    const VectorXd F = contact_state(equations_, c).F;
-    const Root root = run(root_problem(equations_, target, scale_, &F), c, newton_root);
+    const ContactState before = contact_state(equations_, c);
+    const Root root = run(root_problem(equations_, target, scale_, &before), c, newton_root);
     if (!root.converged) return false;
     c = scale_ * root.x;
     if (take(run(problem, c, newton_root), target)) return true;

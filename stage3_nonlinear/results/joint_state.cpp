@@ -60,6 +60,24 @@ void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const V
   }
 }
 
+/// Adds the shears of a plate's rims of contact: what they ask of its rows, and their share of the force on each disc.
+/// @param shear Of all rims from the plate's on; what it has taken is cut off.
+void add_shears(const JointModel& joint, Index at, VectorXd& asked, VectorXd& shear, PlateState& state) {
+  const PlateModel& plate = joint.plates[at];
+  for (const auto& rim : plate.contact) {
+    if (joint.mu(at, rim.hole) == 0) continue;
+    const Index n = rim.pressures.n_shears(), first = plate.first_shear(rim);
+    state.Lambda.segment(first, n) = shear.head(n) / rim.area;
+    asked += plate.R.middleCols(first, n) * state.Lambda.segment(first, n);
+    for (Index disc = 0; disc < plate.n_discs(); ++disc) {
+      if (plate.hole_of(disc) != rim.hole) continue;
+      state.friction[disc] = rim.pressures.drag(plate.axis_of(disc)).dot(shear.head(n));
+      state.bearing[disc] -= state.friction[disc];
+    }
+    shear = shear.tail(shear.size() - n).eval();
+  }
+}
+
 /// Pressures that contact adds to those of springs that also pull, by the moments and forces of a plate's rims, (k),
 /// stress.
 VectorXd added_pressure(const PlateModel& plate, const VectorXd& moments, const VectorXd& forces) {
@@ -75,9 +93,10 @@ VectorXd added_pressure(const PlateModel& plate, const VectorXd& moments, const 
 
 /// @param u         (m+e+k) displacements of the plate and moments of its rims.
 /// @param rim_F     (k) forces of these.
+/// @param shear     Forces of the shears of this plate's rims and of those behind it; cut to the latter.
 /// @param worst_row Raised to what the plate's worst row is out of balance, force.
 PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F, double factor,
-                       const Bearing& bearing, double& worst_row) {
+                       const Bearing& bearing, VectorXd& shear, double& worst_row) {
   const PlateModel& plate = joint.plates[at];
   const Index m = plate.n_discs(), k = rim_F.size();
   const VectorXd none = VectorXd::Zero(m);
@@ -95,6 +114,8 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
     for (Index hole = 0; hole < std::ssize(joint.fasteners[i].holes); ++hole)
       if (joint.fasteners[i].holes[hole].plate == at)
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
+  const VectorXd on_discs = state.bearing;  // in holes of contact with their friction
+  add_shears(joint, at, asked, shear, state);
   VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
   amounts << state.De, state.D, state.pressure, state.Lambda, state.traction;
   VectorXd gaps(std::ssize(plate.contact));
@@ -110,8 +131,8 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
       its.pulls = its.filled = false;
       its.pull = 0;
     }
-  worst_row = std::max({worst_row, (asked.head(m) - state.bearing).cwiseAbs().maxCoeff(),
-                        (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
+  worst_row = std::max(
+      {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
     if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];
     worst_row = std::max(worst_row, std::abs(asked[m + i] - state.Pe[i]));
@@ -159,8 +180,9 @@ std::optional<double> given_by_no_support(const PlateModel& plate, const PlateSt
 }  // namespace
 
 JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
-  const VectorXd D = system.displacements(step.all_F(), step.all_delta(), step.load_factor);
+  const VectorXd D = system.displacements(step.all_F(), step.all_delta(), step.load_factor, step.shear);
   JointState state;
+  VectorXd shear = step.shear;
   const Bearing bearing = bearing_forces(joint, step.F);
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
@@ -170,8 +192,8 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
     const Index k = plate.n_unknowns() - plate.first_moment();
-    const PlateState& its = state.plates.emplace_back(
-        plate_state(joint, i, u, step.rim_F.segment(first_moment, k), step.load_factor, bearing, state.out_of_balance));
+    const PlateState& its = state.plates.emplace_back(plate_state(
+        joint, i, u, step.rim_F.segment(first_moment, k), step.load_factor, bearing, shear, state.out_of_balance));
     first_moment += k;
     if (const auto worst = given_by_no_support(plate, its))
       state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), *worst);

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "common/matrices/stiffness_error.hpp"
+#include "stage3_nonlinear/equations/rim_friction.hpp"
 #include "stage3_nonlinear/equations/tangent.hpp"
 
 namespace fastjoint::stage3 {
@@ -67,7 +68,7 @@ FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& syste
 /// Changes of the residual by each mu, (n a, f).
 MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
-  if (!system.has_friction()) return changes;  // OpenBLAS complains on stderr about a matrix without rows
+  if (system.friction.empty()) return changes;  // OpenBLAS complains on stderr about a matrix without rows
   const VectorXd b = system.E * F;
   for (Index i = 0; i < changes.cols(); ++i)
     for (const auto& [row, plus, minus] : holes[i].rows)
@@ -75,13 +76,37 @@ MatrixXd friction_changes(const CondensedSystem& system, const std::vector<Frict
   return changes;
 }
 
-/// Changes of the residual by the gap of each rim of contact, (r, g).
+/// Changes of the residual by the coefficient of each rim of contact with friction, (r, columns): its shears are
+/// proportional to it where the rim slips, and do not know it where it sticks.
+MatrixXd shear_changes(const JointEquations& equations, const ContactState& state) {
+  const MatrixXd& H = equations.system.H_shear;
+  MatrixXd changes(H.rows(), 0);
+  Index moment = equations.n_plane_rows(), shear = 0;
+  for (const RimContact& rim : equations.rims) {
+    const VectorXd m = state.delta.segment(moment, rim.size());
+    moment += rim.size();
+    if (rim.mu() == 0) continue;
+    const RimFriction friction = rim_friction(rim, rim.touching(m), m);
+    const Index n = friction.forces.size();
+    changes.conservativeResize(Eigen::NoChange, changes.cols() + 1);
+    changes.rightCols(1).setZero();
+    if (friction.slips) changes.rightCols(1) = H.middleCols(shear, n) * friction.forces / rim.mu();
+    shear += n;
+  }
+  return changes;
+}
+
+/// Changes of the residual by the gap of each rim of contact, (r, g): it acts as its first moment does, but for that
+/// moment itself.
 MatrixXd gap_changes(const JointEquations& equations, const ContactState& state) {
-  Index first = equations.n_plane_rows();
+  const Index planes = equations.n_plane_rows();
+  const MatrixXd by_shear = shear_slopes(equations.system, state);
+  Index first = 0;
   MatrixXd changes = MatrixXd::Zero(state.F.size(), std::ssize(equations.rims));
   for (Index i = 0; i < changes.cols(); ++i) {
     const RimContact& rim = equations.rims[i];
-    changes.col(i).segment(first, rim.size()) = -rim.stiffness() * state.dF.rims[i].col(0);
+    changes.col(i).segment(planes + first, rim.size()) = -rim.stiffness() * state.dF.rims[i].col(0);
+    if (by_shear.cols() > 0) changes.col(i) -= rim.stiffness() * by_shear.col(first);
     first += rim.size();
   }
   return changes;
@@ -94,12 +119,14 @@ MatrixXd residual_changes(const JointEquations& equations, const JointNumbers& n
                           const MatrixXd& F, const MatrixXd& delta, double load_factor) {
   const CondensedSystem& system = equations.system;
   MatrixXd by_law = F + system.S_ud * delta;
-  if (system.has_friction()) by_law += system.friction_matrix(state.F) * F;
-  const MatrixXd by_mu = friction_changes(system, numbers.friction, state.F);
+  if (!system.friction.empty()) by_law += system.friction_matrix(state.F) * F;
+  const MatrixXd by_cosine = friction_changes(system, numbers.friction, state.F);
+  const MatrixXd by_shear = shear_changes(equations, state);
   const MatrixXd by_gap = gap_changes(equations, state);
-  MatrixXd all(F.rows(), 1 + by_law.cols() + by_mu.cols() + numbers.q_force.cols() + numbers.q_displacement.cols() +
-                             by_gap.cols());
-  all << -system.q, by_law, by_mu, -load_factor * numbers.q_force, -load_factor * numbers.q_displacement, by_gap;
+  MatrixXd all(F.rows(), 1 + by_law.cols() + by_cosine.cols() + by_shear.cols() + numbers.q_force.cols() +
+                             numbers.q_displacement.cols() + by_gap.cols());
+  all << -system.q, by_law, by_cosine, by_shear, -load_factor * numbers.q_force, -load_factor * numbers.q_displacement,
+      by_gap;
   return all;
 }
 
@@ -202,8 +229,11 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
     if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
       numbers.friction.push_back(friction_hole(joint, system, row.fastener, row.hole));
   }
-  for (const auto& plate : joint.plates)
-    for (const auto& rim : plate.contact) numbers.gap.push_back(plate.name + ":" + rim.hole);
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (const auto& rim : joint.plates[i].contact) {
+      numbers.gap.push_back(joint.plates[i].name + ":" + rim.hole);
+      if (joint.mu(i, rim.hole) != 0) numbers.shears.push_back(numbers.gap.back());
+    }
   std::map<std::string, Index> first;
   for (const auto& plane : joint.planes) {
     const auto [at, is_new] = first.try_emplace(plane.law_name, std::ssize(numbers.law));
@@ -231,7 +261,7 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
   return {.load_factor = next(1),
           .clearance = next(std::ssize(equations.contacts)),
           .law = next(std::ssize(numbers.law)),
-          .mu = next(std::ssize(numbers.friction)),
+          .mu = next(std::ssize(numbers.friction) + std::ssize(numbers.shears)),
           .force = next(numbers.q_force.cols()),
           .displacement = next(numbers.q_displacement.cols()),
           .gap = next(std::ssize(equations.rims))};

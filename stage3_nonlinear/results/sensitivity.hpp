@@ -34,6 +34,7 @@ struct JointNumbers {
   MatrixXd q_force;                       ///< (n a, u) per unit force, dimensionless
   std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
   MatrixXd q_displacement;                ///< (n a, v) per unit displacement, force / length
+  std::vector<std::string> shears{};      ///< (s) "plate:hole" of each rim of contact with friction, in their order
   std::vector<std::string> gap{};         ///< (g) "plate:hole" of each rim of contact, in their order
 };
 

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/rim_friction.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Mean over the rim of the products of shears with pressures where it touches, each times -sign(sin(theta -
+/// direction)).
+MatrixXd signed_share(const rim::Harmonics& pressures, const Touching& at, double direction) {
+  MatrixXd share = MatrixXd::Zero(pressures.n_shears(), pressures.size());
+  for (const auto& arc : at.arcs) {
+    std::vector<double> ends{arc.from, arc.to};
+    for (double turn = rim::wrapped(direction, arc.from); turn < arc.to; turn += std::numbers::pi) ends.push_back(turn);
+    if (const double back = rim::wrapped(direction, arc.from) - std::numbers::pi; back > arc.from && back < arc.to)
+      ends.push_back(back);
+    std::ranges::sort(ends);
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double sign = std::sin(0.5 * (ends[i - 1] + ends[i]) - direction) > 0 ? -1 : 1;
+      share += sign * pressures.shear_products(ends[i - 1], ends[i]);
+    }
+  }
+  return share / pressures.sweep;
+}
+
+}  // namespace
+
+RimFriction rim_friction(const RimContact& rim, const Touching& at, const VectorXd& m) {
+  const auto& pressures = rim.pressures();
+  MatrixXd by_pressure(2, rim.size()), by_shear(2, pressures.n_shears());
+  by_pressure << pressures.push(0).transpose(), pressures.push(1).transpose();
+  by_shear << pressures.drag(0).transpose(), pressures.drag(1).transpose();
+  const Vector2d b = by_pressure * rim.forces(at, m);
+  const double amount = b.norm();
+  RimFriction result{VectorXd::Zero(pressures.n_shears()), MatrixXd::Zero(pressures.n_shears(), rim.size())};
+  if (!(amount > 0)) return result;
+  const Vector2d along = b / amount;
+  const double direction = std::atan2(along.y(), along.x());
+  result.slopes = rim.mu() * signed_share(pressures, at, direction);
+  VectorXd c = rim.stiffness() * m;
+  c[0] -= rim.stiffness() * rim.gap();
+  result.forces = result.slopes * c;
+  const MatrixXd db = by_pressure * at.share;  // by c
+  const Eigen::RowVectorXd turn = Eigen::RowVector2d(-along.y(), along.x()) * db / amount;
+  VectorXd by_turn = VectorXd::Zero(pressures.n_shears());
+  for (const double side : {1.0, -1.0}) {  // where shear jumps
+    const double angle = direction + (side > 0 ? 0 : std::numbers::pi);
+    const double pressure = rim.stiffness() * std::max(rim.depth(m, angle), 0.0);
+    if (pressures.is_whole()) by_turn += side * 2 * rim.mu() / pressures.sweep * pressure * pressures.shears_at(angle);
+  }
+  result.slopes += by_turn * turn;
+  const Vector2d drag = by_shear * result.forces;
+  const double share = along.dot(drag) / amount;
+  if (!(share > 1)) return result;
+  const Vector2d across(-along.y(), along.x());
+  const Eigen::RowVectorXd d_drag = along.transpose() * by_shear * result.slopes + across.dot(drag) * turn;
+  const Eigen::RowVectorXd d_share = (d_drag - share * along.transpose() * db) / amount;
+  result.slopes = (result.slopes - result.forces / share * d_share) / share;
+  result.forces /= share;
+  result.slips = false;
+  return result;
+}
+
+}  // namespace fastjoint::stage3
