@@ -9,6 +9,7 @@
 #include <set>
 
 #include "common/program/program.hpp"
+#include "stage3_nonlinear/equations/rim_friction.hpp"
 #include "stage3_nonlinear/equations/tangent.hpp"
 
 namespace fastjoint::stage3 {
@@ -176,6 +177,28 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
   }
 }
 
+/// Names the rims of contact that interference holds, at the first increment of each.
+void warn_of_sticking(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                      std::vector<std::string>& result) {
+  std::vector<Doubt> sticking;
+  Index rim = 0, moment = 0;
+  for (const auto& plate : joint.plates)
+    for (const auto& contact : plate.contact) {
+      const RimContact& its = equations.rims[rim++];
+      const auto sticks = [&](const PathStep& step) {
+        const VectorXd m = step.moments.segment(moment, its.size());
+        return its.mu() > 0 && !rim_friction(its, its.touching(m), m).slips;
+      };
+      if (const PathStep* step = first_step(path, sticks))
+        sticking.emplace_back(its.mu(),
+                              fmt::format("at {} the rim of hole \"{}:{}\" sticks: friction {} could carry more "
+                                          "than pressure does, and carries as much",
+                                          increment_text(path, *step), plate.name, contact.hole, its.mu()));
+      moment += its.size();
+    }
+  add_worst(result, sticking);
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
@@ -187,6 +210,7 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   warn_of_other_solutions(joint, equations, path, result);
   warn_of_locking(path, result);
   warn_of_unloading(joint, equations, path, result);
+  warn_of_sticking(joint, equations, path, result);
   for (auto& each : result) each.insert(0, joint.file + ": ");
   return result;
 }

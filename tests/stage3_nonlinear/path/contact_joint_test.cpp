@@ -195,30 +195,25 @@ TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
   }
 }
 
-/// With friction there is no convex function: nearly all joints are still solved from no load and from far away, with
-/// the same forces; the rest shows where it begins to fail.
+/// With friction there is no convex function: joints are still solved, and from far away with the same forces up to
+/// coefficients that no dry metals have. Far above them some have more solutions than one.
 TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
-  for (const auto& [mu, least_solved, most_different] : {std::tuple(0.15, 300, 0), {0.3, 300, 0}, {0.6, 297, 1}}) {
-    int solved = 0, different = 0;
-    for (int i = 0; i < 300; ++i) {
+  for (const auto& [mu, n_joints] : {std::pair(0.15, 20), {0.3, 20}, {0.6, 20}, {1.0, 20}, {2.0, 60}}) {
+    int different = 0;
+    for (int i = 0; i < n_joints; ++i) {
       Kind its = kind(i);
       its.mu = mu;
-      const JointModel joint = random_contact_joint(random_, its);
-      const JointEquations equations = make_equations(joint);
+      const JointEquations equations = make_equations(random_contact_joint(random_, its));
       const double scale = force_scale(equations, 1);
       const LoadPath path = follow(equations, {1}, {});
-      if (path.failure) continue;
-      ++solved;
+      ASSERT_FALSE(path.failure) << "joint " << i << ", friction " << mu;
       const Index n = equations.n_unknowns();
       const VectorXd far = VectorXd::NullaryExpr(n, [&] { return uniform(random_, -10, 10); });
       const Root root = newton_root(root_problem(equations, 1, scale), far, {1e-12, 200});
-      if (!root.converged) continue;
       const VectorXd F = contact_state(equations, scale * root.x).F;
-      different += !((F - path.steps[0].all_F()).lpNorm<Eigen::Infinity>() < 1e-8 * scale);
+      different += root.converged && !((F - path.steps[0].all_F()).lpNorm<Eigen::Infinity>() < 1e-8 * scale);
     }
-    EXPECT_GE(solved, least_solved) << mu;
-    EXPECT_LE(different, most_different) << mu;
-    std::printf("mu %g solved %d different %d\n", mu, solved, different);
+    EXPECT_EQ(different > 0, mu > 1) << different << " joints, friction " << mu;
   }
 }
 
