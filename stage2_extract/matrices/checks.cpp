@@ -17,14 +17,23 @@ using formats::PlateSolution;
 
 /// Far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any modelling error.
 constexpr double worst_allowed = 1e-7;
+/// Share of what springs alone would give that an error is compared with at least, so that rounding passes.
+constexpr double least = 1e-5;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
 /// Stiffness that errors of S are compared with: the largest of S, or a share of the springs' where the plate offers
-/// next to none, so that their rounding passes.
+/// next to none.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
-  constexpr double least = 1e-5;
   return std::max(largest(S), least * largest(plate.held_stiffness));
+}
+
+/// Integral over a rim that errors of B are compared with: the largest of B, or a share of the rims' area where the
+/// plate follows its one disc.
+double scale_of_B(const PlateSolution& plate, const Eigen::MatrixXd& B) {
+  double area = 0;
+  for (const auto& rim : plate.contact) area = std::max(area, rim.area);
+  return std::max(largest(B), least * area);
 }
 
 /// Forces that the probe's displacements need, by its own solution, against those by S.
@@ -46,7 +55,7 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
   };
   add(probe.friction_force - by(level.R, probe.friction) - by(level.B.transpose(), probe.pressure),
       std::max(largest(level.R), largest(level.B)));
-  add(probe.moment - by(level.B, probe.displacement), largest(level.B));
+  add(probe.moment - by(level.B, probe.displacement), scale_of_B(plate, level.B));
   add(probe.friction_moment - by(level.R_p, probe.friction) + by(level.C, probe.pressure),
       std::max(largest(level.C), largest(level.R_p)));
   if (level.T.size() > 0) {
@@ -67,10 +76,10 @@ std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale
 }
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.
-double residual_force(const PlateCases& level, double scale, const FreeTranslation& free) {
+double residual_force(const PlateSolution& plate, const PlateCases& level, const FreeTranslation& free) {
   const auto& [S, R, T, C_t, B, C, R_p, T_p] = level;
-  double worst =
-      std::max(ratio(largest(S * free.motion), scale), ratio(largest(B.lazyProduct(free.motion)), largest(B)));
+  double worst = std::max(ratio(largest(S * free.motion), scale_of(plate, S)),
+                          ratio(largest(B.lazyProduct(free.motion)), scale_of_B(plate, B)));
   for (Eigen::Index j = 0; j < R.cols(); ++j)
     if (free.friction[j] != 0)
       worst = std::max(worst, ratio(std::abs(R.col(j).dot(free.motion) + free.friction[j]), largest(R)));
@@ -81,7 +90,7 @@ std::optional<double> equilibrium(const PlateSolution& plate, const Eigen::Vecto
                                   const PlateCases& level) {
   std::optional<double> worst;
   for (const auto& free : free_translations(plate, resultant))
-    worst = std::max(worst.value_or(0), residual_force(level, scale_of(plate, level.S), free));
+    worst = std::max(worst.value_or(0), residual_force(plate, level, free));
   return worst;
 }
 
