@@ -49,11 +49,6 @@ class Sheet:
             vector[names.index(name)] = value
         return vector
 
-    def loads(self):
-        """Amounts of the unit cases under the scene's own loads."""
-        a = self.data
-        return np.concatenate([a["loads/displacement"][0], a["loads/friction"][0], a["loads/traction"][0]])
-
     def rim(self, hole, amounts, level=-1):
         """Angles in radians, sigma_rr, sigma_tt, sigma_rt around a hole at its degree stress/p[level]."""
         i = list(self["rim/hole"]).index(hole)

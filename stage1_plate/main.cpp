@@ -46,11 +46,10 @@ struct WorstOfKind {
 
 /// Warns of what is to be doubted: links (section 3 of the paper: what they do converges slowly or not at all), a
 /// thickness or a disc's modulus far from the sheet's other numbers.
-void warn(const stage1::SolvedPlate& plate) {
+void warn(const stage1::PlateScene& scene, const pfem::Mesh& mesh) {
   constexpr double foil = 1e-4, apart = 300;  // GPa beside MPa are 1000
-  const auto& [scene, mesh] = std::tie(plate.scene, plate.solution.mesh);
   const auto say = [&](const std::string& doubt) {
-    std::cerr << fmt::format("{}: warning: {}: {}\n", command.name, plate.scene.file, program::one_line(doubt));
+    std::cerr << fmt::format("{}: warning: {}: {}\n", command.name, scene.file, program::one_line(doubt));
   };
   const double width = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).minCoeff();
   const double thinnest = mesh.thickness.minCoeff(), thickest = mesh.thickness.maxCoeff();
@@ -109,8 +108,8 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   if (arguments.flag("--accuracy")) timings.phase("search");
   const auto accuracy = meet_accuracy(scene, arguments);
   if (accuracy) scene = accuracy->scene;
-  const auto plate = stage1::solve_plate(std::move(scene), program::generator(command.name), timings);
-  warn(plate);
+  const auto plate = stage1::solve_plate(scene, program::generator(command.name), timings);
+  warn(scene, plate.solution.mesh);
   timings.phase("write");
   formats::write(arguments.output, plate.solution);
   if (arguments.quiet) return;

@@ -71,16 +71,6 @@ void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrice
   }
 }
 
-/// Copies what contact stage 1 found under the scene's own loads, for readers of MATRICES.h5.
-void carry_over_contacts(const formats::PlateSolution& plate, formats::PlateMatrices& a) {
-  for (const auto& contact : plate.contacts) {
-    a.contacts.push_back(
-        {plate.hole_id[contact.hole], {}, contact.iterations, contact.peak_pressure, contact.peak_angle / rim::degree});
-    for (const auto& range : plate.hole_spring[contact.hole].acts)
-      a.contacts.back().arcs.push_back({range.from / rim::degree, range.to / rim::degree});
-  }
-}
-
 }  // namespace
 
 Extraction extract(const formats::PlateSolution& plate, const std::string& generator, FieldSolver* solver) {
@@ -101,7 +91,6 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, solver);
-  carry_over_contacts(plate, a);
   result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
   result.checks = check(plate, a.friction_resultant);
   auto balanced = plate.cases;

@@ -39,8 +39,8 @@ const program::Command command = {
       "write instead RESULT.h5 of a joint with the stresses at this sheet's rims at every increment; -o may be the "
       "same"},
      {"--field", "SPEC",
-      "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, loads (the scene's own), or cases "
-      "with amounts, external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
+      "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, or cases with amounts, "
+      "external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
      {"--plate", "NAME", "name of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
      {"--increment", "N", "increment of RESULT.h5 to show; default: the last"},
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};

@@ -12,7 +12,6 @@ STAGES = {
         "scene": ["input", "pfem", "rim", ""],
         "mesh": ["pfem", "rim", ""],
         "problem": ["pfem", "plate", "rim", ""],
-        "contact": ["pfem", "plate", "rim", ""],
         "run": ["formats", "linalg", "matrices", "plate", "program", "rim", ""],
         "": ["linalg", "program"],
     },

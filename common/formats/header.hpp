@@ -48,10 +48,6 @@ struct UnitCases {
   std::vector<ContactRim> contact{};                         ///< in the order of the holes
   std::vector<std::string> friction_hole;                    ///< (h)
   std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y", or a rim::shear_name at rims of contact
-  /// The scene's loads as amounts of the unit cases, one row if it has loads, else none.
-  Eigen::MatrixXd load_displacement;  ///< (l, e + m) length
-  Eigen::MatrixXd load_friction;      ///< (l, h) stress
-  Eigen::MatrixXd load_traction;      ///< (l, q) force
 
   [[nodiscard]] Eigen::Index n_externals() const { return external_id.size(); }
   [[nodiscard]] Eigen::Index n_discs() const { return disc_hole.size(); }

@@ -16,7 +16,7 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 5;
+constexpr int minor = 6;
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
@@ -100,34 +100,6 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
        "normal force over the section in each unit case, tension positive");
 }
 
-/// Writes what only people read: the third stage does not need it.
-void write_contacts(h5::Writer& file, const PlateMatrices& a) {
-  const Units& units = a.header.units;
-  const auto& contacts = a.contacts;
-  std::vector<std::string> arc_hole;
-  std::vector<std::array<double, 2>> arcs;
-  for (const auto& contact : contacts) {
-    arc_hole.insert(arc_hole.end(), contact.arcs.size(), contact.hole);
-    arcs.insert(arcs.end(), contact.arcs.begin(), contact.arcs.end());
-  }
-  file("contact/hole", Column{contacts, &HoleContact::hole}, {any}, "1",
-       "holes whose springs push but do not pull, under the loads of the input");
-  file("contact/iterations", Column{contacts, &HoleContact::iterations}, {any}, "1",
-       "iterations until the ends of the arcs in contact stood still under the loads of the input");
-  file("contact/peak_pressure", Column{contacts, &HoleContact::peak_pressure}, {any}, unit(units, -2, 1),
-       "largest pressure on the rim of each of these holes under the loads of the input");
-  file("contact/peak_angle", Column{contacts, &HoleContact::peak_angle}, {any}, "deg",
-       "angle of that pressure, counter-clockwise from x");
-  file("contact/arc_hole", arc_hole, {any}, "1", "hole of each arc in contact");
-  file("contact/arc", arcs, {any, 2}, "deg", "start and end of each arc in contact, counter-clockwise from x");
-  file("loads/displacement", a.load_displacement, {any, a.n_externals() + a.n_discs()}, unit(units, 1, 0),
-       "displacement of each external, then disc, under the loads of the input");
-  file("loads/friction", a.load_friction, {any, a.n_friction_cases()}, unit(units, -2, 1),
-       "peak stress of each friction case under the input's loads");
-  file("loads/traction", a.load_traction, {any, a.n_tractions()}, unit(units, 0, 1),
-       "force of each traction under the loads of the input");
-}
-
 template <class File, class Matrices>
 void datasets(File& file, Matrices& a) {
   header(file, a.header);
@@ -136,7 +108,6 @@ void datasets(File& file, Matrices& a) {
   name_datasets(file, a);
   matrix_datasets(file, a);
   stress_datasets(file, a.stresses, a.n_cases(), a.header.units);
-  if constexpr (!File::reads) write_contacts(file, a);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <string>
 #include <vector>
 
@@ -40,15 +39,6 @@ struct PlateStresses {
 /// Highest degree of matrices: they may come from elsewhere than stage 2.
 inline constexpr int highest_degree = 99;
 
-/// A hole whose springs push but do not pull: where they do, under the loads of PLATE.json.
-struct HoleContact {
-  std::string hole;
-  std::vector<std::array<double, 2>> arcs;  ///< from, to, degrees counter-clockwise from x
-  int iterations;                           ///< until the arcs stood still
-  double peak_pressure;                     ///< stress
-  double peak_angle;                        ///< where, degrees
-};
-
 /// Everything linear about one plate, for every degree p (schemas/plate-matrices.md).
 ///
 /// Forces are those that must act on the plate from outside:
@@ -70,15 +60,13 @@ struct PlateMatrices : UnitCases {
   /// Estimated absolute error at the highest p; infinite where one p alone says nothing of it.
   Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
   PlateStresses stresses;
-  std::vector<HoleContact> contacts;  ///< under the scene's loads
 };
 
 /// Returns the digest of the file. Throws FileError; what was at `path` before survives.
 std::string write(const std::string& path, const PlateMatrices& matrices);
 
-/// Reads all of it but contacts and loads, which nothing behind stage 2 needs. `p`, `disc/hole`, `disc/direction` and
-/// `S_dd` must stand in the file; groups that a hand-made file leaves out (external, friction, traction, errors) are
-/// taken as empty, directions of externals as x.
+/// Reads all of it. `p`, `disc/hole`, `disc/direction` and `S_dd` must stand in the file; groups that a hand-made file
+/// leaves out (external, friction, traction, errors) are taken as empty, directions of externals as x.
 [[nodiscard]] PlateMatrices read_plate_matrices(const std::string& path);
 
 }  // namespace fastjoint::formats

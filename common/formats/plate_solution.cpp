@@ -17,7 +17,7 @@ using h5::Column;
 
 constexpr const char* format = "plate-solution";
 constexpr int major = 4;
-constexpr int minor = 1;
+constexpr int minor = 2;
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
 template <class File, class Mesh>
@@ -171,26 +171,6 @@ void sparse_datasets(File& file, const std::string& group, Sparse& A, Index rows
   }
 }
 
-template <class File, class Solution>
-void load_datasets(File& file, Solution& a, Index nc, Index h, Index q) {
-  const std::string length = unit(a.header.units, 1, 0), stress = unit(a.header.units, -2, 1);
-  file("contact/hole", Column{a.contacts, &RimContact::hole}, {any}, "1",
-       "index in hole/id of each hole whose springs push but do not pull", h5::index_into(std::ssize(a.hole_id)));
-  const Index n = a.contacts.size();
-  file("contact/iterations", Column{a.contacts, &RimContact::iterations}, {n}, "1",
-       "iterations until the ends of the arcs in contact stood still under the loads of the input");
-  file("contact/peak_pressure", Column{a.contacts, &RimContact::peak_pressure}, {n}, stress,
-       "largest pressure on the rim of each of these holes under the loads of the input");
-  file("contact/peak_angle", Column{a.contacts, &RimContact::peak_angle}, {n}, "rad",
-       "angle of that pressure, counter-clockwise from x");
-  file("loads/displacement", a.load_displacement, {any, nc}, length,
-       "displacement of each external, then disc, under the loads of the input");
-  const Index l = a.load_displacement.rows();
-  file("loads/friction", a.load_friction, {l, h}, stress, "peak stress of each friction case under the input's loads");
-  file("loads/traction", a.load_traction, {l, q}, unit(a.header.units, 0, 1),
-       "force of each traction under the loads of the input");
-}
-
 /// Datasets of one degree.
 template <class File, class Cases>
 void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Index k, Index h, Index q,
@@ -227,7 +207,6 @@ void datasets(File& file, Solution& a) {
   file("held_stiffness", a.held_stiffness, {nc}, stiffness,
        "stiffness of each external, then disc, with all of the plate held");
   sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
-  load_datasets(file, a, nc, h, q);
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (int i = 0; i < count_of(a.cases); ++i)
     case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, k, h, q, units);

@@ -46,14 +46,6 @@ struct PointSpring {
   double stiffness;  ///< force / length
 };
 
-/// A hole whose springs push but do not pull, under the scene's loads.
-struct RimContact {
-  int hole;              ///< index into hole_id
-  int iterations;        ///< until its arcs stood still
-  double peak_pressure;  ///< stress
-  double peak_angle;     ///< where, radians
-};
-
 /// The file from stage 1 to stage 2 (schemas/plate-solution.md).
 ///
 /// nc = e + m controlled displacements: e rigid externals, then m discs. Unknowns are ordered by degree: the
@@ -75,7 +67,6 @@ struct PlateSolution : UnitCases {
   std::vector<PointSpring> points;
   std::vector<PlateCases> cases;  ///< one for each p
   Probe probe;
-  std::vector<RimContact> contacts;
 };
 
 /// Throws FileError; what was at `path` before survives.

@@ -234,8 +234,7 @@ plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
   plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, Eigen::Matrix2Xd(2, scene.disc_directions.size())};
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const auto& spring = sprung.springs.emplace_back(scene.holes[i].spring);
-    if (spring && scene.holes[i].spring->compression_only && !scene.loads)
-      sprung.springs.back()->contact = contact_of(scene, plate, i);
+    if (spring && scene.holes[i].spring->compression_only) sprung.springs.back()->contact = contact_of(scene, plate, i);
   }
   for (int a = 0; a < count_of(scene.disc_directions); ++a) sprung.axes.col(a) = rim::axis(scene.disc_directions[a]);
   return sprung;
@@ -266,12 +265,6 @@ void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& pr
       pfem::integrate(problem.elements.congruent, plate.mesh, plate.edges, scene.elasticity, scene.space, scene.p_high);
   check_arcs(scene, problem.elements);
   add_traction_loads(scene, plate, problem);
-}
-
-PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate) {
-  PlateProblem problem = number_unknowns(scene, plate);
-  integrate(scene, plate, problem);
-  return problem;
 }
 
 }  // namespace fastjoint::stage1

@@ -48,15 +48,9 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
 /// Integrates elements, springs and loads, each congruence class once.
 /// Throws InputError for an arc that the rim of the model does not have, and for a load that loads nothing.
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
-/// Numbers and integrates.
-[[nodiscard]] PlateProblem assemble(const PlateScene& scene, const PlateMesh& plate);
 
 /// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are
 /// held; the message says how (docs/theory.md, section 4.6). The factor alone would not show it.
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
-
-/// True if nothing can move as a rigid body while the scene's loads act: externals and discs of given force follow.
-/// @param scene A scene that has loads, with springs on the parts of the rims that bear.
-[[nodiscard]] bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

@@ -61,40 +61,35 @@ std::vector<Part> make_parts(const pfem::Mesh& mesh, const std::vector<int>& par
   return parts;
 }
 
-/// Something that resists (a . amplitudes of a part - b . controlled displacements)^2.
-struct Tie {
-  int part;
-  Eigen::RowVector3d a;
-  std::vector<std::pair<int, double>> b;  ///< index of a controlled displacement, coefficient
-};
-
-struct Ties {
-  Ties(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns)
-      : part_of(connected_parts(plate.mesh)), parts(make_parts(plate.mesh, part_of)) {
+/// What supports, springs and points do against the rigid motions of every part while all externals and discs are held.
+struct HeldParts {
+  HeldParts(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns)
+      : part_of(connected_parts(plate.mesh)),
+        parts(make_parts(plate.mesh, part_of)),
+        held(parts.size(), Eigen::Matrix3d::Zero()) {
     add_supports(plate, unknowns);
-    add_springs(scene, plate, unknowns);
-    add_line_springs(scene, plate, unknowns);
+    add_springs(scene, plate);
+    add_line_springs(scene, plate);
   }
 
   std::vector<int> part_of;  ///< index into parts of each node
   std::vector<Part> parts;
-  std::vector<Tie> all;
+  std::vector<Eigen::Matrix3d> held;  ///< energy of each part over the amplitudes of its motions, without units
 
  private:
+  /// Adds what resists (a . amplitudes)^2.
+  void add(int part, const Eigen::RowVector3d& a) { held[part] += a.transpose() * a; }
+
   void add_supports(const PlateMesh& plate, const Unknowns& unknowns) {
     for (int node = 0; node < plate.mesh.n_nodes(); ++node) {
       const int part = part_of[node];
       const auto u = parts[part].motion(plate.mesh.nodes.col(node));
-      for (int component = 0; component < 2; ++component) {
-        const int dof = unknowns.dofs(component, node);
-        if (pfem::is_free(dof)) continue;
-        all.push_back({part, u.row(component), {}});
-        if (pfem::is_controlled(dof)) all.back().b = {{pfem::controlled_index(dof), 1}};
-      }
+      for (int component = 0; component < 2; ++component)
+        if (!pfem::is_free(unknowns.dofs(component, node))) add(part, u.row(component));
     }
   }
 
-  void add_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  void add_springs(const PlateScene& scene, const PlateMesh& plate) {
     for (int hole = 0; hole < count_of(scene.holes); ++hole) {
       if (!scene.holes[hole].spring) continue;
       for (const auto& side : plate.rims[hole].sides) {
@@ -103,24 +98,16 @@ struct Ties {
         for (int q = 0; q < weight.size(); ++q) {
           if (weight[q] == 0) continue;
           const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();
-          all.push_back({part, along * parts[part].motion(rule.x.col(q)), {}});
-          for (int a = 0; a < unknowns.n_directions; ++a)
-            all.back().b.emplace_back(unknowns.controlled_of_disc(unknowns.disc_of_hole[hole] + a),
-                                      along * rim::axis(scene.disc_directions[a]));
+          add(part, along * parts[part].motion(rule.x.col(q)));
         }
       }
     }
   }
 
-  void add_line_springs(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-    for (int i = 0; i < count_of(plate.point_nodes); ++i) {
-      const int node = plate.point_nodes[i];
-      const int part = part_of[node];
-      const auto u = parts[part].motion(plate.mesh.nodes.col(node));
-      for (int a = 0; a < unknowns.n_directions; ++a)
-        all.push_back({part,
-                       rim::axis(scene.disc_directions[a]).transpose() * u,
-                       {{unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a), 1}}});
+  void add_line_springs(const PlateScene& scene, const PlateMesh& plate) {
+    for (const int node : plate.point_nodes) {
+      const auto u = parts[part_of[node]].motion(plate.mesh.nodes.col(node));
+      for (const auto& direction : scene.disc_directions) add(part_of[node], rim::axis(direction).transpose() * u);
     }
   }
 };
@@ -141,42 +128,19 @@ std::string words(const Part& part, const Eigen::Vector3d& a) {
 }  // namespace
 
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-  const Ties ties(scene, plate, unknowns);
-  const auto& parts = ties.parts;
-  std::vector<Eigen::Matrix3d> held(parts.size(), Eigen::Matrix3d::Zero());
-  for (const auto& tie : ties.all) held[tie.part] += tie.a.transpose() * tie.a;
-  for (int i = 0; i < count_of(parts); ++i) {
-    const Part& part = parts[i];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(held[i]);
+  const HeldParts all(scene, plate, unknowns);
+  for (int i = 0; i < count_of(all.parts); ++i) {
+    const Part& part = all.parts[i];
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(all.held[i]);
     if (eigen.eigenvalues()[0] > free_to_move * std::max(1.0, eigen.eigenvalues()[2])) continue;
     throw NumericalError(fmt::format(
         "{}: /supports: nothing keeps the {} from moving {} while all externals and discs are held; allowed: a plate "
         "that supports, externals, sprung holes and points hold against every rigid motion",
         scene.file,
-        parts.size() == 1 ? std::string("plate")
-                          : fmt::format("part of the plate around ({:g}, {:g})", part.middle.x(), part.middle.y()),
+        all.parts.size() == 1 ? std::string("plate")
+                              : fmt::format("part of the plate around ({:g}, {:g})", part.middle.x(), part.middle.y()),
         words(part, eigen.eigenvectors().col(0))));
   }
-}
-
-bool is_held_under_loads(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-  const Ties ties(scene, plate, unknowns);
-  const auto first = 3 * ties.parts.size();
-  Eigen::MatrixXd held = Eigen::MatrixXd::Zero(first + unknowns.n_controlled(), first + unknowns.n_controlled());
-  for (const auto& tie : ties.all) {
-    Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(held.cols());
-    row.segment<3>(3 * tie.part) = tie.a;
-    for (const auto& [controlled, share] : tie.b) row[first + controlled] = -share;
-    held += row.transpose() * row;
-  }
-  const auto hold = [&](int controlled, const Load& load) {
-    if (!load.is_force) held(first + controlled, first + controlled) += 1;
-  };
-  const auto rigid = rigid_externals(scene);
-  for (int i = 0; i < unknowns.n_externals; ++i) hold(i, scene.loads->external[rigid[i]]);
-  for (int i = 0; i < unknowns.n_discs(); ++i) hold(unknowns.controlled_of_disc(i), scene.loads->disc[i]);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(held, Eigen::EigenvaluesOnly);
-  return eigen.eigenvalues()[0] > free_to_move * eigen.eigenvalues()[held.rows() - 1];
 }
 
 }  // namespace fastjoint::stage1

@@ -46,21 +46,12 @@ void raise_degree(Accuracy& model) {
   }
 }
 
-void check(const PlateScene& scene) {
-  if (scene.loads)
-    throw InputError(
-        fmt::format("{}: /loads: springs that push but do not pull have arcs that depend on the degree; "
-                    "allowed with --accuracy: a scene without them; choose the degree by --p",
-                    scene.file));
-  if (scene.p_low == scene.p_high)
-    throw InputError(
-        fmt::format("--accuracy: degree {} alone does not show its error; allowed: a range of degrees", scene.p_low));
-}
-
 }  // namespace
 
 Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
-  check(scene);
+  if (scene.p_low == scene.p_high)
+    throw InputError(
+        fmt::format("--accuracy: degree {} alone does not show its error; allowed: a range of degrees", scene.p_low));
   constexpr int most_rings = 4;
   constexpr double worth = 0.5;  // of the error before, that another ring must come below
   Accuracy start{scene, accuracy, {}, false};

@@ -28,8 +28,7 @@ struct Accuracy {
 /// 4: 29 and 2000; none, p = 7: 31 and 1800; trunk space, one ring, p = 5: 27 and 1400, p = 6: 40 and 2100. To 1e-9 and
 /// below, one ring is still as good as two. Where holes do not limit the error a ring may double the cost.
 ///
-/// Throws InputError for a scene whose springs push but do not pull (their arcs are found at the highest degree, and
-/// depend on it), of one degree only, or with nothing that S is of.
+/// Throws InputError for a scene of one degree only, or with nothing that S is of.
 [[nodiscard]] Accuracy meet_accuracy(const PlateScene& scene, double accuracy);
 
 /// One line: "accuracy 0.0001: product space, p = 4, rings 1: error of S about 6.10e-05, of R about 4.20e-05".

@@ -2,10 +2,8 @@
 #include "stage1_plate/run/solve.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <mutex>
 #include <set>
 
@@ -24,15 +22,6 @@ namespace {
 Eigen::VectorXd amounts(Eigen::Index n_cases) {
   const auto n = double(n_cases);
   return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
-}
-
-std::string arcs_text(const RimContact& contact) {
-  if (contact.arcs.empty()) return "no contact";
-  std::vector<std::string> arcs;
-  for (const auto& arc : contact.arcs)
-    arcs.push_back(fmt::format("{:.2f}..{:.2f}", arc.from / rim::degree, arc.to / rim::degree));
-  const std::string all = fmt::format("contact {} degrees", fmt::join(arcs, ", "));
-  return contact.half_angle > 0 ? fmt::format("{} (half-angle {:.2f})", all, contact.half_angle / rim::degree) : all;
 }
 
 }  // namespace
@@ -81,18 +70,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.T_f = problem.T_f;
   for (const auto& tie : problem.ties)
     a.points.push_back({tie.vertex, tie.controlled - unknowns.n_externals, tie.stiffness});
-  a.load_displacement.resize(0, unknowns.n_controlled());
-  a.load_friction.resize(0, unknowns.n_friction_cases());
-  a.load_traction.resize(0, problem.T_f.cols());
   return a;
-}
-
-void add_contact(const RimContactState& state, formats::PlateSolution& a) {
-  for (const auto& contact : state.holes)
-    a.contacts.push_back({contact.hole, contact.iterations, contact.peak_pressure, contact.peak_angle});
-  a.load_displacement = state.displacement.transpose();
-  a.load_friction = state.friction.transpose();
-  a.load_traction = state.traction.transpose();
 }
 
 /// The states solved for are the unit tractions, then the two of the probe.
@@ -135,45 +113,21 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
   });
 }
 
-SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings) {
+SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, program::Timings& timings) {
   timings.phase("mesh");
   const PlateMesh plate = make_mesh(scene);
   PlateProblem problem = number_unknowns(scene, plate);
   check_held(scene, plate, problem.unknowns);
-  const plate::Skeleton skeleton(problem);  // of vertices and edges, whatever arcs contact finds
-  const int n_rim = scene.loads ? count_of(find_rim_unknowns(scene, plate, problem).free) : 0;
-  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), n_rim);
+  const plate::Skeleton skeleton(problem);
+  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene));
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);
-  std::optional<RimContactState> contact;
-  if (scene.loads) {
-    timings.phase("contact");
-    contact = find_contact(scene, plate, problem);
-    timings.phase("integrate");
-    scene = with_arcs(std::move(scene), *contact);
-    problem = assemble(scene, plate);
-    check_held(scene, plate, problem.unknowns);
-  }
   auto solution = to_solution(scene, plate, problem, generator);
-  if (contact) add_contact(*contact, solution);
   timings.phase("solve");
   solve_cases(problem, skeleton, solution);
   for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
-  return {std::move(scene), std::move(contact), need, std::move(solution)};
-}
-
-std::string contact_summary(const PlateScene& scene, const RimContactState& state) {
-  std::string text;
-  for (const auto& contact : state.holes) {
-    text += fmt::format("  hole {}: {}, {}", scene.holes[contact.hole].id, arcs_text(contact),
-                        program::counted(contact.iterations, "iteration"));
-    if (!contact.arcs.empty())
-      text += fmt::format(", peak pressure {:.6g} at {:.2f} degrees", contact.peak_pressure,
-                          contact.peak_angle / rim::degree);
-    text += "\n";
-  }
-  return text;
+  return {need, std::move(solution)};
 }
 
 std::string summary(const SolvedPlate& plate, const std::string& file) {
@@ -184,11 +138,10 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
                                  counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
                                  counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
   for (int i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
-  return plate.contact ? text + contact_summary(plate.scene, *plate.contact) : text;
+  return text;
 }
 
-MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p,
-                       int n_rim) {
+MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p) {
   const auto n_at_once = std::min<Eigen::Index>(linalg::threads(), p.size());
   plate::FactorBytes need{};
   for (const int degree : p.tail(n_at_once)) {
@@ -197,29 +150,20 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
   }
   const double nc = problem.unknowns.n_controlled() + problem.unknowns.n_pressures();
   const double h = count_of(problem.friction_hole);
-  const double q = double(problem.T_c.cols()), r = n_rim;
+  const double q = double(problem.T_c.cols());
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   // A step's results stand beside those of the step before: two copies of the fields, three of S and R.
   const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * (nc + h) * nc);
   const double file = 2 * count_of(p) * (nc + h) * nc;
-  const double n_cases = r + nc + h + q;  // whose fields are condensed to the rims before contact is looked for there
-  const double contact = r > 0 ? r * n_cases + std::max(2 * n_p * n_cases, 5 * std::pow(r + 2 * nc, 2)) : 0;
   constexpr double number = sizeof(double), libraries = 20e6;
-  return {(n_rim > 0 ? 2 : 1) * (need.elements + need.condensed),
-          need.factor,
-          number * fields,
-          number * contact,
-          number * file,
-          libraries};
+  return {need.elements + need.condensed, need.factor, number * fields, number * file, libraries};
 }
 
 void require_memory(const std::string& file, int p, const MemoryNeed& need) {
   using program::bytes_text;
-  const bool of_contact = need.contact > need.fields;
   program::require_memory(fmt::format("{}: at p = {} this", file, p), need.total(),
-                          fmt::format(" (shapes {}, factor {}, {} {}, file {})", bytes_text(need.elements),
-                                      bytes_text(need.factor), of_contact ? "contact" : "fields",
-                                      bytes_text(std::max(need.fields, need.contact)), bytes_text(need.file)),
+                          fmt::format(" (shapes {}, factor {}, fields {}, file {})", bytes_text(need.elements),
+                                      bytes_text(need.factor), bytes_text(need.fields), bytes_text(need.file)),
                           fmt::format("fewer degrees or a lower one (--p), or fewer holes{}",
                                       linalg::threads() > 1 ? ", or --threads 1" : ""));
 }

@@ -2,13 +2,11 @@
 #pragma once
 
 #include <algorithm>
-#include <optional>
 #include <string>
 
 #include "common/formats/plate_solution.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "common/program/progress.hpp"
-#include "stage1_plate/contact/contact.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 
 namespace fastjoint::stage1 {
@@ -18,19 +16,17 @@ struct MemoryNeed {
   double elements;  ///< matrices of the classes of elements
   double factor;    ///< the skeleton's stiffness and its factor
   double fields;    ///< fields of tractions and of the probe, and the rows of S and R while they are made
-  double contact;   ///< fields in the search for contact, which ends before these are solved; 0 without one
   double file;      ///< S and R of all degrees as they are turned to the order of the file, when the factors are gone
   double program;
 
   [[nodiscard]] double total() const {
     constexpr double gaps = 1.15;  // what the allocator cannot use between them, and what integrating takes
-    return gaps * (elements + std::max(factor + std::max(fields, contact), file)) + program;
+    return gaps * (elements + std::max(factor + fields, file)) + program;
   }
 };
-/// @param problem Result of number_unknowns. @param p Degrees to be solved, ascending. @param n_rim Number of unknowns
-/// on the rims on which contact is looked for, 0 without.
+/// @param problem Result of number_unknowns. @param p Degrees to be solved, ascending.
 [[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton,
-                                     const Eigen::VectorXi& p, int n_rim = 0);
+                                     const Eigen::VectorXi& p);
 
 /// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
 void require_memory(const std::string& file, int p, const MemoryNeed& need);
@@ -38,9 +34,6 @@ void require_memory(const std::string& file, int p, const MemoryNeed& need);
 /// The scene, the mesh and the problem as stage 2 needs them, without the cases.
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
                                                  const PlateProblem& problem, const std::string& generator);
-
-/// Sets the contacts and the loads of a scene that has them.
-void add_contact(const RimContactState& state, formats::PlateSolution& solution);
 
 /// The unit cases at one degree, and the probe that checks them.
 struct SolvedCases {
@@ -52,22 +45,17 @@ struct SolvedCases {
 /// Solves the unit cases at every degree, on several threads side by side, and at the highest the probe.
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution);
 
-/// A scene and what became of it.
+/// What became of a scene.
 struct SolvedPlate {
-  PlateScene scene;  ///< with springs on the arcs that contact has found
-  std::optional<RimContactState> contact;
   MemoryNeed need;
   formats::PlateSolution solution;
 };
 
-/// Mesh, matrices, contact if the scene has loads, unit cases. Phases: mesh, integrate, contact, solve.
+/// Mesh, matrices, unit cases. Phases: mesh, integrate, solve.
 /// Throws InputError for a scene that does not fit together or into memory, NumericalError for one that moves.
-[[nodiscard]] SolvedPlate solve_plate(PlateScene scene, const std::string& generator, program::Timings& timings);
+[[nodiscard]] SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, program::Timings& timings);
 
-/// A line for each hole with contact: the arcs on which its springs push, the iterations, the largest pressure.
-[[nodiscard]] std::string contact_summary(const PlateScene& scene, const RimContactState& state);
-
-/// The summary on stdout: size, degrees and contacts. @param file Where the plate has been written.
+/// The summary on stdout: size and degrees. @param file Where the plate has been written.
 [[nodiscard]] std::string summary(const SolvedPlate& plate, const std::string& file);
 
 }  // namespace fastjoint::stage1

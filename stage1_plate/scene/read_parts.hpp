@@ -55,8 +55,4 @@ struct SpringLaw {
 /// Reads "spring" of a hole of that radius: what its stiffness follows from, where on the rim it acts, and how.
 [[nodiscard]] Spring read_spring(const input::Value& value, double radius);
 
-/// Reads "loads" of a scene whose holes, points and externals are known: all externals at force 0 and all discs at
-/// displacement 0 but for those listed. They may be there only if some springs push but do not pull.
-[[nodiscard]] std::optional<SceneLoads> read_loads(const input::Value& root, const PlateScene& scene);
-
 }  // namespace fastjoint::stage1

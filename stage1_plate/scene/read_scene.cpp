@@ -139,8 +139,9 @@ std::vector<Value> read_items(const Value& value, const char* key) {
 
 PlateScene read_scene(const input::Document& document) {
   const Value root(document);
+  if (const auto loads = root.find("loads")) loads->fail("unknown key", "\"loads\" in JOINT.json");
   root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes", "points",
-             "disc_directions", "supports", "external", "loads", "space", "p"});
+             "disc_directions", "supports", "external", "space", "p"});
   input::check_format(root, "plate");
   PlateScene scene;
   scene.file = document.file;
@@ -158,7 +159,6 @@ PlateScene read_scene(const input::Document& document) {
   read_sections(root, scene);
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
-  scene.loads = read_loads(root, scene);
   const auto space = root.find("space");
   scene.has_space = space.has_value();
   if (space) scene.space = pfem::space_named(space->choice(pfem::space_names));

@@ -88,19 +88,6 @@ struct Disc {
   std::string id, direction;
 };
 
-/// A load on an external or a disc: its force, or its displacement, is given.
-struct Load {
-  bool is_force;
-  double value;         ///< force or length; of a disc, the force that its springs transmit
-  double friction = 0;  ///< coefficient of friction at a disc of a hole
-};
-
-/// The loads under which springs push but do not pull.
-struct SceneLoads {
-  std::vector<Load> external;  ///< load of each of PlateScene::externals
-  std::vector<Load> disc;      ///< load of each of list_discs
-};
-
 /// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
 struct PlateScene {
   std::string file, text;  ///< where it came from
@@ -113,16 +100,9 @@ struct PlateScene {
   std::vector<std::string> disc_directions;
   std::vector<Support> supports;
   std::vector<External> externals;
-  std::optional<SceneLoads> loads;  ///< only if springs of a hole push but do not pull; without, a joint loads them
   pfem::Space space = pfem::Space::trunk;
   bool has_space = false;  ///< whether the scene says which
   int p_low = 1, p_high = pfem::highest_p;
-
-  /// The loads of a scene that has them.
-  [[nodiscard]] const SceneLoads& given_loads() const {
-    if (!loads) throw std::logic_error("the scene has no loads");
-    return *loads;
-  }
 };
 
 /// Replaces the scene's degrees by the option's: "8" is that degree alone, "4..8" a range, "" leaves the scene's.

@@ -27,24 +27,9 @@ bool starts_as_case(const std::string& spec) {
   return std::any_of(std::begin(kinds), std::end(kinds), [&](auto kind) { return spec.starts_with(kind); });
 }
 
-/// The words of a message for what a spec may be, besides "loads".
-std::string case_sum_allowed(const PlateSolution& plate) {
-  return fmt::format("a RESULT.h5, or a sum CASE=AMOUNT,... of the cases {}", listed(case_names(plate)));
-}
-
 bool names_a_file(const std::string& spec) {
   std::error_code ignored;
-  return spec != "loads" && !starts_as_case(spec) && (spec.ends_with(".h5") || std::filesystem::exists(spec, ignored));
-}
-
-FieldState scene_loads(const PlateSolution& plate, const std::string& file) {
-  if (plate.load_displacement.rows() == 0)
-    throw InputError(fmt::format("--field: 'loads' is not allowed: the scene of {} has no loads; allowed: {}", file,
-                                 case_sum_allowed(plate)));
-  FieldState state{Eigen::VectorXd(plate.n_cases()), "loads of the scene"};
-  state.amounts << plate.load_displacement.row(0).transpose(), plate.load_friction.row(0).transpose(),
-      plate.load_traction.row(0).transpose();
-  return state;
+  return !starts_as_case(spec) && (spec.ends_with(".h5") || std::filesystem::exists(spec, ignored));
 }
 
 /// Index of the longest name that the text starts with and that ends there, at a comma or at "=", or -1.
@@ -79,8 +64,10 @@ FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   for (std::string_view rest = spec;;) {
     const auto found = first_case(names, rest);
     if (found < 0)
-      throw InputError(fmt::format("--field: '{}' is not a case of the plate{}; allowed: loads, {}", rest,
-                                   starts_as_case(spec) ? "" : " nor a file", case_sum_allowed(plate)));
+      throw InputError(
+          fmt::format("--field: '{}' is not a case of the plate{}; allowed: a RESULT.h5, or a sum CASE=AMOUNT,... of "
+                      "the cases {}",
+                      rest, starts_as_case(spec) ? "" : " nor a file", listed(names)));
     if (given[found]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[found]));
     given[found] = true;
     rest.remove_prefix(names[found].size());
@@ -122,7 +109,7 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
 
 FieldState field_state(const PlateSolution& plate, const std::string& file, const FieldRequest& request) {
   if (names_a_file(request.spec)) return joint_state(plate, file, request);
-  return request.spec == "loads" ? scene_loads(plate, file) : case_sum(plate, request.spec);
+  return case_sum(plate, request.spec);
 }
 
 int field_degree(const PlateSolution& plate, const std::string& file, const FieldRequest& request,

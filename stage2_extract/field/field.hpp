@@ -33,8 +33,9 @@ struct FieldRequest {
 void check_field_options(const FieldRequest& request, bool wanted, const std::string& output,
                          const std::string& timings);
 
-/// The state that the request describes: "loads", the scene's own; or the name of a RESULT.h5, which ends in ".h5" or
-/// is no case and a file has this name; or a sum of cases.
+/// The state that the request describes: a sum of cases, or that of a RESULT.h5, whose name ends in ".h5" or is no case
+/// and a file has it.
+///
 ///
 /// A sum has cases with commas between them, each with "=AMOUNT" or of amount 1: "external:P=0.01,disc:1:x". Ids may
 /// hold commas, colons and equals signs: where one case's name begins another's, the longer one is meant. Of a

@@ -28,7 +28,6 @@ const program::Command command = {
 
 /// The edge that moves.
 const stage1::External& first_external(const stage1::PlateScene& scene) {
-  if (scene.loads) stage1::reject(scene, "/loads", "springs that push but do not pull", "springs that do both");
   const auto& all = scene.externals;
   if (all.empty() || all[0].kind != stage1::ExternalKind::rigid || all[0].direction != "x")
     stage1::reject(scene, "/external", "another first external, or none", "a rigid one along x first");

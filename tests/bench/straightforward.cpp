@@ -36,7 +36,6 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("read");
   auto scene = stage1::read_scene(input::parse(arguments.input, input::read_text_file(arguments.input)));
   stage1::set_degrees(scene, arguments.text("--p"));
-  if (scene.loads) stage1::reject(scene, "/loads", "springs that push but do not pull", "springs that do both");
   timings.phase("mesh");
   const auto mesh = stage1::make_mesh(scene);
   timings.phase("couple");

@@ -14,6 +14,7 @@ import h5py
 import numpy as np
 
 PROGRAMS = Path(sys.argv[1]).resolve()
+NISIDA = Path(__file__).resolve().parents[2] / "examples/nisida"
 
 
 def run(folder, program, *arguments):
@@ -75,6 +76,18 @@ def pin_in_a_strip(folder):
             near(f"pin, gap {gap}: displacement", -strip["De"][0, 0], D, 1e-4)
             near("  peak pressure over F / (d t)", strip["contact/peak_pressure"][0, 0] / 500, peak, 1e-3)
             near("  half angle, of which that program counted points", strip["contact/touching"][0, 0] / 2, half_angle, 0.015)
+
+
+def nisida(folder):
+    """The paper's pin-loaded sheet against another code; the arc does not depend on the size of the load."""
+    text = json.loads((NISIDA / "frictionless.json").read_text())
+    arguments = ({"sheet": json.loads((NISIDA / "sheet.json").read_text())}, text["laws"], text["fasteners"], text["loads"])
+    with joint(folder, *arguments, increments=[1e-3, 1]) as result:
+        sheet = result["plates/sheet"]
+        half_angle, peak = sheet["contact/touching"][:, 0], sheet["contact/peak_pressure"][:, 0] / sheet["rim/bearing_stress"][:, 0]
+        near("Nisida's pin: half angle of contact", half_angle, 87.19, 0.1 / 87.19)
+        near("  peak pressure over P / (d t)", peak, 1.2045, 1e-3)
+        near("  at a thousandth of the load", [half_angle[0], peak[0]], [half_angle[1], peak[1]], 1e-9)
 
 
 def interference(folder):
@@ -207,5 +220,5 @@ def limits(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (pin_in_a_strip, interference, lap_joint, doubtful_gaps, column_of_rivets, limits):
+    for check in (pin_in_a_strip, nisida, interference, lap_joint, doubtful_gaps, column_of_rivets, limits):
         check(Path(name))

@@ -76,10 +76,10 @@ def check_inclusion(folder):
 def check_contact(row, radial, hoop):
     """The curves of a sheet of Figure 18 have its numbers: pressure within the contact and none beyond, the largest hoop stress."""
     (away, pressure), end = radial, float(row["contact half-angle"])
-    assert np.array_equal(away, hoop[0]) and away.min() < 4 and away.max() > 176, away
-    assert np.isclose(-np.nanmin(pressure), float(row["peak pressure"]), rtol=0.01), (row, pressure)
-    assert (pressure[away < end - 4] < -0.05).sum() > 15 and np.abs(pressure[away > end + 4]).max() < 0.02, (row, radial)
-    assert np.isclose(np.nanmax(hoop[1]), float(row["largest hoop stress"]), atol=1e-4), (row, hoop)
+    assert np.array_equal(away, hoop[0]) and away.min() <= 5 and away.max() == 180, away
+    assert np.isclose(-np.min(pressure), float(row["peak pressure"]), rtol=1e-3), (row, pressure)
+    assert (pressure[away < end - 4] < -0.05).all() and np.abs(pressure[away > end + 4]).max() < 0.02, (row, radial)
+    assert np.isclose(np.max(hoop[1]), float(row["largest hoop stress"]), rtol=3e-3), (row, hoop)  # the top of a parabola at a kink
 
 
 def check_nisida(folder):
@@ -89,14 +89,13 @@ def check_nisida(folder):
     subprocess.run(["make", "-s"], cwd=example, check=True, capture_output=True)
     smooth, rough = csv.DictReader((example / "out/figure_18.csv").open())
     check_curves(example / "out/figure_18.png", ["C0", "C1"])
-    matrices = [example / f"out/{name}.matrices.h5" for name in ("frictionless", "friction")]
-    _, (radial, hoop) = run_and_look(ROOT / "scripts/figure_18", *matrices, "-o", folder / "again.png")
+    files = [example / f"out/{name}.h5" for name in ("sheet.matrices", "frictionless", "friction")]
+    _, (radial, hoop) = run_and_look(ROOT / "scripts/figure_18", *files, "-o", folder / "again.png")
     assert same_pixels(folder / "again.png", example / "out/figure_18.png")
     for row in smooth, rough:
         check_contact(row, radial[row["sheet"]], hoop[row["sheet"]])
-    assert abs(float(smooth["contact half-angle"]) / 87.19 - 1) < 1e-3, smooth
+    assert abs(float(smooth["contact half-angle"]) - 87.19) < 0.1, smooth
     assert abs(float(smooth["peak pressure"]) / 1.2045 - 1) < 1e-3, smooth
-    assert 3 <= int(smooth["iterations"]) <= 4 and 3 <= int(rough["iterations"]) <= 4
     assert float(rough["peak pressure"]) < float(smooth["peak pressure"])
     assert float(rough["largest hoop stress"]) > float(smooth["largest hoop stress"])
     page = (ROOT / "examples/nisida/README.md").read_text()

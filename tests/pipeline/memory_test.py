@@ -26,12 +26,10 @@ def panel(n, words):
 
 
 def contact_panel(n, *_):
-    """Discs that push but do not pull, each with its share of the load."""
+    """Discs that push but do not pull: pressures of contact beside them."""
     scene = json.loads(panel(n, ["--p", "8..8"]).read_text())
     for hole in scene["holes"]:
         hole["spring"]["compression_only"] = True
-    scene["loads"] = [{"external": "P", "force": 100},
-                      *({"disc": hole["id"], "force": -100 / n**2} for hole in scene["holes"])]
     Path("contact.json").write_text(json.dumps(scene))
     return Path("contact.json")
 

@@ -124,14 +124,6 @@ TEST(UsageOfOptions, Accuracy) {
   EXPECT_THAT(alone.err, HasSubstr("degree 8 alone does not show its error"));
 }
 
-TEST(UsageOfOptions, AccuracyOfAContactIsRefused) {
-  const test::TemporaryFolder folder;
-  folder.write("nisida.json", test::read_file(std::string(FASTJOINT_SOURCE) + "/examples/nisida/frictionless.json"));
-  const auto run = test::stage1(folder, "nisida.json -o o.h5 --accuracy 1e-3");
-  EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, AllOf(HasSubstr("nisida.json: /loads"), HasSubstr("allowed with --accuracy")));
-}
-
 TEST(UsageOfOptions, QuietPrintsNothingAndEqualRunsGiveEqualBytes) {
   const test::TemporaryFolder folder;
   folder.write("center.json", test::example("center.json"));

@@ -167,7 +167,7 @@ def main():
         folder = pathlib.Path(name)
         for source, p in [(good / "plate_plane_strain.json", "1..3"), (good / "plate_tables.json", "2..3"),
                           (good / "plate_half_holes.json", "2"), (good / "plate_springs.json", "1..2"),
-                          (good / "plate_contact.json", "1..3"), (good / "plate_product.json", "2..3"), (examples / "doubler.json", "1..4"),
+                          (good / "plate_bolt.json", "1..3"), (good / "plate_product.json", "2..3"), (examples / "doubler.json", "1..4"),
                           (examples / "center.json", "1..4")]:
             solution, matrices, labels = run_plate(programs, source, folder, p)
             problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)

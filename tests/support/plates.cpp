@@ -11,7 +11,8 @@
 namespace fastjoint::test {
 
 Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh) {
-  Problem a{stage1::assemble(scene, mesh), {}, {}, {}, {}};
+  Problem a{stage1::number_unknowns(scene, mesh), {}, {}, {}, {}};
+  stage1::integrate(scene, mesh, a);
   const auto& unknowns = a.unknowns;
   const int n = unknowns.n_free.back(), nc = unknowns.n_controlled(), h = unknowns.n_friction_cases();
   std::vector<Eigen::Triplet<double>> K, L;

@@ -57,6 +57,8 @@ TEST(ReadScene, TakesThePapersSpaceUnlessTold) {
 TEST(ReadScene, RefusesWithThePlaceAndWhatIsAllowed) {
   EXPECT_THAT(message(replaced("\"name\"", "\"nmae\"")),
               HasSubstr("plate.json: /nmae: unknown key; allowed: $schema, format"));
+  EXPECT_THAT(message(replaced("\"name\"", "\"loads\"")),
+              HasSubstr("plate.json: /loads: unknown key; allowed: \"loads\" in JOINT.json"));
   EXPECT_THAT(message(replaced("\"radius\": 0.2,", "")), HasSubstr("/holes/0: key \"radius\" is missing"));
   EXPECT_THAT(message(replaced("\"radius\": 0.2", "\"radius\": 0")),
               HasSubstr("/holes/0/radius: 0 is not allowed; allowed: a number > 0"));

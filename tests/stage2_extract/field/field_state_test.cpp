@@ -59,8 +59,8 @@ TEST(CaseSum, WhatIsRefused) {
   const auto refused = [](const std::string& spec, const auto& message) {
     EXPECT_THAT([&] { return amounts(sheet(), spec); }, ThrowsMessage<InputError>(message)) << spec;
   };
-  refused("external:Q", HasSubstr("--field: 'external:Q' is not a case of the plate; allowed: loads, a RESULT.h5, or a "
-                                  "sum CASE=AMOUNT,... of the cases external:P, disc:1:x, disc:0,0:x, friction:1:+x, "
+  refused("external:Q", HasSubstr("--field: 'external:Q' is not a case of the plate; allowed: a RESULT.h5, or a sum "
+                                  "CASE=AMOUNT,... of the cases external:P, disc:1:x, disc:0,0:x, friction:1:+x, "
                                   "friction:0,0:+x, traction:T"));
   refused("nonsense", HasSubstr("'nonsense' is not a case of the plate nor a file"));
   refused("", HasSubstr("'' is not a case"));
@@ -77,16 +77,6 @@ TEST(CaseSum, LongListsAreCut) {
   plate.disc_hole.assign(400, "h");
   plate.disc_direction.assign(400, "x");
   EXPECT_THAT([&] { return amounts(plate, "disc:i:x"); }, ThrowsMessage<InputError>(HasSubstr(" and 392 more")));
-}
-
-TEST(SceneLoads, AreTheRowOfTheFileOrRefused) {
-  auto plate = sheet();
-  EXPECT_THAT([&] { return amounts(plate, "loads"); },
-              ThrowsMessage<InputError>(HasSubstr("'loads' is not allowed: the scene of plate.h5 has no loads")));
-  plate.load_displacement = Eigen::RowVector3d(1, 2, 3);
-  plate.load_friction = Eigen::RowVector2d(4, 5);
-  plate.load_traction = Eigen::MatrixXd::Constant(1, 1, 6);
-  EXPECT_EQ(amounts(plate, "loads"), vector({1, 2, 3, 4, 5, 6}));
 }
 
 /// Two sheets with the sheet's names, "up" and "down", and one without; two increments.
@@ -205,7 +195,7 @@ TEST(FieldOptions, ThatNeedOthers) {
   EXPECT_THAT(check({"", "up"}),
               ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 or --stresses only")));
   EXPECT_THAT(check({"", "", 2}), ThrowsMessage<InputError>(HasSubstr("--increment: goes with --field RESULT.h5")));
-  for (const std::string spec : {"external:P", "loads"}) {
+  for (const std::string spec : {"external:P", "nonsense"}) {
     EXPECT_THAT(
         [&] {
           stage2::check_field_options({spec, "up"}, true, "out.vtu", "");

@@ -79,7 +79,6 @@ TEST_F(EditedPlate, IndicesThatNameNothing) {
   refused([](auto& a) { a.hole_rim[0].sides[0].element = a.mesh.n_elements(); }, "hole/rim: names side ");
   refused([](auto& a) { a.sections.at(0).sides.at(0).local_edge = 4; }, "section/sides: names side 4 of element ");
   refused([](auto& a) { a.sections.at(0).hole = 1; }, "section/hole: holds 1, expected integers from 0 to 0");
-  refused([](auto& a) { a.contacts = {{1, 1, 0, 0}}; }, "contact/hole: holds 1, expected integers from 0 to 0");
   refused([](auto& a) { a.friction_hole[0] = ""; }, "friction/hole: holds \"\", expected names in hole/id");
   refused([](auto& a) { a.traction_hole[0] = std::string("b"); }, "traction/hole: holds \"b\", expected");
 }
