@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <ranges>
 #include <set>
 
@@ -133,6 +134,14 @@ void check_shears(const PlateModel& plate, const std::string& hole) {
                     plate.file, hole));
 }
 
+/// Radial gap between a fastener and its hole number `at`, length; infinite if the hole's diameter is not known.
+double gap_of(const FastenerScene& fastener, Index at, const PlateModel& plate) {
+  if (!fastener.diameter) return fastener.gap.empty() ? 0 : fastener.gap[at];
+  const auto rim = std::ranges::find(plate.contact, fastener.between[at].name, &formats::ContactRim::hole);
+  const double of_sheet = rim == plate.contact.end() ? std::numeric_limits<double>::infinity() : 2 * rim->radius;
+  return ((fastener.hole_diameter.empty() ? of_sheet : fastener.hole_diameter[at]) - *fastener.diameter) / 2;
+}
+
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, Index at) {
   const Reference& hole = fastener.between[at];
   const Index plate_at = index_of(model.plates, hole.plate, &PlateModel::name);
@@ -143,14 +152,11 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
            fmt::format("{}", fmt::join(plate.holes, ", ")));
   if (model.n_directions() > 1) check_rim_all_around(plate, hole.name);
   const double mu = fastener.friction[at];
-  HoleModel result{plate_at, index * model.n_directions(), mu, {}};
-  if (!fastener.gap.empty()) {
-    if (fastener.gap[at] != 0 && !plate.is_in_contact(hole.name))
-      refuse(fastener.where + "/gap",
-             fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole.name, plate.file),
-             "a gap in holes with \"compression_only\", \"clearance\" in others");
-    result.gap = fastener.gap[at];
-  }
+  HoleModel result{plate_at, index * model.n_directions(), mu, {}, gap_of(fastener, at, plate)};
+  if (result.gap != 0 && !plate.is_in_contact(hole.name))
+    refuse(fastener.where_gap(),
+           fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole.name, plate.file),
+           "a gap in holes with \"compression_only\", \"clearance\" in others");
   if (mu == 0) return result;
   if (plate.is_in_contact(hole.name)) {
     check_shears(plate, hole.name);

@@ -139,8 +139,8 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
       if (hole.gap < radius && -hole.gap < most_interference * radius) continue;
       gaps.emplace_back(
           std::abs(hole.gap) / radius,
-          fmt::format("{}/gap: {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length", where,
-                      hole.gap, joint.name(hole), radius));
+          fmt::format("{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length",
+                      scene.fasteners[plane.fastener].where_gap(), hole.gap, joint.name(hole), radius));
     }
     if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
       distances.emplace_back(

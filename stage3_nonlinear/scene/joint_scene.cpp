@@ -97,8 +97,23 @@ auto for_each_of(const Value& value, std::size_t n, Read read) {
   return result;
 }
 
+/// Gaps, or the diameters that give them.
+void read_gaps(const Value& value, FastenerScene& fastener) {
+  const auto gap = value.find("gap"), diameter = value.find("diameter"), of_holes = value.find("hole_diameter");
+  if ((gap || diameter) && value.find("clearance"))
+    (gap ? gap : diameter)->fail("given beside \"clearance\"", "one of them");
+  if (gap && diameter) diameter->fail("given beside \"gap\"", "one of them");
+  if (of_holes && !diameter) of_holes->fail("given without \"diameter\"", "both, or \"gap\"");
+  const std::size_t n = fastener.between.size();
+  if (gap) fastener.gap = for_each_of(*gap, n, [](const Value& each) { return each.number(); });
+  if (diameter) fastener.diameter = diameter->number(input::positive);
+  if (of_holes)
+    fastener.hole_diameter = for_each_of(*of_holes, n, [](const Value& each) { return each.number(input::positive); });
+}
+
 FastenerScene read_fastener(const Value& value, const JointScene& scene) {
-  value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction", "gap"});
+  value.only(
+      {"id", "between", "law", "clearance", "friction", "law_includes_friction", "gap", "diameter", "hole_diameter"});
   FastenerScene fastener;
   fastener.where = where(value);
   fastener.id = value.at("id").text();
@@ -115,10 +130,7 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   if (const auto clearance = value.find("clearance"))
     fastener.clearance =
         for_each_of(*clearance, n_planes, [](const Value& gap) { return gap.number(input::not_negative); });
-  if (const auto gap = value.find("gap")) {
-    if (value.find("clearance")) gap->fail("given beside \"clearance\"", "one of them");
-    fastener.gap = for_each_of(*gap, fastener.between.size(), [](const Value& each) { return each.number(); });
-  }
+  read_gaps(value, fastener);
   fastener.friction.assign(fastener.between.size(), 0.0);
   if (const auto friction = value.find("friction")) fastener.friction = read_friction(*friction, fastener.between);
   if (const auto includes = value.find("law_includes_friction")) fastener.law_includes_friction = includes->boolean();

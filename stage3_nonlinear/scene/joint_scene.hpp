@@ -41,10 +41,15 @@ struct FastenerScene {
   bool grounded = false;
   std::vector<std::string> law;   ///< (n) keys of JointScene::laws
   std::vector<double> clearance;  ///< (n) radial gap, length
-  std::vector<double> gap{};     ///< (h) radial, in holes whose springs push but do not pull, length; none if not given
-  std::vector<double> friction;  ///< (h) mu in each hole
+  std::vector<double> gap{};  ///< (h) radial, in holes whose springs push but do not pull, length; none if not given
+  std::optional<double> diameter{};     ///< of the fastener, instead of gaps, length
+  std::vector<double> hole_diameter{};  ///< (h) length; none: those of the sheets' matrices
+  std::vector<double> friction;         ///< (h) mu in each hole
   bool law_includes_friction = false;
   std::string where;
+
+  /// Place of what gives the gaps.
+  [[nodiscard]] std::string where_gap() const { return where + (diameter ? "/diameter" : "/gap"); }
 };
 
 struct LoadScene {

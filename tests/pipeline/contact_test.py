@@ -135,12 +135,23 @@ def lap_joint(folder):
         near("  along y", F[:, 1], [32.32, 47.30, -33.44, -77.00], 2e-3)
         touching = result["plates/upper/contact/touching"][0, 1]
         assert 80 < touching < 86, touching
+        by_gaps = result["F_vector"][0].ravel(), [0, 0.02, 0, 0]
+    for holes in ({}, {"hole_diameter": 4.8}, {"hole_diameter": [4.8, 4.8]}):
+        fasteners[1] = {"id": "b", "between": ["upper:b", "lower:b"], "law": "bolt", "diameter": 4.76, **holes}
+        with again(folder, *arguments) as result:
+            near(f"  a diameter instead of gaps, {holes}", result["F_vector"][0].ravel(), by_gaps[0], 1e-9)
+            assert np.allclose(result["plates/lower/contact/gap"][:], by_gaps[1], rtol=1e-12, atol=1e-15)
+    fasteners[1]["hole_diameter"] = [4.8, 4.7]
+    with again(folder, *arguments) as result:
+        assert np.allclose([result[f"plates/{name}/contact/gap"][1] for name in ("upper", "lower")], [0.02, -0.03])
+    fasteners[1] = {"id": "b", "between": ["upper:b", "lower:b"], "law": "bolt"}
+    again(folder, *arguments).close()
 
 
 def doubtful_gaps(folder):
     """Gaps that hardly any joint has are said; uses the joint before."""
     text = json.loads((folder / "joint.json").read_text())
-    for gap, said in ((3, "/fasteners/1/gap: 3 at hole"), (-0.5, "/fasteners/1/gap: -0.5 at hole"), (0.2, ""), (-0.05, "")):
+    for gap, said in ((3, "/fasteners/1/gap: a gap of 3 at hole"), (-0.5, "/fasteners/1/gap: a gap of -0.5 at hole"), (0.2, ""), (-0.05, "")):
         text["fasteners"][1]["gap"] = gap
         (folder / "joint.json").write_text(json.dumps(text))
         told = run(folder, "stage3_nonlinear", "joint.json", "-o", "result.h5")

@@ -65,6 +65,19 @@ TEST(JointModel, AddsClearanceToTheLawsGap) {
   EXPECT_TRUE(joint.planes[0].one_sided);
 }
 
+TEST(JointModel, RefusesGapsInHolesThatTheirSpringsFill) {
+  const auto with = [](const std::string& gaps) {
+    return load(test::two_fastener_lap(),
+                {{"fasteners", R"([{"id": "f", "between": ["a:1", "b:1"], "law": "lin", )" + gaps + "}]"}});
+  };
+  for (const char* gaps : {R"("gap": [0, 0.1])", R"("diameter": 5)", R"("diameter": 5, "hole_diameter": [5, 5.1])"})
+    EXPECT_THAT([&] { (void)with(gaps); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr(gaps[1] == 'g' ? "/fasteners/0/gap: " : "/0/diameter: "),
+                                                HasSubstr("the springs of hole \""), HasSubstr("also pull"))));
+  for (const char* none : {R"("gap": 0)", R"("diameter": 5, "hole_diameter": 5)"})
+    EXPECT_EQ(with(none).fasteners[0].holes[1].gap, 0);
+}
+
 TEST(JointModel, TakesTheFrictionCaseOfTheSideThatBears) {
   const auto lap = rubbing_lap();
   const JointModel joint = load(lap, with_friction);
