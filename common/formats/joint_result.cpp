@@ -126,7 +126,8 @@ void datasets(File& file, Result& a) {
        "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on");
   file("residual", a.residual, {steps}, "1",
        "largest residual, relative to the largest force that rigid fasteners carry");
-  file("event", a.event, {steps}, "1", "fasteners that close, open, slip or yield exactly at this load factor");
+  file("event", a.event, {steps}, "1",
+       "fasteners that close, open, slip or yield exactly at this load factor, and what rims of contact do by then");
   file("fastener/id", a.fastener_id, {any}, "1", "fastener of each shear plane, in the order of the input");
   const Eigen::Index n = a.fastener_id.size();
   file("fastener/first", a.first_hole, {n}, "1", "plate:hole on its first side");

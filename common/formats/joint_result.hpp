@@ -100,7 +100,7 @@ struct JointResult {
   Eigen::VectorXi converged;    ///< (steps) 1
   Eigen::VectorXi iterations;   ///< (steps) of the nonlinear solver, failed tries included; of an exact path its pieces
   Eigen::VectorXd residual;     ///< (steps) largest, relative to the largest force
-  std::vector<std::string> event;  ///< (steps) fasteners that begin or cease to bear exactly there, or pass a corner
+  std::vector<std::string> event;  ///< (steps) what fasteners do exactly there, and rims of contact by then
   // The n shear planes have one entry each: one plane for each neighbouring pair of a fastener's plates, fastener after
   // fastener.
   std::vector<std::string> fastener_id;              ///< (n)

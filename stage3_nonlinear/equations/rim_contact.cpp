@@ -80,10 +80,10 @@ VectorXd RimContact::forces(const Touching& at, const VectorXd& m) const {
   return stiffness_ * (at.share * m - gap_ * at.share.col(0));
 }
 
-double RimContact::deepest(const VectorXd& m) const {
+double RimContact::deepest(const VectorXd& m, double sign) const {
   Index at = 0;
-  (samples_ * m).maxCoeff(&at);
-  return extremum(m, angles_[at], 1);
+  (sign * (samples_ * m)).maxCoeff(&at);
+  return extremum(m, angles_[at], sign);
 }
 
 }  // namespace fastjoint::stage3

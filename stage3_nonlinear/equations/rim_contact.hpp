@@ -38,8 +38,8 @@ class RimContact {
   [[nodiscard]] Touching touching(const VectorXd& m) const;
   /// Forces where it touches so, (size), force.
   [[nodiscard]] VectorXd forces(const Touching& at, const VectorXd& m) const;
-  /// Place at which w is largest, radians.
-  [[nodiscard]] double deepest(const VectorXd& m) const;
+  /// Place at which sign * w is largest, radians.
+  [[nodiscard]] double deepest(const VectorXd& m, double sign = 1) const;
   /// w - gap, length.
   [[nodiscard]] double depth(const VectorXd& m, double angle) const { return pressures_.at(angle).dot(m) - gap_; }
 

@@ -269,6 +269,13 @@ double JointModel::gap(Index plate, const std::string& hole) const { return fast
 
 double JointModel::mu(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).mu; }
 
+std::vector<std::string> JointModel::rims() const {
+  std::vector<std::string> names;
+  for (const auto& plate : plates)
+    for (const auto& rim : plate.contact) names.push_back(plate.name + ":" + rim.hole);
+  return names;
+}
+
 std::string JointModel::name(const HoleModel& hole) const {
   return plates[hole.plate].name + ":" + plates[hole.plate].hole_of(hole.disc);
 }

@@ -174,6 +174,8 @@ struct JointModel {
   [[nodiscard]] bool is_to_ground(const ShearPlane& plane) const {
     return plane.first + 1 == std::ssize(fasteners[plane.fastener].holes);
   }
+  /// "plate:hole" of each rim of contact, plate after plate.
+  [[nodiscard]] std::vector<std::string> rims() const;
   /// "plate:hole"
   [[nodiscard]] std::string name(const HoleModel& hole) const;
   /// Name in messages: fastener "1", and of one with several planes also the plates: fastener "1" between "a" and "b".

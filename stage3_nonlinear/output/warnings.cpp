@@ -153,7 +153,7 @@ void warn_of_locking(const LoadPath& path, std::vector<std::string>& result) {
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                        std::vector<std::string>& result) {
   constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
-  const ContactCorners corners(equations.contacts);
+  const ContactCorners corners(equations);
   MatrixXd most = MatrixXd::Zero(equations.n_directions(), equations.n_planes());
   for (const PathStep& step : path.steps) {
     const VectorXd all = coordinates(equations, step.all_F(), step.all_delta());

@@ -40,17 +40,44 @@ struct Words {
   std::array<const char*, 2> onward, back;
 };
 
-constexpr std::array words{Words{CornerKind::slip, {"slips", "slip"}, {"sticks again", "stick again"}},
-                           Words{CornerKind::contact, {"closes", "close"}, {"opens", "open"}},
-                           Words{CornerKind::yield, {"yields", "yield"}, {"is elastic again", "are elastic again"}}};
+constexpr std::array words{
+    Words{CornerKind::slip, {"slips", "slip"}, {"sticks again", "stick again"}},
+    Words{CornerKind::contact, {"closes", "close"}, {"opens", "open"}},
+    Words{CornerKind::yield, {"yields", "yield"}, {"is elastic again", "are elastic again"}},
+    Words{CornerKind::touch, {"touches", "touch"}, {"opens", "open"}},
+    Words{
+        CornerKind::part, {"loses full contact", "lose full contact"}, {"is in full contact", "are in full contact"}}};
 
 }  // namespace
 
-ContactCorners::ContactCorners(const std::vector<Contact>& contacts) {
-  for (const auto& contact : contacts) {
-    corners_.push_back(corners_of(contact));
-    one_sided_.push_back(contact.one_sided);
+ContactCorners::ContactCorners(const JointEquations& equations)
+    : equations_(equations), n_planes_(equations.n_planes()) {
+  for (const auto& contact : equations.contacts) corners_.push_back(corners_of(contact));
+  for (Index i = 0; i < std::ssize(equations.rims); ++i)
+    for (const CornerKind kind : {CornerKind::touch, CornerKind::part}) corners_.push_back({{0, kind}});
+}
+
+double ContactCorners::position(const VectorXd& c, Index plane) const {
+  const Index a = equations_.n_directions();
+  if (plane < n_planes_) return a == 1 ? c[plane] : c.segment(plane * a, a).norm();
+  const RimContact& rim = rim_of(plane);
+  return slope(c, plane).dot(c) - sign_of(plane) * rim.stiffness() * rim.gap();
+}
+
+VectorXd ContactCorners::slope(const VectorXd& c, Index plane) const {
+  const Index a = equations_.n_directions();
+  VectorXd result = VectorXd::Zero(c.size());
+  if (plane < n_planes_) {
+    result.segment(plane * a, a) = a == 1 ? VectorXd::Ones(1) : VectorXd(c.segment(plane * a, a).normalized());
+    return result;
   }
+  const RimContact& rim = rim_of(plane);
+  Index first = equations_.n_plane_rows();
+  for (const RimContact* before = equations_.rims.data(); before != &rim; ++before) first += before->size();
+  // The place of an extremum moves along the rim without changing it.
+  const double angle = rim.deepest(c.segment(first, rim.size()), sign_of(plane));
+  result.segment(first, rim.size()) = sign_of(plane) * rim.pressures().at(angle);
+  return result;
 }
 
 double ContactCorners::nearness(const VectorXd& c, double at) {
@@ -59,12 +86,13 @@ double ContactCorners::nearness(const VectorXd& c, double at) {
 }
 
 VectorXi ContactCorners::passed(const VectorXd& c) const {
-  const VectorXd x = amounts(c, c.size() / corners_.size());
-  VectorXi result(x.size());
-  for (Index j = 0; j < std::ssize(x); ++j) {
-    const bool mirrored = x[j] < 0 && !one_sided_[j];
-    const double position = mirrored ? -x[j] : x[j];
+  VectorXi result = VectorXi::Zero(std::ssize(corners_));
+  for (Index j = 0; j < result.size(); ++j) {
     const auto& own = of(j);
+    if (own.empty()) continue;
+    const double x = this->position(c, j);
+    const bool mirrored = x < 0 && !is_one_sided(j);
+    const double position = mirrored ? -x : x;
     const int reached = int(std::count_if(
         own.begin(), own.end(), [&](const Corner& corner) { return position >= corner.at - nearness(c, corner.at); }));
     result[j] = mirrored ? -reached : reached;
@@ -86,28 +114,35 @@ std::vector<ContactEvent> ContactCorners::between(const VectorXi& before, const 
 
 std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const VectorXd& c) const {
   std::vector<ContactEvent> result;
-  if (c.isZero(0)) return result;
-  const Index n_directions = c.size() / corners_.size();
-  const VectorXd x = amounts(c, n_directions), was = amounts(before, n_directions);
-  for (Index j = 0; j < std::ssize(x); ++j) {
-    const bool mirrored = x[j] < 0 && !one_sided_[j];
-    const double sign = mirrored ? -1 : 1;
+  for (Index j = 0; j < n_planes_ && !c.isZero(0); ++j) {
+    const double x = position(c, j), was = position(before, j);
+    const double sign = x < 0 && !is_one_sided(j) ? -1 : 1;
     for (const Corner& corner : of(j)) {
       const double near = nearness(c, corner.at);
-      if (std::abs(sign * x[j] - corner.at) > near || std::abs(sign * was[j] - corner.at) <= near) continue;
-      result.push_back({j, corner.kind, sign * was[j] > corner.at});
+      if (std::abs(sign * x - corner.at) > near || std::abs(sign * was - corner.at) <= near) continue;
+      result.push_back({j, corner.kind, sign * was > corner.at});
     }
   }
+  const VectorXi here = passed(c);
+  VectorXi rims_before = passed(before);
+  rims_before.head(n_planes_) = here.head(n_planes_);
+  const auto of_rims = between(rims_before, here);
+  result.insert(result.end(), of_rims.begin(), of_rims.end());
   return result;
 }
 
 std::string event_text(const JointModel& joint, const std::vector<ContactEvent>& events) {
+  const auto rims = joint.rims();
+  const auto name = [&](const ContactEvent& event) {
+    const Index behind = event.plane - joint.n_planes();
+    return behind < 0 ? joint.short_name(joint.planes[event.plane]) : rims[behind / 2];
+  };
   std::vector<std::string> parts;
   for (const bool back : {false, true})
     for (const Words& each : words) {
       std::vector<std::string> names;
       for (const auto& event : events)
-        if (event.kind == each.kind && event.back == back) names.push_back(joint.short_name(joint.planes[event.plane]));
+        if (event.kind == each.kind && event.back == back) names.push_back(name(event));
       if (names.empty()) continue;
       const auto& verb = back ? each.back : each.onward;
       parts.push_back(fmt::format("{} {}", fmt::join(names, ", "), verb[names.size() == 1 ? 0 : 1]));

@@ -68,7 +68,7 @@ class Search {
  private:
   std::optional<Sample> solved(double load) {
     program::report_share(load);
-    if (walk_.reach(load)) return Sample{load, walk_.here().c, passed(walk_.here().c)};
+    if (walk_.reach(load)) return Sample{load, walk_.here().c, corners_.passed(walk_.here().c)};
     found_.failed = load;
     return std::nullopt;
   }
@@ -112,29 +112,26 @@ class Search {
 
   /// Solves for the load factor and all c with one plane on a corner.
   [[nodiscard]] std::optional<EventPlace> crossing(const Sample& a, const Sample& b, Index plane, double corner) const {
-    const Index n_directions = equations_.n_directions();
     const Index rows = equations_.n_unknowns();
-    const auto own = Eigen::seqN(plane * n_directions, n_directions);
     double unit = 1;
     RootProblem problem;
     problem.residual = [&](const VectorXd& x) -> VectorXd {
       VectorXd r(rows + 1);
       r << root_problem(equations_, x[rows], unit).residual(x.head(rows)),
-          position(x.head(rows), plane) - corner / unit;
+          (corners_.position(unit * x.head(rows), plane) - corner) / unit;
       return r;
     };
     problem.jacobian = [&](const VectorXd& x) -> MatrixXd {
       MatrixXd J = MatrixXd::Zero(rows + 1, rows + 1);
       J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], unit).jacobian(x.head(rows));
       J.col(rows).head(rows) = -equations_.system.q / unit;
-      const VectorXd c = x(own);
-      J.row(rows)(own) = n_directions == 1 ? VectorXd::Ones(1) : VectorXd(c / c.norm());
+      J.row(rows).head(rows) = corners_.slope(unit * x.head(rows), plane);
       return J;
     };
-    const double from = position(a.c, plane), to = position(b.c, plane);
+    const double from = corners_.position(a.c, plane), to = corners_.position(b.c, plane);
     const double share = from == to ? 0.5 : std::clamp((corner - from) / (to - from), 0.0, 1.0);
     VectorXd c = (1 - share) * a.c + share * b.c;
-    if (!(c(own).norm() > 0)) return std::nullopt;
+    if (corners_.slope(c, plane).isZero(0)) return std::nullopt;
     constexpr double tolerance = 1e-13, enough = 1e-11;
     constexpr int most_iterations = 60;
     double load = (1 - share) * a.load + share * b.load;
@@ -153,10 +150,9 @@ class Search {
       iterations += root.iterations;
     }
     // Exactly on it: then nothing bears yet.
-    if (n_directions == 1)
-      c[plane] = corner;
-    else
-      c(own) *= corner / position(c, plane);
+    const Index n_directions = plane < equations_.n_planes() ? equations_.n_directions() : 0;
+    if (n_directions == 1) c[plane] = corner;
+    if (n_directions > 1) c.segment(plane * n_directions, n_directions) *= corner / corners_.position(c, plane);
     return EventPlace{{load, std::move(c)}, iterations};
   }
 
@@ -175,7 +171,7 @@ class Search {
     const auto first = std::ranges::min_element(all, {}, [](const EventPlace& e) { return e.place.load_factor; });
     if (first == all.end() || contact_state(equations_, first->place.c).spent) return std::nullopt;
     const VectorXd& c = first->place.c;
-    const VectorXi here = passed(c);
+    const VectorXi here = corners_.passed(c);
     for (Index j = 0; j < std::ssize(here); ++j) {
       const bool passes = a.passed[j] != b.passed[j] && is_on(c, j, next_corner(j, a.passed[j], b.passed[j]));
       if (here[j] != a.passed[j] && !passes) return std::nullopt;
@@ -183,14 +179,8 @@ class Search {
     return *first;
   }
 
-  [[nodiscard]] VectorXi passed(const VectorXd& c) const { return corners_.passed(c.head(equations_.n_plane_rows())); }
-
-  [[nodiscard]] double position(const VectorXd& c, Index plane) const {
-    return amounts(c.head(equations_.n_plane_rows()), equations_.n_directions())[plane];
-  }
-
   [[nodiscard]] bool is_on(const VectorXd& c, Index plane, double corner) const {
-    return std::abs(position(c, plane) - corner) <= corners_.nearness(c, std::abs(corner));
+    return std::abs(corners_.position(c, plane) - corner) <= corners_.nearness(c, std::abs(corner));
   }
 
   /// Corners passed behind a crossing: all planes that are on the corner they pass have passed it.
@@ -218,7 +208,7 @@ class Search {
     for (const double t : {0.1, 0.25, 0.5, 0.75, 0.9}) {
       const double s = 1 - t;
       const VectorXd c = s * s * (1 + 2 * t) * a.c + t * t * (1 + 2 * s) * b.c + s * t * (s * rate_a - t * rate_b);
-      const VectorXi there = passed(c);
+      const VectorXi there = corners_.passed(c);
       for (Index j = 0; j < std::ssize(there); ++j)
         if (there[j] != a.passed[j] && !is_on_a_corner(a.c, j) && !is_on_a_corner(b.c, j)) return true;
     }
@@ -263,7 +253,7 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   std::vector<ExactPath> exact;
   if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
   Walk walk(equations, options, exact);
-  const ContactCorners corners(equations.contacts);
+  const ContactCorners corners(equations);
   const bool whole = !exact.empty() && exact[0].reach() >= 1;
   const auto [events, failed] =
       whole ? FoundEvents{events_of(exact[0], corners), {}} : Search(equations, corners, walk).run();

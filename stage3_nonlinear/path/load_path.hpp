@@ -10,45 +10,60 @@
 
 namespace fastjoint::stage3 {
 
-/// Kind of a corner of a plane's curve: before the rim bears, where it begins to, after.
-enum class CornerKind { slip, contact, yield };
+/// Kind of a corner of a plane's curve: before the rim bears, where it begins to, after; or of a rim of contact: where
+/// it begins to touch its disc anywhere, and ceases to touch it all around.
+enum class CornerKind { slip, contact, yield, touch, part };
 
 /// Place on a plane's curve at which something happens to the fastener.
 struct Corner {
-  double at;  ///< contact coordinate, or its amount if the plane bears both ways; >= 0, force
+  double at;  ///< ContactCorners::position, or its amount if the plane bears both ways; >= 0, force
   CornerKind kind;
 };
 
 /// Passing of a corner by a plane, away from the origin or back.
 struct ContactEvent {
-  Index plane;
+  Index plane;  ///< behind the n planes stand two entries of each rim of contact: n + 2 rim touches, the next parts
   CornerKind kind;
   bool back;
 
   bool operator==(const ContactEvent&) const = default;
 };
 
-/// Corners of the planes of a joint, and the events between its states.
+/// Corners of the n planes of a joint and its g rims of contact, and the events between its states.
 class ContactCorners {
  public:
-  explicit ContactCorners(const std::vector<Contact>& contacts);
+  /// @param equations Outlives this.
+  explicit ContactCorners(const JointEquations& equations);
 
   /// Corners of a plane, ascending: where its rim begins to bear, and those of a law that is linear between them.
   [[nodiscard]] const std::vector<Corner>& of(Index plane) const { return corners_[plane]; }
-  /// Number of corners that each plane has passed, negative on the negative side, (n).
+  /// Contact coordinate of a plane, or with two directions its amount; of a rim the depth of its disc where it is
+  /// largest, or minus that where it is least, times the rim's stiffness, force.
   ///
-  /// @param c Contact coordinates, shape (n a), force.
+  /// @param c Contact coordinates, shape (r), force.
+  [[nodiscard]] double position(const VectorXd& c, Index plane) const;
+  /// Derivative of position by c, (r).
+  [[nodiscard]] VectorXd slope(const VectorXd& c, Index plane) const;
+  /// Number of corners that each plane and each entry of a rim has passed, negative on the negative side, (n + 2 g).
   [[nodiscard]] Eigen::VectorXi passed(const VectorXd& c) const;
   /// Events on the way from one vector of passed() to another.
   [[nodiscard]] std::vector<ContactEvent> between(const Eigen::VectorXi& before, const Eigen::VectorXi& after) const;
-  /// Events at c, on the corners themselves, coming from `before`.
+  /// Events of planes at c, on the corners themselves, coming from `before`, and of rims by then.
   [[nodiscard]] std::vector<ContactEvent> at(const VectorXd& before, const VectorXd& c) const;
   /// Distance within which c is on a corner at `at`, force.
   [[nodiscard]] static double nearness(const VectorXd& c, double at);
 
  private:
+  [[nodiscard]] const RimContact& rim_of(Index entry) const { return equations_.rims[(entry - n_planes_) / 2]; }
+  /// Sign of the depth in the position of a rim's entry.
+  [[nodiscard]] double sign_of(Index entry) const { return (entry - n_planes_) % 2 == 0 ? 1 : -1; }
+  [[nodiscard]] bool is_one_sided(Index plane) const {
+    return plane >= n_planes_ || equations_.contacts[plane].one_sided;
+  }
+
+  const JointEquations& equations_;
+  Index n_planes_;
   std::vector<std::vector<Corner>> corners_;
-  std::vector<bool> one_sided_;
 };
 
 /// "1, 3 close; 2 yields", empty if nothing happens.
@@ -67,7 +82,7 @@ struct PathStep {
   bool exact = false;                     ///< on an exact path
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
   VectorXd shear = {};                    ///< (s) forces of the shears of rims of contact with friction, force
-  std::vector<ContactEvent> events = {};  ///< what happens exactly here
+  std::vector<ContactEvent> events = {};  ///< what happens exactly here, or to rims since the increment before
 
   /// Forces and displacements of all rows of the condensed system, (r).
   [[nodiscard]] VectorXd all_F() const { return behind(F, rim_F); }

@@ -210,7 +210,7 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   }
   LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
   Walk walk(equations, options, std::move(exact));
-  const ContactCorners corners(equations.contacts);
+  const ContactCorners corners(equations);
   for (Index i = 0; i < std::ssize(load_factors); ++i) {
     program::report_share(double(i) / double(load_factors.size()));
     const VectorXd before = walk.here().c;
@@ -219,8 +219,7 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
       break;
     }
     path.steps.push_back(walk.step());
-    const Index planes = equations.n_plane_rows();
-    path.steps.back().events = corners.at(before.head(planes), walk.here().c.head(planes));
+    path.steps.back().events = corners.at(before, walk.here().c);
   }
   path.left = walk.left();
   return path;

@@ -229,11 +229,10 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
     if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
       numbers.friction.push_back(friction_hole(joint, system, row.fastener, row.hole));
   }
+  numbers.gap = joint.rims();
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
-    for (const auto& rim : joint.plates[i].contact) {
-      numbers.gap.push_back(joint.plates[i].name + ":" + rim.hole);
-      if (joint.mu(i, rim.hole) != 0) numbers.shears.push_back(numbers.gap.back());
-    }
+    for (const auto& rim : joint.plates[i].contact)
+      if (joint.mu(i, rim.hole) != 0) numbers.shears.push_back(joint.plates[i].name + ":" + rim.hole);
   std::map<std::string, Index> first;
   for (const auto& plane : joint.planes) {
     const auto [at, is_new] = first.try_emplace(plane.law_name, std::ssize(numbers.law));

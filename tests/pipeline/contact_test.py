@@ -110,6 +110,22 @@ def interference(folder):
         moved = result["plates/sheet/De"][0, 0] - result["plates/sheet/De"][:, 0]
         near("  it moves as springs that also pull until contact is lost", moved[2] / moved[1], 1.9, 1e-9)
         assert moved[3] / moved[1] > 2.1 * (1 + 1e-6), "beyond, it bends"
+        assert list(result["event"].asstr()) == ["", "", "", "sheet:1 loses full contact"]
+    with again(folder, {"sheet": plate}, {"rigid": {"type": "rigid"}}, [pin],
+               [{"external": "sheet:P", "force": -1.05 * lost}], increments="events") as result:
+        near("  contact is lost", result["load_factor"][:] * 1.05, [1, 1.05], 1e-3)
+        assert list(result["event"].asstr()) == ["sheet:1 loses full contact", ""]
+
+
+def events(folder):
+    """A pin with a gap touches when the sheet, which nothing loads before, has moved by the gap; uses the sheet before."""
+    pin = {"id": "pin", "between": ["strip:1", "ground"], "law": "rigid", "gap": 0.02}
+    arguments = ({"strip": None}, {"rigid": {"type": "rigid"}}, [pin], [{"external": "strip:P", "displacement": -0.05}])
+    with again(folder, *arguments, increments="events") as result:
+        near("events: the pin touches", result["load_factor"][:], [0.4, 1], 1e-9)
+        assert list(result["event"].asstr()) == ["strip:1 touches", ""]
+    with again(folder, *arguments, increments=[0.3, 0.5, 0.6, 0.1]) as result:
+        assert list(result["event"].asstr()) == ["", "strip:1 touches", "", "strip:1 opens"]
 
 
 def lap_joint(folder):
@@ -231,5 +247,5 @@ def limits(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (pin_in_a_strip, nisida, interference, lap_joint, doubtful_gaps, column_of_rivets, limits):
+    for check in (pin_in_a_strip, nisida, events, interference, lap_joint, doubtful_gaps, column_of_rivets, limits):
         check(Path(name))

@@ -148,7 +148,7 @@ TEST(Events, LostContactIsAnEventToo) {
 /// At each event the planes named are on a mark; between events no stage changes, by states solved in between.
 void expect_all_events(const JointEquations& equations, const LoadPath& path, bool floats, int samples, int joint) {
   ASSERT_FALSE(path.failure) << "joint " << joint;
-  const ContactCorners corners(equations.contacts);
+  const ContactCorners corners(equations);
   const double scale = force_scale(equations, 1);
   Walk walk(equations, tight);
   double begin = first_load_factor;
