@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 6;
+constexpr int minor = 7;
 
 using V = RimValues;
 using enum Dimension;
@@ -62,6 +62,12 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "pressure/added", a.pressure, {steps, k}, unit(units, -2, 1),
        "amount of each pressure that contact adds to that of springs all around");
   file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
+  file(group + "contact/no_load_peak", a.contacts.no_load_peak, {g}, unit(units, -2, 1),
+       "largest pressure on the rim at no load", h5::or_else(0));
+  file(group + "contact/no_load_least", a.contacts.no_load_least, {g}, unit(units, -2, 1),
+       "least pressure on the rim at no load", h5::or_else(0));
+  file(group + "contact/full_until", a.contacts.full_until, {g}, "1",
+       "load factor at which a rim with interference first loses full contact", h5::not_negative.or_else(h5::infinite));
   file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
   file(group + "contact/from", a.contacts.from, {steps, g}, "deg", "start of the widest arc on which they touch");
   file(group + "contact/to", a.contacts.to, {steps, g}, "deg", "end of this arc, counter-clockwise from x");

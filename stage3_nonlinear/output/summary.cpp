@@ -198,6 +198,22 @@ std::string contact_table(const JointModel& joint, const formats::JointResult& r
          rows;
 }
 
+/// A line for each rim with interference.
+std::string interference_lines(const JointModel& joint, const LoadPath& path, const formats::JointResult& result) {
+  std::string text;
+  for (const auto& plate : result.plates)
+    for (Index i = 0; i < std::ssize(plate.contact); ++i) {
+      const auto& a = plate.contacts;
+      if (!path.interference || a.gap[i] >= 0) continue;
+      text += fmt::format("interference at {}:{}: pressure {:.6g} to {:.6g} {} at no load, {}\n", plate.name,
+                          plate.contact[i].hole, a.no_load_least[i], a.no_load_peak[i], unit(joint.units, -2, 1),
+                          std::isfinite(a.full_until[i])
+                              ? fmt::format("full contact is lost at load factor {:.6g}", a.full_until[i])
+                              : "full contact is kept");
+    }
+  return text;
+}
+
 std::string stress_tables(const JointModel& joint, const LoadPath& path, const std::vector<JointState>& states,
                           const formats::JointResult& result, bool all) {
   std::string text;
@@ -238,7 +254,8 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   }
   if (states.empty()) return text;
   if (result.F_error) text += error_bar(joint, result);
-  return text + legend + stress_tables(joint, path, states, result, all_stresses);
+  return text + legend + interference_lines(joint, path, result) +
+         stress_tables(joint, path, states, result, all_stresses);
 }
 
 }  // namespace fastjoint::stage3

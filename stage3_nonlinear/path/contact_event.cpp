@@ -50,11 +50,14 @@ constexpr std::array words{
 
 }  // namespace
 
-ContactCorners::ContactCorners(const JointEquations& equations)
-    : equations_(equations), n_planes_(equations.n_planes()) {
-  for (const auto& contact : equations.contacts) corners_.push_back(corners_of(contact));
-  for (Index i = 0; i < std::ssize(equations.rims); ++i)
-    for (const CornerKind kind : {CornerKind::touch, CornerKind::part}) corners_.push_back({{0, kind}});
+ContactCorners::ContactCorners(const JointEquations& equations, bool interference_alone)
+    : equations_(equations), n_planes_(equations.n_planes()), corners_(n_planes_) {
+  for (Index j = 0; j < n_planes_ && !interference_alone; ++j) corners_[j] = corners_of(equations.contacts[j]);
+  for (const auto& rim : equations.rims)
+    for (const CornerKind kind : {CornerKind::touch, CornerKind::part}) {
+      corners_.emplace_back();
+      if (!interference_alone || (kind == CornerKind::part && rim.gap() < 0)) corners_.back().push_back({0, kind});
+    }
 }
 
 double ContactCorners::position(const VectorXd& c, Index plane) const {

@@ -2,6 +2,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -274,6 +275,24 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   path.steps.push_back(walk.step());
   path.left = walk.left();
   return path;
+}
+
+std::optional<Interference> follow_interference(const JointEquations& equations, const PathOptions& options) {
+  Walk walk(equations, options);
+  if (equations.interference() == 0 || !walk.reach(0)) return std::nullopt;
+  const ContactCorners corners(equations, true);
+  const VectorXi parted = corners.passed(walk.here().c);
+  Interference result{walk.step().moments, VectorXd(std::ssize(equations.rims))};
+  const auto found = Search(equations, corners, walk).run();
+  for (Index i = 0; i < result.lost.size(); ++i) {
+    const ContactEvent lost{equations.n_planes() + 2 * i + 1, CornerKind::part, false};
+    const auto first = std::ranges::find_if(
+        found.events, [&](const EventPlace& each) { return std::ranges::count(each.events, lost) > 0; });
+    result.lost[i] = parted[lost.plane] != 0       ? 0
+                     : first != found.events.end() ? first->place.load_factor
+                                                   : std::numeric_limits<double>::infinity();
+  }
+  return result;
 }
 
 }  // namespace fastjoint::stage3

@@ -32,8 +32,9 @@ struct ContactEvent {
 /// Corners of the n planes of a joint and its g rims of contact, and the events between its states.
 class ContactCorners {
  public:
-  /// @param equations Outlives this.
-  explicit ContactCorners(const JointEquations& equations);
+  /// @param equations         Outlives this.
+  /// @param interference_alone Only the corners at which rims with interference lose full contact.
+  explicit ContactCorners(const JointEquations& equations, bool interference_alone = false);
 
   /// Corners of a plane, ascending: where its rim begins to bear, and those of a law that is linear between them.
   [[nodiscard]] const std::vector<Corner>& of(Index plane) const { return corners_[plane]; }
@@ -118,11 +119,20 @@ struct PathLeft {
   bool guessed;  ///< found from a first guess; else by a jump from the state before
 };
 
+/// Rims of contact of a joint in which some have interference.
+struct Interference {
+  VectorXd moments;  ///< (r - n a) at no load, length
+  /// Load factor up to 1 at which each rim with interference first loses full contact, 0 of one that has none at no
+  /// load, infinite if it is not lost as far as the joint can be followed, and of other rims, (g).
+  VectorXd lost;
+};
+
 struct LoadPath {
   Index n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
   std::optional<PathLeft> left = {};  ///< the first such place; only where the solution may be one of several
+  std::optional<Interference> interference = {};
 };
 
 struct PathOptions {
@@ -151,5 +161,10 @@ inline constexpr double first_load_factor = 1e-6;
 /// while the fastener stays on its corner, between solved states whose interval is halved where the order of events is
 /// in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);
+
+/// Follows a joint with interference at no load, and to load factor 1 for the events at which full contact is lost, as
+/// follow_events finds them. Empty without interference, and if no load cannot be solved.
+[[nodiscard]] std::optional<Interference> follow_interference(const JointEquations& equations,
+                                                              const PathOptions& options);
 
 }  // namespace fastjoint::stage3

@@ -2,6 +2,7 @@
 #include "stage3_nonlinear/results/contact_history.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace fastjoint::stage3 {
 namespace {
@@ -49,11 +50,22 @@ std::vector<formats::ContactHistory> contact_histories(const JointModel& joint, 
     const Index g = std::ssize(plate.contact);
     formats::ContactHistory& a = histories.emplace_back();
     a.gap.resize(g);
+    a.no_load_peak = a.no_load_least = VectorXd::Zero(g);
+    a.full_until = VectorXd::Constant(g, std::numeric_limits<double>::infinity());
     for (auto* table : {&a.touching, &a.from, &a.to, &a.peak_pressure, &a.peak_angle, &a.least_gap})
       *table = MatrixXd::Zero(steps, g);
     for (Index at = 0; at < g; ++at, ++rim) {
       const RimContact& contact = equations.rims[rim];
       a.gap[at] = contact.gap();
+      if (path.interference) {
+        const VectorXd m = path.interference->moments.segment(moment, contact.size());
+        const auto pressure = [&](double sign) {
+          return plate.contact[at].modulus * std::max(contact.depth(m, contact.deepest(m, sign)), 0.0);
+        };
+        a.no_load_peak[at] = pressure(1);
+        a.no_load_least[at] = pressure(-1);
+        a.full_until[at] = path.interference->lost[rim];
+      }
       for (Index step = 0; step < steps; ++step)
         describe(contact, path.steps[step].moments.segment(moment, contact.size()), plate.contact[at].modulus, step, at,
                  a);

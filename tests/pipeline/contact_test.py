@@ -91,19 +91,20 @@ def nisida(folder):
 
 
 def interference(folder):
-    """Pressure without load, and the load at which contact is lost, of a disc pressed into a large sheet."""
+    """Pressure without load, and the load at which contact is lost, of a disc pressed into a large sheet; both its ends
+    take half of the load, so that nothing passes the disc by."""
     r, t, delta = 2.4, 1.6, 0.01
     E, E_disc, nu, nu_disc = 72000, 210000, 0.33, 0.3
     p = delta / r / ((1 + nu) / E + (1 - nu_disc) / E_disc)
     lost = math.pi / 2 * 2 * r * t * p
     assert abs(p - 191.083) < 5e-4 and abs(lost - 2305.17) < 5e-3
-    side = [-200, -40, -10, 10, 40, 200]
+    side = [-200, -40, -10, -4, 4, 10, 40, 200]
     plate = sheet(side, side, t, (E, nu), {"1": (0, 0)}, (E_disc, nu_disc), radius=r, p=(8, 8),
-                  external=[{"id": "P", "on": "left", "direction": "x", "kind": "rigid"}])
+                  external=[{"id": id, "on": on, "direction": "x", "kind": "rigid"} for id, on in (("P", "left"), ("Q", "right"))])
     pin = {"id": "pin", "between": ["sheet:1", "ground"], "law": "rigid", "gap": -delta}
     factors = [0, 0.5, 0.95, 1.05]
     with joint(folder, {"sheet": plate}, {"rigid": {"type": "rigid"}}, [pin],
-               [{"external": "sheet:P", "force": -lost}], increments=factors) as result:
+               [{"external": f"sheet:{id}", "force": -lost / 2} for id in "PQ"], increments=factors) as result:
         contact = result["plates/sheet/contact"]
         near("interference, pressure without load", contact["peak_pressure"][0, 0], p, 1e-3)
         assert np.all(contact["touching"][:3, 0] == 360) and contact["touching"][3, 0] < 360
@@ -111,21 +112,26 @@ def interference(folder):
         near("  it moves as springs that also pull until contact is lost", moved[2] / moved[1], 1.9, 1e-9)
         assert moved[3] / moved[1] > 2.1 * (1 + 1e-6), "beyond, it bends"
         assert list(result["event"].asstr()) == ["", "", "", "sheet:1 loses full contact"]
+        near("  pressures at no load", [contact["no_load_least"][0], contact["no_load_peak"][0]], [p, p], 1e-3)
+        near("  full contact is lost", contact["full_until"][0], 1, 1e-3)
+        until = contact["full_until"][0]
     with again(folder, {"sheet": plate}, {"rigid": {"type": "rigid"}}, [pin],
-               [{"external": "sheet:P", "force": -1.05 * lost}], increments="events") as result:
-        near("  contact is lost", result["load_factor"][:] * 1.05, [1, 1.05], 1e-3)
+               [{"external": f"sheet:{id}", "force": -1.05 * lost / 2} for id in "PQ"], increments="events") as result:
+        near("  contact is lost", result["load_factor"][:] * 1.05, [until, 1.05], 1e-9)
         assert list(result["event"].asstr()) == ["sheet:1 loses full contact", ""]
 
 
-def events(folder):
-    """A pin with a gap touches when the sheet, which nothing loads before, has moved by the gap; uses the sheet before."""
-    pin = {"id": "pin", "between": ["strip:1", "ground"], "law": "rigid", "gap": 0.02}
-    arguments = ({"strip": None}, {"rigid": {"type": "rigid"}}, [pin], [{"external": "strip:P", "displacement": -0.05}])
-    with again(folder, *arguments, increments="events") as result:
-        near("events: the pin touches", result["load_factor"][:], [0.4, 1], 1e-9)
-        assert list(result["event"].asstr()) == ["strip:1 touches", ""]
-    with again(folder, *arguments, increments=[0.3, 0.5, 0.6, 0.1]) as result:
-        assert list(result["event"].asstr()) == ["", "strip:1 touches", "", "strip:1 opens"]
+def interference_that_stays(folder):
+    """Half the load loses no contact, and from no load on the same load factor is told; uses the sheet before."""
+    for force, gap, expected in ((-1000, -0.01, np.inf), (-1000, 0, np.inf), (-9000, -0.01, None)):
+        pin = {"id": "pin", "between": ["sheet:1", "ground"], "law": "rigid", "gap": gap}
+        with again(folder, {"sheet": None}, {"rigid": {"type": "rigid"}}, [pin],
+                   [{"external": f"sheet:{id}", "force": force / 2} for id in "PQ"]) as result:
+            contact = result["plates/sheet/contact"]
+            assert contact["full_until"][0] == expected if expected else abs(9000 * contact["full_until"][0] / 2305.17 - 1) < 1e-3
+            assert (contact["no_load_least"][0] > 0) == (gap < 0)
+    said = subprocess.run([PROGRAMS / "stage3_nonlinear", "joint.json", "-o", "result.h5"], cwd=folder, capture_output=True, text=True).stdout
+    assert "interference at sheet:1: pressure 19" in said and "full contact is lost at load factor 0.25" in said, said
 
 
 def lap_joint(folder):
@@ -246,6 +252,26 @@ def limits(folder):
     near("  one bolt carries all beside a loose one", loose[0], -1000, 1e-9)
 
 
+def events(folder):
+    """A loose pin beside a fitting one touches at an increment, without pressure; uses the sheet a before."""
+    def solve(increments):
+        pins = [{"id": id, "between": [f"a:{id}", "ground"], "law": "rigid", "gap": gap} for id, gap in (("1", 0), ("2", 0.002))]
+        return again(folder, {"a": None}, {"rigid": {"type": "rigid"}}, pins, [{"external": "a:P", "force": -1000}],
+                     increments=increments)
+
+    with solve("events") as result:
+        assert list(result["event"].asstr()) == ["a:2 touches", ""], result["event"].asstr()[:]
+        touches, last = result["load_factor"][:]
+        contact = result["plates/a/contact"]
+        assert 0.1 < touches < 0.9 and last == 1
+        print(f"events: touches at {touches}, gap left {contact['least_gap'][0, 1]}, pressures {contact['peak_pressure'][:, 1]}")
+        assert contact["least_gap"][0, 1] < 1e-12 and contact["peak_pressure"][0, 1] < 1e-6 * contact["peak_pressure"][1, 1]
+    with solve([touches * (1 - 1e-6), touches * (1 + 1e-6), 1, 0.5 * touches]) as result:
+        assert list(result["event"].asstr()) == ["", "a:2 touches", "", "a:2 opens"], result["event"].asstr()[:]
+        assert result["plates/a/contact/touching"][0, 1] == 0 and result["plates/a/contact/touching"][1, 1] > 0
+
+
 with tempfile.TemporaryDirectory() as name:
-    for check in (pin_in_a_strip, nisida, events, interference, lap_joint, doubtful_gaps, column_of_rivets, limits):
+    for check in (pin_in_a_strip, nisida, interference, interference_that_stays, lap_joint, doubtful_gaps, column_of_rivets,
+                  limits, events):
         check(Path(name))
