@@ -73,6 +73,7 @@ class ElementClassifier {
       key.insert(key.end(), {index_of(result_.holes[element], hole), side.local_edge});
       bits(spring->modulus);
       bits(spring->link / sprung_.mesh.thickness[element]);
+      for (const double each : sprung_.axes[hole].reshaped()) bits(each);
       for (const auto& arc : spring->acts) {
         bits(arc.from);
         bits(arc.to);
@@ -116,8 +117,7 @@ PlateElements classify_elements(const SprungMesh& sprung, const pfem::Numbering&
 std::vector<int> Unknowns::border_of(const std::vector<int>& holes) const {
   std::vector<int> list;
   for (const int hole : holes) {
-    const int disc = disc_of_hole[hole];
-    for (int a = 0; a < n_directions; ++a) list.push_back(controlled_of_disc(disc + a));
+    for (int disc = first_disc[hole]; disc < first_disc[hole + 1]; ++disc) list.push_back(controlled_of_disc(disc));
     for (int k = first_pressure[hole]; k < first_pressure[hole + 1]; ++k) list.push_back(n_controlled() + k);
     for (int k = first_friction[hole]; k < first_friction[hole + 1]; ++k)
       list.push_back(n_controlled() + n_pressures() + k);
@@ -127,10 +127,11 @@ std::vector<int> Unknowns::border_of(const std::vector<int>& holes) const {
 
 void count_rim_cases(const SprungMesh& sprung, Unknowns& unknowns) {
   auto &pressure = unknowns.first_pressure = {0}, &friction = unknowns.first_friction = {0};
-  for (const auto& spring : sprung.springs) {
+  for (int hole = 0; hole < count_of(sprung.springs); ++hole) {
+    const auto& spring = sprung.springs[hole];
     pressure.push_back(pressure.back() + (spring && spring->contact ? spring->contact->size() : 0));
-    friction.push_back(friction.back() +
-                       (spring ? static_cast<int>(n_friction_cases(*spring, sprung.axes.cols())) : 0));
+    const Eigen::Index n = spring ? n_friction_cases(*spring, sprung.axes[hole].cols()) : 0;
+    friction.push_back(friction.back() + static_cast<int>(n));
   }
 }
 

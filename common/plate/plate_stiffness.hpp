@@ -23,8 +23,7 @@ struct Unknowns {
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_externals = 0;
   std::vector<std::string> disc_hole, disc_direction;   ///< (m)
-  int n_directions = 0;                                 ///< number of directions of each disc
-  std::vector<int> disc_of_hole;                        ///< (holes) first disc of the hole, or -1 for an open hole
+  std::vector<int> first_disc{};                        ///< (holes + 1) first disc of each hole, none of an open one
   std::vector<int> first_pressure{}, first_friction{};  ///< (holes + 1) first pressure and friction case of each hole
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }

@@ -76,8 +76,9 @@ Eigen::VectorXd friction_load(const pfem::SideRule& rule, double thickness, cons
 }
 
 /// Pressures and shears of contact, on pieces short enough for their waves.
-void add_contact(const SprungMesh& sprung, const rim::Harmonics& contact, const pfem::Side& side, int p,
-                 RimTerms& terms) {
+void add_contact(const SprungMesh& sprung, int hole, const pfem::Side& side, int p, RimTerms& terms) {
+  const rim::Harmonics& contact = sprung.springs[hole]->contact.value();
+  const auto along = sprung.axes[hole].transpose();
   const double step = rim::full_turn / 4 / contact.highest;
   std::vector<rim::AngleRange> pieces;
   for (int i = 0; i < 4 * contact.highest; ++i) pieces.push_back({i * step, (i + 1) * step});
@@ -89,9 +90,9 @@ void add_contact(const SprungMesh& sprung, const rim::Harmonics& contact, const 
     const Eigen::RowVectorXd pressure = weight * contact.at(angle).transpose();
     const Eigen::RowVectorXd shear = weight * contact.shears_at(angle).transpose();
     terms.pressure += (rule.N.col(q) * n.transpose()).reshaped() * pressure;
-    terms.reaction += sprung.axes.transpose() * n * pressure;
+    terms.reaction += along * n * pressure;
     terms.friction += (rule.N.col(q) * t.transpose()).reshaped() * shear;
-    terms.drag += sprung.axes.transpose() * t * shear;
+    terms.drag += along * t * shear;
   }
 }
 
@@ -107,7 +108,8 @@ Eigen::Index n_friction_cases(const rim::HoleSpring& spring, Eigen::Index n_dire
 }
 
 RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, int p) {
-  const auto& [mesh, edges, rims, all_springs, axes] = sprung;
+  const auto& [mesh, edges, rims, all_springs, all_axes] = sprung;
+  const Eigen::Matrix2Xd& axes = all_axes[hole];
   const auto rule = rim::rim_rule(mesh, edges, side, p);
   const auto springs = side_springs(all_springs[hole].value(), mesh, edges, side, p);
   const auto& contact = all_springs[hole]->contact;
@@ -123,7 +125,7 @@ RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, i
                  Eigen::MatrixXd::Zero(a, h),
                  springs.weight.sum()};
   add_springs(springs, axes, terms);
-  if (contact) add_contact(sprung, *contact, side, p, terms);
+  if (contact) add_contact(sprung, hole, side, p, terms);
   for (Eigen::Index i = 0; i < a && !contact; ++i) {
     terms.friction.col(2 * i) = friction_load(rule, mesh.thickness[side.element], axes.col(i));
     terms.friction.col(2 * i + 1) = friction_load(rule, mesh.thickness[side.element], -axes.col(i));

@@ -15,7 +15,7 @@ struct SprungMesh {
   const pfem::Edges& edges;
   const std::vector<rim::Rim>& rims;                    ///< of each hole
   std::vector<std::optional<rim::HoleSpring>> springs;  ///< of each hole, none in an open one, which has no disc
-  Eigen::Matrix2Xd axes;                                ///< (2, a) directions of every disc
+  std::vector<Eigen::Matrix2Xd> axes;                   ///< (2, a) directions of each hole's disc
 };
 
 /// Springs on one side of a rim, summed over points: quadrature points, or the two nodes of links.

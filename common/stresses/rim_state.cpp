@@ -167,7 +167,6 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
 std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const InState& in_state,
                                  const LoadedDiscs& discs, const Contacts& contacts) {
   std::vector<RimState> states;
-  const auto& [holes, axes, all_bearing, all_friction] = discs;
   const auto with_lower_degree = [&](const std::vector<formats::StressRows>& levels) {
     Eigen::MatrixXd columns(levels[level].rows(), level > 0 ? 2 : 1);
     for (Index i = 0; i < columns.cols(); ++i) columns.col(i) = in_state(levels[level - i]);
@@ -176,15 +175,16 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
   const Eigen::MatrixXd hoop = with_lower_degree(a.sigma_tt), forces = with_lower_degree(a.section_force);
   const Eigen::MatrixXd all_radial =
       contacts.rims.empty() ? Eigen::MatrixXd(in_state(a.sigma_rr[level])) : with_lower_degree(a.sigma_rr);
-  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), all_bearing.lpNorm<Eigen::Infinity>());
+  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>());
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
-    const int hole = index_of(holes, a.rim_hole[i]);
-    const bool is_open = hole == count_of(holes);
-    for (int d = 0; d < count_of(axes) && !is_open; ++d) {
-      bearing[axes[d]] = all_bearing[hole * axes.size() + d];
-      friction[axes[d]] = all_friction[hole * axes.size() + d];
+    std::vector<int> axes;
+    for (int disc = 0; disc < count_of(discs.hole); ++disc) {
+      if (discs.hole[disc] != a.rim_hole[i]) continue;
+      axes.push_back(discs.axis[disc]);
+      bearing[axes.back()] = discs.bearing[disc];
+      friction[axes.back()] = discs.friction[disc];
     }
     state.bearing_load = bearing[0];
     state.bearing_load_y = bearing[1];
@@ -206,7 +206,7 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     const auto touched = (radial.array().abs() > 1e-9 * radial.lpNorm<Eigen::Infinity>()).count();
     state.filled = double(touched) > (1 - hardly) * double(radial.size());
     if (state.filled) state.pull = std::max(0.0, radial.maxCoeff());
-    if (axes.size() == 1 && !is_open) {
+    if (axes.size() == 1) {
       const int across = 1 - axes[0];
       state.across = points.force(radial, across, a.bearing_area(i, across));
     }

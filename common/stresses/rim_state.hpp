@@ -28,11 +28,11 @@ struct RimState : formats::RimValues {
   bool in_tension = false;  ///< the section of the concentrations
 };
 
-/// Forces of the fasteners on the m discs of a plate, hole after hole.
+/// Forces of the fasteners on the m discs of a plate.
 struct LoadedDiscs {
-  const std::vector<std::string>& holes;  ///< (m / a)
-  const std::vector<int>& axes;           ///< (a) directions of each hole's discs: 0 x, 1 y
-  Eigen::VectorXd bearing, friction;      ///< (m) resultants on the rim along each disc's direction, force
+  std::vector<std::string> hole;      ///< (m) of each disc
+  std::vector<int> axis;              ///< (m) its direction: 0 x, 1 y
+  Eigen::VectorXd bearing, friction;  ///< (m) resultants on the rim along it, force
 };
 
 using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;

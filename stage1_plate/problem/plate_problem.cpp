@@ -43,17 +43,33 @@ void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Number
     }
 }
 
-void add_discs(const PlateScene& scene, Unknowns& unknowns) {
-  for (const auto& disc : list_discs(scene)) {
-    unknowns.disc_hole.push_back(disc.id);
-    unknowns.disc_direction.push_back(disc.direction);
+/// Directions in which the disc of a hole moves: half a hole is on a line of symmetry and keeps its direction, a
+/// quarter is on two and keeps the first.
+std::vector<std::string> directions_of(const PlateScene& scene, const PlateMesh& plate, int hole) {
+  const auto& all = scene.disc_directions;
+  const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[hole]));
+  if (pieces.size() != 1 || all.size() == 1) return all;
+  const auto is = [](double angle, double other) { return std::abs(angle - other) < rim::same_angle; };
+  const auto [from, to] = pieces[0];
+  if (is(to - from, rim::full_turn / 4)) return {all[0]};
+  if (!is(to - from, rim::full_turn / 2)) return all;
+  for (const auto& direction : all)
+    if (const Eigen::Vector2d line(std::cos(from), std::sin(from)); is(std::abs(line.dot(rim::axis(direction))), 1))
+      return {direction};
+  return all;
+}
+
+void add_discs(const PlateScene& scene, const PlateMesh& plate, Unknowns& unknowns) {
+  const auto add = [&](const std::string& id, const std::vector<std::string>& directions) {
+    unknowns.disc_hole.insert(unknowns.disc_hole.end(), directions.size(), id);
+    unknowns.disc_direction.insert(unknowns.disc_direction.end(), directions.begin(), directions.end());
+  };
+  unknowns.first_disc = {0};
+  for (int hole = 0; hole < count_of(scene.holes); ++hole) {
+    if (scene.holes[hole].spring) add(scene.holes[hole].id, directions_of(scene, plate, hole));
+    unknowns.first_disc.push_back(unknowns.n_discs());
   }
-  unknowns.n_directions = count_of(scene.disc_directions);
-  int disc = 0;
-  for (const auto& hole : scene.holes) {
-    unknowns.disc_of_hole.push_back(hole.spring ? disc : -1);
-    if (hole.spring) disc += unknowns.n_directions;
-  }
+  for (const auto& point : scene.points) add(point.id, scene.disc_directions);
 }
 
 void number_free(Unknowns& unknowns) {
@@ -90,19 +106,20 @@ rim::Harmonics contact_of(const PlateScene& scene, const PlateMesh& plate, int h
 }
 
 /// Names of the friction cases of a hole.
-std::vector<std::string> friction_names(const PlateScene& scene, const std::optional<rim::Harmonics>& contact) {
+std::vector<std::string> friction_names(const Unknowns& unknowns, const std::optional<rim::Harmonics>& contact,
+                                        int hole) {
   std::vector<std::string> names;
   for (int k = 0; contact && k < contact->n_shears(); ++k) names.push_back(rim::shear_name(k));
-  for (const auto& direction : scene.disc_directions)
+  for (int disc = unknowns.first_disc[hole]; disc < unknowns.first_disc[hole + 1]; ++disc)
     for (const char* sign : {"+", "-"})
-      if (!contact) names.push_back(sign + direction);
+      if (!contact) names.push_back(sign + unknowns.disc_direction[disc]);
   return names;
 }
 
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   std::vector<plate::PointTie> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
-    for (int a = 0; a < unknowns.n_directions; ++a) {
+    for (int a = 0; a < count_of(scene.disc_directions); ++a) {
       const std::string& direction = scene.disc_directions[a];
       const int dof = unknowns.dofs(direction == "x" ? 0 : 1, plate.point_nodes[i]);
       if (dof == pfem::fixed_dof)
@@ -201,7 +218,7 @@ std::vector<int> rigid_externals(const PlateScene& scene) { return externals(sce
 std::vector<int> traction_externals(const PlateScene& scene) { return externals(scene, false); }
 
 int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point) {
-  return unknowns.n_discs() - (count_of(scene.points) - point) * unknowns.n_directions;
+  return unknowns.n_discs() - (count_of(scene.points) - point) * count_of(scene.disc_directions);
 }
 
 Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
@@ -214,7 +231,7 @@ Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, cons
           unknowns.dofs(component_of(direction), function) = pfem::fixed_dof;
   for (const int external : rigid_externals(scene))
     control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
-  add_discs(scene, unknowns);
+  add_discs(scene, plate, unknowns);
   number_free(unknowns);
   unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
   return unknowns;
@@ -231,12 +248,14 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
 }
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
-  plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, Eigen::Matrix2Xd(2, scene.disc_directions.size())};
+  plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, {}};
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const auto& spring = sprung.springs.emplace_back(scene.holes[i].spring);
     if (spring && scene.holes[i].spring->compression_only) sprung.springs.back()->contact = contact_of(scene, plate, i);
+    const auto directions = spring ? directions_of(scene, plate, i) : std::vector<std::string>();
+    auto& axes = sprung.axes.emplace_back(2, directions.size());
+    for (int d = 0; d < count_of(directions); ++d) axes.col(d) = rim::axis(directions[d]);
   }
-  for (int a = 0; a < count_of(scene.disc_directions); ++a) sprung.axes.col(a) = rim::axis(scene.disc_directions[a]);
   return sprung;
 }
 
@@ -253,7 +272,7 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     if (!scene.holes[i].spring) continue;
-    const auto names = friction_names(scene, sprung.springs[i]->contact);
+    const auto names = friction_names(problem.unknowns, sprung.springs[i]->contact, i);
     problem.friction_hole.insert(problem.friction_hole.end(), names.size(), scene.holes[i].id);
     problem.friction_bearing.insert(problem.friction_bearing.end(), names.begin(), names.end());
   }

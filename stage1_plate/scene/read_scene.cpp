@@ -155,7 +155,7 @@ PlateScene read_scene(const input::Document& document) {
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
   scene.points = read_points(root, disc_ids);
   const auto discs = root.find("disc_directions");
-  scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x"};
+  scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x", "y"};
   read_sections(root, scene);
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
@@ -180,17 +180,6 @@ void set_degrees(PlateScene& scene, const std::string& option) {
 
 Eigen::VectorXi degrees(const PlateScene& scene) {
   return Eigen::VectorXi::LinSpaced(scene.p_high - scene.p_low + 1, scene.p_low, scene.p_high);
-}
-
-std::vector<Disc> list_discs(const PlateScene& scene) {
-  std::vector<Disc> discs;
-  const auto add = [&](const std::string& id) {
-    for (const auto& direction : scene.disc_directions) discs.push_back({id, direction});
-  };
-  for (const auto& hole : scene.holes)
-    if (hole.spring) add(hole.id);
-  for (const auto& point : scene.points) add(point.id);
-  return discs;
 }
 
 void reject(const PlateScene& scene, const std::string& pointer, const std::string& found, const std::string& allowed) {

@@ -83,11 +83,6 @@ struct External {
   ExternalKind kind;
 };
 
-/// A disc unknown: a direction of the disc of a sprung hole or of a point spring.
-struct Disc {
-  std::string id, direction;
-};
-
 /// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
 struct PlateScene {
   std::string file, text;  ///< where it came from
@@ -97,7 +92,7 @@ struct PlateScene {
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
   std::vector<PointSpring> points;
-  std::vector<std::string> disc_directions;
+  std::vector<std::string> disc_directions;  ///< of all discs but those on lines of symmetry
   std::vector<Support> supports;
   std::vector<External> externals;
   pfem::Space space = pfem::Space::trunk;
@@ -114,9 +109,6 @@ void set_degrees(PlateScene& scene, const std::string& option);
 
 /// Reads PLATE.json strictly. Throws InputError with the file, the JSON pointer, what was found and what is allowed.
 [[nodiscard]] PlateScene read_scene(const input::Document& document);
-
-/// The discs of sprung holes, then those of point springs, each in the scene's order, directions inner.
-[[nodiscard]] std::vector<Disc> list_discs(const PlateScene& scene);
 
 /// Throws the InputError that read_scene would throw at this place of the file.
 [[noreturn]] void reject(const PlateScene& scene, const std::string& pointer, const std::string& found,

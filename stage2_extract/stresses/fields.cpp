@@ -19,29 +19,30 @@ plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbe
     throw FileError(fmt::format("{}:unknown: has {} rows, the mesh has {} functions at p = {} of the {} space", file,
                                 a.unknown.cols(), numbering.n_functions.back(), numbering.p,
                                 pfem::name_of(numbering.space)));
-  plate::Unknowns unknowns{
-      a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole, a.disc_direction, 0, {},
-      {}};
-  for (const auto& name : a.disc_hole) unknowns.n_directions += name == a.disc_hole[0];
+  plate::Unknowns unknowns{a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole,
+                           a.disc_direction};
+  unknowns.first_disc = {0};
   for (const auto& id : a.hole_id) {
-    const int first = index_of(a.disc_hole, id), n = unknowns.n_directions;
-    const bool is_open = first == unknowns.n_discs();
-    unknowns.disc_of_hole.push_back(is_open ? -1 : first);
-    if (!is_open &&
-        (first + n > unknowns.n_discs() || std::count(&a.disc_hole[first], &a.disc_hole[first] + n, id) != n))
+    int end = unknowns.first_disc.back();
+    while (end < unknowns.n_discs() && a.disc_hole[end] == id) ++end;
+    if (std::count(a.disc_hole.begin(), a.disc_hole.end(), id) != end - unknowns.first_disc.back())
       throw FileError(
-          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one behind the other, {} as of "
-                      "every hole",
-                      file, id, n));
+          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one behind the other, in the order "
+                      "of the holes",
+                      file, id));
+    unknowns.first_disc.push_back(end);
   }
   return unknowns;
 }
 
 plate::SprungMesh sprung_mesh(const PlateSolution& a, const pfem::Edges& edges, const plate::Unknowns& unknowns) {
-  plate::SprungMesh sprung{a.mesh, edges, a.hole_rim, {}, Eigen::Matrix2Xd(2, unknowns.n_directions)};
-  for (int i = 0; i < count_of(a.hole_id); ++i)
-    sprung.springs.push_back(unknowns.disc_of_hole[i] < 0 ? std::nullopt : std::optional(a.hole_spring[i]));
-  for (int i = 0; i < unknowns.n_directions; ++i) sprung.axes.col(i) = rim::axis(a.disc_direction[i]);
+  plate::SprungMesh sprung{a.mesh, edges, a.hole_rim, {}, {}};
+  for (int i = 0; i < count_of(a.hole_id); ++i) {
+    const int first = unknowns.first_disc[i], n = unknowns.first_disc[i + 1] - first;
+    sprung.springs.push_back(n == 0 ? std::nullopt : std::optional(a.hole_spring[i]));
+    auto& axes = sprung.axes.emplace_back(2, n);
+    for (int d = 0; d < n; ++d) axes.col(d) = rim::axis(a.disc_direction[first + d]);
+  }
   return sprung;
 }
 

@@ -102,15 +102,12 @@ void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, c
                     result_file, history.name));
   const auto a = extract_stresses(solver, p, sheet.amounts);
   std::vector<int> axes;
-  for (int i = 0; i < count_of(plate.disc_hole) && plate.disc_hole[i] == plate.disc_hole[0]; ++i)
-    axes.push_back(plate.disc_direction[i] == "x" ? 0 : 1);
-  std::vector<std::string> holes;
-  for (int i = 0; i < count_of(plate.disc_hole); i += count_of(axes)) holes.push_back(plate.disc_hole[i]);
+  for (const auto& direction : plate.disc_direction) axes.push_back(direction == "x" ? 0 : 1);
   history.rims = stresses::rims_of(a);
   for (Eigen::Index step = 0; step < sheet.amounts.cols(); ++step) {
     const auto states = stresses::rim_states(
         a, count_of(a.p) - 1, [&](const formats::StressRows& of_states) { return of_states.col(step); },
-        {holes, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)},
+        {plate.disc_hole, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)},
         {history.contact, history.pressure.row(step), history.contacts.gap});
     history.rims.values.emplace_back(states.begin(), states.end());
   }

@@ -68,19 +68,27 @@ int common_degree(const JointScene& scene, const std::vector<PlateMatrices>& all
   return p == 0 ? *common.rbegin() : p;
 }
 
-/// The plates' directions, which must be the same.
-std::vector<int> common_axes(const JointScene& scene, const std::vector<PlateModel>& plates) {
-  const auto names = [](const PlateModel& plate) {
-    return fmt::format("{}", plate.axes | std::views::transform([](int axis) { return axis_names[axis]; }));
-  };
-  for (Index i = 1; i < std::ssize(plates); ++i)
-    if (plates[i].axes != plates[0].axes)
-      refuse(
-          scene.plates[i].where,
-          fmt::format("the discs of {} have the directions {}", plates[i].file, names(plates[i])),
-          fmt::format("{}, as those of {}: give both plates the same \"disc_directions\" and run stages 1 and 2 again",
-                      names(plates[0]), plates[0].file));
-  return plates[0].axes;
+/// Directions of the discs of a hole, "x and y".
+std::string directions_at(const PlateModel& plate, Index first_disc) {
+  std::vector<std::string> names;
+  for (Index d = 0; d < std::ssize(plate.axes); ++d)
+    if (plate.has_disc(first_disc + d)) names.emplace_back(axis_names[plate.axes[d]]);
+  return fmt::format("{}", fmt::join(names, " and "));
+}
+
+/// Refuses a fastener some of whose discs can move where others cannot.
+void check_directions(const JointModel& model, const FastenerScene& scene, const FastenerModel& fastener) {
+  const auto directions = [&](const HoleModel& hole) { return directions_at(model.plates[hole.plate], hole.disc); };
+  const HoleModel& first = fastener.holes[0];
+  for (const auto& hole : fastener.holes)
+    if (directions(hole) != directions(first))
+      refuse(scene.where + "/between",
+             fmt::format("the disc of hole \"{}\" moves along {}, that of hole \"{}\" along {}", model.name(first),
+                         directions(first), model.name(hole), directions(hole)),
+             fmt::format(
+                 "discs of the same directions: whole holes of sheets with the same \"disc_directions\", as {} has "
+                 "them, or half holes on one line of symmetry",
+                 model.plates[first.plate].file));
 }
 
 /// The friction case of a hole for the side that bears along an axis.
@@ -150,23 +158,24 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   if (index == std::ssize(plate.holes))
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate.file),
            fmt::format("{}", fmt::join(plate.holes, ", ")));
-  if (model.n_directions() > 1) check_rim_all_around(plate, hole.name);
   const double mu = fastener.friction[at];
   HoleModel result{plate_at, index * model.n_directions(), mu, {}, gap_of(fastener, at, plate)};
   if (result.gap != 0 && !plate.is_in_contact(hole.name))
     refuse(fastener.where_gap(),
            fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole.name, plate.file),
            "a gap in holes with \"compression_only\", \"clearance\" in others");
+  if (directions_at(plate, result.disc) == "x and y") check_rim_all_around(plate, hole.name);
   if (mu == 0) return result;
   if (plate.is_in_contact(hole.name)) {
     check_shears(plate, hole.name);
     return result;
   }
   const auto sides = bearing_sides(scene, fastener, at);
-  for (const int axis : model.axes) {
+  for (Index d = 0; d < model.n_directions(); ++d) {
     auto& friction = result.friction.emplace_back();
     for (const Side side : {plus_side, minus_side})
-      if (sides[side]) friction[side] = friction_load(plate, hole.name, mu, axis, side);
+      if (sides[side] && plate.has_disc(result.disc + d))
+        friction[side] = friction_load(plate, hole.name, mu, model.axes[d], side);
   }
   return result;
 }
@@ -183,6 +192,7 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
   }
   FastenerModel result{fastener.id, {}, fastener.law_includes_friction, fastener.grounded};
   for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
+  check_directions(model, fastener, result);
   for (const auto& hole : result.holes)  // a disc takes the friction of a rim of contact: the shank carries both
     result.law_includes_friction |= model.plates[hole.plate].is_in_contact(model.plates[hole.plate].hole_of(hole.disc));
   balance(result);
@@ -300,9 +310,11 @@ JointModel load_joint(const JointScene& scene, int p) {
   model.file = scene.file;
   model.units = common_units(scene, all);
   model.p = common_degree(scene, all, p);
+  std::vector<std::string> files;
+  for (const auto& plate : scene.plates) files.push_back(plate.file);
+  model.axes = joint_axes(files, all);
   for (Index i = 0; i < std::ssize(all); ++i)
-    model.plates.push_back(make_plate(scene.plates[i].name, scene.plates[i].file, std::move(all[i]), model.p));
-  model.axes = common_axes(scene, model.plates);
+    model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
   for (const auto& load : scene.loads) apply_load(model, load);
   return model;

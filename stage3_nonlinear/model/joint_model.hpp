@@ -35,14 +35,15 @@ struct PlateDegrees {
 /// are not in S: what they transmit is minus the force on its moments.
 struct PlateModel {
   std::string name, file;
-  std::string matrices_digest, plate_digest;                 ///< of its MATRICES.h5, and of its PLATE.h5
-  std::vector<std::string> holes, externals, tractions;      ///< (m / a), (e), (q)
-  std::vector<int> axes;                                     ///< (a) of each hole's discs in their order: 0 x, 1 y
-  std::vector<bool> on_springs;                              ///< (m / a) the plate's own bearing is in S
-  std::vector<formats::ContactRim> contact;                  ///< (g) rims whose springs push but do not pull
-  MatrixXd S;                                                ///< (m+e+k, m+e+k), force / length
-  MatrixXd R;                                                ///< (m+e+k, h), length^2
-  MatrixXd T;                                                ///< (m+e+k, q), dimensionless
+  std::string matrices_digest, plate_digest;             ///< of its MATRICES.h5, and of its PLATE.h5
+  std::vector<std::string> holes, externals, tractions;  ///< (m / a), (e), (q)
+  std::vector<int> axes;                                 ///< (a) of each hole's discs in their order: 0 x, 1 y
+  std::vector<Index> discs;                              ///< those m that the file has: a line of symmetry holds others
+  std::vector<bool> on_springs;                          ///< (m / a) the plate's own bearing is in S
+  std::vector<formats::ContactRim> contact;              ///< (g) rims whose springs push but do not pull
+  MatrixXd S;                                            ///< (m+e+k, m+e+k), force / length
+  MatrixXd R;                                            ///< (m+e+k, h), length^2
+  MatrixXd T;                                            ///< (m+e+k, q), dimensionless
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
@@ -66,6 +67,8 @@ struct PlateModel {
   [[nodiscard]] bool is_in_contact(const std::string& hole) const {
     return std::ranges::find(contact, hole, &formats::ContactRim::hole) != contact.end();
   }
+  /// False of a direction in which a line of symmetry holds the hole's disc.
+  [[nodiscard]] bool has_disc(Index disc) const { return std::ranges::binary_search(discs, disc); }
   /// First friction case of a rim of contact: the first of its shears.
   [[nodiscard]] Index first_shear(const formats::ContactRim& rim) const {
     return std::ranges::find(friction_hole, rim.hole) - friction_hole.begin();
@@ -74,10 +77,15 @@ struct PlateModel {
   [[nodiscard]] Index first_moment() const { return n_discs() + n_externals(); }
 };
 
-/// The matrices at degree p, checked: the same directions of all discs, names that stand once, S symmetric and positive
-/// semi-definite. Throws FileError or InputError with the file and the dataset.
+/// The matrices at degree p, checked: names that stand once, S symmetric and positive semi-definite. Throws FileError
+/// or InputError with the file and the dataset.
+/// @param axes Those of the joint; the file's own if empty.
 [[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices matrices,
-                                    int p);
+                                    int p, const std::vector<int>& axes = {});
+
+/// Directions of the discs of all files together. Throws FileError for a word that names none.
+[[nodiscard]] std::vector<int> joint_axes(const std::vector<std::string>& files,
+                                          const std::vector<formats::PlateMatrices>& all);
 
 /// Friction in a hole for one side that bears, per unit of the law's force there; `load` is empty without friction.
 struct FrictionLoad {

@@ -36,18 +36,33 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
   return axes;
 }
 
-/// Directions of the first hole's discs; every other hole must have the same in the same order, one after the other.
-std::vector<int> disc_axes(const std::string& file, const formats::PlateMatrices& a) {
-  const std::vector<int> all = axes_of(file, "disc/direction", a.disc_direction);
-  // A direction that stands twice is left to check_once, which says why.
-  const Index n = all.size() > 1 && a.disc_hole[1] == a.disc_hole[0] && all[1] != all[0] ? 2 : 1;
-  for (Index i = 0; i < std::ssize(all); ++i)
-    if (a.disc_hole[i] != a.disc_hole[i - i % n] || all[i] != all[i % n] || all.size() % n != 0)
+/// Directions of all discs, x before y unless every disc has y first.
+std::vector<int> all_axes(const std::string& file, const formats::PlateMatrices& a) {
+  std::vector<int> axes;
+  for (const int axis : axes_of(file, "disc/direction", a.disc_direction))
+    if (std::ranges::find(axes, axis) == axes.end()) axes.push_back(axis);
+  return axes;
+}
+
+/// Names the holes, and gives each disc of the file its place among the discs of all directions. Discs of a hole must
+/// stand one behind the other.
+void place_discs(const std::string& file, const formats::PlateMatrices& a, PlateModel& plate) {
+  const auto axes = axes_of(file, "disc/direction", a.disc_direction);
+  for (Index i = 0; i < std::ssize(axes); ++i) {
+    if (i == 0 || a.disc_hole[i] != a.disc_hole[i - 1]) {
+      plate.holes.push_back(a.disc_hole[i]);
+      plate.on_springs.push_back(a.disc_modulus[i] > 0);
+    }
+    const Index first = (std::ssize(plate.holes) - 1) * std::ssize(plate.axes);
+    const Index at = first + index_of(plate.axes, axes[i]);
+    if (!plate.discs.empty() && at <= plate.discs.back())
       throw FileError(
-          fmt::format("{}:disc/direction: hole \"{}\" has other directions than hole \"{}\", expected the same of "
-                      "every disc, hole after hole",
-                      file, a.disc_hole[i], a.disc_hole[0]));
-  return {all.begin(), all.begin() + n};
+          fmt::format("{}:disc/direction: hole \"{}\" has {} behind {}, expected each direction once, all in "
+                      "one order",
+                      file, a.disc_hole[i], a.disc_direction[i], a.disc_direction[i - 1]));
+    plate.discs.push_back(at);
+  }
+  check_once(file, "disc/hole", plate.holes);
 }
 
 void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
@@ -146,6 +161,28 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   degrees.S.back() = std::move(S);
 }
 
+/// Adds to the matrices, of discs of the file, those of directions in which holes have no disc, since a line of
+/// symmetry holds them: nothing couples to these, and a stiffness that no force meets keeps them where they are.
+void add_held_discs(const PlateModel& plate, PlateDegrees& degrees) {
+  const Index n_file = std::ssize(plate.discs), more = plate.n_discs() - n_file;
+  if (more == 0) return;
+  const Index n = degrees.S.back().rows() + more;
+  std::vector<Index> place(plate.discs);
+  for (Index i = plate.n_discs(); i < n; ++i) place.push_back(i);
+  for (MatrixXd& S : degrees.S) {
+    MatrixXd all = S.diagonal().head(n_file).maxCoeff() * MatrixXd::Identity(n, n);
+    for (const Index i : place) all(i, i) = 0;
+    all(place, place) = S;
+    S = std::move(all);
+  }
+  for (auto* loads : {&degrees.R, &degrees.T})
+    for (MatrixXd& load : *loads) {
+      MatrixXd all = MatrixXd::Zero(n, load.cols());
+      all(place, Eigen::all) = load;
+      load = std::move(all);
+    }
+}
+
 PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level) {
   constexpr Index most = 4;  // no estimate looks further back
   const Index n = std::min(level + 1, most), first = level + 1 - n;
@@ -162,7 +199,16 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
 
 }  // namespace
 
-PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices a, int p) {
+std::vector<int> joint_axes(const std::vector<std::string>& files, const std::vector<formats::PlateMatrices>& all) {
+  std::vector<int> axes;
+  for (Index i = 0; i < std::ssize(all); ++i)
+    for (const int axis : all_axes(files[i], all[i]))
+      if (std::ranges::find(axes, axis) == axes.end()) axes.push_back(axis);
+  return axes;
+}
+
+PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices a, int p,
+                      const std::vector<int>& axes) {
   if (a.disc_hole.empty()) throw FileError(fmt::format("{}:disc/hole: is empty, expected at least one disc", file));
   std::vector<std::string> boundaries = a.external_id;
   boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
@@ -174,17 +220,14 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.file = file;
   plate.matrices_digest = a.header.digest;
   plate.plate_digest = a.plate_digest;
-  plate.axes = disc_axes(file, a);
-  for (Index i = 0; i < std::ssize(a.disc_hole); i += plate.axes.size()) {
-    plate.holes.push_back(a.disc_hole[i]);
-    plate.on_springs.push_back(a.disc_modulus[i] > 0);
-  }
-  check_once(file, "disc/hole", plate.holes);
+  plate.axes = axes.empty() ? all_axes(file, a) : axes;
+  place_discs(file, a, plate);
   plate.externals = a.external_id;
   plate.tractions = a.traction_id;
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
   plate.degrees = degrees_up_to(file, a, level);
+  add_held_discs(plate, plate.degrees);
   plate.S = plate.degrees.S.back();
   plate.R = plate.degrees.R.back();
   plate.T = plate.degrees.T.back();
@@ -197,8 +240,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   plate.contact = a.contact;
-  if (a.n_pressures() > 0) plate.S_error.resizeLike(plate.S);
-  if (level + 1 < a.p.size() || a.n_pressures() > 0) plate.S_error.setConstant(std::numeric_limits<double>::infinity());
+  if (plate.S_error.rows() != plate.S.rows()) plate.S_error.resizeLike(plate.S);
+  if (level + 1 < a.p.size() || plate.S.rows() > a.n_discs() + a.n_externals())
+    plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
   if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) plate.stress_level = at;
   plate.external_force = VectorXd::Zero(a.n_externals());

@@ -20,7 +20,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.name = plate.name;
   history.matrices_digest = plate.matrices_digest;
   history.plate_digest = plate.plate_digest;
-  for (Index i = 0; i < plate.n_discs(); ++i) {
+  for (const Index i : plate.discs) {
     history.disc_hole.push_back(plate.hole_of(i));
     history.disc_direction.emplace_back(axis_names[plate.axis_of(i)]);
   }
@@ -34,13 +34,16 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
     for (Index step = 0; step < result.rows(); ++step) result.row(step) = states[step].plates[at].*values;
     return result;
   };
-  history.D = rows(&PlateState::D, plate.n_discs());
+  const auto of_discs = [&](VectorXd PlateState::*values) -> MatrixXd {
+    return rows(values, plate.n_discs())(Eigen::all, plate.discs);
+  };
+  history.D = of_discs(&PlateState::D);
   history.De = rows(&PlateState::De, plate.n_externals());
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
   history.pressure = rows(&PlateState::pressure, plate.n_unknowns() - plate.first_moment());
   history.Lambda = rows(&PlateState::Lambda, plate.friction_unit_force.size());
   history.traction = rows(&PlateState::traction, plate.traction_force.size());
-  history.disc_forces = {rows(&PlateState::bearing, plate.n_discs()), rows(&PlateState::friction, plate.n_discs())};
+  history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
   if (plate.stress_level) history.rims = stresses::rims_of(plate.stresses);
   for (const auto& state : states) {
     const auto& rims = state.plates[at].rims;

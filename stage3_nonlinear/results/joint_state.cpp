@@ -91,6 +91,16 @@ VectorXd added_pressure(const PlateModel& plate, const VectorXd& moments, const 
   return result;
 }
 
+/// The discs that the plate's file has, with their forces.
+stresses::LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
+  stresses::LoadedDiscs discs{{}, {}, state.bearing(plate.discs), state.friction(plate.discs)};
+  for (const Index disc : plate.discs) {
+    discs.hole.push_back(plate.hole_of(disc));
+    discs.axis.push_back(plate.axis_of(disc));
+  }
+  return discs;
+}
+
 /// @param u         (m+e+k) displacements of the plate and moments of its rims.
 /// @param rim_F     (k) forces of these.
 /// @param shear     Forces of the shears of this plate's rims and of those behind it; cut to the latter.
@@ -116,15 +126,16 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   const VectorXd on_discs = state.bearing;  // in holes of contact with their friction
   add_shears(joint, at, asked, shear, state);
-  VectorXd amounts(u.size() + state.Lambda.size() + state.traction.size());
-  amounts << state.De, state.D, state.pressure, state.Lambda, state.traction;
+  const VectorXd D = state.D(plate.discs);
+  VectorXd amounts(state.De.size() + D.size() + k + state.Lambda.size() + state.traction.size());
+  amounts << state.De, D, state.pressure, state.Lambda, state.traction;
   VectorXd gaps(std::ssize(plate.contact));
   for (Index i = 0; i < gaps.size(); ++i) gaps[i] = joint.gap(at, plate.contact[i].hole);
   if (plate.stress_level)
-    state.rims = stresses::rim_states(
-        plate.stresses, *plate.stress_level,
-        [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
-        {plate.holes, plate.axes, state.bearing, state.friction}, {plate.contact, state.pressure, gaps});
+    state.rims =
+        stresses::rim_states(plate.stresses, *plate.stress_level,
+                             [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
+                             loaded_discs(plate, state), {plate.contact, state.pressure, gaps});
   for (Index rim = 0; rim < std::ssize(state.rims); ++rim)
     if (plate.is_in_contact(plate.stresses.rim_hole[rim])) {
       auto& its = state.rims[rim];  // what looks like pull is what the pressures of contact do not resolve

@@ -53,7 +53,7 @@ class RandomSheet {
     const auto& its = a.matrices.stresses;
     return stresses::rim_states(its, count_of(its.p) - 1,
                                 [&](const formats::StressRows& cases) { return cases * amounts; },
-                                {names, {0}, Eigen::VectorXd::Zero(m), friction});
+                                {names, std::vector<int>(m, 0), Eigen::VectorXd::Zero(m), friction});
   }
 
  private:

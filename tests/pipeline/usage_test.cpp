@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(Stage, Usage, testing::Values(1, 2, 3));
 TEST(UsageOfOptions, SpringsAtNodesAreWarnedOf) {
   const test::TemporaryFolder folder;
   const auto scene = [](const std::string& spring, const std::string& points) {
-    return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+    return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
       "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}}, "geometry": {{"grid": {{"x": [0, 1], "y": [0, 1], "thickness": 1}}}},
       "holes": [{{"id": "h", "center": [0.5, 0.5], "radius": 0.2, "spring": {}}}], "points": [{}],
       "supports": [{{"on": "left", "fix": ["x", "y"]}}]}})",

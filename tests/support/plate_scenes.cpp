@@ -7,14 +7,14 @@ namespace fastjoint::test {
 namespace {
 
 std::string two_holes(const std::string& extra, const char* thickness = "[[0.1, 0.2], [0.1, 0.05]]") {
-  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",{}
     "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [0, 1, 2.2], "y": [0, 0.9, 1.7], "thickness": {}}}}}{}}})",
-                     thickness, extra);
+                     one_direction(extra), thickness, extra);
 }
 
 /// A square with a hole at its corner, two elements, by hand; the disc's rim crosses from one to the other.
-const char* const own_mesh = R"({"format": "plate", "version": 1, "analysis": "plane stress",
+const char* const own_mesh = R"({"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
   "materials": {"al": {"E": 1e7, "nu": 0.3}},
   "geometry": {"mesh": {"nodes": [[0.5, 0], [2, 0], [2, 2], [0.3535533905932738, 0.3535533905932738], [0, 2], [0, 0.5]],
     "quads": [[0, 1, 2, 3], [3, 2, 4, 5]], "arcs": [{"edge": [0, 3], "center": [0, 0]}, {"edge": [3, 5], "center": [0, 0]}],

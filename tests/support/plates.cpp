@@ -35,21 +35,26 @@ Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh)
     add_matrix(all, a.elements.stiffness[a.elements.congruent.class_of[element]], mesh.mesh.thickness[element]);
     for (const auto& [of_element, terms] : a.elements.classes[a.elements.class_of[element]].rims) {
       const auto at = pfem::element_dofs(a.numbering, unknowns.dofs, element, terms.modes);
-      const int disc = unknowns.disc_of_hole[a.elements.holes[element][of_element]];
+      const int hole = a.elements.holes[element][of_element];
+      const int disc = unknowns.first_disc[hole], n_directions = unknowns.first_disc[hole + 1] - disc;
       const double scale = a.elements.scale[element];
       add_matrix(at, terms.plate, scale);
-      for (int d = 0; d < unknowns.n_directions; ++d) {
+      for (int d = 0; d < n_directions; ++d) {
         const int moved = pfem::controlled_dof(unknowns.controlled_of_disc(disc + d));
         for (Eigen::Index i = 0; i < at.dof.size(); ++i) {
           add_pair(at.dof[i], moved, scale * at.sign[i] * terms.coupling(i, d));
           add_pair(moved, at.dof[i], scale * at.sign[i] * terms.coupling(i, d));
         }
-        for (int e = 0; e < unknowns.n_directions; ++e)
+        for (int e = 0; e < n_directions; ++e)
           add_pair(pfem::controlled_dof(unknowns.controlled_of_disc(disc + e)), moved, scale * terms.disc(e, d));
       }
-      for (int c = 0; c < terms.friction.cols(); ++c)
+      for (int c = 0; c < terms.friction.cols(); ++c) {
+        const int column = unknowns.first_friction[hole] + c;
         for (Eigen::Index i = 0; i < at.dof.size(); ++i)
-          add(at.dof[i], 2 * disc + c, scale * at.sign[i] * terms.friction(i, c), L, a.L_c);
+          add(at.dof[i], column, scale * at.sign[i] * terms.friction(i, c), L, a.L_c);
+        for (int d = 0; d < n_directions; ++d)
+          add(pfem::controlled_dof(unknowns.controlled_of_disc(disc + d)), column, -scale * terms.drag(d, c), L, a.L_c);
+      }
     }
   }
   for (const auto& tie : a.ties) {
@@ -120,16 +125,20 @@ stage2::Extraction extract(const std::string& json, bool stresses) {
   return extract(solve(make_plate(json)), stresses);
 }
 
+const char* one_direction(const std::string& members) {
+  return members.find("disc_directions") == std::string::npos ? R"( "disc_directions": ["x"],)" : "";
+}
+
 std::string grid_scene(const std::vector<double>& x, const std::vector<double>& y, const std::vector<HoleText>& holes,
                        const std::string& extra) {
   std::vector<std::string> list;
   for (const auto& h : holes)
     list.push_back(fmt::format(R"({{"id": "{}", "center": [{}, {}], "radius": {}, "rings": {}{}}})", h.id, h.x, h.y,
                                h.radius, h.rings, h.sprung ? R"(, "spring": {"disk": {"E": 1e7, "nu": 0.3}})" : ""));
-  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",{}
     "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [{}], "y": [{}], "thickness": 0.1}}}}, "holes": [{}]{}}})",
-                     fmt::join(x, ","), fmt::join(y, ","), fmt::join(list, ","), extra);
+                     one_direction(extra), fmt::join(x, ","), fmt::join(y, ","), fmt::join(list, ","), extra);
 }
 
 std::string panel(int nx, int ny, int rings, const std::string& extra) {

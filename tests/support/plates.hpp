@@ -53,6 +53,9 @@ struct HoleText {
   bool sprung = true;
 };
 
+/// Member of a scene whose discs move along x alone, with a comma behind it; empty if `members` say how they move.
+[[nodiscard]] const char* one_direction(const std::string& members);
+
 /// The common parts of a scene in consistent numbers: plane stress, E = 1e7, nu = 0.3, thickness 0.1.
 /// @param extra More members, each with a comma before it.
 [[nodiscard]] std::string grid_scene(const std::vector<double>& x, const std::vector<double>& y,

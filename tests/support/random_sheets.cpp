@@ -62,10 +62,11 @@ std::string GridSheet::json(int rings, const std::string& more) const {
     list.push_back(fmt::format(R"({{"id": "{}", "center": [{}, {}], "radius": {}, "rings": {}{}}})", h.id, h.x, h.y,
                                h.radius, rings, h.sprung ? R"(, "spring": {"disk": {"E": 1e7, "nu": 0.3}})" : ""));
   for (const auto& row : thickness) rows.push_back(fmt::format("[{}]", fmt::join(row, ",")));
-  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",{}
     "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [{}], "y": [{}], "thickness": [{}]}}}}, "holes": [{}]{}{}}})",
-                     fmt::join(x, ","), fmt::join(y, ","), fmt::join(rows, ","), fmt::join(list, ","), extra, more);
+                     one_direction(extra + more), fmt::join(x, ","), fmt::join(y, ","), fmt::join(rows, ","),
+                     fmt::join(list, ","), extra, more);
 }
 
 GridSheet graded(const GridSheet& sheet, int layers) {

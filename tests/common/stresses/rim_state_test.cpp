@@ -52,7 +52,7 @@ RimState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::
   const auto states =
       rim_states(model.stresses, model.level,
                  [](const formats::StressRows& cases) -> Eigen::VectorXd { return cases * Eigen::Vector2d(2, 1); },
-                 {model.holes, model.axes, bearing, friction});
+                 {std::vector<std::string>(model.axes.size(), model.holes[0]), model.axes, bearing, friction});
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
 }

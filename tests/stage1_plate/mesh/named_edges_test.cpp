@@ -92,7 +92,7 @@ TEST(MeshSections, HolesAndSidesAreChecked) {
               HasSubstr(R"(/geometry/mesh/sections/0/hole: "c" is not allowed; allowed: "a", "b")"));
   EXPECT_THAT(message(scene(section("a", "x", "[1, 2]"))),
               HasSubstr(R"(/geometry/mesh/sections/0/side: "x" is not allowed; allowed: "+x", "-x", "+y", "-y")"));
-  EXPECT_THAT(message(scene(section("a", "+y", "[3, 4]"))),
+  EXPECT_THAT(message(scene(section("a", "+y", "[3, 4]"), R"(, "disc_directions": ["x"])")),
               HasSubstr(R"(sections/0/side: "+y", but "y" is not one of "disc_directions"; allowed: "+x", "-x")"));
   EXPECT_THAT(message(scene(section("a", "+x", "[1, 2]") + "," + section("a", "+x", "[10, 14]"))),
               HasSubstr(R"(/geometry/mesh/sections/1: a second section of hole "a" on its side +x; allowed: one)"));

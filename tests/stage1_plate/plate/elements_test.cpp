@@ -44,7 +44,7 @@ TEST(Elements, WhatIsCondensedIsTheirOwn) {
 /// Two holes side by side; what differs between them makes other classes, thickness does not.
 TEST(Elements, TellWhatDiffers) {
   const auto pair = [](const char* thickness, const char* spring, double radius, double y) {
-    return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+    return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
       "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
       "geometry": {{"grid": {{"x": [0, 1, 2], "y": [0, 1], "thickness": {}}}}},
       "holes": [{{"id": "a", "center": [0.5, 0.5], "radius": 0.2, "spring": {{"modulus": 1e6}}}},
@@ -63,7 +63,7 @@ TEST(Elements, TellWhatDiffers) {
 
 /// Links do not scale with the thickness as springs do.
 TEST(Elements, WithLinksAreOfAClassForEachThickness) {
-  const std::string links = R"({"format": "plate", "version": 1, "analysis": "plane stress",
+  const std::string links = R"({"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
       "materials": {"al": {"E": 1e7, "nu": 0.3}},
       "geometry": {"grid": {"x": [0, 1, 2], "y": [0, 1], "thickness": [[0.1, 0.2]]}},
       "holes": [{"id": "a", "center": [0.5, 0.5], "radius": 0.2, "spring": {"links": 100}},

@@ -111,7 +111,7 @@ std::string random_sheet(unsigned seed, double mm, double N) {
   const std::string ply =
       fmt::format(R"("E1": {}, "E2": {}, "nu12": 0.3, "G12": {}, "angle": 30)", 1.4e5 * MPa, 9e3 * MPa, 5e3 * MPa);
   const std::string held = between(0, 1) < 0.3 ? R"(, {"on": "left", "fix": ["x"]})" : "";
-  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
     "materials": {{"a": {{{}}}}}, "geometry": {{"grid": {{"x": [{}], "y": [{}], "thickness": {}}}}}, "holes": [{}],
     "supports": [{{"on": "bottom", "fix": ["y"]}}{}],
     "external": [{{"id": "T", "on": "right", "direction": "x", "kind": "traction"}}]}})",

@@ -38,7 +38,7 @@ TEST(CondensedStiffness, StripInTension) {
 /// rises with the modulus and stays below the springs' own k t pi r.
 TEST(CondensedStiffness, SpringsAndPlateActInSeries) {
   const auto S = [](double modulus) {
-    const std::string scene = R"({"format": "plate", "version": 1, "analysis": "plane stress",
+    const std::string scene = R"({"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
       "materials": {"al": {"E": 1e7, "nu": 0.3}}, "geometry": {"grid": {"x": [0, 2], "y": [0, 2], "thickness": 0.1}},
       "holes": [{"id": "a", "center": [1, 1], "radius": 0.25, "spring": {"modulus": )" +
                               std::to_string(modulus) + R"(}}],

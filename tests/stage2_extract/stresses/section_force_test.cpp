@@ -67,7 +67,7 @@ std::string strip_by_hand(const std::string& right_cut) {
   std::string arcs;
   for (int i = 0; i < 8; ++i)
     arcs += fmt::format(R"({}{{"edge": [{}, {}], "center": [0.5, 0.4]}})", i ? ", " : "", 11 + i, 11 + (i + 1) % 8);
-  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
+  return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
     "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
     "geometry": {{"mesh": {{
       "nodes": [[2, 0], [2, 0.4], [2, 0.8], [1, 0.8], [1, 0.4], [1, 0], [0.5, 0], [0, 0], [0, 0.4], [0, 0.8], [0.5, 0.8],

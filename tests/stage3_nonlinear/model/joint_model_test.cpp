@@ -179,20 +179,36 @@ TEST(JointModel, RefusesFrictionWithoutItsMatrices) {
       "0.1; run stage 2 again, or set the friction to 0");
 }
 
-TEST(JointModel, RefusesPlatesWhoseDiscsMoveInOtherDirections) {
+TEST(JointModel, RefusesFastenersWhoseDiscsMoveInOtherDirections) {
   auto lap = test::two_fastener_lap();
-  lap.b.disc_direction = {"x", "y"};
-  expect_refusal<FileError>(
-      lap, {},
-      "b.h5:disc/direction: hole \"2\" has other directions than hole \"1\", expected the same of "
-      "every disc, hole after hole");
   lap.b.disc_direction = {"x", "z"};
   expect_refusal<FileError>(lap, {}, "b.h5:disc/direction: is \"z\", expected \"x\" or \"y\"");
   lap.b.disc_direction = {"y", "y"};
-  expect_refusal<InputError>(lap, {}, "joint.json: /plates/b: the discs of ");
-  expect_refusal<InputError>(lap, {}, "b.h5 have the directions [\"y\"]; allowed: [\"x\"], as those of ");
-  expect_refusal<InputError>(lap, {},
-                             "a.h5: give both plates the same \"disc_directions\" and run stages 1 and 2 again");
+  expect_refusal<InputError>(
+      lap, {},
+      "/between: the disc of hole \"a:1\" moves along x, that of hole \"b:1\" along y; allowed: discs "
+      "of the same directions: whole holes of sheets with the same \"disc_directions\", as ");
+  expect_refusal<InputError>(lap, {}, "a.h5 has them, or half holes on one line of symmetry");
+  lap.b.disc_hole = {"1", "1"};
+  expect_refusal<FileError>(
+      lap, {}, "b.h5:disc/direction: hole \"1\" has y behind y, expected each direction once, all in one order");
+}
+
+/// A line of symmetry holds discs in one direction: nothing else moves in it, and nothing changes along the other.
+TEST(JointModel, HoldsDiscsInDirectionsThatTheyDoNotHave) {
+  const auto lap = test::two_fastener_lap();
+  const PlateModel alone = make_plate("a", "a.h5", lap.a, 8), both = make_plate("a", "a.h5", lap.a, 8, {0, 1});
+  EXPECT_EQ(both.discs, (std::vector<Index>{0, 2}));
+  EXPECT_EQ(both.n_discs(), 4);
+  std::vector<Index> own{0, 2};
+  for (Index i = 4; i < both.n_unknowns(); ++i) own.push_back(i);
+  EXPECT_EQ(MatrixXd(both.S(own, own)), alone.S);
+  EXPECT_EQ(MatrixXd(both.R(own, Eigen::all)), alone.R);
+  for (const Index held : {1, 3}) {
+    EXPECT_GT(both.S(held, held), 0);
+    EXPECT_EQ(both.S.row(held).cwiseAbs().sum(), both.S(held, held));
+    EXPECT_FALSE(both.has_disc(held));
+  }
 }
 
 TEST(JointModel, RefusesMatricesThatNoPlateHas) {

@@ -92,6 +92,7 @@ PlateModel random_body(std::mt19937& random, const Kind& kind, bool floating) {
   }
   body.on_springs.assign(body.holes.size(), true);
   for (Index d = 0; d < a; ++d) body.axes.push_back(static_cast<int>(d));
+  for (Index i = 0; i < m; ++i) body.discs.push_back(i);
   body.externals = {"P"};
   body.external_axis = {0};
   body.S = G.transpose() * P * G;
