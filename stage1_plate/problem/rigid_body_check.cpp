@@ -94,7 +94,7 @@ struct HeldParts {
       if (!scene.holes[hole].spring) continue;
       for (const auto& side : plate.rims[hole].sides) {
         const int part = part_of[plate.mesh.quads(0, side.element)];
-        const auto [rule, weight] = plate::side_springs(*scene.holes[hole].spring, plate.mesh, plate.edges, side, 1);
+        const auto [rule, weight] = plate::side_springs(scene.holes[hole].sprung(), plate.mesh, plate.edges, side, 1);
         for (int q = 0; q < weight.size(); ++q) {
           if (weight[q] == 0) continue;
           const Eigen::RowVector2d along = std::sqrt(weight[q] / weight.sum()) * rule.normal.col(q).transpose();

@@ -38,7 +38,8 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
     a.hole_spring.push_back(springs[i].value_or(rim::HoleSpring{}));
     if (const auto& contact = a.hole_spring[i].contact) {
       const double radius = plate.rims[i].radius, thickness = plate.mesh.thickness[plate.rims[i].sides[0].element];
-      a.contact.push_back({a.hole_id[i], *contact, springs[i]->modulus, radius, thickness * radius * contact->sweep});
+      a.contact.push_back(
+          {a.hole_id[i], *contact, a.hole_spring[i].modulus, radius, thickness * radius * contact->sweep});
     }
   }
   a.hole_rim = plate.rims;
