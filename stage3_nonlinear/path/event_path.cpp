@@ -113,6 +113,8 @@ class Search {
 
   /// Solves for the load factor and all c with one plane on a corner.
   [[nodiscard]] std::optional<EventPlace> crossing(const Sample& a, const Sample& b, Index plane, double corner) const {
+    // A loose bolt may be moved to its rim at any load factor: it touches where solved states do.
+    if (corners_.of(plane).front().kind == CornerKind::touch) return std::nullopt;
     const Index rows = equations_.n_unknowns();
     double unit = 1;
     RootProblem problem;
@@ -150,9 +152,8 @@ class Search {
       load = root.x[rows];
       iterations += root.iterations;
     }
-    // Exactly on it: then nothing bears yet.
     const Index n_directions = plane < equations_.n_planes() ? equations_.n_directions() : 0;
-    if (n_directions == 1) c[plane] = corner;
+    if (n_directions == 1) c[plane] = corner;  // exactly: then nothing bears yet
     if (n_directions > 1) c.segment(plane * n_directions, n_directions) *= corner / corners_.position(c, plane);
     return EventPlace{{load, std::move(c)}, iterations};
   }
@@ -281,17 +282,16 @@ std::optional<Interference> follow_interference(const JointEquations& equations,
   Walk walk(equations, options);
   if (equations.interference() == 0 || !walk.reach(0)) return std::nullopt;
   const ContactCorners corners(equations, true);
-  const VectorXi parted = corners.passed(walk.here().c);
   Interference result{walk.step().moments, VectorXd(std::ssize(equations.rims))};
+  walk.reach(first_load_factor);
+  const VectorXi parted = corners.passed(walk.here().c);
   const auto found = Search(equations, corners, walk).run();
-  for (Index i = 0; i < result.lost.size(); ++i) {
-    const ContactEvent lost{equations.n_planes() + 2 * i + 1, CornerKind::part, false};
-    const auto first = std::ranges::find_if(
-        found.events, [&](const EventPlace& each) { return std::ranges::count(each.events, lost) > 0; });
-    result.lost[i] = parted[lost.plane] != 0       ? 0
-                     : first != found.events.end() ? first->place.load_factor
-                                                   : std::numeric_limits<double>::infinity();
-  }
+  result.lost.setConstant(std::numeric_limits<double>::infinity());
+  for (auto event = found.events.rbegin(); event != found.events.rend(); ++event)
+    for (const auto& each : event->events)
+      if (!each.back) result.lost[(each.plane - equations.n_planes()) / 2] = event->place.load_factor;
+  for (Index i = 0; i < result.lost.size(); ++i)
+    if (parted[equations.n_planes() + 2 * i + 1] != 0) result.lost[i] = 0;
   return result;
 }
 

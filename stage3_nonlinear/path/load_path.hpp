@@ -122,8 +122,8 @@ struct PathLeft {
 /// Rims of contact of a joint in which some have interference.
 struct Interference {
   VectorXd moments;  ///< (r - n a) at no load, length
-  /// Load factor up to 1 at which each rim with interference first loses full contact, 0 of one that has none at no
-  /// load, infinite if it is not lost as far as the joint can be followed, and of other rims, (g).
+  /// Load factor up to 1 at which each rim with interference first loses full contact, 0 of one that has none below
+  /// first_load_factor, infinite if it is not lost as far as the joint can be followed, and of other rims, (g).
   VectorXd lost;
 };
 
