@@ -149,6 +149,10 @@ void datasets(File& file, Result& a) {
   file("F_vector", a.F_vector, {steps, n, directions}, force, "components of F");
   file("transferred", a.transferred, {steps, n, 2}, force,
        "bearing and friction together, on the first and on the second plate");
+  file("stiffness/external", a.load_external, {any}, "1", "plate:external of each load other than zero",
+       h5::or_else(""));
+  file("stiffness/tangent", a.load_stiffness, {steps, std::ssize(a.load_external)}, unit(units, -1, 1),
+       "rise of force over that of displacement at each, as all loads grow together", h5::infinite_too.or_else(0));
   file("plate/name", Column{a.plates, &PlateHistory::name}, {any}, "1",
        "plates of the joint; group plates/<name> holds what each did");
   const Eigen::Index plates = a.plates.size();

@@ -115,6 +115,8 @@ struct JointResult {
   std::optional<Eigen::MatrixXd> F_error;            ///< (steps, n) estimated, if the plates' errors are known
   Eigen::MatrixXd delta_vector, F_vector;            ///< (steps, n a) their components, directions inner
   Eigen::MatrixXd transferred;  ///< (steps, n 2) F + friction resultant on each plane's first, then second plate
+  std::vector<std::string> load_external;  ///< (s) "plate:external" of each load other than zero
+  Eigen::MatrixXd load_stiffness;          ///< (steps, s) dP over du as all loads grow together, force / length
   std::vector<PlateHistory> plates;
   std::optional<SensitivityHistory> sensitivity;  ///< if it was asked for
 };

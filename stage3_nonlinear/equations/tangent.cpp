@@ -103,7 +103,7 @@ Slopes solve_singular(const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rh
   Eigen::BDCSVD<MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
   svd.setThreshold(singular_tangent);
   const MatrixXd dc = svd.solve(rhs);
-  Slopes slopes{F_c * dc, {}, {}};
+  Slopes slopes{F_c * dc, dc, {}, {}};
   const MatrixXd rest = J * dc - rhs;
   for (Index i = 0; i < rhs.cols(); ++i)
     if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
@@ -186,7 +186,7 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
                        const std::optional<MatrixXd>& given) {
   if (const auto inverse = inverse_tangent(equations, state)) {
     const MatrixXd dc = given ? *inverse * *given : *inverse;
-    return {-state.times(dc.transpose(), state.dF).transpose(), {}, {}};  // the blocks are symmetric
+    return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
   }
   MatrixXd J = tangent(equations.system, state);
   const MatrixXd residual = given.value_or(MatrixXd::Identity(J.rows(), J.rows()));
@@ -194,10 +194,12 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
   const Eigen::PartialPivLU<MatrixXd> lu(J);
   if (least_stretch(lu, J) > singular_tangent) {
     const MatrixXd dc = scale.cwiseInverse().asDiagonal() * lu.solve(residual);
-    return {-state.times(dc.transpose(), state.dF).transpose(), {}, {}};
+    return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};
   }
   const MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
-  return solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(), -residual);
+  Slopes slopes = solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(), -residual);
+  slopes.c = scale.cwiseInverse().asDiagonal() * slopes.c;
+  return slopes;
 }
 
 void bear(const JointEquations& equations, ContactState& state) {

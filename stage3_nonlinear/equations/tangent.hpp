@@ -46,6 +46,7 @@ struct TangentCheck {
 /// Derivatives of the bearing forces as vectors, one column for each number (docs/theory.md, section 10).
 struct Slopes {
   MatrixXd F;                            ///< (n a, columns)
+  MatrixXd c;                            ///< (n a, columns) of the contact coordinates
   std::vector<Index> no_column, no_row;  ///< columns and rows of F that have no derivative
 };
 

@@ -120,6 +120,14 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
     for (Index j = 0; j < n; ++j)
       result.transferred.row(i).segment<2>(2 * j) << states[i].transferred_first[j], states[i].transferred_second[j];
   }
+  for (Index i = 0; i < steps; ++i) {
+    const auto loads = tangent_stiffness(joint, equations, path.steps[i]);
+    result.load_stiffness.conservativeResize(steps, std::ssize(loads));
+    for (Index at = 0; at < std::ssize(loads); ++at) {
+      if (i == 0) result.load_external.push_back(loads[at].external);
+      result.load_stiffness(i, at) = loads[at].stiffness;
+    }
+  }
   for (const auto& plane : joint.planes) {
     result.fastener_id.push_back(joint.fasteners[plane.fastener].id);
     result.first_hole.push_back(joint.name(joint.first_hole(plane)));

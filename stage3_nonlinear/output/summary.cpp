@@ -254,6 +254,10 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   }
   if (states.empty()) return text;
   if (result.F_error) text += error_bar(joint, result);
+  constexpr std::size_t few = 4;
+  for (std::size_t i = 0; i < result.load_external.size() && result.load_external.size() <= few; ++i)
+    text += fmt::format("  tangent stiffness at {}: {:.6g} {}\n", result.load_external[i],
+                        result.load_stiffness(states.size() - 1, i), unit(joint.units, -1, 1));
   return text + legend + interference_lines(joint, path, result) +
          stress_tables(joint, path, states, result, all_stresses);
 }

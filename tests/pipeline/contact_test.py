@@ -158,6 +158,11 @@ def lap_joint(folder):
         touching = result["plates/upper/contact/touching"][0, 1]
         assert 80 < touching < 86, touching
         by_gaps = result["F_vector"][0].ravel(), [0, 0.02, 0, 0]
+    with again(folder, *arguments, increments=[0.9999, 1, 1.0001], solver={"tolerance": 1e-13}) as result:
+        upper = result["plates/upper"]
+        slope = (upper["Pe"][2, 0] - upper["Pe"][0, 0]) / (upper["De"][2, 0] - upper["De"][0, 0])
+        assert list(result["stiffness/external"].asstr()) == ["upper:P"]
+        near("  stiffness at the load", result["stiffness/tangent"][1, 0], slope, 1e-5)
     for holes in ({}, {"hole_diameter": 4.8}, {"hole_diameter": [4.8, 4.8]}):
         fasteners[1] = {"id": "b", "between": ["upper:b", "lower:b"], "law": "bolt", "diameter": 4.76, **holes}
         with again(folder, *arguments) as result:
@@ -239,6 +244,8 @@ def limits(folder):
     names = ("F_vector", "delta_vector", "plates/a/D", "plates/b/D", "plates/a/De")
     with solve(False, (0, 0)) as result:
         two_sided = [result[name][:] for name in names]
+        near("limits, stiffness of springs that also pull", result["stiffness/tangent"][:, 0],
+             result["plates/a/Pe"][:, 0] / result["plates/a/De"][:, 0], 1e-9)
     with solve(True, (-0.1, -0.1)) as result:
         F = result["F_vector"]
         for name, before in zip(names, two_sided):
@@ -265,8 +272,8 @@ def events(folder):
         contact = result["plates/a/contact"]
         assert 0.1 < touches < 0.9 and last == 1
         print(f"events: touches at {touches}, gap left {contact['least_gap'][0, 1]}, pressures {contact['peak_pressure'][:, 1]}")
-        assert contact["least_gap"][0, 1] < 1e-12 and contact["peak_pressure"][0, 1] < 1e-6 * contact["peak_pressure"][1, 1]
-    with solve([touches * (1 - 1e-6), touches * (1 + 1e-6), 1, 0.5 * touches]) as result:
+        assert contact["least_gap"][0, 1] < 1e-12 and contact["peak_pressure"][0, 1] < 1e-4 * contact["peak_pressure"][1, 1]
+    with solve([touches * (1 - 1e-4), touches * (1 + 1e-4), 1, 0.5 * touches]) as result:
         assert list(result["event"].asstr()) == ["", "a:2 touches", "", "a:2 opens"], result["event"].asstr()[:]
         assert result["plates/a/contact/touching"][0, 1] == 0 and result["plates/a/contact/touching"][1, 1] > 0
 

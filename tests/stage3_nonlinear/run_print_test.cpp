@@ -89,6 +89,7 @@ TEST_F(Run, CountsOneAsOne) {
   run();
   EXPECT_THAT(out_.str(), StartsWith("joint: 2 plates, 1 fastener, p = 8, exact path\n"));
   EXPECT_THAT(out_.str(), HasSubstr(", 1 piece without iterations, "));
+  EXPECT_THAT(out_.str(), HasSubstr(fmt::format("  tangent stiffness at a:P: {:.6g} ", result().load_stiffness(0, 0))));
 }
 
 }  // namespace

@@ -201,6 +201,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.second_hole = {"low:1", "low:2", "low:3"};
     a.direction = {"x", "y"};
     a.delta_vector = a.F_vector = a.transferred = Eigen::MatrixXd::Random(steps, 6);
+    a.load_external = {"top:P"};
+    a.load_stiffness = Eigen::MatrixXd::Constant(steps, 1, std::numeric_limits<double>::infinity());
     PlateHistory& plate = a.plates.emplace_back();
     plate.name = "top";
     plate.plate_digest = "0123456789abcdef";
@@ -243,6 +245,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.complete, a.complete);
     EXPECT_EQ(b.load_factor, a.load_factor);
     EXPECT_EQ(b.event, a.event);
+    EXPECT_EQ(b.load_external, a.load_external);
+    EXPECT_EQ(b.load_stiffness, a.load_stiffness);
     EXPECT_EQ(b.fastener_id, a.fastener_id);
     EXPECT_EQ(b.F, a.F);
     EXPECT_EQ(b.F_vector, a.F_vector);
