@@ -34,7 +34,7 @@ def disk(beta):
 
 def sheet(beta, law="plane stress"):
     """Quarter of the sheet with the disc held, under unit remote tension."""
-    return Sheet({"analysis": "plane stress", "materials": {"sheet": {"E": 1.0, "nu": NU}},
+    return Sheet({"analysis": "plane stress", "disc_directions": ["x"], "materials": {"sheet": {"E": 1.0, "nu": NU}},
                   "geometry": {"grid": {"x": [0, HALF_WIDTH], "y": [0, HALF_WIDTH], "thickness": 1}},
                   "holes": [{"id": "disc", "center": [0, 0], "radius": 1, "rings": 20,
                              "spring": {"disk": {"E": beta, "nu": NU, "law": law}}}],

@@ -54,7 +54,7 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
     return A.lazyProduct(x);  // OpenBLAS refuses matrices without rows
   };
   add(probe.friction_force - by(level.R, probe.friction) - by(level.B.transpose(), probe.pressure),
-      std::max(largest(level.R), largest(level.B)));
+      std::max(largest(level.R), scale_of_B(plate, level.B)));
   add(probe.moment - by(level.B, probe.displacement), scale_of_B(plate, level.B));
   add(probe.friction_moment - by(level.R_p, probe.friction) + by(level.C, probe.pressure),
       std::max(largest(level.C), largest(level.R_p)));
@@ -80,9 +80,8 @@ double residual_force(const PlateSolution& plate, const PlateCases& level, const
   const auto& [S, R, T, C_t, B, C, R_p, T_p] = level;
   double worst = std::max(ratio(largest(S * free.motion), scale_of(plate, S)),
                           ratio(largest(B.lazyProduct(free.motion)), scale_of_B(plate, B)));
-  for (Eigen::Index j = 0; j < R.cols(); ++j)
-    if (free.friction[j] != 0)
-      worst = std::max(worst, ratio(std::abs(R.col(j).dot(free.motion) + free.friction[j]), largest(R)));
+  const Eigen::RowVectorXd of_friction = free.motion.transpose().lazyProduct(R) + free.friction;
+  worst = std::max(worst, ratio(largest(of_friction), std::max(largest(R), scale_of_B(plate, B))));
   return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 

@@ -45,11 +45,11 @@ std::vector<int> all_axes(const std::string& file, const formats::PlateMatrices&
 }
 
 /// Names the holes, and gives each disc of the file its place among the discs of all directions. Discs of a hole must
-/// stand one behind the other.
+/// stand one behind the other; a direction that stands twice is taken for another hole, which check_once refuses.
 void place_discs(const std::string& file, const formats::PlateMatrices& a, PlateModel& plate) {
   const auto axes = axes_of(file, "disc/direction", a.disc_direction);
   for (Index i = 0; i < std::ssize(axes); ++i) {
-    if (i == 0 || a.disc_hole[i] != a.disc_hole[i - 1]) {
+    if (i == 0 || a.disc_hole[i] != a.disc_hole[i - 1] || axes[i] == axes[i - 1]) {
       plate.holes.push_back(a.disc_hole[i]);
       plate.on_springs.push_back(a.disc_modulus[i] > 0);
     }

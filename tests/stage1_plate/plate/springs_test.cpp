@@ -81,7 +81,8 @@ TEST(Springs, LinksAreOneForEachNodeOfTheRim) {
   const auto whole = test::make_plate(scene(R"("links": 100)"));
   EXPECT_LT((whole.problem.K_cc - 400 * Eigen::Matrix2d::Identity()).norm(), 1e-11);
   const auto half = test::make_plate(scene(R"("links": 100)", true));
-  EXPECT_LT((half.problem.K_cc - 200 * Eigen::Matrix2d::Identity()).norm(), 1e-11);
+  ASSERT_EQ(half.problem.K_cc.size(), 1) << "the line of symmetry holds it across";
+  EXPECT_NEAR(half.problem.K_cc(0, 0), 200, 1e-11);
   const auto spring = whole.scene.holes[0].sprung();
   EXPECT_EQ(spring.modulus, 0);
   EXPECT_EQ(spring.acts.size(), 1U);

@@ -25,16 +25,17 @@ TEST(Friction, ConstantsOfAWholeHole) {
   }
 }
 
-/// A half hole on the line of symmetry y = 0 has half of each; bearing along -y it has nothing to bear on.
+/// A half hole on the line of symmetry y = 0 has half of each, along that line alone.
 TEST(Friction, ConstantsOfAHalfHole) {
   const auto m =
       test::extract(
           test::grid_scene({0, 1}, {0, 1}, {{"a", 0.4, 0, r}},
                            R"(, "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}])"))
           .matrices;
-  const Eigen::Vector4d c = Eigen::Vector4d(0.5, 0.5, 1, 0) * (t * 2 * r * pi / 4);
-  EXPECT_LT((m.friction_unit_force - c).norm(), 1e-14);
-  EXPECT_LT((m.friction_resultant - Eigen::Vector4d(t * r / 2, -t * r / 2, t * r, 0)).norm(), 1e-14);
+  EXPECT_EQ(m.disc_direction, (std::vector<std::string>{"x"}));
+  EXPECT_EQ(m.friction_bearing, (std::vector<std::string>{"+x", "-x"}));
+  EXPECT_LT((m.friction_unit_force - Eigen::Vector2d::Constant(t * r * pi / 4)).norm(), 1e-14);
+  EXPECT_LT((m.friction_resultant - Eigen::Vector2d(t * r / 2, -t * r / 2)).norm(), 1e-14);
 }
 
 /// Every friction case solved, against the reciprocity that needs no solve.

@@ -190,8 +190,10 @@ TEST(JointModel, RefusesFastenersWhoseDiscsMoveInOtherDirections) {
       "of the same directions: whole holes of sheets with the same \"disc_directions\", as ");
   expect_refusal<InputError>(lap, {}, "a.h5 has them, or half holes on one line of symmetry");
   lap.b.disc_hole = {"1", "1"};
+  lap.b.disc_direction = {"x", "y"};
+  lap.a.disc_direction = {"y", "x"};
   expect_refusal<FileError>(
-      lap, {}, "b.h5:disc/direction: hole \"1\" has y behind y, expected each direction once, all in one order");
+      lap, {}, "b.h5:disc/direction: hole \"1\" has y behind x, expected each direction once, all in one order");
 }
 
 /// A line of symmetry holds discs in one direction: nothing else moves in it, and nothing changes along the other.

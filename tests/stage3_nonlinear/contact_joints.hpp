@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "stage3_nonlinear/model/joint_model.hpp"
+
+namespace fastjoint::stage3 {
+
+[[nodiscard]] double uniform(std::mt19937& random, double low, double high);
+/// A number whose logarithm is uniform.
+[[nodiscard]] double decades(std::mt19937& random, double low, double high);
+
+/// Size of a random joint.
+struct ContactKind {
+  Index n_holes, n_directions;
+  bool floating;  ///< the first plate hangs on its fasteners alone
+  double gaps;    ///< their size beside what the load moves
+  double mu = 0;
+};
+
+/// Two elastic bodies of random stiffness, joined through holes whose rims push but do not pull.
+[[nodiscard]] JointModel random_contact_joint(std::mt19937& random, const ContactKind& kind);
+
+class ContactJoint : public testing::Test {
+ protected:
+  std::mt19937 random_{14};
+  ContactKind kind(int i) { return {1 + i % 4, 1 + i % 2, i % 3 == 0, decades(random_, 1e-4, 1e2)}; }
+};
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Events of rims that push but do not pull.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+
+#include "stage3_nonlinear/path/walk.hpp"
+#include "tests/stage3_nonlinear/contact_joints.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+/// At its event a rim is on the mark, and between events nothing passes one, by states solved in between.
+TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
+  const PathOptions tight{{}, {.tolerance = 1e-13}};
+  int events = 0;
+  for (int i = 0; i < 24; ++i) {
+    const JointModel joint = random_contact_joint(random_, {1 + i % 4, 1 + i % 2, false, decades(random_, 0.01, 1)});
+    const JointEquations equations = make_equations(joint);
+    const ContactCorners corners(equations);
+    const LoadPath path = follow_events(equations, tight);
+    ASSERT_FALSE(path.failure) << "joint " << i;
+    Walk walk(equations, tight);
+    double begin = first_load_factor;
+    for (const auto& step : path.steps) {
+      const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+      for (const auto& event : step.events) {
+        if (event.kind != CornerKind::touch && event.kind != CornerKind::part) continue;
+        ++events;
+        // A loose bolt touches where it presses by a millionth of its gap.
+        const RimContact& rim = equations.rims[(event.plane - equations.n_planes()) / 2];
+        const double pressed = event.kind == CornerKind::touch ? 2e-6 * rim.stiffness() * std::abs(rim.gap()) : 0;
+        const double away = std::abs(corners.position(c, event.plane));
+        EXPECT_LE(away, 1e-8 * c.cwiseAbs().maxCoeff() + pressed) << "joint " << i << " " << rim.gap();
+      }
+      std::optional<Eigen::VectorXi> passed;
+      for (int sample = 1; sample < 10 && step.load_factor - begin > 1e-4; ++sample) {
+        ASSERT_TRUE(walk.reach(begin + sample * (step.load_factor - begin) / 10));
+        Eigen::VectorXi here = corners.passed(walk.here().c);
+        for (Index entry = equations.n_planes(); entry < here.size(); ++entry) {  // a loose bolt lies anywhere
+          const RimContact& rim = equations.rims[(entry - equations.n_planes()) / 2];
+          const double near = 1e-4 * rim.stiffness() * std::abs(rim.gap());
+          if (passed && std::abs(corners.position(walk.here().c, entry)) < near) here[entry] = (*passed)[entry];
+        }
+        EXPECT_EQ(here, passed.value_or(here)) << "joint " << i << " at " << walk.here().load_factor;
+        passed = here;
+      }
+      begin = step.load_factor;
+    }
+  }
+  EXPECT_GT(events, 60);
+}
+
+/// What rims do between increments is told at the next, and undone on the way back.
+TEST_F(ContactJoint, TellWhatTheirRimsHaveDoneByAnIncrement) {
+  const JointModel joint = random_contact_joint(random_, {3, 2, false, 1});
+  const JointEquations equations = make_equations(joint);
+  const ContactCorners corners(equations);
+  const LoadPath path = follow(equations, {0.2, 0.4, 0.6, 0.8, 1, 0.2}, {});
+  ASSERT_FALSE(path.failure);
+  Eigen::VectorXi passed = corners.passed(VectorXd::Zero(equations.n_unknowns()));
+  std::size_t events = 0;
+  for (const auto& step : path.steps) {
+    for (const auto& event : step.events) passed[event.plane] += event.back ? -1 : 1;
+    EXPECT_EQ(passed, corners.passed(coordinates(equations, step.all_F(), step.all_delta())));
+    events += step.events.size();
+  }
+  EXPECT_GE(events, 3U);
+  const ContactEvent touches{joint.n_planes() + 2, CornerKind::touch, false}, opens{0, CornerKind::contact, true};
+  const ContactEvent parts{joint.n_planes() + 1, CornerKind::part, false};
+  EXPECT_EQ(event_text(joint, {touches, opens, parts}), "a:2 touches; a:1 loses full contact; 1 opens");
+}
+
+}  // namespace
+}  // namespace fastjoint::stage3
