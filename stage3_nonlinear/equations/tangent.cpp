@@ -192,6 +192,11 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
   const MatrixXd residual = given.value_or(MatrixXd::Identity(J.rows(), J.rows()));
   const VectorXd scale = scale_columns(J);
   const Eigen::PartialPivLU<MatrixXd> lu(J);
+  if (!given && least_stretch(lu, J) > singular_tangent) {  // from the few forces back
+    const MatrixXd F_c = state.times(MatrixXd::Identity(equations.n_plane_rows(), J.rows()), state.dF);
+    const MatrixXd back = lu.transpose().solve(scale.cwiseInverse().asDiagonal() * F_c.transpose());
+    return {-back.transpose(), {}, {}, {}};
+  }
   if (least_stretch(lu, J) > singular_tangent) {
     const MatrixXd dc = scale.cwiseInverse().asDiagonal() * lu.solve(residual);
     return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};

@@ -52,7 +52,7 @@ struct Slopes {
 
 /// Slopes by the implicit function theorem: dF = F_c dc with J dc = -residual, at a solution.
 /// @param residual Rise of the residual of the condensed system at fixed c, force, shape (n a, columns); the identity
-///                 unless given.
+///                 unless given, for which slopes of moments and of c may be left out.
 [[nodiscard]] Slopes implicit_slopes(const JointEquations& equations, const ContactState& state,
                                      const std::optional<MatrixXd>& residual = std::nullopt);
 
