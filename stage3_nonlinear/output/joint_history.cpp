@@ -10,6 +10,7 @@
 #include "common/count.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/contact_history.hpp"
+#include "stage3_nonlinear/results/load_stiffness.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {

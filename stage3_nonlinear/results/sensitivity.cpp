@@ -266,44 +266,6 @@ Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& num
           .gap = next(std::ssize(equations.rims))};
 }
 
-std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const JointEquations& equations,
-                                             const PathStep& step) {
-  const CondensedSystem& system = equations.system;
-  ContactState state = contact_state(equations, coordinates(equations, step.all_F(), step.all_delta()));
-  if (system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  const Slopes slopes = implicit_slopes(equations, state, -system.q);
-  const bool gives_way = step.check.at_limit_load() || !slopes.no_column.empty();
-  // By the load factor: displacements, and forces on all unknowns as far as they are friction's.
-  VectorXd D = system.D_load + system.D_delta * state.times(slopes.c.transpose(), state.ddelta).transpose();
-  VectorXd friction = VectorXd::Zero(D.size());
-  for (Index i = 0; i < std::ssize(system.friction); ++i) {
-    const Side side = system.E.row(i).dot(state.F) < 0 ? minus_side : plus_side;
-    const double rate = (side == plus_side ? 1 : -1) * system.E.row(i).dot(slopes.F.col(0));
-    const HoleModel& hole = joint.fasteners[system.friction[i].fastener].holes[system.friction[i].hole];
-    const VectorXd& load = hole.friction[system.friction[i].direction][side].load;
-    D += rate * (side == plus_side ? system.D_plus : system.D_minus).col(i);
-    friction.segment(joint.offset(hole.plate), load.size()) += rate * load;
-  }
-  std::vector<LoadStiffness> result;
-  for (Index p = 0; p < std::ssize(joint.plates); ++p) {
-    const PlateModel& plate = joint.plates[p];
-    const Index m = plate.n_discs(), n = plate.n_unknowns();
-    const VectorXd u = D.segment(joint.offset(p), n), &f = plate.traction_force;
-    const auto add = [&](const std::string& name, double force, double moved) {
-      result.push_back({plate.name + ":" + name, gives_way ? 0 : force / moved});
-    };
-    for (Index i = 0; i < plate.n_externals(); ++i) {
-      const auto& given = plate.external_displacement[i];
-      const double reaction = plate.S.row(m + i).dot(u) + plate.T.row(m + i).dot(f) + friction[joint.offset(p) + m + i];
-      if (given.value_or(plate.external_force[i]) != 0)
-        add(plate.externals[i], given ? reaction : plate.external_force[i], u[m + i]);
-    }
-    for (Index i = 0; i < f.size(); ++i)
-      if (f[i] != 0) add(plate.tractions[i], f[i], plate.degrees.C.back().row(i).dot(f) - plate.T.col(i).dot(u));
-  }
-  return result;
-}
-
 std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                                      const std::vector<JointState>& states) {
   if (!std::ranges::all_of(joint.plates, is_known)) return std::nullopt;

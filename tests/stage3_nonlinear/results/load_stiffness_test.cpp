@@ -5,7 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "stage3_nonlinear/results/sensitivity.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
+#include "stage3_nonlinear/results/load_stiffness.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "stage3_nonlinear/path/load_path.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Tangent stiffness of a joint at a loaded boundary.
+struct LoadStiffness {
+  std::string external;  ///< "plate:external"
+  double stiffness;      ///< force / length; infinite where the boundary does not move, 0 at a limit load
+};
+
+/// Rise of force over that of displacement along the direction of each boundary with a load other than zero, as all
+/// loads grow together (docs/theory.md, section 10): plate after plate, rigid externals before tractions. The mean
+/// displacement under a traction lacks what friction on rims adds to it while discs and rigid externals rest.
+[[nodiscard]] std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const JointEquations& equations,
+                                                           const PathStep& step);
+
+}  // namespace fastjoint::stage3
