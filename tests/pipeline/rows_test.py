@@ -15,11 +15,13 @@ with tempfile.TemporaryDirectory() as folder:
     copytree(ROOT / "examples/rows", f"{folder}/examples/rows", ignore=ignore_patterns("*.h5", "out"))
     copytree(ROOT / "scripts", f"{folder}/scripts")
     path = os.environ | {"PATH": f"{Path(sys.argv[1]).resolve()}:{os.environ['PATH']}"}
-    printed = subprocess.run(["make", "-s", "table"], cwd=f"{folder}/examples/rows", env=path, check=True, capture_output=True,
-                             text=True).stdout
+    printed, driven = (subprocess.run(["make", "-s", target], cwd=f"{folder}/examples/rows", env=path, check=True,
+                                      capture_output=True, text=True).stdout for target in ("table", "driven"))
 table = printed[printed.index("| springs |"):]
 page = (ROOT / "examples/rows/README.md").read_text()
 assert table.split("\n\n")[0] in page, f"README.md shows another table than:\n{table}"
+driven = driven[driven.index("| gap, mm |"):]
+assert driven in page, f"README.md shows another table than:\n{driven}"
 assert float(re.search(r"differ by at most (\S+) of a load", table)[1]) < 1e-6, table
 for line in table.splitlines()[2:8]:
     springs, load, chain = (line.split("|")[i].strip() for i in (1, 3, 4))
