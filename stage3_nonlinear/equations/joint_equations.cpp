@@ -182,7 +182,7 @@ VectorXd gradient(const JointEquations& equations, const VectorXd& residual) {
 MatrixXd shear_slopes(const CondensedSystem& system, const ContactState& state) {
   const Index moments = std::accumulate(state.dshear.begin(), state.dshear.end(), Index{0},
                                         [](Index sum, const MatrixXd& rim) { return sum + rim.cols(); });
-  MatrixXd slopes(system.H_shear.rows(), moments);
+  MatrixXd slopes(state.F.size(), moments);
   Index shear = 0, moment = 0;
   for (const MatrixXd& rim : state.dshear) {
     auto its = slopes.middleCols(moment, rim.cols());

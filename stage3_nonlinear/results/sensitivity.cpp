@@ -80,7 +80,7 @@ MatrixXd friction_changes(const CondensedSystem& system, const std::vector<Frict
 /// proportional to it where the rim slips, and do not know it where it sticks.
 MatrixXd shear_changes(const JointEquations& equations, const ContactState& state) {
   const MatrixXd& H = equations.system.H_shear;
-  MatrixXd changes(H.rows(), 0);
+  MatrixXd changes(state.F.size(), 0);
   Index moment = equations.n_plane_rows(), shear = 0;
   for (const RimContact& rim : equations.rims) {
     const VectorXd m = state.delta.segment(moment, rim.size());

@@ -100,8 +100,8 @@ auto for_each_of(const Value& value, std::size_t n, Read read) {
 /// Gaps, or the diameters that give them.
 void read_gaps(const Value& value, FastenerScene& fastener) {
   const auto gap = value.find("gap"), diameter = value.find("diameter"), of_holes = value.find("hole_diameter");
-  if ((gap || diameter) && value.find("clearance"))
-    (gap ? gap : diameter)->fail("given beside \"clearance\"", "one of them");
+  if (const auto& given = gap ? gap : diameter; given && value.find("clearance"))
+    given->fail("given beside \"clearance\"", "one of them");
   if (gap && diameter) diameter->fail("given beside \"gap\"", "one of them");
   if (of_holes && !diameter) of_holes->fail("given without \"diameter\"", "both, or \"gap\"");
   const std::size_t n = fastener.between.size();
