@@ -49,7 +49,7 @@ struct DiscForces {
 /// Contact at the g rims of a plate whose springs push but do not pull, one row per increment.
 struct ContactHistory {
   Eigen::VectorXd gap;  ///< (g) radial; interference is negative, length
-  // Of a joint with interference; 0, 0 and infinite of others.
+  // These three belong to a joint with interference; in others they are 0, 0 and infinite.
   Eigen::VectorXd no_load_peak, no_load_least;  ///< (g) largest and least pressure at no load, stress
   /// (g) load factor at which a rim with interference first loses full contact; infinite if it does not up to 1
   Eigen::VectorXd full_until;

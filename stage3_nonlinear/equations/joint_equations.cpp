@@ -198,7 +198,9 @@ MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool 
   MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
   if (friction) F += system.friction_matrix(state.F);
   MatrixXd J = state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
-  if (const MatrixXd shears = shear_slopes(system, state); friction) J.rightCols(shears.cols()) += shears;
+  if (!friction) return J;
+  const MatrixXd shears = shear_slopes(system, state);
+  J.rightCols(shears.cols()) += shears;
   return J;
 }
 

@@ -84,9 +84,7 @@ class Reference {
   [[nodiscard]] double modulus() const { return plate_.scene.holes[0].sprung().modulus; }
   /// Distributions at the points, (points, k).
   [[nodiscard]] MatrixXd distributions(const rim::Harmonics& pressures) const {
-    MatrixXd phi(std::ssize(angle_), pressures.size());
-    for (Index q = 0; q < phi.rows(); ++q) phi.row(q) = pressures.at(angle_[q]).transpose();
-    return phi;
+    return at_points(&rim::Harmonics::at, pressures);
   }
   /// Displacement of the disc against the rim at the points per unit displacement of external, disc x, disc y.
   [[nodiscard]] const MatrixXd& by_motion() const { return by_motion_; }
@@ -95,9 +93,7 @@ class Reference {
 
   /// Shears at the points, (points, k).
   [[nodiscard]] MatrixXd shears(const rim::Harmonics& pressures) const {
-    MatrixXd psi(std::ssize(angle_), pressures.n_shears());
-    for (Index q = 0; q < psi.rows(); ++q) psi.row(q) = pressures.shears_at(angle_[q]).transpose();
-    return psi;
+    return at_points(&rim::Harmonics::shears_at, pressures);
   }
   /// The same along its tangent.
   [[nodiscard]] const MatrixXd& slip_by_motion() const { return slip_by_motion_; }
@@ -137,6 +133,12 @@ class Reference {
   }
 
  private:
+  [[nodiscard]] MatrixXd at_points(VectorXd (rim::Harmonics::*values)(double) const,
+                                   const rim::Harmonics& pressures) const {
+    MatrixXd rows(std::ssize(angle_), (pressures.*values)(0).size());
+    for (Index q = 0; q < rows.rows(); ++q) rows.row(q) = (pressures.*values)(angle_[q]).transpose();
+    return rows;
+  }
   [[nodiscard]] Eigen::Vector2d normal(Index q) const { return {std::cos(angle_[q]), std::sin(angle_[q])}; }
   [[nodiscard]] Eigen::Vector2d tangent(Index q) const { return {-std::sin(angle_[q]), std::cos(angle_[q])}; }
   /// Pressure with the sign of the shear by which it drags the rim along its resultant.

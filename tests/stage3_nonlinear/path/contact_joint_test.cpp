@@ -68,8 +68,8 @@ TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
   }
 }
 
-/// With friction there is no convex function: joints are still solved, whatever the coefficient, and hardly one has
-/// other forces when it is solved from far away; with small coefficients none.
+/// Friction leaves no convex function. Joints are still solved, whatever the coefficient, and hardly one has other
+/// forces when it is solved from far away; none has with small coefficients.
 TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
   for (const double mu : {0.15, 0.3, 0.6, 1.0, 2.0}) {
     int different = 0;

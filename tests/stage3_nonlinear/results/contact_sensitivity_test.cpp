@@ -34,7 +34,7 @@ PlateModel under_traction(PlateModel plate) {
   return plate;
 }
 
-/// By differences; and of a boundary that moves as one it is the same by its traction.
+/// Stiffness is that of differences, and a boundary that moves as one has the same under a traction.
 TEST_F(ContactJoint, HaveTheStiffnessOfDifferences) {
   constexpr double change = 1e-5;
   const PathOptions tight{{}, {.tolerance = 1e-13}};
