@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <complex>
 #include <numbers>
 #include <vector>
 
@@ -28,13 +29,34 @@ Wave shear_wave(const Harmonics& a, int k) {
 /// The angle of which a wave is a multiple, per radian along the rim.
 double unit(const Harmonics& a) { return a.is_whole() ? 1 : std::numbers::pi / a.sweep; }
 
+/// Highest multiple of any distribution.
+int most(const Harmonics& a) { return a.is_whole() ? a.highest : a.size() - 1; }
+
 constexpr double mean_of_wave = 1 / std::numbers::sqrt2;  ///< mean of sqrt(2) cos^2
 
 bool is_half(const Harmonics& a) { return std::abs(a.sweep - std::numbers::pi) < 1e-7; }
 
-double value(const Wave& wave, double phase) {
-  return wave.amplitude * (wave.is_sine ? std::sin(wave.multiple * phase) : std::cos(wave.multiple * phase));
-}
+/// cos and sin of the multiples 0..highest of an angle, by turns: their errors are rounding times the multiple.
+class Multiples {
+ public:
+  Multiples(double phase, int highest) : turns_(highest + 1) {
+    const std::complex<double> turn = std::polar(1.0, phase);
+    turns_[0] = 1;
+    for (int j = 1; j <= highest; ++j) turns_[j] = turns_[j - 1] * turn;
+  }
+  [[nodiscard]] double cosine(int multiple) const { return turns_[multiple].real(); }
+  [[nodiscard]] double sine(int multiple) const { return turns_[multiple].imag(); }
+  [[nodiscard]] double at(const Wave& wave) const {
+    return wave.amplitude * (wave.is_sine ? sine(wave.multiple) : cosine(wave.multiple));
+  }
+  /// Derivative by the angle.
+  [[nodiscard]] double slope(const Wave& wave) const {
+    return wave.amplitude * wave.multiple * (wave.is_sine ? cosine(wave.multiple) : -sine(wave.multiple));
+  }
+
+ private:
+  std::vector<std::complex<double>> turns_;
+};
 
 /// Integrals of the products of waves between two angles, (rows, columns).
 Eigen::MatrixXd integrals(const std::vector<Wave>& rows, const std::vector<Wave>& columns, double unit, double a,
@@ -42,10 +64,11 @@ Eigen::MatrixXd integrals(const std::vector<Wave>& rows, const std::vector<Wave>
   const int most = rows.back().multiple + columns.back().multiple;
   Eigen::VectorXd cosine(most + 1), sine(most + 1);  // integrals of cos(j phase) and sin(j phase)
   cosine[0] = b - a, sine[0] = 0;
+  const Multiples half_width((b - a) / 2, most), middle((a + b) / 2, most);
   for (int j = 1; j <= most; ++j) {
-    const double width = 2.0 / j * std::sin(j * (b - a) / 2);
-    cosine[j] = width * std::cos(j * (a + b) / 2);
-    sine[j] = width * std::sin(j * (a + b) / 2);
+    const double width = 2.0 / j * half_width.sine(j);
+    cosine[j] = width * middle.cosine(j);
+    sine[j] = width * middle.sine(j);
   }
   Eigen::MatrixXd result(std::ssize(rows), std::ssize(columns));
   for (Eigen::Index k = 0; k < result.rows(); ++k)
@@ -75,23 +98,21 @@ int Harmonics::size() const {
 }
 
 Eigen::VectorXd Harmonics::at(double angle) const {
-  const double phase = unit(*this) * (angle - start);
+  const Multiples all(unit(*this) * (angle - start), most(*this));
   return Eigen::VectorXd::NullaryExpr(
-      size(), [&](Eigen::Index k) { return value(pressure_wave(*this, static_cast<int>(k)), phase); });
+      size(), [&](Eigen::Index k) { return all.at(pressure_wave(*this, static_cast<int>(k))); });
 }
 
 Eigen::VectorXd Harmonics::slope(double angle) const {
-  const double phase = unit(*this) * (angle - start);
-  return Eigen::VectorXd::NullaryExpr(size(), [&](Eigen::Index k) {
-    const auto [multiple, is_sine, amplitude] = pressure_wave(*this, static_cast<int>(k));
-    return amplitude * multiple * unit(*this) * (is_sine ? std::cos(multiple * phase) : -std::sin(multiple * phase));
-  });
+  const Multiples all(unit(*this) * (angle - start), most(*this));
+  return Eigen::VectorXd::NullaryExpr(
+      size(), [&](Eigen::Index k) { return unit(*this) * all.slope(pressure_wave(*this, static_cast<int>(k))); });
 }
 
 Eigen::VectorXd Harmonics::shears_at(double angle) const {
-  const double phase = unit(*this) * (angle - start);
+  const Multiples all(unit(*this) * (angle - start), most(*this));
   return Eigen::VectorXd::NullaryExpr(
-      n_shears(), [&](Eigen::Index k) { return value(shear_wave(*this, static_cast<int>(k)), phase); });
+      n_shears(), [&](Eigen::Index k) { return all.at(shear_wave(*this, static_cast<int>(k))); });
 }
 
 std::string shear_name(int k) { return fmt::format("t{}", k); }

@@ -23,7 +23,12 @@ MatrixXd ContactState::times(const MatrixXd& A, const Blocks& blocks) const {
   MatrixXd result(A.rows(), A.cols());
   Index first = a * direction.cols();
   for (const auto& rim : blocks.rims) {
-    result.middleCols(first, rim.cols()).noalias() = A.middleCols(first, rim.cols()) * rim;
+    const auto columns = A.middleCols(first, rim.cols());
+    if (rim.isDiagonal(0)) {
+      result.middleCols(first, rim.cols()) = columns * rim.diagonal().asDiagonal();
+    } else {
+      result.middleCols(first, rim.cols()).noalias() = columns * rim;
+    }
     first += rim.cols();
   }
   for (Index j = 0; j < direction.cols(); ++j) {
@@ -33,6 +38,20 @@ MatrixXd ContactState::times(const MatrixXd& A, const Blocks& blocks) const {
         blocks.across[j] * columns + (blocks.along[j] - blocks.across[j]) * (columns * e) * e.transpose();
   }
   return result;
+}
+
+void ContactState::add(double factor, const Blocks& blocks, MatrixXd& A) const {
+  const Index a = direction.rows();
+  for (Index j = 0; j < direction.cols(); ++j) {
+    const MatrixXd along = direction.col(j) * direction.col(j).transpose();
+    A.block(j * a, j * a, a, a) +=
+        factor * (blocks.along[j] * along + blocks.across[j] * (MatrixXd::Identity(a, a) - along));
+  }
+  Index first = a * direction.cols();
+  for (const auto& rim : blocks.rims) {
+    A.block(first, first, rim.rows(), rim.cols()) += factor * rim;
+    first += rim.cols();
+  }
 }
 
 ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c) {

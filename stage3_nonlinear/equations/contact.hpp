@@ -47,6 +47,8 @@ struct ContactState {
 
   /// Product of A and the block diagonal matrix, shape as A, (rows, r).
   [[nodiscard]] MatrixXd times(const MatrixXd& A, const Blocks& blocks) const;
+  /// Adds a factor times the block diagonal matrix to A, (r, r).
+  void add(double factor, const Blocks& blocks, MatrixXd& A) const;
 };
 
 /// Lengths of vectors in a directions, row plane * a + direction, or with one direction the entries with their signs,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <numeric>
@@ -8,6 +9,7 @@
 
 #include "common/matrices/inverse.hpp"
 #include "stage3_nonlinear/equations/rim_friction.hpp"
+#include "stage3_nonlinear/equations/tangent_factor.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -45,22 +47,12 @@ std::vector<RimContact> rims_of(const JointModel& joint) {
   return rims;
 }
 
-/// JointEquations::metric.
-///
-/// The unknowns behind those of the planes have S = [S_11 S_12; S_21 S_22] and the stiffness k: with L = S_12 / k the
-/// matrix is [W^-1 W^-1 L; L^T W^-1 S_22 / k^2 + L^T W^-1 L].
-MatrixXd metric_of(const MatrixXd& S, const std::vector<Contact>& contacts, const VectorXd& k) {
-  const Index n = S.rows() - k.size(), a = n / std::ssize(contacts);
-  MatrixXd W = -0.5 * (S.topLeftCorner(n, n) + S.topLeftCorner(n, n).transpose());
+/// W^-1.
+MatrixXd metric_of(const MatrixXd& S, const std::vector<Contact>& contacts) {
+  const Index n = S.rows(), a = n / std::ssize(contacts);
+  MatrixXd W = -0.5 * (S + S.transpose());
   for (Index i = 0; i < n; ++i) W(i, i) += contacts[i / a].stiffness;
-  MatrixXd inverse = matrices::inverse_of_positive(std::move(W)).value();
-  if (k.size() == 0) return inverse;
-  const MatrixXd L = S.topRightCorner(n, k.size()) * k.cwiseInverse().asDiagonal(), WL = inverse * L;
-  MatrixXd metric(S.rows(), S.rows());
-  metric << inverse, WL, WL.transpose(), L.transpose() * WL;
-  metric.bottomRightCorner(k.size(), k.size()) +=
-      k.cwiseInverse().asDiagonal() * S.bottomRightCorner(k.size(), k.size()) * k.cwiseInverse().asDiagonal();
-  return metric;
+  return matrices::inverse_of_positive(std::move(W)).value();
 }
 
 /// Gives open and yielded fasteners a trace of stiffness in the Jacobian, not in the residual: without it the Jacobian
@@ -116,7 +108,7 @@ JointEquations make_equations(CondensedSystem system, std::vector<Contact> conta
   }
   set_reference_stiffnesses(S.topLeftCorner(n, n), equations.contacts);
   if (std::ranges::all_of(equations.contacts, [](const Contact& each) { return each.law->rises(); }))
-    equations.metric = metric_of(S, equations.contacts, equations.rim_stiffness());
+    equations.metric = metric_of(S.topLeftCorner(n, n), equations.contacts);
   return equations;
 }
 
@@ -124,6 +116,12 @@ Index JointEquations::n_plane_rows() const {
   Index n = n_unknowns();
   for (const auto& rim : rims) n -= rim.size();
   return n;
+}
+
+std::vector<Index> JointEquations::rim_sizes() const {
+  std::vector<Index> sizes;
+  for (const auto& rim : rims) sizes.push_back(rim.size());
+  return sizes;
 }
 
 VectorXd JointEquations::rim_stiffness() const {
@@ -172,52 +170,35 @@ VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const V
 VectorXd gradient(const JointEquations& equations, const VectorXd& residual) {
   const Index n = equations.n_plane_rows(), k = residual.size() - n;
   VectorXd g(residual.size());
-  g.head(n) = equations.metric.topLeftCorner(n, n) * residual.head(n);
+  g.head(n) = equations.metric * residual.head(n);
   if (k > 0)
     g.tail(k) = (residual.tail(k) + equations.system.S_ud.bottomLeftCorner(k, n) * g.head(n))
                     .cwiseQuotient(equations.rim_stiffness());
   return g;
 }
 
-MatrixXd shear_slopes(const CondensedSystem& system, const ContactState& state) {
-  const Index moments = std::accumulate(state.dshear.begin(), state.dshear.end(), Index{0},
-                                        [](Index sum, const MatrixXd& rim) { return sum + rim.cols(); });
-  MatrixXd slopes(state.F.size(), moments);
-  Index shear = 0, moment = 0;
+void add_shear_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J) {
+  if (state.dshear.empty()) return;
+  Index shear = 0, moment = state.direction.size();
   for (const MatrixXd& rim : state.dshear) {
-    auto its = slopes.middleCols(moment, rim.cols());
-    its.setZero();
-    if (rim.rows() > 0) its = system.H_shear.middleCols(shear, rim.rows()) * rim;
+    if (rim.rows() > 0) J.middleCols(moment, rim.cols()) += system.H_shear.middleCols(shear, rim.rows()) * rim;
     shear += rim.rows();
     moment += rim.cols();
   }
-  return slopes;
 }
 
 MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction) {
-  MatrixXd F = MatrixXd::Identity(state.F.size(), state.F.size());
-  if (friction) F += system.friction_matrix(state.F);
-  MatrixXd J = state.times(system.S_ud, state.ddelta) + state.times(F, state.dF);
+  MatrixXd J = state.times(system.S_ud, state.ddelta);
+  state.add(1, state.dF, J);
   if (!friction) return J;
-  const MatrixXd shears = shear_slopes(system, state);
-  J.rightCols(shears.cols()) += shears;
+  if (!system.friction.empty()) J += state.times(system.friction_matrix(state.F), state.dF);
+  add_shear_slopes(system, state, J);
   return J;
 }
 
 MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
-  const Index a = equations.n_directions();
   MatrixXd H = equations.metric;
-  for (Index j = 0; j < equations.n_planes(); ++j) {
-    const auto e = state.direction.col(j);
-    H.block(j * a, j * a, a, a).diagonal().array() -= state.ddelta.across[j];
-    H.block(j * a, j * a, a, a) -= (state.ddelta.along[j] - state.ddelta.across[j]) * e * e.transpose();
-  }
-  Index first = equations.n_plane_rows();
-  for (Index i = 0; i < std::ssize(equations.rims); ++i) {
-    const Index size = equations.rims[i].size();
-    H.block(first, first, size, size) += state.dF.rims[i] / equations.rims[i].stiffness();
-    first += size;
-  }
+  state.add(-1, state.ddelta, H);
   return H;
 }
 
@@ -228,36 +209,45 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   if (frozen) load -= system.friction_forces(frozen->F, frozen->shear);
   const bool friction = system.has_friction() && !frozen;
   RootProblem problem;
-  problem.residual = [&equations, load, scale, friction](const VectorXd& x) -> VectorXd {
-    const auto state = contact_state(equations, scale * x);
+  const auto residual = [&equations, load, scale, friction](const ContactState& state) -> VectorXd {
     VectorXd r = state.F + equations.system.S_ud * state.delta - load;
     if (friction) r += equations.system.friction_forces(state.F, state.shear);
     return r / scale;
   };
-  const auto traced = [&equations, residual = problem.residual, scale](const VectorXd& x) {
+  problem.residual = [&equations, residual, scale](const VectorXd& x) {
+    return residual(contact_state(equations, scale * x));
+  };
+  const auto traced = [&equations, residual, scale](const VectorXd& x) {
     auto state = contact_state(equations, scale * x);
-    add_trace(equations, residual(x).cwiseAbs().maxCoeff(), state);
+    add_trace(equations, residual(state).cwiseAbs().maxCoeff(), state);
     return state;
   };
   problem.jacobian = [&equations, traced, friction](const VectorXd& x) -> MatrixXd {
     return tangent(equations.system, traced(x), friction);
   };
-  if (equations.metric.size() > 0 && !friction) {
-    problem.gradient = [&equations](const VectorXd& r) { return gradient(equations, r); };
-    problem.hessian = [&equations, traced](const VectorXd& x) -> MatrixXd { return hessian(equations, traced(x)); };
-  }
+  const bool convex = equations.metric.size() > 0 && !friction;
+  if (convex) problem.gradient = [&equations](const VectorXd& r) { return gradient(equations, r); };
+  problem.solve = [&equations, traced, friction, convex](const VectorXd& x, const VectorXd& r) -> VectorXd {
+    const ContactState state = traced(x);
+    if (convex && equations.rims.empty()) {
+      const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
+      if (factor.info() == Eigen::Success) return factor.solve(gradient(equations, r));
+    }
+    return TangentFactor(tangent(equations.system, state, friction), equations.rim_sizes()).solve(r);
+  };
   return problem;
 }
 
-LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility, double load_factor) {
+LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility, double load_factor,
+                           const std::vector<Index>& rims) {
   constexpr int most_tries = 8;
   MatrixXd A = system.S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
   const VectorXd rhs = load_factor * system.q;
-  LinearForces result{A.partialPivLu().solve(rhs), 1, system.friction.empty()};
+  LinearForces result{TangentFactor(A, rims).solve(rhs), 1, system.friction.empty()};
   while (!result.consistent && result.solves < most_tries) {
     const VectorXd before = system.E * result.F;
-    result.F = (A + system.friction_matrix(result.F)).partialPivLu().solve(rhs);
+    result.F = TangentFactor(A + system.friction_matrix(result.F), rims).solve(rhs);
     result.consistent = ((system.E * result.F).array() * before.array() >= 0).all();
     ++result.solves;
   }
@@ -272,9 +262,9 @@ VectorXd guessed_forces(const JointEquations& equations, const InitialScene& ini
   if (initial.guess == Guess::linear) {
     const double K = initial.stiffness.value_or(system.S_ud.diagonal().head(n).mean());
     flexibility.head(n).setConstant(K > 0 ? 1 / K : 0);
-    return linear_forces(system, flexibility, load_factor).F;
+    return linear_forces(system, flexibility, load_factor, equations.rim_sizes()).F;
   }
-  VectorXd rigid = linear_forces(system, flexibility, load_factor).F;
+  VectorXd rigid = linear_forces(system, flexibility, load_factor, equations.rim_sizes()).F;
   if (initial.guess == Guess::rigid) return rigid;
   const VectorXd mean = rigid.head(n).reshaped(equations.n_directions(), equations.n_planes()).rowwise().mean();
   rigid.head(n) = mean.replicate(equations.n_planes(), 1);

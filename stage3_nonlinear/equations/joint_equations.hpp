@@ -19,9 +19,8 @@ namespace fastjoint::stage3 {
 struct JointEquations {
   CondensedSystem system;
   std::vector<Contact> contacts;  ///< (n)
-  /// Constant part of the Hessian of the convex function that is least at the solution, if no law falls, else empty;
-  /// shape (r, r), length / force (docs/theory.md, section 8.4). Of the planes alone it is the inverse of W = K - S_ud,
-  /// K the reference stiffnesses.
+  /// Inverse of W = K - S_ud of the planes, K the reference stiffnesses, if no law falls, else empty; shape (n a, n a),
+  /// length / force. With it the solution is where a convex function is least (docs/theory.md, section 8.4).
   MatrixXd metric;
   std::vector<RimContact> rims = {};
 
@@ -32,6 +31,8 @@ struct JointEquations {
   [[nodiscard]] Index n_plane_rows() const;
   /// Number r of unknowns.
   [[nodiscard]] Index n_unknowns() const { return system.q.size(); }
+  /// Numbers of moments of the rims, rim after rim.
+  [[nodiscard]] std::vector<Index> rim_sizes() const;
   /// Stiffness of the rims' unknowns, (r - n a), force / length.
   [[nodiscard]] VectorXd rim_stiffness() const;
   /// Force of the greatest interference alone, all around its rim, force; 0 without any.
@@ -52,19 +53,18 @@ struct JointEquations {
 /// Contact coordinates of a solution, (r), exact whatever the law.
 [[nodiscard]] VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const VectorXd& delta);
 
-/// Gradient of the convex function of `metric` at the residual r, (r).
+/// Gradient at the residual r, (r), of the convex function that `metric` makes.
 [[nodiscard]] VectorXd gradient(const JointEquations& equations, const VectorXd& residual);
 
-/// Derivative of the forces of friction at rims of contact by their c, (r, moments of all rims), dimensionless; no
-/// columns if there are none.
-[[nodiscard]] MatrixXd shear_slopes(const CondensedSystem& system, const ContactState& state);
+/// Adds the derivative of the forces of friction at rims of contact by c, dimensionless, to J, (r, r).
+void add_shear_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J);
 
 /// Derivative of the residual by c, shape (r, r), at the state of the contact coordinates c.
 ///
 /// @param friction False: without that of friction.
 [[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
-/// Hessian of the convex function of `metric`, symmetric, shape (r, r), length / force; of the planes alone
+/// Hessian of that convex function of a joint without rims of contact, symmetric, shape (r, r), length / force:
 /// W^-1 - d delta / dc, and the tangent is W times it (docs/theory.md, section 8.4). To be called where no law falls.
 [[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
 
@@ -85,8 +85,9 @@ struct LinearForces {
 /// (docs/theory.md, section 8.8).
 ///
 /// @param flexibility One for each row, length / force, >= 0, shape (r); zero is a rigid fastener.
+/// @param rims JointEquations::rim_sizes.
 [[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility,
-                                         double load_factor);
+                                         double load_factor, const std::vector<Index>& rims = {});
 
 /// Bearing forces to start from (Bortman & Szabo, section 6.1): of rigid fasteners, of linear ones of one
 /// stiffness (default: the mean of the plates' own, diag S_ud), or the rigid ones' sum spread equally over

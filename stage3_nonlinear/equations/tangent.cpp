@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "common/matrices/inverse.hpp"
+#include "stage3_nonlinear/equations/tangent_factor.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -75,18 +76,18 @@ double friction_norm(const MatrixXd& H) {
   return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
 }
 
-/// True if the tangent is W times a symmetric Hessian H: without friction and laws that fall.
+/// True if the tangent is W times a symmetric Hessian H: without friction, rims of contact and laws that fall.
 bool has_hessian(const JointEquations& equations) {
-  return equations.metric.size() > 0 && !equations.system.has_friction();
+  return equations.metric.size() > 0 && !equations.system.has_friction() && equations.rims.empty();
 }
 
 /// Reciprocal condition of H above which no tangent is near singular.
 constexpr double surely_regular = 1e3 * singular_tangent;
 
-/// Inverse of the tangent of planes alone, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it has a Hessian
+/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it has a Hessian
 /// H that is surely regular.
 std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
-  if (!has_hessian(equations) || !equations.rims.empty()) return std::nullopt;
+  if (!has_hessian(equations)) return std::nullopt;
   const MatrixXd H = hessian(equations, state);
   const auto inverse = matrices::inverse_of_positive(H);
   const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
@@ -137,8 +138,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   TangentCheck check;
   MatrixXd J = tangent(system, state);
   const VectorXd scale = scale_columns(J);
-  const Eigen::PartialPivLU<MatrixXd> lu(J);
-  if (!(least_stretch(lu, J) > singular_tangent)) {
+  if (!(TangentFactor(J, equations.rim_sizes()).least_stretch() > singular_tangent)) {
     Mechanism found = mechanism(equations, state, J, scale);
     if (!found.open.empty() || !found.level.empty()) {
       check.mechanism = std::move(found);
@@ -147,8 +147,9 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   }
   // Only large friction makes a joint of rising laws unstable.
   const bool falls = (state.dF.along.array() < 0).any();
-  const auto shears = shear_slopes(system, state);
-  if (falls || friction_norm(system.friction_matrix(state.F)) >= 1 || (shears.size() > 0 && friction_norm(shears) >= 1))
+  MatrixXd friction = system.friction_matrix(state.F);
+  add_shear_slopes(system, state, friction);
+  if (falls || friction_norm(friction) >= 1)
     check.unstable = soft_modes(system, state, -singular_tangent);
   check.locking = self_locking(system, state.F);
   return check;
@@ -189,20 +190,19 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
     return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
   }
   MatrixXd J = tangent(equations.system, state);
-  const MatrixXd residual = given.value_or(MatrixXd::Identity(J.rows(), J.rows()));
   const VectorXd scale = scale_columns(J);
-  const Eigen::PartialPivLU<MatrixXd> lu(J);
-  if (!given && least_stretch(lu, J) > singular_tangent) {  // from the few forces back
-    const MatrixXd F_c = state.times(MatrixXd::Identity(equations.n_plane_rows(), J.rows()), state.dF);
-    const MatrixXd back = lu.transpose().solve(scale.cwiseInverse().asDiagonal() * F_c.transpose());
-    return {-back.transpose(), {}, {}, {}};
-  }
-  if (least_stretch(lu, J) > singular_tangent) {
-    const MatrixXd dc = scale.cwiseInverse().asDiagonal() * lu.solve(residual);
+  if (const TangentFactor factor(J, equations.rim_sizes()); factor.least_stretch() > singular_tangent) {
+    if (!given) {  // from the few forces back
+      const MatrixXd F_c = state.times(MatrixXd::Identity(equations.n_plane_rows(), J.rows()), state.dF);
+      const MatrixXd back = factor.solve_transposed(scale.cwiseInverse().asDiagonal() * F_c.transpose());
+      return {-back.transpose(), {}, {}, {}};
+    }
+    const MatrixXd dc = scale.cwiseInverse().asDiagonal() * factor.solve(*given);
     return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};
   }
   const MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
-  Slopes slopes = solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(), -residual);
+  Slopes slopes = solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(),
+                                 -given.value_or(MatrixXd::Identity(J.rows(), J.rows())));
   slopes.c = scale.cwiseInverse().asDiagonal() * slopes.c;
   return slopes;
 }

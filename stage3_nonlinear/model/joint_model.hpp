@@ -21,11 +21,12 @@ using Eigen::VectorXd;
 /// Names of the axes.
 inline constexpr std::array axis_names{"x", "y"};
 
-/// The matrices of a plate at the last of its degrees up to that of the joint, rising; S, R, T as PlateModel has them.
+/// The matrices of a plate at the last of its degrees up to that of the joint, rising; S, T, R as PlateModel has them.
 struct PlateDegrees {
   Eigen::VectorXi p;
-  std::vector<MatrixXd> S, R, T;
+  std::vector<MatrixXd> S, T;
   std::vector<MatrixXd> C;  ///< (q, q) C_t, length / force
+  std::vector<MatrixXd> R;  ///< of the last two degrees alone
 };
 
 /// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, then the k moments of

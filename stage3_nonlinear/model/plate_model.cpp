@@ -153,7 +153,7 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
     load = stacked(load, -by_load);
   };
   degrees.C.back() -= a.T_p[level].transpose() * mean * by_traction;
-  extended(degrees.R.back(), a.R_p[level]);
+  if (!degrees.R.empty()) extended(degrees.R.back(), a.R_p[level]);
   extended(degrees.T.back(), a.T_p[level]);
   MatrixXd S(n + k, n + k);
   S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose(), -by_motion, stiffness;
@@ -189,7 +189,7 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
   for (Index i = first; i <= level; ++i) {
     degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
-    degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
+    if (i + 1 >= level) degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
     degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
     degrees.C.push_back(a.C_t[i]);
     free_rims(file, a, i, degrees);

@@ -197,8 +197,7 @@ class Search {
   /// dc / d load factor.
   [[nodiscard]] VectorXd rate(const Sample& at) const {
     const double unit = force_scale(equations_, at.load);
-    const MatrixXd J = root_problem(equations_, at.load, unit).jacobian(at.c / unit);
-    return J.partialPivLu().solve(equations_.system.q);
+    return root_problem(equations_, at.load, unit).solve(at.c / unit, equations_.system.q);
   }
 
   /// Tells whether a plane may pass a corner and come back between two states that have passed the same corners: by the

@@ -100,13 +100,14 @@ MatrixXd shear_changes(const JointEquations& equations, const ContactState& stat
 /// moment itself.
 MatrixXd gap_changes(const JointEquations& equations, const ContactState& state) {
   const Index planes = equations.n_plane_rows();
-  const MatrixXd by_shear = shear_slopes(equations.system, state);
-  Index first = 0;
+  MatrixXd by_shear = MatrixXd::Zero(state.F.size(), state.F.size());
+  add_shear_slopes(equations.system, state, by_shear);
+  Index first = planes;
   MatrixXd changes = MatrixXd::Zero(state.F.size(), std::ssize(equations.rims));
   for (Index i = 0; i < changes.cols(); ++i) {
     const RimContact& rim = equations.rims[i];
-    changes.col(i).segment(planes + first, rim.size()) = -rim.stiffness() * state.dF.rims[i].col(0);
-    if (by_shear.cols() > 0) changes.col(i) -= rim.stiffness() * by_shear.col(first);
+    changes.col(i).segment(first, rim.size()) = -rim.stiffness() * state.dF.rims[i].col(0);
+    changes.col(i) -= rim.stiffness() * by_shear.col(first);
     first += rim.size();
   }
   return changes;
@@ -160,12 +161,23 @@ bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || pl
 /// lower triangle with half the diagonal, (n a, n a); empty of a plate of one degree.
 std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const CondensedSystem& system) {
   std::vector<MatrixXd> changes;
+  Index moment = joint.n_planes() * joint.n_directions();
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    const auto& S = joint.plates[i].degrees.S;
+    const PlateModel& plate = joint.plates[i];
+    const auto& S = plate.degrees.S;
+    const Index m = plate.first_moment(), k = plate.n_unknowns() - m;
     MatrixXd& change = changes.emplace_back();
     if (S.size() < 2) continue;
-    const auto D = system.D_delta.middleRows(joint.offset(i), joint.plates[i].n_unknowns());
-    change = D.transpose() * ((S[S.size() - 2] - S.back()) * D);
+    const MatrixXd dS = S[S.size() - 2] - S.back();
+    const auto D = system.D_delta.middleRows(joint.offset(i), m);  // behind them moments are unknowns themselves
+    change = D.transpose() * (dS.topLeftCorner(m, m) * D);
+    if (k > 0) {
+      const MatrixXd mixed = D.transpose() * dS.topRightCorner(m, k);
+      change.middleCols(moment, k) += mixed;
+      change.middleRows(moment, k) += mixed.transpose();
+      change.block(moment, moment, k, k) += dS.bottomRightCorner(k, k);
+    }
+    moment += k;
     change.diagonal() /= 2;
   }
   return changes;
@@ -183,15 +195,16 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
   const auto n = degrees.S.size();
   if (n < 2) return (A * D.transpose()).cwiseAbs() * (plate.S_error * u.cwiseAbs());
   constexpr double least = 0.25;  // of the bound
-  const auto load = [&](Index i) -> VectorXd {
-    return degrees.S[i] * u + degrees.T[i] * f + degrees.R[i] * state.Lambda;
+  const auto load = [&](Index before) -> VectorXd {  // at a degree before the last
+    const auto R = degrees.R.rbegin() + before;
+    return degrees.S[n - 1 - before] * u + degrees.T[n - 1 - before] * f + *R * state.Lambda;
   };
   VectorXd energy(degrees.p.size());  // u . S u + 2 u . T f - f . C f at every degree
   for (Index i = 0; i < std::ssize(energy); ++i)
     energy[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
   const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
   const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
-  const VectorXd change = A * (D.transpose() * (load(n - 2) - load(n - 1)));
+  const VectorXd change = A * (D.transpose() * (load(1) - load(0)));
   const MatrixXd A_dS = A * dS.triangularView<Eigen::Lower>();
   const VectorXd fall_by_w = 2 * (A_dS.cwiseProduct(A) * VectorXd::Ones(A.cols())).cwiseAbs();
   return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -112,12 +111,8 @@ std::optional<Root> move(const RootProblem& problem, const VectorXd& step, doubl
   return there ? there : move_by_norm(problem, step, root);
 }
 
-/// Newton's step, by Cholesky's method where the Hessian is positive definite to rounding.
 VectorXd newton_step(const RootProblem& problem, const Root& root) {
-  if (problem.hessian) {
-    const Eigen::LLT<MatrixXd> factor(problem.hessian(root.x));
-    if (factor.info() == Eigen::Success) return -factor.solve(problem.gradient(root.residual));
-  }
+  if (problem.solve) return -problem.solve(root.x, root.residual);
   return -problem.jacobian(root.x).partialPivLu().solve(root.residual);
 }
 

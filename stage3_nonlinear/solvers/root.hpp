@@ -19,8 +19,8 @@ struct RootProblem {
   /// Gradient, as a function of the residual, of a convex function of x that is least at the root, if there is one,
   /// (n) -> (n).
   VectorFunction gradient{};
-  /// Hessian of that function of x, (n) -> (n, n).
-  std::function<MatrixXd(const VectorXd&)> hessian{};
+  /// The jacobian's inverse at x, (n), times a vector, (n), where there is a quicker way to it than by its factor.
+  std::function<VectorXd(const VectorXd&, const VectorXd&)> solve{};
 };
 
 struct RootOptions {

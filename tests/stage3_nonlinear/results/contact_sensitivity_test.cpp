@@ -25,7 +25,7 @@ PlateModel under_traction(PlateModel plate) {
   plate.T = S(rest, {e}) / S_ee;
   plate.S = S(rest, rest) - S(rest, {e}) * S({e}, rest) / S_ee;
   plate.R = MatrixXd::Zero(n - 1, 0);
-  plate.degrees = {plate.degrees.p, {plate.S}, {plate.R}, {plate.T}, {MatrixXd::Constant(1, 1, 1 / S_ee)}};
+  plate.degrees = {plate.degrees.p, {plate.S}, {plate.T}, {MatrixXd::Constant(1, 1, 1 / S_ee)}, {plate.R}};
   plate.S_error = MatrixXd::Zero(n - 1, n - 1);
   plate.tractions = std::exchange(plate.externals, {});
   plate.traction_axis = std::exchange(plate.external_axis, {});

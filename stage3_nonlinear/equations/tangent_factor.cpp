@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/tangent_factor.hpp"
+
+#include <limits>
+#include <numeric>
+#include <utility>
+
+#include "stage3_nonlinear/equations/condensed_system.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+/// What the rows of short waves may take from elsewhere, as a share of their diagonal.
+constexpr double little = 0.01;
+
+/// Number of waves of a rim, from `first` on, before those that take little from elsewhere.
+Index n_long(const MatrixXd& J, const VectorXd& row_sums, Index first, Index size) {
+  Index n = size;
+  for (; n > 0; --n) {
+    const Index row = first + n - 1;
+    const double elsewhere = row_sums[row] - J.row(row).segment(first, size).cwiseAbs().sum();
+    if (!(elsewhere < little * std::abs(J(row, row)))) break;
+  }
+  return n;
+}
+
+/// Corrects the solution by a factor until the residual is rounding; without corrections it is not taken.
+template <typename Solve, typename Matrix>
+MatrixXd corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
+  constexpr int most = 8;
+  constexpr double rounding = 1e-14, falls = 0.5;
+  MatrixXd x = solve(b), residual = b - J * x;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < most; ++i) {
+    const double norm = residual.norm();
+    if (norm <= rounding * b.norm()) return x;
+    if (!(norm < falls * before)) break;
+    before = norm;
+    x += solve(residual);
+    residual = b - J * x;
+  }
+  constexpr double enough = 1e-10;
+  if (residual.norm() <= enough * b.norm()) return x;
+  return MatrixXd(J).partialPivLu().solve(b);
+}
+
+}  // namespace
+
+TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims) : J_(std::move(J)) {
+  Index first = J_.rows() - std::accumulate(rims.begin(), rims.end(), Index{0});
+  kept_.resize(first);
+  std::iota(kept_.begin(), kept_.end(), Index{0});
+  const VectorXd row_sums = rims.empty() ? VectorXd() : VectorXd(J_.cwiseAbs().rowwise().sum());
+  for (const Index size : rims) {
+    const Index n = n_long(J_, row_sums, first, size);
+    for (Index i = 0; i < n; ++i) kept_.push_back(first + i);
+    if (n < size) short_waves_.push_back({first, first + n, first + size, {}, {}, {}});
+    first += size;
+  }
+  if (short_waves_.empty()) {
+    small_ = J_;
+  } else {
+    small_ = J_(kept_, kept_);
+  }
+  Index column = 0;
+  for (auto& rim : short_waves_) {
+    const Index n = rim.end - rim.first, n_before = rim.first - rim.first_long;
+    rim.own.compute(J_.block(rim.first, rim.first, n, n));
+    rim.by_long = rim.own.solve(J_.block(rim.first, rim.first_long, n, n_before));
+    rim.on_kept = J_(kept_, Eigen::seqN(rim.first, n));
+    while (kept_[column] < rim.first_long) ++column;
+    small_.middleCols(column, n_before) -= rim.on_kept * rim.by_long;
+  }
+  lu_.compute(small_);
+}
+
+double TangentFactor::least_stretch() const { return stage3::least_stretch(lu_, small_); }
+
+MatrixXd TangentFactor::solve(const MatrixXd& b) const {
+  if (short_waves_.empty()) return lu_.solve(b);
+  return corrected([this](const MatrixXd& f) { return by_factor(f); }, J_, b);
+}
+
+MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
+  if (short_waves_.empty()) return lu_.transpose().solve(b);
+  return corrected([this](const MatrixXd& f) { return by_factor_transposed(f); }, J_.transpose(), b);
+}
+
+MatrixXd TangentFactor::by_factor(const MatrixXd& b) const {
+  MatrixXd x = b, rest = b(kept_, Eigen::all);
+  for (const auto& rim : short_waves_) {
+    auto its = x.middleRows(rim.first, rim.end - rim.first);
+    its = rim.own.solve(its).eval();
+    rest -= rim.on_kept * its;
+  }
+  x(kept_, Eigen::all) = lu_.solve(rest).eval();
+  for (const auto& rim : short_waves_)
+    x.middleRows(rim.first, rim.end - rim.first) -=
+        rim.by_long * x.middleRows(rim.first_long, rim.first - rim.first_long);
+  return x;
+}
+
+MatrixXd TangentFactor::by_factor_transposed(const MatrixXd& b) const {
+  MatrixXd x = b;
+  for (const auto& rim : short_waves_)
+    x.middleRows(rim.first_long, rim.first - rim.first_long) -=
+        rim.by_long.transpose() * b.middleRows(rim.first, rim.end - rim.first);
+  const MatrixXd kept = lu_.transpose().solve(x(kept_, Eigen::all).eval());
+  x(kept_, Eigen::all) = kept;
+  for (const auto& rim : short_waves_) {
+    auto its = x.middleRows(rim.first, rim.end - rim.first);
+    its -= rim.on_kept.transpose() * kept;
+    its = rim.own.transpose().solve(its).eval();
+  }
+  return x;
+}
+
+}  // namespace fastjoint::stage3

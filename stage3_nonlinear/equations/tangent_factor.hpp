@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <vector>
+
+namespace fastjoint::stage3 {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Factor of the tangent J of a joint, (r, r).
+///
+/// Short waves of pressure around a rim of contact fade before they reach anything but their own rim. The factor leaves
+/// out what little their rows take from elsewhere, so that it is one of a small matrix, for the planes and the long
+/// waves of all rims, and of one block for the short waves of each rim. Corrections by the residual bring back what was
+/// left out: solutions are those of J, to rounding (docs/theory.md, section 6.6).
+class TangentFactor {
+ public:
+  /// @param rims Numbers of moments of the rims, whose unknowns are the last, rim after rim; none leaves out nothing.
+  TangentFactor(MatrixXd J, const std::vector<Index>& rims);
+
+  /// Solution x of J x = b, (r, columns).
+  [[nodiscard]] MatrixXd solve(const MatrixXd& b) const;
+  /// Solution x of J^T x = b, (r, columns).
+  [[nodiscard]] MatrixXd solve_transposed(const MatrixXd& b) const;
+  /// Least stretch of the small matrix, which is singular where J is.
+  [[nodiscard]] double least_stretch() const;
+  /// Number of rows of the small matrix.
+  [[nodiscard]] Index n_kept() const { return kept_.size(); }
+
+ private:
+  /// Short waves of a rim.
+  struct ShortWaves {
+    Index first_long, first, end;       ///< unknowns of the rim: long waves, then short ones
+    Eigen::PartialPivLU<MatrixXd> own;  ///< of their block
+    MatrixXd by_long;                   ///< (short, long) inverse of the block times what they take from long waves
+    MatrixXd on_kept;                   ///< (kept, short) what the kept rows take from them
+  };
+  /// Solutions with the factor alone.
+  [[nodiscard]] MatrixXd by_factor(const MatrixXd& b) const;
+  [[nodiscard]] MatrixXd by_factor_transposed(const MatrixXd& b) const;
+
+  MatrixXd J_;
+  std::vector<Index> kept_;  ///< planes and long waves
+  std::vector<ShortWaves> short_waves_;
+  MatrixXd small_;
+  Eigen::PartialPivLU<MatrixXd> lu_;  ///< of small
+};
+
+}  // namespace fastjoint::stage3
