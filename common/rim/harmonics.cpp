@@ -111,8 +111,8 @@ Eigen::VectorXd Harmonics::slope(double angle) const {
 
 Eigen::VectorXd Harmonics::shears_at(double angle) const {
   const Multiples all(unit(*this) * (angle - start), most(*this));
-  return Eigen::VectorXd::NullaryExpr(
-      n_shears(), [&](Eigen::Index k) { return all.at(shear_wave(*this, static_cast<int>(k))); });
+  return Eigen::VectorXd::NullaryExpr(n_shears(),
+                                      [&](Eigen::Index k) { return all.at(shear_wave(*this, static_cast<int>(k))); });
 }
 
 std::string shear_name(int k) { return fmt::format("t{}", k); }

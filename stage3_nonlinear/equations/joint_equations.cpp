@@ -167,13 +167,13 @@ VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const V
   return c;
 }
 
-VectorXd gradient(const JointEquations& equations, const VectorXd& residual) {
-  const Index n = equations.n_plane_rows(), k = residual.size() - n;
-  VectorXd g(residual.size());
-  g.head(n) = equations.metric * residual.head(n);
+MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) {
+  const Index n = equations.n_plane_rows(), k = residuals.rows() - n;
+  MatrixXd g(residuals.rows(), residuals.cols());
+  g.topRows(n) = equations.metric * residuals.topRows(n);
   if (k > 0)
-    g.tail(k) = (residual.tail(k) + equations.system.S_ud.bottomLeftCorner(k, n) * g.head(n))
-                    .cwiseQuotient(equations.rim_stiffness());
+    g.bottomRows(k) = equations.rim_stiffness().cwiseInverse().asDiagonal() *
+                      (residuals.bottomRows(k) + equations.system.S_ud.bottomLeftCorner(k, n) * g.topRows(n));
   return g;
 }
 

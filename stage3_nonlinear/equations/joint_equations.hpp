@@ -53,8 +53,8 @@ struct JointEquations {
 /// Contact coordinates of a solution, (r), exact whatever the law.
 [[nodiscard]] VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const VectorXd& delta);
 
-/// Gradient at the residual r, (r), of the convex function that `metric` makes.
-[[nodiscard]] VectorXd gradient(const JointEquations& equations, const VectorXd& residual);
+/// Gradients at the residuals, (r, columns), of the convex function that `metric` makes.
+[[nodiscard]] MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals);
 
 /// Adds the derivative of the forces of friction at rims of contact by c, dimensionless, to J, (r, r).
 void add_shear_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J);
@@ -86,8 +86,8 @@ struct LinearForces {
 ///
 /// @param flexibility One for each row, length / force, >= 0, shape (r); zero is a rigid fastener.
 /// @param rims JointEquations::rim_sizes.
-[[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility,
-                                         double load_factor, const std::vector<Index>& rims = {});
+[[nodiscard]] LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexibility, double load_factor,
+                                         const std::vector<Index>& rims = {});
 
 /// Bearing forces to start from (Bortman & Szabo, section 6.1): of rigid fasteners, of linear ones of one
 /// stiffness (default: the mean of the plates' own, diag S_ud), or the rigid ones' sum spread equally over

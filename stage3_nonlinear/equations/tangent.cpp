@@ -76,6 +76,14 @@ double friction_norm(const MatrixXd& H) {
   return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
 }
 
+/// True if the tangent J of laws that rise has eigenvalues with positive real parts only, as it surely has where the
+/// symmetric part of its product with the metric is positive definite: it is similar to M^1/2 (M^-1 J) M^1/2.
+bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
+  if (equations.metric.size() == 0) return false;
+  const MatrixXd H = gradient(equations, J);
+  return Eigen::LLT<MatrixXd>(H + H.transpose()).info() == Eigen::Success;
+}
+
 /// True if the tangent is W times a symmetric Hessian H: without friction, rims of contact and laws that fall.
 bool has_hessian(const JointEquations& equations) {
   return equations.metric.size() > 0 && !equations.system.has_friction() && equations.rims.empty();
@@ -149,7 +157,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   const bool falls = (state.dF.along.array() < 0).any();
   MatrixXd friction = system.friction_matrix(state.F);
   add_shear_slopes(system, state, friction);
-  if (falls || friction_norm(friction) >= 1)
+  if (falls || (friction_norm(friction) >= 1 && !surely_stable(equations, J * scale.asDiagonal())))
     check.unstable = soft_modes(system, state, -singular_tangent);
   check.locking = self_locking(system, state.F);
   return check;

@@ -194,7 +194,7 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
   const PlateDegrees& degrees = plate.degrees;
   const auto n = degrees.S.size();
   if (n < 2) return (A * D.transpose()).cwiseAbs() * (plate.S_error * u.cwiseAbs());
-  constexpr double least = 0.25;  // of the bound
+  constexpr double least = 0.25;                     // of the bound
   const auto load = [&](Index before) -> VectorXd {  // at a degree before the last
     const auto R = degrees.R.rbegin() + before;
     return degrees.S[n - 1 - before] * u + degrees.T[n - 1 - before] * f + *R * state.Lambda;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <random>
 
-#include "tests/stage3_nonlinear/contact_joints.hpp"
 #include "stage3_nonlinear/equations/joint_equations.hpp"
+#include "tests/stage3_nonlinear/contact_joints.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -109,5 +109,23 @@ TEST_F(ContactJoint, TheTangentKnowsFriction) {
   }
 }
 
+/// Where friction is large a count of eigenvalues tells of instability, unless the symmetric part rules it out.
+TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
+  int unstable = 0;
+  for (int i = 0; i < 200; ++i) {
+    ContactKind its = kind(i);
+    its.mu = decades(random_, 0.5, 20);
+    const JointEquations equations = make_equations(random_contact_joint(random_, its));
+    const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random_, -1, 1); });
+    const ContactState state = contact_state(equations, c);
+    const TangentCheck check = check_tangent(equations, state);
+    if (check.mechanism) continue;
+    const Eigen::EigenSolver<MatrixXd> eigen(tangent(equations.system, state), false);
+    EXPECT_EQ(check.unstable, (eigen.eigenvalues().real().array() < -1e-10).count()) << "joint " << i;
+    if (check.unstable > 0) ++unstable;
+  }
+  RecordProperty("unstable", unstable);
+}
+
 }  // namespace
 }  // namespace fastjoint::stage3
