@@ -4,7 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
-#include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -29,14 +28,12 @@ VectorXd scale_columns(MatrixXd& A) {
 /// The motion that the tangent does not resist, and the planes that take part in it by more than a share of its largest
 /// entry: those that are open, and those that bear on a level piece of their law. A law that rises again behind a level
 /// piece, as after a slip, is no limit.
-Mechanism mechanism(const JointEquations& equations, const ContactState& state, const MatrixXd& J,
+/// @param J With columns divided by `scale`.
+Mechanism mechanism(const JointEquations& equations, const ContactState& state, const TangentFactor& J,
                     const VectorXd& scale) {
   constexpr double moves = 1e-6, level = 1e-12, far = 1e6;
-  const Eigen::BDCSVD<MatrixXd> svd(J, Eigen::ComputeFullV);
-  const Index free = std::max<Index>(1, (svd.singularValues().array() <= singular_tangent).count());
-  const MatrixXd identity = MatrixXd::Identity(J.rows(), J.rows());
-  const MatrixXd delta =
-      state.times(identity, state.ddelta) * scale.cwiseInverse().asDiagonal() * svd.matrixV().rightCols(free);
+  const MatrixXd dc = scale.cwiseInverse().asDiagonal() * J.free_motions(singular_tangent);
+  const MatrixXd delta = state.times(dc.transpose(), state.ddelta).transpose();  // the blocks are symmetric
   Mechanism result{{}, {}, equations.system.D_delta * delta.rightCols(1)};
   const Index a = state.direction.rows();
   for (Index j = 0; j < std::ssize(state.dF.along); ++j) {
@@ -106,17 +103,14 @@ std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const C
 }
 
 /// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
-/// free motions N of the unknowns change have no derivative.
-Slopes solve_singular(const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rhs) {
+/// free motions of the unknowns change have no derivative.
+Slopes solve_singular(const TangentFactor& factor, const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rhs) {
   constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
-  Eigen::BDCSVD<MatrixXd> svd(J, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(singular_tangent);
-  const MatrixXd dc = svd.solve(rhs);
+  const auto [dc, free] = factor.solve_singular(rhs, singular_tangent);
   Slopes slopes{F_c * dc, dc, {}, {}};
-  const MatrixXd rest = J * dc - rhs;
+  const MatrixXd rest = J * dc - rhs, F_free = F_c * free;
   for (Index i = 0; i < rhs.cols(); ++i)
     if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
-  const MatrixXd F_free = F_c * svd.matrixV().rightCols(J.cols() - svd.rank());
   for (Index i = 0; i < F_free.rows(); ++i)
     if (F_free.row(i).norm() > left) slopes.no_row.push_back(i);
   return slopes;
@@ -146,8 +140,8 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   TangentCheck check;
   MatrixXd J = tangent(system, state);
   const VectorXd scale = scale_columns(J);
-  if (!(TangentFactor(J, equations.rim_sizes()).least_stretch() > singular_tangent)) {
-    Mechanism found = mechanism(equations, state, J, scale);
+  if (const TangentFactor factor(J, equations.rim_sizes()); !(factor.least_stretch() > singular_tangent)) {
+    Mechanism found = mechanism(equations, state, factor, scale);
     if (!found.open.empty() || !found.level.empty()) {
       check.mechanism = std::move(found);
       return check;
@@ -199,7 +193,8 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
   }
   MatrixXd J = tangent(equations.system, state);
   const VectorXd scale = scale_columns(J);
-  if (const TangentFactor factor(J, equations.rim_sizes()); factor.least_stretch() > singular_tangent) {
+  const TangentFactor factor(J, equations.rim_sizes());
+  if (factor.least_stretch() > singular_tangent) {
     if (!given) {  // from the few forces back
       const MatrixXd F_c = state.times(MatrixXd::Identity(equations.n_plane_rows(), J.rows()), state.dF);
       const MatrixXd back = factor.solve_transposed(scale.cwiseInverse().asDiagonal() * F_c.transpose());
@@ -209,7 +204,7 @@ Slopes implicit_slopes(const JointEquations& equations, const ContactState& stat
     return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};
   }
   const MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
-  Slopes slopes = solve_singular(J, F_c * scale.cwiseInverse().asDiagonal(),
+  Slopes slopes = solve_singular(factor, J, F_c * scale.cwiseInverse().asDiagonal(),
                                  -given.value_or(MatrixXd::Identity(J.rows(), J.rows())));
   slopes.c = scale.cwiseInverse().asDiagonal() * slopes.c;
   return slopes;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
 
+#include <Eigen/SVD>
+#include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -24,23 +26,27 @@ Index n_long(const MatrixXd& J, const VectorXd& row_sums, Index first, Index siz
   return n;
 }
 
-/// Corrects the solution by a factor until the residual is rounding; without corrections it is not taken.
+/// Corrects the solution by a factor until the residual is rounding or does not fall any more.
 template <typename Solve, typename Matrix>
 MatrixXd corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
   constexpr int most = 8;
   constexpr double rounding = 1e-14, falls = 0.5;
   MatrixXd x = solve(b), residual = b - J * x;
   double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most; ++i) {
-    const double norm = residual.norm();
-    if (norm <= rounding * b.norm()) return x;
-    if (!(norm < falls * before)) break;
-    before = norm;
+  for (int i = 0; i < most && residual.norm() > rounding * b.norm() && residual.norm() < falls * before; ++i) {
+    before = residual.norm();
     x += solve(residual);
     residual = b - J * x;
   }
+  return x;
+}
+
+/// The same, and where the residual has not become small, the solution by a factor of the whole matrix.
+template <typename Solve, typename Matrix>
+MatrixXd surely_corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
   constexpr double enough = 1e-10;
-  if (residual.norm() <= enough * b.norm()) return x;
+  const MatrixXd x = corrected(solve, J, b);
+  if ((b - J * x).norm() <= enough * b.norm()) return x;
   return MatrixXd(J).partialPivLu().solve(b);
 }
 
@@ -78,22 +84,47 @@ double TangentFactor::least_stretch() const { return stage3::least_stretch(lu_, 
 
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve(b);
-  return corrected([this](const MatrixXd& f) { return by_factor(f); }, J_, b);
+  const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve(f); };
+  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, b);
 }
 
 MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.transpose().solve(b);
-  return corrected([this](const MatrixXd& f) { return by_factor_transposed(f); }, J_.transpose(), b);
+  return surely_corrected([this](const MatrixXd& f) { return by_factor_transposed(f); }, J_.transpose(), b);
 }
 
-MatrixXd TangentFactor::by_factor(const MatrixXd& b) const {
+MatrixXd TangentFactor::free_motions(double least) const {
+  const Eigen::BDCSVD<MatrixXd> svd(small_, Eigen::ComputeFullV);
+  return extended(svd.matrixV().rightCols(std::max<Index>(1, (svd.singularValues().array() <= least).count())));
+}
+
+TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double share) const {
+  Eigen::BDCSVD<MatrixXd> svd(small_, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  svd.setThreshold(share);
+  const auto solve = [&svd](const MatrixXd& f) -> MatrixXd { return svd.solve(f); };
+  const MatrixXd free = extended(svd.matrixV().rightCols(small_.cols() - svd.rank()));
+  if (short_waves_.empty()) return {solve(b), free};
+  return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, b), free};
+}
+
+MatrixXd TangentFactor::extended(const MatrixXd& kept) const {
+  MatrixXd x(J_.cols(), kept.cols());
+  x(kept_, Eigen::all) = kept;
+  for (const auto& rim : short_waves_)
+    x.middleRows(rim.first, rim.end - rim.first) =
+        -(rim.by_long * x.middleRows(rim.first_long, rim.first - rim.first_long));
+  return x;
+}
+
+template <typename Solve>
+MatrixXd TangentFactor::by_factor(const MatrixXd& b, const Solve& solve) const {
   MatrixXd x = b, rest = b(kept_, Eigen::all);
   for (const auto& rim : short_waves_) {
     auto its = x.middleRows(rim.first, rim.end - rim.first);
     its = rim.own.solve(its).eval();
     rest -= rim.on_kept * its;
   }
-  x(kept_, Eigen::all) = lu_.solve(rest).eval();
+  x(kept_, Eigen::all) = solve(rest);
   for (const auto& rim : short_waves_)
     x.middleRows(rim.first, rim.end - rim.first) -=
         rim.by_long * x.middleRows(rim.first_long, rim.first - rim.first_long);

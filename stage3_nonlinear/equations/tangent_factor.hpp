@@ -27,6 +27,16 @@ class TangentFactor {
   [[nodiscard]] MatrixXd solve_transposed(const MatrixXd& b) const;
   /// Least stretch of the small matrix, which is singular where J is.
   [[nodiscard]] double least_stretch() const;
+  /// Motions that a singular J does not resist, (r, n), n >= 1.
+  /// @param least Singular value of the small matrix up to which it is none.
+  [[nodiscard]] MatrixXd free_motions(double least) const;
+
+  /// Solution x of J x = b by least squares, (r, columns), and the motions (r, n) that J does not resist.
+  struct Singular {
+    MatrixXd x, free;
+  };
+  /// @param share Of the largest singular value of the small matrix, up to which one is none.
+  [[nodiscard]] Singular solve_singular(const MatrixXd& b, double share) const;
   /// Number of rows of the small matrix.
   [[nodiscard]] Index n_kept() const { return kept_.size(); }
 
@@ -38,9 +48,13 @@ class TangentFactor {
     MatrixXd by_long;                   ///< (short, long) inverse of the block times what they take from long waves
     MatrixXd on_kept;                   ///< (kept, short) what the kept rows take from them
   };
-  /// Solutions with the factor alone.
-  [[nodiscard]] MatrixXd by_factor(const MatrixXd& b) const;
+  /// Solutions with the factor alone, whose small matrix `solve` solves.
+  template <typename Solve>
+  [[nodiscard]] MatrixXd by_factor(const MatrixXd& b, const Solve& solve) const;
   [[nodiscard]] MatrixXd by_factor_transposed(const MatrixXd& b) const;
+
+  /// Motions of the kept unknowns with those of the short waves that follow them.
+  [[nodiscard]] MatrixXd extended(const MatrixXd& kept) const;
 
   MatrixXd J_;
   std::vector<Index> kept_;  ///< planes and long waves

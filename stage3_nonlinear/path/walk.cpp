@@ -177,7 +177,9 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
 
 bool Walk::take(const Root& root, double target) {
   if (!converged(root)) return false;
-  const VectorXd c = scale_ * root.x;
+  VectorXd c = scale_ * root.x;
+  const Index planes = equations_.n_plane_rows();
+  if (!equations_.rims.empty()) c.head(planes) = without_rounding(c.head(planes), scale_);  // of loose fasteners
   if (const auto spent = contact_state(equations_, c).spent) {
     if (std::isinf(worst_residual_)) {
       worst_row_ = *spent * equations_.n_directions();
