@@ -73,11 +73,11 @@ double friction_norm(const MatrixXd& H) {
   return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
 }
 
-/// True if the tangent J of laws that rise has eigenvalues with positive real parts only, as it surely has where the
-/// symmetric part of its product with the metric is positive definite: it is similar to M^1/2 (M^-1 J) M^1/2.
+/// True if the tangent J of laws that rise has no eigenvalue that `soft_modes` would count, as it surely has not where
+/// the symmetric part of its product with the metric is positive definite: it is similar to M^1/2 (M^-1 J) M^1/2.
 bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
   if (equations.metric.size() == 0) return false;
-  const MatrixXd H = gradient(equations, J);
+  const MatrixXd H = gradient(equations, J + singular_tangent * MatrixXd::Identity(J.rows(), J.cols()));
   return Eigen::LLT<MatrixXd>(H + H.transpose()).info() == Eigen::Success;
 }
 

@@ -12,17 +12,17 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// What the rows of short waves may take from elsewhere, as a share of their diagonal.
-constexpr double little = 0.01;
-
-/// Number of waves of a rim, from `first` on, before those that take little from elsewhere.
-Index n_long(const MatrixXd& J, const VectorXd& row_sums, Index first, Index size) {
+/// Number of waves of a rim, from `first` on, before those that hardly act on unknowns elsewhere and these back on
+/// them: products of both couplings, as shares of both diagonals, know no units.
+Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index size) {
+  constexpr double hardly = 1e-4;
+  const auto acts = [&](Index wave, Index begin, Index end) {
+    const auto there = Eigen::seq(begin, end - 1);
+    const auto both_ways = J.row(wave).transpose()(there).array() * J.col(wave)(there).array();
+    return (both_ways.abs() > hardly * std::abs(diagonal[wave]) * diagonal(there).array().abs()).any();
+  };
   Index n = size;
-  for (; n > 0; --n) {
-    const Index row = first + n - 1;
-    const double elsewhere = row_sums[row] - J.row(row).segment(first, size).cwiseAbs().sum();
-    if (!(elsewhere < little * std::abs(J(row, row)))) break;
-  }
+  while (n > 0 && !acts(first + n - 1, 0, first) && !acts(first + n - 1, first + size, J.rows())) --n;
   return n;
 }
 
@@ -56,26 +56,25 @@ TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims) : J_(st
   Index first = J_.rows() - std::accumulate(rims.begin(), rims.end(), Index{0});
   kept_.resize(first);
   std::iota(kept_.begin(), kept_.end(), Index{0});
-  const VectorXd row_sums = rims.empty() ? VectorXd() : VectorXd(J_.cwiseAbs().rowwise().sum());
+  const VectorXd diagonal = J_.diagonal();
+  std::vector<Index> columns;  // of `small_`, at which the long waves of a rim with short ones begin
   for (const Index size : rims) {
-    const Index n = n_long(J_, row_sums, first, size);
+    const Index n = n_long(J_, diagonal, first, size);
+    if (n < size) {
+      columns.push_back(std::ssize(kept_));
+      short_waves_.push_back({first, first + n, first + size, {}, {}, {}});
+    }
     for (Index i = 0; i < n; ++i) kept_.push_back(first + i);
-    if (n < size) short_waves_.push_back({first, first + n, first + size, {}, {}, {}});
     first += size;
   }
-  if (short_waves_.empty()) {
-    small_ = J_;
-  } else {
-    small_ = J_(kept_, kept_);
-  }
-  Index column = 0;
-  for (auto& rim : short_waves_) {
+  small_ = short_waves_.empty() ? J_ : MatrixXd(J_(kept_, kept_));
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    auto& rim = short_waves_[i];
     const Index n = rim.end - rim.first, n_before = rim.first - rim.first_long;
     rim.own.compute(J_.block(rim.first, rim.first, n, n));
     rim.by_long = rim.own.solve(J_.block(rim.first, rim.first_long, n, n_before));
     rim.on_kept = J_(kept_, Eigen::seqN(rim.first, n));
-    while (kept_[column] < rim.first_long) ++column;
-    small_.middleCols(column, n_before) -= rim.on_kept * rim.by_long;
+    small_.middleCols(columns[i], n_before) -= rim.on_kept * rim.by_long;
   }
   lu_.compute(small_);
 }
