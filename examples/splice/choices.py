@@ -13,14 +13,15 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 HOLE = "a5"
-LABELS = ("arc that bears, discs move along x and y", "springs all around the hole", "arc, discs move along x alone")
+LABELS = ("contact, discs move along x and y", "springs all around that also pull", "contact, discs move along x alone")
 
 
 def rim(folder):
     """Angles in degrees, radial and hoop stress at the last increment around the hole, and its highest peak."""
     with h5py.File(Path(folder, "lower.matrices.h5")) as matrices, h5py.File(Path(folder, "joint.h5")) as joint:
         plate = joint["plates/lower"]
-        state = np.concatenate([plate[name][-1] for name in ("De", "D", "Lambda", "traction/force")])
+        amounts = ("De", "D", "pressure/added", "Lambda", "traction/force")
+        state = np.concatenate([plate[name][-1] for name in amounts if name in plate])
         i = list(matrices["rim/hole"].asstr()).index(HOLE)
         points = slice(*matrices["rim/start"][i:i + 2])
         angle = (matrices["rim/angle"][points] + 180) % 360 - 180
