@@ -26,7 +26,7 @@ def done(*words):
 
 
 def example(name):
-    return json.loads((ROOT / f"examples/{name}.json").read_text())
+    return json.loads((ROOT / f"{name}.json").read_text())
 
 
 def make_sheets(scenes, degrees):
@@ -113,10 +113,10 @@ def check(joint, *options):
 
 def lap_joint():
     """Discs along x, an open hole, a traction, unlike friction of a fastener's holes."""
-    scenes = {name: example(f"lap_joint/{name}") for name in ("upper", "lower")}
+    scenes = {name: example(f"tests/pipeline/scenes/lap_joint/{name}") for name in ("upper", "lower")}
     scenes["upper"]["holes"].append({"id": "open", "center": [100, 10], "radius": 3})
     scenes["upper"]["external"].append({"id": "T", "on": "left", "direction": "x", "kind": "traction"})
-    joint = example("lap_joint/joint")
+    joint = example("tests/pipeline/scenes/lap_joint/joint")
     joint["fasteners"][2]["friction"] = {"upper": 0.1, "lower": 0.3}
     joint["loads"].append({"external": "upper:T", "force": -700})
     return scenes, joint
@@ -124,10 +124,10 @@ def lap_joint():
 
 def bolt_group():
     """Discs along x and y, sheets that float, three to a fastener."""
-    joint = example("bolt_group/joint")
+    joint = example("examples/bolt_group/joint")
     for fastener in joint["fasteners"]:
         fastener["friction"] = 0.2
-    return {name: example(f"bolt_group/{name}") for name in ("bracket", "web")}, joint
+    return {name: example(f"examples/bolt_group/{name}") for name in ("bracket", "web")}, joint
 
 
 def check_disc_forces():

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plane strain, two materials and unloading through all three programs, on sheets of examples/lap_joint:
+"""Plane strain, two materials and unloading through all three programs, on sheets of scenes/lap_joint:
 materials_test.py BIN_FOLDER."""
 import copy
 import json
@@ -12,7 +12,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-EXAMPLE = Path(__file__).resolve().parents[2] / "examples/lap_joint"
+EXAMPLE = Path(__file__).resolve().parent / "scenes/lap_joint"
 SHEETS = ("upper", "lower")
 FACTORS = [0.5, 1, 0.5, 0, -1]
 

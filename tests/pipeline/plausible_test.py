@@ -12,7 +12,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-LAP = ROOT / "examples/lap_joint"
+LAP = ROOT / "tests/pipeline/scenes/lap_joint"
 
 
 def run(*words):

@@ -96,7 +96,7 @@ def check_columns(path, two_directions):
 
 def check_lap_joint(programs, results):
     def look(folder):
-        check_columns(Path(folder, "joint.csv"), two_directions=False)
+        check_columns(Path(folder, "joint.csv"), two_directions=True)
         check_what_if(results, folder)
 
     run_example(ROOT / "examples/lap_joint", programs, look)

@@ -57,8 +57,8 @@ def sensitivities(scene):
 
 
 def check_lap_joint():
-    """Power law, clearance, friction; the numbers that the README shows."""
-    for path in (ROOT / "examples/lap_joint").glob("*.json"):
+    """Power law, clearance, friction."""
+    for path in (ROOT / "tests/pipeline/scenes/lap_joint").glob("*.json"):
         shutil.copy(path, ".")
     for sheet in ("upper", "lower"):
         run("stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5", "--p", 4)

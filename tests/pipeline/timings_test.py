@@ -119,7 +119,7 @@ def main(folder):
     os.environ["PATH"] = folder + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as work:
         os.chdir(work)
-        for path in (ROOT / "examples/lap_joint").glob("*.json"):
+        for path in (ROOT / "tests/pipeline/scenes/lap_joint").glob("*.json"):
             shutil.copy(path, work)
         for each in RUNS:
             check_run(*each)
