@@ -120,53 +120,52 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
   };
   modulus_ = at_points(
       [&](const Frame&, Eigen::Index i) { return rim::covers(spring.acts, points[i].angle) ? spring.modulus : 0; });
-  const Eigen::RowVectorXd none = Eigen::RowVectorXd::Zero(n);
+  std::vector<Eigen::RowVectorXd> rows;
+  const auto add = [&](Eigen::Index unit_case, Eigen::Index component, const Eigen::RowVectorXd& values) {
+    loading_.push_back(unit_case);
+    rows.emplace_back(Eigen::RowVectorXd::Zero(2 * n)).segment(component * n, n) = values;
+  };
+  constexpr Eigen::Index rr = 0, rt = 1;
   Eigen::Index unit_case = plate.n_externals();
   for (int i = 0; i < count_of(plate.disc_hole); ++i, ++unit_case) {
     if (plate.disc_hole[i] != id) continue;
     const Eigen::Vector2d e = rim::axis(plate.disc_direction[i]);
-    tractions_.push_back(
-        {unit_case, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }), none});
+    add(unit_case, rr, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }));
   }
   for (const auto& rim : plate.contact)
     for (int k = 0; k < rim.pressures.size(); ++k, ++unit_case)
       if (rim.hole == id)
-        tractions_.push_back(
-            {unit_case, -at_points([&](const Frame&, Eigen::Index i) { return rim.pressures.at(points[i].angle)[k]; }),
-             none});
+        add(unit_case, rr,
+            -at_points([&](const Frame&, Eigen::Index i) { return rim.pressures.at(points[i].angle)[k]; }));
   for (int i = 0, shear = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
     if (plate.friction_hole[i] != id) continue;
     if (spring.contact) {
-      tractions_.push_back({unit_case, none, -at_points([&](const Frame&, Eigen::Index k) {
-                              return spring.contact->shears_at(points[k].angle)[shear];
-                            })});
+      add(unit_case, rt,
+          -at_points([&](const Frame&, Eigen::Index k) { return spring.contact->shears_at(points[k].angle)[shear]; }));
       ++shear;
       continue;
     }
     const Eigen::Vector2d d = bearing_direction(plate.friction_bearing[i]);
-    tractions_.push_back({unit_case, none, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
-                            const auto bearing = rim::cosine_bearing(at.n, d);
-                            return -bearing.contact * bearing.tangent.dot(at.t);
-                          })});
+    add(unit_case, rt, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
+          const auto bearing = rim::cosine_bearing(at.n, d);
+          return -bearing.contact * bearing.tangent.dot(at.t);
+        }));
   }
   for (int i = 0; i < count_of(plate.traction_hole); ++i, ++unit_case) {
     if (plate.traction_hole[i] != id) continue;
     const Eigen::Vector2d d = rim::axis(plate.traction_direction[i]);
     const double unit_force = rim::bearing(plate.mesh, solver.edges(), plate.hole_rim[hole], d).unit_force;
-    tractions_.push_back({unit_case, at_points([&](const Frame& at, Eigen::Index) {
-                            return -rim::cosine_bearing(at.n, d).contact / unit_force;
-                          }),
-                          none});
+    add(unit_case, rr,
+        at_points([&](const Frame& at, Eigen::Index) { return -rim::cosine_bearing(at.n, d).contact / unit_force; }));
   }
+  tractions_.resize(std::ssize(rows), 2 * n);
+  for (Eigen::Index i = 0; i < std::ssize(rows); ++i) tractions_.row(i) = rows[i];
 }
 
 RimStresses RimStress::operator()(const Fields& fields) const {
   const auto k = fields.states.size(), n = modulus_.size();
-  RimStresses sigma{Eigen::MatrixXd::Zero(k, n), Eigen::MatrixXd::Zero(k, n), Eigen::MatrixXd::Zero(k, n)};
-  for (const auto& each : tractions_) {
-    sigma.rr += fields.amounts.row(each.unit_case).transpose() * each.rr;
-    sigma.rt += fields.amounts.row(each.unit_case).transpose() * each.rt;
-  }
+  const Eigen::MatrixXd amounts = fields.amounts(loading_, Eigen::all), known = amounts.transpose() * tractions_;
+  RimStresses sigma{known.leftCols(n), Eigen::MatrixXd::Zero(k, n), known.rightCols(n)};
   std::vector<Eigen::MatrixXd> values;
   for (const auto& side : sides_) {
     values.push_back(fields.states.values(side.u_n_and_hoop));

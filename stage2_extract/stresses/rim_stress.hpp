@@ -58,17 +58,13 @@ class RimStress {
     Eigen::Matrix3Xd hoop;     ///< what sigma_rr, that strain or stress and sigma_rt give of sigma_tt at each
     Eigen::RowVectorXd share;  ///< of this side in the mean at each
   };
-  /// Traction of a unit case at every point.
-  struct CaseTraction {
-    Eigen::Index unit_case;
-    Eigen::RowVectorXd rr, rt;
-  };
   void add_side(const FieldSolver& solver, int hole, const pfem::Side& side, const std::vector<RimPoint>& points);
   void add_tractions(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
 
   std::vector<SidePoints> sides_;
-  std::vector<CaseTraction> tractions_;
-  Eigen::RowVectorXd modulus_;  ///< (points) of the springs, 0 where none act
+  std::vector<Eigen::Index> loading_;  ///< unit cases with tractions at this rim
+  Eigen::MatrixXd tractions_;          ///< (loading, 2 points) their sigma_rr at every point, then sigma_rt
+  Eigen::RowVectorXd modulus_;         ///< (points) of the springs, 0 where none act
 };
 
 }  // namespace fastjoint::stage2
