@@ -15,14 +15,18 @@ namespace {
 /// Number of waves of a rim, from `first` on, before those that hardly act on unknowns elsewhere and these back on
 /// them: products of both couplings, as shares of both diagonals, know no units.
 Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index size) {
-  constexpr double hardly = 1e-4;
-  const auto acts = [&](Index wave, Index begin, Index end) {
-    const auto there = Eigen::seq(begin, end - 1);
-    const auto both_ways = J.row(wave).transpose()(there).array() * J.col(wave)(there).array();
-    return (both_ways.abs() > hardly * std::abs(diagonal[wave]) * diagonal(there).array().abs()).any();
+  constexpr double hardly = 1e-4, nothing = std::numeric_limits<double>::min();
+  Eigen::ArrayXd most = Eigen::ArrayXd::Zero(size);
+  const auto look_at = [&](Index begin, Index end) {  // column by column, as J lies in memory
+    for (Index j = begin; j < end; ++j)
+      most =
+          most.max((J.col(j).segment(first, size).array() * J.row(j).segment(first, size).transpose().array()).abs() /
+                   std::max(std::abs(diagonal[j]), nothing));
   };
+  look_at(0, first);
+  look_at(first + size, J.cols());
   Index n = size;
-  while (n > 0 && !acts(first + n - 1, 0, first) && !acts(first + n - 1, first + size, J.rows())) --n;
+  while (n > 0 && most[n - 1] <= hardly * std::abs(diagonal[first + n - 1])) --n;
   return n;
 }
 
