@@ -201,7 +201,7 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     if (in_contact)
       around = under_contact(around, all_radial(rows, Eigen::all), a.hoop_by_pressure(rows), contacts, contact);
     read_peak(Rim(around.angle, places), around.hoop, state);
-    // Left out waves keep the pressures of springs and of contact apart, and so the peaks by the one and by the other.
+    // Waves that are left out keep the pressures of springs and of contact apart, and so the peaks by either.
     if (const auto other = points.peak(hoop(rows, 0)); in_contact && other)
       state.peak_error += std::abs(other->value - state.peak_hoop);
     constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all

@@ -179,7 +179,8 @@ bool Walk::take(const Root& root, double target) {
   if (!converged(root)) return false;
   VectorXd c = scale_ * root.x;
   const Index planes = equations_.n_plane_rows();
-  if (!equations_.rims.empty()) c.head(planes) = without_rounding(c.head(planes), scale_);  // of loose fasteners
+  // Loose fasteners carry nothing.
+  if (!equations_.rims.empty()) c.head(planes) = without_rounding(c.head(planes), scale_);
   if (const auto spent = contact_state(equations_, c).spent) {
     if (std::isinf(worst_residual_)) {
       worst_row_ = *spent * equations_.n_directions();

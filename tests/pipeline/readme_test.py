@@ -100,6 +100,8 @@ def check_lap_joint(programs, results):
         check_what_if(results, folder)
 
     run_example(ROOT / "examples/lap_joint", programs, look)
+    run_example(ROOT / "tests/pipeline/scenes/lap_joint", programs,
+                lambda folder: check_columns(Path(folder, "joint.csv"), two_directions=False))
 
 
 def check_what_if(results, folder):
