@@ -98,6 +98,9 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
   file("section/net_area", a.net_area, {s}, area, "area of each section less the hole's projected area");
   file("section/force", a.section_force, {l, s, n_cases}, per_case,
        "normal force over the section in each unit case, tension positive");
+  file("section/stiffness_error", a.stiffness_error, {l}, "1",
+       "estimated relative error of S and C_t at each degree of stress/p, infinite at the plate's lowest",
+       h5::not_negative.or_else(0));
 }
 
 template <class File, class Matrices>

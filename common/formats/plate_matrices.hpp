@@ -34,6 +34,9 @@ struct PlateStresses {
   std::vector<std::string> section_hole, section_side;   ///< (s)
   Eigen::VectorXd gross_area, net_area;                  ///< (s) length^2
   std::vector<StressRows> section_force;                 ///< l x (s, n_cases), tension positive
+  /// (l) estimated relative error of S and C_t: that of a section's force is up to its square root; 0 where the file
+  /// does not say
+  Eigen::VectorXd stiffness_error;
 };
 
 /// Highest degree of matrices: they may come from elsewhere than stage 2.

@@ -132,11 +132,14 @@ void read_peak(const Rim& rim, const Eigen::MatrixXd& hoop, RimState& state) {
   state.peak_error = hoop.cols() > 1 ? rim.change_around(peak->at, hoop.col(0) - hoop.col(1)) : unknown;
 }
 
-/// @param forces  Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or 2).
-/// @param T       Force of the fastener along x, friction included.
-/// @param largest Force anywhere on the plate.
+/// @param forces       Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or
+/// 2).
+/// @param T            Force of the fastener along x, friction included.
+/// @param largest      Force anywhere on the plate.
+/// @param energy_error Relative error of the plate's fields in the energy norm, which that of a resultant of stresses
+///                     follows.
 void read_sections(const formats::PlateStresses& a, const std::string& hole, const Eigen::MatrixXd& forces, double T,
-                   double largest, RimState& state) {
+                   double largest, double energy_error, RimState& state) {
   std::optional<Index> plus, minus;
   for (int i = 0; i < count_of(a.section_hole); ++i) {
     if (a.section_hole[i] != hole) continue;
@@ -153,7 +156,9 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
   };
   const VectorXd force = forces.col(0);
   state.bypass_load = bypass(force);
-  state.bypass_error = forces.cols() > 1 ? std::abs(bypass(forces.col(1)) - state.bypass_load) : unknown;
+  state.bypass_error = forces.cols() > 1
+                           ? std::max(std::abs(bypass(forces.col(1)) - state.bypass_load), energy_error * largest)
+                           : unknown;
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
@@ -214,7 +219,8 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
       state.across = points.force(radial, across, a.bearing_area(i, across));
     }
     state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
-    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, state);
+    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, std::sqrt(a.stiffness_error[level]),
+                  state);
     states.push_back(state);
   }
   return states;

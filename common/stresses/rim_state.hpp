@@ -43,7 +43,8 @@ using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;
 /// (tests/pipeline/peak_error_test.cpp); in contact the difference between the peaks by the pressure of the springs'
 /// law and by the waves is added. Points within 7.5 degrees of a jump of friction are no candidates for the peak if the
 /// jump is more than 1 % of the bearing stress. The bypass load is the section force along x on the side of the hole
-/// that bears (docs/theory.md, sections 11.2 to 11.4).
+/// that bears; its error is its change from the degree below, but no less than the square root of the relative error of
+/// S times the largest force on the plate (docs/theory.md, sections 11.2 to 11.4).
 /// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
 /// @param in_state Makes of a matrix of `a`, (k, n) or (s, n), its column in the state.
 /// @param contacts At rims whose springs push but do not pull.

@@ -55,7 +55,6 @@ Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
   constexpr int most_rings = 4;
   constexpr double worth = 0.5;  // of the error before, that another ring must come below
   Accuracy start{scene, accuracy, {}, false};
-  if (!scene.has_space) start.scene.space = pfem::Space::product;
   Accuracy best = start;
   for (int rings = 1; rings <= most_rings; ++rings) {
     Accuracy model = start;

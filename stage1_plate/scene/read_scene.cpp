@@ -53,7 +53,8 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
     hole.has_rings = rings.has_value();
-    hole.rings = rings ? rings->integer(0, most_rings) : 0;
+    const bool in_contact = hole.spring && hole.spring->compression_only;
+    hole.rings = rings ? rings->integer(0, most_rings) : is_grid && in_contact ? 1 : 0;
     holes.push_back(std::move(hole));
   }
   return holes;
@@ -159,9 +160,7 @@ PlateScene read_scene(const input::Document& document) {
   read_sections(root, scene);
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
-  const auto space = root.find("space");
-  scene.has_space = space.has_value();
-  if (space) scene.space = pfem::space_named(space->choice(pfem::space_names));
+  if (const auto space = root.find("space")) scene.space = pfem::space_named(space->choice(pfem::space_names));
   read_p(root, scene);
   return scene;
 }

@@ -95,8 +95,7 @@ struct PlateScene {
   std::vector<std::string> disc_directions;  ///< of all discs but those on lines of symmetry
   std::vector<Support> supports;
   std::vector<External> externals;
-  pfem::Space space = pfem::Space::trunk;
-  bool has_space = false;  ///< whether the scene says which
+  pfem::Space space = pfem::Space::product;
   int p_low = 1, p_high = pfem::highest_p;
 };
 

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "common/count.hpp"
+#include "common/matrices/stiffness_error.hpp"
 #include "common/pfem/element.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
@@ -147,6 +148,24 @@ void add_level(const FieldSolver& solver, const Rims& rims, const Eigen::MatrixX
   }
 }
 
+/// Estimated relative error of S and C_t at each of some degrees of the plate, infinite at its lowest.
+Eigen::VectorXd stiffness_errors(const formats::PlateSolution& plate, const Eigen::VectorXi& degrees) {
+  Eigen::VectorXd errors(degrees.size());
+  matrices::CondensedLevels levels;
+  levels.rounding = plate.probe.rounding;
+  Eigen::Index at = 0;
+  for (Eigen::Index i = 0; i < degrees.size(); ++i) {
+    for (; at < plate.p.size() && plate.p[at] <= degrees[i]; ++at) {
+      levels.S.push_back(plate.cases[at].S);
+      levels.R.emplace_back();
+      levels.C.push_back(plate.cases[at].C_t);
+    }
+    errors[i] = matrices::largest(matrices::relative_errors(levels, plate.p.head(at), plate.held_stiffness,
+                                                            matrices::fastest_rate(plate.elasticity)));
+  }
+  return errors;
+}
+
 }  // namespace
 
 formats::PlateStresses extract_stresses(const formats::PlateSolution& plate, FieldSolver* solver) {
@@ -171,6 +190,7 @@ formats::PlateStresses extract_stresses(FieldSolver& solver, int p, const Eigen:
     solver.factorise(degree);
     add_level(solver, rims, amounts, a);
   }
+  a.stiffness_error = stiffness_errors(plate, a.p);
   program::report_share(1);
   return a;
 }

@@ -160,7 +160,7 @@ PlateMatrices one_disc() {
   auto& s = a.stresses;
   s.p = a.p;
   s.rim_hole = s.section_hole = {"a"};
-  s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.angle = s.hoop_by_pressure = one;
+  s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.angle = s.hoop_by_pressure = s.stiffness_error = one;
   s.rim_center = s.bearing_area = s.rim_modulus = Eigen::MatrixXd::Constant(1, 2, 0.5);
   s.rim_start = Eigen::VectorXi::LinSpaced(2, 0, 1);
   s.sigma_rr = s.sigma_tt = s.sigma_rt = s.section_force = {one};

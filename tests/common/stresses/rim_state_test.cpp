@@ -44,6 +44,7 @@ Plate plate(double from, double to, const std::function<double(double)>& hoop) {
   a.gross_area = Eigen::Vector2d(2, 2);
   a.net_area = Eigen::Vector2d(1.5, 1.5);
   a.section_force = {Eigen::MatrixXd{{0, 3}, {0, 5}}, Eigen::MatrixXd{{0, 3}, {0, 5}}};
+  a.stiffness_error = Eigen::Vector2d(1e-4, 1e-4);
   return model;
 }
 
@@ -238,6 +239,15 @@ TEST(RimState, NoConcentrationOnAnUnloadedSection) {
   model.stresses.section_force[1].setZero();
   EXPECT_EQ(state(model, 1, 0).gross_concentration, 0);
   EXPECT_TRUE(std::isfinite(state(model, 0, 0).net_concentration));
+}
+
+/// Two degrees of a coarse mesh may agree by accident; the sheet's stiffness still shows how coarse it is.
+TEST(RimState, BypassErrsAtLeastAsMuchAsTheSheet) {
+  Plate model = plate(0, 360, [](double) { return 4.0; });
+  EXPECT_EQ(state(model, 1, 0).bypass_load, 3);
+  EXPECT_DOUBLE_EQ(state(model, 1, 0).bypass_error, 1e-2 * 5);
+  model.stresses.section_force[0] *= 1.1;
+  EXPECT_DOUBLE_EQ(state(model, 1, 0).bypass_error, 0.3);
 }
 
 TEST(RimState, OneDegreeAloneKnowsNoError) {
