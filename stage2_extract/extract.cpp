@@ -94,8 +94,10 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
   result.checks = check(plate, a.friction_resultant);
   auto balanced = plate.cases;
-  for (const auto& free : free_translations(plate, a.friction_resultant))
+  for (const auto& free : free_translations(plate, a.friction_resultant)) {
+    a.unsupported.push_back(free.along);
     for (auto& level : balanced) balance(free, level);
+  }
   store(balanced, a);
   return result;
 }

@@ -16,7 +16,7 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 6;
+constexpr int minor = 7;
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
@@ -31,6 +31,10 @@ void name_datasets(File& file, Matrices& a) {
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
   file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x or y, for each traction", or_else("x"));
+  h5::Allowed axis = h5::one_of({"x", "y"});
+  axis.word = "";
+  file("unsupported", a.unsupported, {any}, "1",
+       "directions along which no support holds the plate: the forces on it are in balance there", axis);
   contact_datasets(file, a.contact, a.header.units);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",

@@ -48,6 +48,9 @@ inline constexpr int highest_degree = 99;
 ///   (P, F) = S (D_e, D) + R Lambda + T f.
 struct PlateMatrices : UnitCases {
   std::string plate_digest{};  ///< of the PLATE.h5 that these are of; empty if it has none
+  /// Directions, "x" or "y", along which no support holds the plate, so that the forces on it are in balance; a file
+  /// that does not say names none.
+  std::vector<std::string> unsupported{};
   /// (m) modulus of the distributed springs between disc and plate, which hold the bearing of the plate; 0 where the
   /// file does not say, force / length^3.
   Eigen::VectorXd disc_modulus;

@@ -112,7 +112,7 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
       return Eigen::VectorXd::NullaryExpr(std::ssize(names),
                                           [&](Eigen::Index i) { return names[i].ends_with(along) ? 1.0 : 0.0; });
     };
-    result.push_back({is_along(direction), is_along(plate.friction_bearing).cwiseProduct(resultant).transpose(),
+    result.push_back({along, is_along(direction), is_along(plate.friction_bearing).cwiseProduct(resultant).transpose(),
                       is_along(plate.traction_direction).transpose()});
   }
   return result;

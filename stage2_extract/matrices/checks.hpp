@@ -14,6 +14,7 @@ namespace fastjoint::stage2 {
 
 /// A direction that no support fixes and that every disc can move along, and what acts along it in unit cases.
 struct FreeTranslation {
+  std::string along;            ///< "x" or "y"
   Eigen::VectorXd motion;       ///< (nc) of externals and discs together
   Eigen::RowVectorXd friction;  ///< (h) resultant of each friction case, length^2
   Eigen::RowVectorXd traction;  ///< (q) 1 along it, else 0

@@ -48,6 +48,7 @@ struct PlateModel {
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
+  std::vector<int> unsupported_axes;                         ///< along which no support of stage 1 takes a force
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) the file's; infinite where it does not know it or p is not its highest
   formats::PlateStresses stresses;  ///< as the file has them

@@ -238,6 +238,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.friction_resultant = a.friction_resultant;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
+  plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   plate.contact = a.contact;
   if (plate.S_error.rows() != plate.S.rows()) plate.S_error.resizeLike(plate.S);

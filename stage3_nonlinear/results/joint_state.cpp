@@ -171,23 +171,6 @@ double worst_fastener(const JointModel& joint, const std::vector<PlateState>& pl
   return worst;
 }
 
-/// Worst force that the supports of a plate must give along axes along which it has none, since it moves as one without
-/// force; none if there are no such axes.
-std::optional<double> given_by_no_support(const PlateModel& plate, const PlateState& state) {
-  constexpr double rounding = 1e-9;
-  std::optional<double> worst;
-  for (const int axis : {0, 1}) {
-    const VectorXd motion = VectorXd::NullaryExpr(plate.n_unknowns(), [&](Index i) {
-      const Index external = i - plate.n_discs();
-      if (i >= plate.first_moment()) return 0.0;
-      return double((external < 0 ? plate.axis_of(i) : plate.external_axis[external]) == axis);
-    });
-    if (motion.isZero(0) || (plate.S * motion).norm() > rounding * plate.S.norm()) continue;
-    worst = std::max(worst.value_or(0), std::abs(state.by_supports[axis]));
-  }
-  return worst;
-}
-
 }  // namespace
 
 JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
@@ -206,8 +189,10 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
     const PlateState& its = state.plates.emplace_back(plate_state(
         joint, i, u, step.rim_F.segment(first_moment, k), step.load_factor, bearing, shear, state.out_of_balance));
     first_moment += k;
-    if (const auto worst = given_by_no_support(plate, its))
-      state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), *worst);
+    // Matrices do not tell: a sheet that supports hold without statical indeterminacy moves without force as well.
+    for (const int axis : plate.unsupported_axes)
+      state.plates_out_of_balance =
+          std::max(state.plates_out_of_balance.value_or(0), std::abs(its.by_supports[axis]));
     for (const VectorXd* forces : {&its.Pe, &its.traction})
       state.largest_force = std::max(state.largest_force, forces->lpNorm<Eigen::Infinity>());
   }

@@ -37,7 +37,8 @@ struct JointState {
   // Over the largest force:
   double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
   double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of one without ground give it
-  /// Worst sum of all forces on a plate along an axis along which nothing supports it; none if there is none.
+  /// Worst sum of all forces on a plate along an axis along which its file says that nothing supports it; none if there
+  /// is none.
   std::optional<double> plates_out_of_balance;
 };
 

@@ -88,7 +88,9 @@ PlateMatrices spring_plate(int n_discs, int n_externals, const std::vector<Sprin
     S(a, b) -= k;
     S(b, a) -= k;
   }
-  return from_stiffness(S, n_discs, n_externals);
+  PlateMatrices plate = from_stiffness(S, n_discs, n_externals);
+  if (std::ranges::none_of(springs, [](const Spring& each) { return each.b == ground; })) plate.unsupported = {"x"};
+  return plate;
 }
 
 PlateMatrices chain(int n_discs, int n_externals, double k, const std::vector<Spring>& more) {
