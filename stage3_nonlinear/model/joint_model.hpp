@@ -85,9 +85,10 @@ struct PlateModel {
 [[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices matrices,
                                     int p, const std::vector<int>& axes = {});
 
-/// Directions of the discs of all files together. Throws FileError for a word that names none.
-[[nodiscard]] std::vector<int> joint_axes(const std::vector<std::string>& files,
-                                          const std::vector<formats::PlateMatrices>& all);
+/// Directions of the discs of all files together, in the order of the first hole that has both, else x before y; 0 x, 1
+/// y. Throws FileError for a word that names none.
+[[nodiscard]] std::vector<int> joint_axes(std::span<const std::string> files,
+                                          std::span<const formats::PlateMatrices> all);
 
 /// Friction in a hole for one side that bears, per unit of the law's force there; `load` is empty without friction.
 struct FrictionLoad {

@@ -36,14 +36,6 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
   return axes;
 }
 
-/// Directions of all discs, x before y unless every disc has y first.
-std::vector<int> all_axes(const std::string& file, const formats::PlateMatrices& a) {
-  std::vector<int> axes;
-  for (const int axis : axes_of(file, "disc/direction", a.disc_direction))
-    if (std::ranges::find(axes, axis) == axes.end()) axes.push_back(axis);
-  return axes;
-}
-
 /// Names the holes, and gives each disc of the file its place among the discs of all directions. Discs of a hole must
 /// stand one behind the other; a direction that stands twice is taken for another hole, which check_once refuses.
 void place_discs(const std::string& file, const formats::PlateMatrices& a, PlateModel& plate) {
@@ -199,12 +191,19 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
 
 }  // namespace
 
-std::vector<int> joint_axes(const std::vector<std::string>& files, const std::vector<formats::PlateMatrices>& all) {
-  std::vector<int> axes;
-  for (Index i = 0; i < std::ssize(all); ++i)
-    for (const int axis : all_axes(files[i], all[i]))
-      if (std::ranges::find(axes, axis) == axes.end()) axes.push_back(axis);
-  return axes;
+std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::PlateMatrices> all) {
+  std::set<int> found;
+  std::vector<int> of_one_hole;  // the order of directions is that of a hole with both: a half hole has one alone
+  for (Index i = 0; i < std::ssize(all); ++i) {
+    const auto axes = axes_of(files[i], "disc/direction", all[i].disc_direction);
+    for (Index disc = 0; disc < std::ssize(axes); ++disc) {
+      found.insert(axes[disc]);
+      if (of_one_hole.empty() && disc > 0 && all[i].disc_hole[disc] == all[i].disc_hole[disc - 1] &&
+          axes[disc] != axes[disc - 1])
+        of_one_hole = {axes[disc - 1], axes[disc]};
+    }
+  }
+  return of_one_hole.empty() ? std::vector<int>(found.begin(), found.end()) : of_one_hole;
 }
 
 PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices a, int p,
@@ -220,7 +219,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.file = file;
   plate.matrices_digest = a.header.digest;
   plate.plate_digest = a.plate_digest;
-  plate.axes = axes.empty() ? all_axes(file, a) : axes;
+  plate.axes = axes.empty() ? joint_axes({&file, 1}, {&a, 1}) : axes;
   place_discs(file, a, plate);
   plate.externals = a.external_id;
   plate.tractions = a.traction_id;

@@ -189,7 +189,7 @@ TEST(JointModel, RefusesFastenersWhoseDiscsMoveInOtherDirections) {
       "/between: the disc of hole \"a:1\" moves along x, that of hole \"b:1\" along y; allowed: discs "
       "of the same directions: whole holes of sheets with the same \"disc_directions\", as ");
   expect_refusal<InputError>(lap, {}, "a.h5 has them, or half holes on one line of symmetry");
-  lap.b.disc_hole = {"1", "1"};
+  lap.a.disc_hole = lap.b.disc_hole = {"1", "1"};
   lap.b.disc_direction = {"x", "y"};
   lap.a.disc_direction = {"y", "x"};
   expect_refusal<FileError>(
