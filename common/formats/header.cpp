@@ -81,6 +81,12 @@ template void contact_datasets(h5::Writer& file, const std::vector<ContactRim>& 
 template void contact_datasets(h5::Reader& file, std::vector<ContactRim>& a, const Units& units,
                                const std::string& group);
 
+h5::Allowed traction_sides() {
+  auto names = side_names;
+  names.emplace_back();
+  return {.text = fmt::format("one of {}, or none", fmt::join(side_names, ", ")), .words = names, .word = ""};
+}
+
 h5::Allowed friction_case_names() {
   auto names = side_names;
   for (int k = 0; k <= 2 * rim::most_harmonics; ++k) names.push_back(rim::shear_name(k));

@@ -44,9 +44,12 @@ struct UnitCases {
   Eigen::VectorXi p, ndof;                                   ///< (np)
   std::vector<std::string> disc_hole, disc_direction;        ///< (m)
   std::vector<std::string> external_id, external_direction;  ///< (e); "x" or "y"
-  std::vector<std::string> traction_id, traction_direction;  ///< (q)
-  std::vector<ContactRim> contact{};                         ///< in the order of the holes
-  std::vector<std::string> friction_hole;                    ///< (h)
+  /// (q); a load in a hole has a case for each side that the model has, both of a unit force along the direction, and
+  /// its negative force is of the second.
+  std::vector<std::string> traction_id, traction_direction;
+  std::vector<std::string> traction_bearing;  ///< (q) side of the hole that bears, "+x", ...; "" of edges
+  std::vector<ContactRim> contact{};          ///< in the order of the holes
+  std::vector<std::string> friction_hole;     ///< (h)
   std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y", or a rim::shear_name at rims of contact
 
   [[nodiscard]] Eigen::Index n_externals() const { return external_id.size(); }
@@ -78,6 +81,13 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
 
 /// Names of the sides of a hole.
 inline const std::vector<std::string> side_names = {"+x", "-x", "+y", "-y"};
+
+/// What traction/bearing of every file is.
+inline constexpr const char* bearing_side =
+    "side of the hole that bears, +x, -x, +y or -y, for each traction in a hole, empty for an edge";
+
+/// Names of the sides that bear of tractions, "" for one on an edge and where a file has none.
+[[nodiscard]] h5::Allowed traction_sides();
 
 /// Names of all friction cases that there may be.
 [[nodiscard]] h5::Allowed friction_case_names();

@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 7;
+constexpr int minor = 8;
 
 using V = RimValues;
 using enum Dimension;
@@ -84,6 +84,8 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
   file(group + "traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
+  file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side,
+       traction_sides());
   file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
   rim_datasets(file, group + "rim/", a.rims, steps, units);
 }

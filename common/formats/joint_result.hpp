@@ -64,7 +64,8 @@ struct ContactHistory {
 struct PlateHistory {
   std::string name;
   std::vector<std::string> disc_hole, disc_direction, external_id, traction_id;
-  std::vector<ContactRim> contact{};  ///< (g)
+  std::vector<std::string> traction_bearing{};  ///< (q) as UnitCases has it
+  std::vector<ContactRim> contact{};            ///< (g)
   std::vector<std::string> friction_hole, friction_bearing;
   Eigen::MatrixXd D;           ///< (steps, m) disc displacements, length
   Eigen::MatrixXd De;          ///< (steps, e) displacements of the rigid externals, length

@@ -31,6 +31,7 @@ void name_datasets(File& file, Matrices& a) {
   file("traction/id", a.traction_id, {any}, "1",
        "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
   file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x or y, for each traction", or_else("x"));
+  file("traction/bearing", a.traction_bearing, {a.n_tractions()}, "1", bearing_side, traction_sides());
   h5::Allowed axis = h5::one_of({"x", "y"});
   axis.word = "";
   file("unsupported", a.unsupported, {any}, "1",

@@ -17,7 +17,7 @@ using h5::Column;
 
 constexpr const char* format = "plate-solution";
 constexpr int major = 4;
-constexpr int minor = 2;
+constexpr int minor = 3;
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
 template <class File, class Mesh>
@@ -130,6 +130,11 @@ void name_datasets(File& file, Solution& a) {
   hole_or_edge.words->emplace_back();
   file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge",
        hole_or_edge);
+  file("traction/bearing", a.traction_bearing, {q}, "1", bearing_side, traction_sides());
+  if constexpr (File::reads)
+    for (Index i = 0; i < q; ++i)  // before version 4.3 the side along the direction was the only one
+      if (a.traction_bearing[i].empty() && !a.traction_hole[i].empty())
+        a.traction_bearing[i] = "+" + a.traction_direction[i];
   file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);

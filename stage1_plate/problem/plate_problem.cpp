@@ -78,11 +78,14 @@ void number_free(Unknowns& unknowns) {
     if (dof == undecided) dof = n_free++;
 }
 
-std::vector<int> externals(const PlateScene& scene, bool rigid) {
-  std::vector<int> list;
-  for (int i = 0; i < count_of(scene.externals); ++i)
-    if ((scene.externals[i].kind == ExternalKind::rigid) == rigid) list.push_back(i);
-  return list;
+/// Force per unit peak of the cosine pressure on the half of the rim of an external's hole along its direction (side 1)
+/// or against it (-1), length^2; 0 if the model has no rim there.
+double unit_force(const PlateScene& scene, const PlateMesh& plate, const TractionCase& load) {
+  constexpr double nothing = 1e-12;  // of what a whole rim bears; rounding leaves about 1e-16
+  const External& external = scene.externals[load.external];
+  const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
+  const double force = rim::bearing(plate.mesh, plate.edges, rim, load.side * rim::axis(external.direction)).unit_force;
+  return force < nothing * plate.mesh.thickness.maxCoeff() * rim.radius ? 0 : force;
 }
 
 /// Pressures of contact on the rim of a hole. Throws InputError if the rim is in several pieces or of several
@@ -162,16 +165,16 @@ void add_uniform(const PlateMesh& plate, const External& external, const PlatePr
   }
 }
 
-/// Cosine pressure on the half of an open hole that bears along the external's direction, of unit force along it.
-void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_index, const PlateProblem& problem,
+/// Cosine pressure on the half of an open hole that bears, of unit force along the external's direction: that on the
+/// half against it is negative.
+void add_pressure(const PlateScene& scene, const PlateMesh& plate, const TractionCase& of, const PlateProblem& problem,
                   int column, Loads& loads) {
-  const External& external = scene.externals[external_index];
+  const External& external = scene.externals[of.external];
   const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
-  const Eigen::Vector2d d = rim::axis(external.direction);
-  const double unit_force = rim::bearing(plate.mesh, plate.edges, rim, d).unit_force;
-  constexpr double nothing = 1e-12;  // of what a whole rim bears; rounding leaves about 1e-16
-  if (unit_force < nothing * plate.mesh.thickness.maxCoeff() * rim.radius)
-    reject(scene, fmt::format("/external/{}", external_index),
+  const Eigen::Vector2d d = of.side * rim::axis(external.direction);
+  const double whole = unit_force(scene, plate, of);
+  if (whole == 0)
+    reject(scene, fmt::format("/external/{}", of.external),
            fmt::format("the model has no rim of hole \"{}\" on the side that bears along +{}", external.on,
                        external.direction),
            "a hole with a rim on that side");
@@ -180,24 +183,23 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, int external_
     Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
     for (int q = 0; q < rule.ds.size(); ++q) {
       const Eigen::Vector2d n = -rule.normal.col(q);
-      const double pressure = rim::cosine_bearing(n, d).contact / unit_force;
+      const double pressure = of.side * rim::cosine_bearing(n, d).contact / whole;
       load += plate.mesh.thickness[side.element] * rule.ds[q] * pressure * rule.N.col(q) * n.transpose();
     }
     add_load(problem, side.element, rule.modes, load.reshaped(), column, loads);
   }
 }
 
-/// Sets T_f and T_c: unit total force on every external that is not rigid, as uniform traction on an edge or as cosine
-/// pressure on an open hole.
+/// Sets T_f and T_c: unit total force of every traction case, as uniform traction on an edge or as cosine pressure on
+/// half of an open hole.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
-  const auto list = traction_externals(scene);
+  const auto list = traction_cases(scene, plate);
   Loads loads;
   for (int column = 0; column < count_of(list); ++column) {
-    const External& external = scene.externals[list[column]];
-    if (external.kind == ExternalKind::bearing)
+    if (list[column].side != 0)
       add_pressure(scene, plate, list[column], problem, column, loads);
     else
-      add_uniform(plate, external, problem, column, loads);
+      add_uniform(plate, scene.externals[list[column].external], problem, column, loads);
   }
   const auto n_f = problem.T_f.rows(), nc = problem.T_c.rows();
   Eigen::SparseMatrix<double> T(n_f + nc, count_of(list));
@@ -206,16 +208,31 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   problem.T_c = T.bottomRows(nc);
   for (int column = 0; column < count_of(list); ++column) {
     if (Eigen::VectorXd(problem.T_f.col(column)).isZero(0) && problem.T_c.col(column).isZero(0))
-      reject(scene, fmt::format("/external/{}", list[column]), "supports hold all that it loads against it",
+      reject(scene, fmt::format("/external/{}", list[column].external), "supports hold all that it loads against it",
              "a load along a direction in which the plate can move there");
   }
 }
 
 }  // namespace
 
-std::vector<int> rigid_externals(const PlateScene& scene) { return externals(scene, true); }
+std::vector<int> rigid_externals(const PlateScene& scene) {
+  std::vector<int> list;
+  for (int i = 0; i < count_of(scene.externals); ++i)
+    if (scene.externals[i].kind == ExternalKind::rigid) list.push_back(i);
+  return list;
+}
 
-std::vector<int> traction_externals(const PlateScene& scene) { return externals(scene, false); }
+std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate) {
+  std::vector<TractionCase> list;
+  for (int i = 0; i < count_of(scene.externals); ++i) {
+    const ExternalKind kind = scene.externals[i].kind;
+    if (kind == ExternalKind::traction) list.push_back({i, 0});
+    if (kind != ExternalKind::bearing) continue;
+    list.push_back({i, 1});
+    if (unit_force(scene, plate, {i, -1}) > 0) list.push_back({i, -1});
+  }
+  return list;
+}
 
 int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point) {
   return unknowns.n_discs() - (count_of(scene.points) - point) * count_of(scene.disc_directions);
@@ -266,7 +283,7 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   const plate::SprungMesh sprung = sprung_mesh(scene, plate);
   plate::count_rim_cases(sprung, problem.unknowns);
   problem.elements = plate::classify_elements(sprung, problem.numbering, problem.unknowns);
-  const Eigen::Index n_tractions = traction_externals(scene).size();
+  const Eigen::Index n_tractions = traction_cases(scene, plate).size();
   problem.T_f.resize(problem.unknowns.n_free.back(), n_tractions);
   problem.T_c = Eigen::MatrixXd::Zero(problem.unknowns.n_controlled(), n_tractions);
   problem.ties = tie_points(scene, plate, problem.unknowns);

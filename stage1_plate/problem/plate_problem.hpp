@@ -12,9 +12,18 @@ namespace fastjoint::stage1 {
 
 using plate::Unknowns;
 
-/// Indices of the externals of a kind into PlateScene::externals: those that are rigid, else those under a load.
+/// Indices of the rigid externals into PlateScene::externals.
 [[nodiscard]] std::vector<int> rigid_externals(const PlateScene& scene);
-[[nodiscard]] std::vector<int> traction_externals(const PlateScene& scene);
+
+/// A unit load on an external that is not rigid. A load in a hole bears on the side that it points to: a positive force
+/// on one, a negative force on the other, each its own case.
+struct TractionCase {
+  int external;  ///< index into PlateScene::externals
+  int side;      ///< 1 or -1: the half of the hole along its direction or against it bears; 0 on an edge
+};
+
+/// The loads in the order of the externals. A hole has the side against its direction if the model has rim there.
+[[nodiscard]] std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate);
 
 /// First disc of a point spring: the discs of these are the last.
 [[nodiscard]] int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point);

@@ -52,17 +52,16 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.space = problem.numbering.space;
   a.p = degrees(scene);
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[p]; });
-  const auto name = [&](const std::vector<int>& list, auto& ids, auto& directions) {
-    for (const int i : list) {
-      ids.push_back(scene.externals[i].id);
-      directions.push_back(scene.externals[i].direction);
-    }
-  };
-  name(rigid_externals(scene), a.external_id, a.external_direction);
-  name(traction_externals(scene), a.traction_id, a.traction_direction);
-  for (const int i : traction_externals(scene)) {
+  for (const int i : rigid_externals(scene)) {
+    a.external_id.push_back(scene.externals[i].id);
+    a.external_direction.push_back(scene.externals[i].direction);
+  }
+  for (const auto& [i, side] : traction_cases(scene, plate)) {
     const External& external = scene.externals[i];
-    a.traction_hole.push_back(external.kind == ExternalKind::bearing ? external.on : "");
+    a.traction_id.push_back(external.id);
+    a.traction_direction.push_back(external.direction);
+    a.traction_hole.push_back(side != 0 ? external.on : "");
+    a.traction_bearing.push_back(side == 0 ? "" : (side > 0 ? "+" : "-") + external.direction);
   }
   a.disc_hole = unknowns.disc_hole;
   a.disc_direction = unknowns.disc_direction;

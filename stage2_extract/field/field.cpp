@@ -57,8 +57,24 @@ double take_amount(std::string_view& text, const std::string& name) {
   return amount;
 }
 
+/// Case of a traction's force: of two by its name, one for each side of a hole, that which bears under its sign.
+std::ptrdiff_t of_sign(const PlateSolution& plate, const std::vector<std::string>& names, std::ptrdiff_t first,
+                       double amount) {
+  const auto traction = first - (std::ssize(names) - plate.n_tractions());
+  if (traction < 0 || amount >= 0) return first;
+  if (first + 1 < std::ssize(names) && names[first + 1] == names[first]) return first + 1;
+  if (traction < std::ssize(plate.traction_bearing) && !plate.traction_bearing[traction].empty())
+    throw InputError(
+        fmt::format("--field: {} is not allowed as the amount of {}: the model has no rim on the side of "
+                    "the hole that would bear; allowed: a number >= 0",
+                    amount, names[first]));
+  return first;
+}
+
 FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   const auto names = case_names(plate);
+  auto shown = names;  // a traction with a case for each side of its hole once
+  shown.erase(std::unique(shown.end() - plate.n_tractions(), shown.end()), shown.end());
   FieldState state{Eigen::VectorXd::Zero(names.size()), spec};
   std::vector<bool> given(names.size());
   for (std::string_view rest = spec;;) {
@@ -67,11 +83,12 @@ FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
       throw InputError(
           fmt::format("--field: '{}' is not a case of the plate{}; allowed: a RESULT.h5, or a sum CASE=AMOUNT,... of "
                       "the cases {}",
-                      rest, starts_as_case(spec) ? "" : " nor a file", listed(names)));
+                      rest, starts_as_case(spec) ? "" : " nor a file", listed(shown)));
     if (given[found]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[found]));
     given[found] = true;
     rest.remove_prefix(names[found].size());
-    state.amounts[found] = take_amount(rest, names[found]);
+    const double amount = take_amount(rest, names[found]);
+    state.amounts[of_sign(plate, names, found, amount)] = amount;
     if (rest.empty()) return state;
     rest.remove_prefix(1);  // the comma
   }

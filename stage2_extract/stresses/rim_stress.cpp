@@ -153,10 +153,13 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
   }
   for (int i = 0; i < count_of(plate.traction_hole); ++i, ++unit_case) {
     if (plate.traction_hole[i] != id) continue;
-    const Eigen::Vector2d d = rim::axis(plate.traction_direction[i]);
+    // A unit force along the direction is a negative pressure on the side against it.
+    const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;
+    const Eigen::Vector2d d = bearing_direction(plate.traction_bearing[i]);
     const double unit_force = rim::bearing(plate.mesh, solver.edges(), plate.hole_rim[hole], d).unit_force;
-    add(unit_case, rr,
-        at_points([&](const Frame& at, Eigen::Index) { return -rim::cosine_bearing(at.n, d).contact / unit_force; }));
+    add(unit_case, rr, at_points([&](const Frame& at, Eigen::Index) {
+          return -sign * rim::cosine_bearing(at.n, d).contact / unit_force;
+        }));
   }
   tractions_.resize(std::ssize(rows), 2 * n);
   for (Eigen::Index i = 0; i < std::ssize(rows); ++i) tractions_.row(i) = rows[i];

@@ -77,7 +77,7 @@ struct Rows {
   MatrixXd E;                         ///< (f, n a)
   MatrixXd G_plus, G_minus;           ///< (N, f)
   MatrixXd G_shear;                   ///< (N, s)
-  VectorXd load;                      ///< (N) at load factor 1
+  VectorXd load, load_reversed;       ///< (N) per unit load factor, positive or negative
   VectorXd given;                     ///< (N) given displacements at load factor 1, else 0
   VectorXd own;                       ///< (N) stiffness of each unknown's plate, force / length
 };
@@ -86,8 +86,10 @@ void add_plate(Rows& rows, const PlateModel& plate, Index offset) {
   const Index m = plate.n_discs(), n = plate.n_unknowns();
   rows.S.block(offset, offset, n, n) = plate.S;
   rows.own.segment(offset, n).setConstant(plate.S.diagonal().maxCoeff());
-  rows.load.segment(offset, n) = -plate.T * plate.traction_force;
-  rows.load.segment(offset + m, plate.n_externals()) += plate.external_force;
+  for (const auto& [load, factor] : {std::pair(&rows.load, 1), std::pair(&rows.load_reversed, -1)}) {
+    load->segment(offset, n) = -plate.T * plate.traction_rate(factor);
+    load->segment(offset + m, plate.n_externals()) += plate.external_force;
+  }
   for (Index i = 0; i < plate.n_externals(); ++i)
     rows.given[offset + m + i] = plate.external_displacement[i].value_or(0);
 }
@@ -192,7 +194,7 @@ Rows assemble(const JointModel& joint) {
   const Index n = joint.n_planes() * joint.n_directions() + joint.n_moments();
   Rows rows;
   rows.S = MatrixXd::Zero(N, N);
-  rows.load = rows.given = rows.own = VectorXd::Zero(N);
+  rows.load = rows.load_reversed = rows.given = rows.own = VectorXd::Zero(N);
   for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
     for (Index hole = 0; hole < std::ssize(joint.fasteners[i].holes); ++hole)
       for (Index d = 0; d < std::ssize(joint.fasteners[i].holes[hole].friction); ++d)
@@ -227,7 +229,7 @@ Rows assemble(const JointModel& joint) {
 
 VectorXd CondensedSystem::residual(const VectorXd& F, const VectorXd& delta, double load_factor,
                                    const VectorXd& shear) const {
-  return F + S_ud * delta - load_factor * q + friction_forces(F, shear);
+  return F + S_ud * delta - load_factor * q_at(load_factor) + friction_forces(F, shear);
 }
 
 // OpenBLAS complains on stderr about matrices without rows or columns, which the conditions keep from it.
@@ -251,7 +253,7 @@ MatrixXd CondensedSystem::friction_matrix(const VectorXd& F) const {
 
 VectorXd CondensedSystem::displacements(const VectorXd& F, const VectorXd& delta, double load_factor,
                                         const VectorXd& shear) const {
-  VectorXd D = load_factor * D_load + D_delta * delta;
+  VectorXd D = load_factor * D_load_at(load_factor) + D_delta * delta;
   if (shear.size() > 0) D += D_shear * shear;
   if (friction.empty()) return D;
   const VectorXd b = E * F;
@@ -276,9 +278,6 @@ CondensedSystem condense(const JointModel& joint) {
     for (SparseMatrix::InnerIterator at(rows.Z, j); at; ++at) own[j] = std::max(own[j], rows.own[at.row()]);
   const RigidJoint rigid(rows.Z.transpose() * SZ, own);
   if (!rigid.is_held()) fail_as_mechanism(joint, rows.Z * rigid.free_motions());
-  const VectorXd load = rows.load - rows.S * rows.given, amounts = load.cwiseAbs();
-  const double largest_load = std::max((rows.Z.transpose() * amounts).lpNorm<Eigen::Infinity>(),
-                                       (rows.Y.transpose() * amounts).lpNorm<Eigen::Infinity>());
   const auto moved = [&](const MatrixXd& forces) -> MatrixXd {
     return rows.Z * rigid.restore(rigid.half_solve(rows.Z.transpose() * forces));
   };
@@ -286,18 +285,31 @@ CondensedSystem condense(const JointModel& joint) {
   const MatrixXd D_delta = MatrixXd(rows.Y) - rows.Z * rigid.restore(half);
   MatrixXd S_ud = rows.Y.transpose() * SY;
   S_ud.noalias() -= half.transpose() * half;
-  return {.q = without_rounding(D_delta.transpose() * load, largest_load),
-          .S_ud = S_ud,
-          .friction = rows.friction,
-          .E = rows.E,
-          .H_plus = D_delta.transpose() * rows.G_plus,
-          .H_minus = D_delta.transpose() * rows.G_minus,
-          .H_shear = D_delta.transpose() * rows.G_shear,
-          .D_load = rows.given + moved(load),
-          .D_delta = D_delta,
-          .D_plus = -moved(rows.G_plus),
-          .D_minus = -moved(rows.G_minus),
-          .D_shear = -moved(rows.G_shear)};
+  const auto forces = [&](const VectorXd& load) {
+    const VectorXd amounts = load.cwiseAbs();
+    return without_rounding(D_delta.transpose() * load,
+                            std::max((rows.Z.transpose() * amounts).lpNorm<Eigen::Infinity>(),
+                                     (rows.Y.transpose() * amounts).lpNorm<Eigen::Infinity>()));
+  };
+  const VectorXd by_given = rows.S * rows.given, load = rows.load - by_given;
+  CondensedSystem system{.q = forces(load),
+                         .S_ud = S_ud,
+                         .friction = rows.friction,
+                         .E = rows.E,
+                         .H_plus = D_delta.transpose() * rows.G_plus,
+                         .H_minus = D_delta.transpose() * rows.G_minus,
+                         .H_shear = D_delta.transpose() * rows.G_shear,
+                         .D_load = rows.given + moved(load),
+                         .D_delta = D_delta,
+                         .D_plus = -moved(rows.G_plus),
+                         .D_minus = -moved(rows.G_minus),
+                         .D_shear = -moved(rows.G_shear)};
+  if (rows.load_reversed != rows.load) {
+    const VectorXd reversed = rows.load_reversed - by_given;
+    system.q_reversed = forces(reversed);
+    system.D_load_reversed = rows.given + moved(reversed);
+  }
+  return system;
 }
 
 }  // namespace fastjoint::stage3

@@ -25,19 +25,30 @@ struct FrictionRow {
 /// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
 /// S_ud is the parallel sum of the plates' matrices, and exists also when a plate floats.
 struct CondensedSystem {
-  VectorXd q;                         ///< (r) forces of rigid fasteners at load factor 1, force
+  VectorXd q;                         ///< (r) forces of rigid fasteners per unit load factor, force
   MatrixXd S_ud;                      ///< (r, r) force / length
   std::vector<FrictionRow> friction;  ///< (f)
   MatrixXd E;                         ///< (f, r) +1 of a plane that pushes the rim's plate, -1 of one that pulls
   MatrixXd H_plus, H_minus;           ///< (r, f) for b > 0 and b < 0, dimensionless
   MatrixXd H_shear{};                 ///< (r, s) of the shears of rims of contact with friction, dimensionless
   // Displacements of the joint's N unknowns, given ones included.
-  VectorXd D_load;           ///< (N) at load factor 1 and delta = 0, length
+  VectorXd D_load;           ///< (N) per unit load factor at delta = 0, length
   MatrixXd D_delta;          ///< (N, r) per relative displacement, dimensionless
   MatrixXd D_plus, D_minus;  ///< (N, f) per unit b+, b-, length / force
   MatrixXd D_shear{};        ///< (N, s) per unit of each shear's force, length / force
+  // q and D_load where the load factor is negative; empty if they are the same. Loads in holes then bear on the other
+  // side.
+  VectorXd q_reversed{}, D_load_reversed{};
 
   [[nodiscard]] bool has_friction() const { return !friction.empty() || H_shear.cols() > 0; }
+  /// q at a load factor.
+  [[nodiscard]] const VectorXd& q_at(double load_factor) const {
+    return load_factor < 0 && q_reversed.size() > 0 ? q_reversed : q;
+  }
+  /// D_load at a load factor.
+  [[nodiscard]] const VectorXd& D_load_at(double load_factor) const {
+    return load_factor < 0 && D_load_reversed.size() > 0 ? D_load_reversed : D_load;
+  }
   /// F + S_ud delta + H+ b+ + H- b- + H_shear tau - lambda q, shape (r), force.
   /// @param shear tau, (s).
   [[nodiscard]] VectorXd residual(const VectorXd& F, const VectorXd& delta, double load_factor,

@@ -205,7 +205,7 @@ MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
 RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
                          const ContactState* frozen) {
   const CondensedSystem& system = equations.system;
-  VectorXd load = load_factor * system.q;
+  VectorXd load = load_factor * system.q_at(load_factor);
   if (frozen) load -= system.friction_forces(frozen->F, frozen->shear);
   const bool friction = system.has_friction() && !frozen;
   RootProblem problem;
@@ -243,7 +243,7 @@ LinearForces linear_forces(const CondensedSystem& system, const VectorXd& flexib
   constexpr int most_tries = 8;
   MatrixXd A = system.S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
-  const VectorXd rhs = load_factor * system.q;
+  const VectorXd rhs = load_factor * system.q_at(load_factor);
   LinearForces result{TangentFactor(A, rims).solve(rhs), 1, system.friction.empty()};
   while (!result.consistent && result.solves < most_tries) {
     const VectorXd before = system.E * result.F;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <ranges>
 #include <set>
@@ -213,7 +214,23 @@ const HoleModel& fastened(const JointModel& joint, Index plate, const std::strin
   return none;
 }
 
-void apply_load(JointModel& model, const LoadScene& load) {
+/// Refuses a force whose side of its hole the model does not have.
+void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
+  for (const double factor : factors) {
+    bool acts = load.value * factor == 0;
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+      acts = acts || (plate.tractions[i] == plate.tractions[traction] && plate.acts(i, factor));
+    if (!acts)
+      refuse(load.external.where,
+             fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
+                         "that would bear",
+                         load.external.name, factor * load.value, factor, plate.file),
+             "a force of the other sign, or a sheet that has the whole hole");
+  }
+}
+
+/// @param factors Load factors that are asked for.
+void apply_load(JointModel& model, const LoadScene& load, const std::vector<double>& factors) {
   const Reference& name = load.external;
   PlateModel& plate = model.plates[index_of(model.plates, name.plate, &PlateModel::name)];
   const Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
@@ -225,10 +242,12 @@ void apply_load(JointModel& model, const LoadScene& load) {
     if (load.is_displacement)
       refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
              "\"force\", or an external of kind \"rigid\"");
-    plate.traction_force[traction] = load.value;
+    for (Index i = traction; i < std::ssize(plate.tractions); ++i)
+      if (plate.tractions[i] == name.name) plate.traction_force[i] = load.value;
+    check_side(plate, traction, load, factors);
   } else {
     auto known = plate.externals;
-    known.insert(known.end(), plate.tractions.begin(), plate.tractions.end());
+    std::ranges::unique_copy(plate.tractions, std::back_inserter(known));
     refuse(name.where, fmt::format("external \"{}\" does not exist in {}", name.name, plate.file),
            known.empty() ? "none: this plate has no external boundary" : fmt::format("{}", fmt::join(known, ", ")));
   }
@@ -316,7 +335,8 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
-  for (const auto& load : scene.loads) apply_load(model, load);
+  const std::vector<double> whole{1};  // events are those on the way there
+  for (const auto& load : scene.loads) apply_load(model, load, scene.load_factors.empty() ? whole : scene.load_factors);
   return model;
 }
 

@@ -37,7 +37,7 @@ struct PlateDegrees {
 struct PlateModel {
   std::string name, file;
   std::string matrices_digest, plate_digest;             ///< of its MATRICES.h5, and of its PLATE.h5
-  std::vector<std::string> holes, externals, tractions;  ///< (m / a), (e), (q)
+  std::vector<std::string> holes, externals, tractions;  ///< (m / a), (e), (q), where both sides of a hole are cases
   std::vector<int> axes;                                 ///< (a) of each hole's discs in their order: 0 x, 1 y
   std::vector<Index> discs;                              ///< those m that the file has: a line of symmetry holds others
   std::vector<bool> on_springs;                          ///< (m / a) the plate's own bearing is in S
@@ -56,8 +56,25 @@ struct PlateModel {
   // Loads at load factor 1.
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
-  VectorXd traction_force;                                   ///< (q)
+  VectorXd traction_force;                                   ///< (q) the same for both sides of a hole
+  /// (q) side of the hole that bears under the force of this case, "+x", ...; "" or none of edges
+  std::vector<std::string> traction_bearing{};
 
+  /// True if a traction's force, or a positive one if it has none, is of this case at a load factor: one in a hole
+  /// bears on the side that it points to.
+  [[nodiscard]] bool acts(Index traction, double load_factor) const {
+    if (traction >= std::ssize(traction_bearing) || traction_bearing[traction].empty()) return true;
+    return (traction_bearing[traction][0] == '+') == ((traction_force[traction] < 0) == (load_factor < 0));
+  }
+  /// True of a traction case for the other side of the hole of the case before.
+  [[nodiscard]] bool is_other_side(Index traction) const {
+    return traction > 0 && traction < std::ssize(tractions) && tractions[traction] == tractions[traction - 1];
+  }
+  /// Force of each traction case per unit of the load factor, at a load factor, (q).
+  [[nodiscard]] VectorXd traction_rate(double load_factor) const {
+    return VectorXd::NullaryExpr(traction_force.size(),
+                                 [&](Index i) { return acts(i, load_factor) ? traction_force[i] : 0; });
+  }
   /// m: unknowns of the discs.
   [[nodiscard]] Index n_discs() const { return holes.size() * axes.size(); }
   [[nodiscard]] Index n_externals() const { return externals.size(); }

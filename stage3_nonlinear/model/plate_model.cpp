@@ -57,6 +57,13 @@ void place_discs(const std::string& file, const formats::PlateMatrices& a, Plate
   check_once(file, "disc/hole", plate.holes);
 }
 
+/// True if a traction is the other side of the hole of the one before.
+bool is_other_side(const formats::PlateMatrices& a, Index traction) {
+  if (traction == 0 || a.traction_id[traction] != a.traction_id[traction - 1]) return false;
+  const auto &bearing = a.traction_bearing[traction], &before = a.traction_bearing[traction - 1];
+  return !bearing.empty() && !before.empty() && bearing[0] != before[0];
+}
+
 void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
   if (S.size() == 0) return;
   const double largest = S.cwiseAbs().maxCoeff();
@@ -210,7 +217,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
                       const std::vector<int>& axes) {
   if (a.disc_hole.empty()) throw FileError(fmt::format("{}:disc/hole: is empty, expected at least one disc", file));
   std::vector<std::string> boundaries = a.external_id;
-  boundaries.insert(boundaries.end(), a.traction_id.begin(), a.traction_id.end());
+  for (Index i = 0; i < a.n_tractions(); ++i)
+    if (!is_other_side(a, i)) boundaries.push_back(a.traction_id[i]);
   check_once(file, "external/id", boundaries);
   const Index level = std::find(a.p.begin(), a.p.end(), p) - a.p.begin();
   if (level == a.p.size()) throw std::logic_error("make_plate: degree not in the file");
@@ -236,6 +244,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.friction_unit_force = a.friction_unit_force;
   plate.friction_resultant = a.friction_resultant;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
+  plate.traction_bearing = a.traction_bearing;
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);

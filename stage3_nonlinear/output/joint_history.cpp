@@ -27,6 +27,8 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   }
   history.external_id = plate.externals;
   history.traction_id = plate.tractions;
+  history.traction_bearing = plate.traction_bearing;
+  history.traction_bearing.resize(plate.tractions.size());
   history.contact = plate.contact;
   history.friction_hole = plate.friction_hole;
   history.friction_bearing = plate.friction_bearing;

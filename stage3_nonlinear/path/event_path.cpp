@@ -127,7 +127,7 @@ class Search {
     problem.jacobian = [&](const VectorXd& x) -> MatrixXd {
       MatrixXd J = MatrixXd::Zero(rows + 1, rows + 1);
       J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], unit).jacobian(x.head(rows));
-      J.col(rows).head(rows) = -equations_.system.q / unit;
+      J.col(rows).head(rows) = -equations_.system.q_at(x[rows]) / unit;
       J.row(rows).head(rows) = corners_.slope(unit * x.head(rows), plane);
       return J;
     };
@@ -197,7 +197,7 @@ class Search {
   /// dc / d load factor.
   [[nodiscard]] VectorXd rate(const Sample& at) const {
     const double unit = force_scale(equations_, at.load);
-    return root_problem(equations_, at.load, unit).solve(at.c / unit, equations_.system.q);
+    return root_problem(equations_, at.load, unit).solve(at.c / unit, equations_.system.q_at(at.load));
   }
 
   /// Tells whether a plane may pass a corner and come back between two states that have passed the same corners: by the

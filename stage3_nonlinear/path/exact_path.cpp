@@ -34,7 +34,7 @@ class Tracer {
         target_(std::abs(target)),
         path_{target < 0 ? -1.0 : 1.0, {}},
         c_(VectorXd::Zero(equations.n_unknowns())),
-        q_(path_.sign * equations.system.q),
+        q_(path_.sign * equations.system.q_at(target)),
         lines_(joint_, q_) {}
 
   ExactPath trace() {

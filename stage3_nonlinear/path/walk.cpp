@@ -10,8 +10,8 @@
 
 namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
-  const double scale =
-      std::max(std::abs(load_factor) * equations.system.q.lpNorm<Eigen::Infinity>(), equations.interference());
+  const double scale = std::max(std::abs(load_factor) * equations.system.q_at(load_factor).lpNorm<Eigen::Infinity>(),
+                                equations.interference());
   return scale > 0 ? scale : 1;
 }
 
@@ -76,7 +76,7 @@ PathFailure Walk::failure(Index increment, double load_factor) const {
 
 std::optional<double> Walk::locking(double load_factor) const {
   const auto last = self_locking(equations_.system, contact_state(equations_, here_.c).F);
-  const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q);
+  const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q_at(load_factor));
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
 

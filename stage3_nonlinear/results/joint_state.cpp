@@ -110,14 +110,14 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
   const PlateModel& plate = joint.plates[at];
   const Index m = plate.n_discs(), k = rim_F.size();
   const VectorXd none = VectorXd::Zero(m);
-  VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_force);
+  VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_rate(factor));
   PlateState state{.D = u.head(m),
                    .De = u.segment(m, plate.n_externals()),
                    .Pe = factor * plate.external_force,
                    .moments = u.tail(k),
                    .pressure = added_pressure(plate, u.tail(k), rim_F),
                    .Lambda = VectorXd::Zero(plate.friction_unit_force.size()),
-                   .traction = factor * plate.traction_force,
+                   .traction = factor * plate.traction_rate(factor),
                    .bearing = none,
                    .friction = none};
   for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
@@ -191,8 +191,7 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
     first_moment += k;
     // Matrices do not tell: a sheet that supports hold without statical indeterminacy moves without force as well.
     for (const int axis : plate.unsupported_axes)
-      state.plates_out_of_balance =
-          std::max(state.plates_out_of_balance.value_or(0), std::abs(its.by_supports[axis]));
+      state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), std::abs(its.by_supports[axis]));
     for (const VectorXd* forces : {&its.Pe, &its.traction})
       state.largest_force = std::max(state.largest_force, forces->lpNorm<Eigen::Infinity>());
   }

@@ -41,10 +41,11 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Join
   const CondensedSystem& system = equations.system;
   ContactState state = contact_state(equations, coordinates(equations, step.all_F(), step.all_delta()));
   if (system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  const Slopes slopes = implicit_slopes(equations, state, -system.q);
+  const Slopes slopes = implicit_slopes(equations, state, -system.q_at(step.load_factor));
   const bool gives_way = step.check.at_limit_load() || !slopes.no_column.empty();
   // Rates with the load factor: displacements, and forces on all unknowns as far as they are friction's.
-  VectorXd D = system.D_load + system.D_delta * state.times(slopes.c.transpose(), state.ddelta).transpose();
+  VectorXd D =
+      system.D_load_at(step.load_factor) + system.D_delta * state.times(slopes.c.transpose(), state.ddelta).transpose();
   VectorXd friction = VectorXd::Zero(D.size());
   for (Index i = 0; i < std::ssize(system.friction); ++i) {
     const Side side = system.E.row(i).dot(state.F) < 0 ? minus_side : plus_side;
@@ -59,7 +60,7 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Join
   for (Index p = 0; p < std::ssize(joint.plates); ++p) {
     const PlateModel& plate = joint.plates[p];
     const Index m = plate.n_discs(), n = plate.n_unknowns();
-    const VectorXd u = D.segment(joint.offset(p), n), &f = plate.traction_force;
+    const VectorXd u = D.segment(joint.offset(p), n), f = plate.traction_rate(step.load_factor);
     const auto add = [&](const std::string& name, double force, double moved) {
       result.push_back({plate.name + ":" + name, gives_way ? 0 : force / moved});
     };

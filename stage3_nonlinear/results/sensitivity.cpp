@@ -51,18 +51,17 @@ VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side sid
   return change;
 }
 
-/// Derivatives of H by the friction of a hole, by reciprocity: dH = D_delta^T dG (docs/theory.md, section 7.1).
-FrictionHole friction_hole(const JointModel& joint, const CondensedSystem& system, Index fastener, Index hole) {
-  FrictionHole result{joint.name(joint.fasteners[fastener].holes[hole]), fastener, hole, {}};
+/// Adds the derivatives of H by the friction of a hole, by reciprocity: dH = D_delta^T dG (docs/theory.md,
+/// section 7.1).
+void add_rows(const JointModel& joint, const CondensedSystem& system, FrictionHole& by) {
   for (Index i = 0; i < std::ssize(system.friction); ++i) {
     const FrictionRow& row = system.friction[i];
-    if (row.fastener != fastener) continue;
-    const Index plate = joint.fasteners[fastener].holes[row.hole].plate;
+    if (row.fastener != by.fastener) continue;
+    const Index plate = joint.fasteners[by.fastener].holes[row.hole].plate;
     const auto D = system.D_delta.middleRows(joint.offset(plate), joint.plates[plate].n_unknowns());
-    const auto dH = [&](Side side) -> VectorXd { return D.transpose() * change_of_row(joint, row, side, hole); };
-    result.rows.push_back({i, dH(plus_side), dH(minus_side)});
+    const auto dH = [&](Side side) -> VectorXd { return D.transpose() * change_of_row(joint, row, side, by.hole); };
+    by.rows.push_back({i, dH(plus_side), dH(minus_side)});
   }
-  return result;
 }
 
 /// Changes of the residual by each mu, (n a, f).
@@ -124,34 +123,43 @@ MatrixXd residual_changes(const JointEquations& equations, const JointNumbers& n
   const MatrixXd by_cosine = friction_changes(system, numbers.friction, state.F);
   const MatrixXd by_shear = shear_changes(equations, state);
   const MatrixXd by_gap = gap_changes(equations, state);
-  MatrixXd all(F.rows(), 1 + by_law.cols() + by_cosine.cols() + by_shear.cols() + numbers.q_force.cols() +
-                             numbers.q_displacement.cols() + by_gap.cols());
-  all << -system.q, by_law, by_cosine, by_shear, -load_factor * numbers.q_force, -load_factor * numbers.q_displacement,
-      by_gap;
+  MatrixXd all(F.rows(), numbers.n_derivatives());
+  all << -system.q_at(load_factor), by_law, by_cosine, by_shear, -load_factor * numbers.q_force_at(load_factor),
+      -load_factor * numbers.q_displacement, by_gap;
   return all;
 }
 
-/// Adds the loads and the work of each on the displacements D_delta, which by reciprocity is its q, without another
-/// solve (docs/theory.md, section 7.1).
+/// Adds the work of each load on the displacements D_delta, which by reciprocity is its q, without another solve
+/// (docs/theory.md, section 7.1).
 void add_unit_loads(const JointModel& joint, const CondensedSystem& system, JointNumbers& numbers) {
-  for (MatrixXd* q : {&numbers.q_force, &numbers.q_displacement}) q->resize(system.q.size(), 0);
+  const Index n = system.q.size();
+  numbers.q_force = numbers.q_force_reversed = MatrixXd(n, std::ssize(numbers.force));
+  numbers.q_displacement.resize(n, std::ssize(numbers.displacement));
+  Index force = 0, displacement = 0;
   for (Index p = 0; p < std::ssize(joint.plates); ++p) {
     const PlateModel& plate = joint.plates[p];
     const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
-    const auto add = [&](std::vector<std::string>& names, MatrixXd& q, const std::string& name, const VectorXd& load) {
-      names.push_back(plate.name + ":" + name);
-      q.conservativeResize(Eigen::NoChange, q.cols() + 1);
-      q.rightCols(1) = without_rounding(D.transpose() * load, load.cwiseAbs().maxCoeff());
+    const auto q = [&](const VectorXd& load) {
+      return without_rounding(D.transpose() * load, load.cwiseAbs().maxCoeff());
     };
     for (Index i = 0; i < plate.n_externals(); ++i) {
       const Index unknown = plate.n_discs() + i;
-      if (plate.external_displacement[i])
-        add(numbers.displacement, numbers.q_displacement, plate.externals[i], -plate.S.col(unknown));
-      else
-        add(numbers.force, numbers.q_force, plate.externals[i], VectorXd::Unit(plate.n_unknowns(), unknown));
+      if (plate.external_displacement[i]) {
+        numbers.q_displacement.col(displacement++) = q(-plate.S.col(unknown));
+        continue;
+      }
+      numbers.q_force.col(force) = q(VectorXd::Unit(plate.n_unknowns(), unknown));
+      numbers.q_force_reversed.col(force) = numbers.q_force.col(force);
+      ++force;
     }
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      add(numbers.force, numbers.q_force, plate.tractions[i], -plate.T.col(i));
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i) {
+      if (plate.is_other_side(i)) continue;
+      for (const auto& [to, factor] : {std::pair(&numbers.q_force, 1), std::pair(&numbers.q_force_reversed, -1)}) {
+        const Index acting = !plate.acts(i, factor) && plate.is_other_side(i + 1) ? i + 1 : i;
+        to->col(force) = q(-plate.T.col(acting));
+      }
+      ++force;
+    }
   }
 }
 
@@ -234,14 +242,19 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
 
 }  // namespace
 
-JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
+JointNumbers names_of_numbers(const JointModel& joint) {
   JointNumbers numbers;
-  add_unit_loads(joint, system, numbers);
-  for (Index i = 0; i < std::ssize(system.friction); ++i) {
-    const FrictionRow& row = system.friction[i];
-    if (row.direction == 0 && joint.fasteners[row.fastener].holes[row.hole].mu > 0)
-      numbers.friction.push_back(friction_hole(joint, system, row.fastener, row.hole));
+  for (const auto& plate : joint.plates) {
+    for (Index i = 0; i < plate.n_externals(); ++i)
+      (plate.external_displacement[i] ? numbers.displacement : numbers.force)
+          .push_back(plate.name + ":" + plate.externals[i]);
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+      if (!plate.is_other_side(i)) numbers.force.push_back(plate.name + ":" + plate.tractions[i]);
   }
+  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
+    for (Index at = 0; at < std::ssize(joint.fasteners[i].holes); ++at)
+      if (const HoleModel& hole = joint.fasteners[i].holes[at]; hole.mu > 0 && !hole.friction.empty())
+        numbers.friction.push_back({joint.name(hole), i, at, {}});
   numbers.gap = joint.rims();
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (const auto& rim : joint.plates[i].contact)
@@ -253,6 +266,13 @@ JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& syste
     if (!is_new) continue;
     for (const auto& parameter : plane.law->parameters()) numbers.law.emplace_back(plane.law_name, parameter);
   }
+  return numbers;
+}
+
+JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
+  JointNumbers numbers = names_of_numbers(joint);
+  add_unit_loads(joint, system, numbers);
+  for (FrictionHole& hole : numbers.friction) add_rows(joint, system, hole);
   return numbers;
 }
 

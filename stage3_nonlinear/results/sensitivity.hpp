@@ -31,13 +31,26 @@ struct JointNumbers {
   std::vector<Index> first_of_law;  ///< (n) where the numbers of each plane's law begin
   // Forces of rigid fasteners under each load alone: q of the condensed system is their sum, each times its load.
   std::vector<std::string> force;         ///< (u) "plate:external" without a given displacement, loaded or not
-  MatrixXd q_force;                       ///< (n a, u) per unit force, dimensionless
+  MatrixXd q_force{};                     ///< (n a, u) per unit force, dimensionless
   std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
-  MatrixXd q_displacement;                ///< (n a, v) per unit displacement, force / length
+  MatrixXd q_displacement{};              ///< (n a, v) per unit displacement, force / length
   std::vector<std::string> shears{};      ///< (s) "plate:hole" of each rim of contact with friction, in their order
   std::vector<std::string> gap{};         ///< (g) "plate:hole" of each rim of contact, in their order
+  MatrixXd q_force_reversed{};  ///< q_force at negative load factors, where loads in holes bear on other sides
+
+  /// q_force at a load factor.
+  [[nodiscard]] const MatrixXd& q_force_at(double load_factor) const {
+    return load_factor < 0 ? q_force_reversed : q_force;
+  }
+  /// Number of derivatives of each force, those by the load factor and by the clearances of all planes included.
+  [[nodiscard]] Index n_derivatives() const {
+    return 1 + std::ssize(first_of_law) + std::ssize(law) + std::ssize(friction) + std::ssize(shears) +
+           std::ssize(force) + std::ssize(displacement) + std::ssize(gap);
+  }
 };
 
+/// The numbers by name, without what they do to the joint: no FrictionHole::rows, no q.
+[[nodiscard]] JointNumbers names_of_numbers(const JointModel& joint);
 [[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system);
 
 /// Derivatives of the n bearing forces by each number: with one direction of the signed forces, with two of their

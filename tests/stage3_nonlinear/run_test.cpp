@@ -76,6 +76,7 @@ TEST_F(Run, SaysThatASheetHasNoStiffness) {
   test::Lap lap{test::spring_plate(1, 0, {}), test::spring_plate(1, 0, {{0, test::ground, 1000}})};
   lap.a.traction_id = {"P"};
   lap.a.traction_direction = {"x"};
+  lap.a.traction_bearing = {""};
   lap.a.T_d = {Eigen::MatrixXd::Constant(1, 1, -1)};
   lap.a.T_e = {Eigen::MatrixXd(0, 1)};
   lap.a.C_t = {Eigen::MatrixXd::Constant(1, 1, 1e-3)};

@@ -34,8 +34,10 @@ TEST(BearingLoad, HasUnitForceAlongItsDirection) {
   for (const std::string direction : {"x", "y"}) {
     const auto plate = test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {open}, pin("o", direction)));
     const int along = direction == "x" ? 0 : 1;
-    EXPECT_NEAR(resultant(plate, 1, along), 1, 1e-13);
-    EXPECT_NEAR(resultant(plate, 1, 1 - along), 0, 1e-13);
+    for (const int side : {1, 2}) {
+      EXPECT_NEAR(resultant(plate, side, along), 1, 1e-13);
+      EXPECT_NEAR(resultant(plate, side, 1 - along), 0, 1e-13);
+    }
   }
 }
 
@@ -49,10 +51,11 @@ TEST(BearingLoad, ItsConstantIsThatOfACosine) {
 
 TEST(BearingLoad, IsAColumnOfTheTractions) {
   const auto solution = test::solve(test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {open}, pin("o", "x"))));
-  EXPECT_EQ(solution.traction_id, (std::vector<std::string>{"T", "pin"}));
-  EXPECT_EQ(solution.traction_hole, (std::vector<std::string>{"", "o"}));
-  EXPECT_EQ(solution.traction_direction, (std::vector<std::string>{"y", "x"}));
-  EXPECT_EQ(solution.cases.back().T.cols(), 2);
+  EXPECT_EQ(solution.traction_id, (std::vector<std::string>{"T", "pin", "pin"}));
+  EXPECT_EQ(solution.traction_hole, (std::vector<std::string>{"", "o", "o"}));
+  EXPECT_EQ(solution.traction_bearing, (std::vector<std::string>{"", "+x", "-x"}));
+  EXPECT_EQ(solution.traction_direction, (std::vector<std::string>{"y", "x", "x"}));
+  EXPECT_EQ(solution.cases.back().T.cols(), 3);
 }
 
 TEST(BearingLoad, HalfAHoleTakesItWhole) {
@@ -61,6 +64,17 @@ TEST(BearingLoad, HalfAHoleTakesItWhole) {
                                         R"(, "supports": [{"on": "bottom", "fix": ["y"]}, {"on": "left", "fix": ["x"]}],
       "external": [{"id": "pin", "on": "o", "direction": "x", "kind": "bearing"}])"));
   EXPECT_NEAR(resultant(plate, 0, 0), 1, 1e-13);
+}
+
+TEST(BearingLoad, OfHalfAHoleHasOneSideIfItsLineIsAcross) {
+  const auto load = [](const std::string& direction) {
+    return R"(, "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
+      "external": [{"id": "pin", "on": "o", "direction": ")" +
+           direction + R"(", "kind": "bearing"}])";
+  };
+  const test::HoleText half = {"o", 0, 0.5, 0.2, 0, false};
+  for (const auto& [direction, sides] : {std::pair("x", 1), std::pair("y", 2)})
+    EXPECT_EQ(test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {half}, load(direction))).problem.T_f.cols(), sides);
 }
 
 TEST(BearingLoad, WhereItCannotAct) {

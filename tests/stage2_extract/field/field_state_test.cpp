@@ -25,6 +25,7 @@ formats::PlateSolution sheet() {
   plate.friction_hole = {"1", "0,0"};
   plate.friction_bearing = {"+x", "+x"};
   plate.traction_id = {"T"};
+  plate.traction_bearing = {""};
   plate.held_stiffness.setZero(3);
   plate.p = Eigen::VectorXi::LinSpaced(3, 1, 3);
   return plate;
@@ -42,6 +43,22 @@ TEST(CaseSum, AmountsByName) {
   EXPECT_EQ(amounts(sheet(), "traction:T=-1e2,friction:1:+x=5,disc:0,0:x=0.003,external:P=0.01"),
             vector({0.01, 0, 0.003, 5, 0, -100}));
   EXPECT_EQ(amounts(sheet(), "disc:0,0:x,disc:1:x"), vector({0, 1, 1, 0, 0, 0}));
+}
+
+/// A load in a hole is one name, and its sign tells the side that bears.
+TEST(CaseSum, ALoadInAHoleIsOfTheSideThatItsSignTells) {
+  auto plate = sheet();
+  plate.traction_id = {"T", "T", "half"};
+  plate.traction_bearing = {"+x", "-x", "+x"};
+  EXPECT_EQ(amounts(plate, "traction:T=2,traction:half=3").tail(3), vector({2, 0, 3}));
+  EXPECT_EQ(amounts(plate, "traction:half=3,traction:T=-2").tail(3), vector({0, -2, 3}));
+  EXPECT_THAT(
+      [&] { return amounts(plate, "traction:half=-3"); },
+      ThrowsMessage<InputError>(HasSubstr("-3 is not allowed as the amount of traction:half: the model has no")));
+  EXPECT_THAT([&] { return amounts(plate, "traction:T=1,traction:T=-1"); },
+              ThrowsMessage<InputError>(HasSubstr("traction:T stands twice")));
+  EXPECT_THAT([&] { return amounts(plate, "nonsense"); },
+              ThrowsMessage<InputError>(HasSubstr("friction:0,0:+x, traction:T, traction:half")));
 }
 
 /// If one name begins another's, the longer one is meant.
@@ -89,6 +106,7 @@ class StateOfAJoint : public testing::Test {
                                  .disc_direction = plate.disc_direction,
                                  .external_id = plate.external_id,
                                  .traction_id = plate.traction_id,
+                                 .traction_bearing = plate.traction_bearing,
                                  .friction_hole = plate.friction_hole,
                                  .friction_bearing = plate.friction_bearing,
                                  .D = {},

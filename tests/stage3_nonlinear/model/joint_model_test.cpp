@@ -149,6 +149,7 @@ TEST(JointModel, RefusesADisplacementOfATraction) {
   auto lap = test::two_fastener_lap();
   lap.a.traction_id = {"T"};
   lap.a.traction_direction = {"y"};
+  lap.a.traction_bearing = {""};
   lap.a.T_d = {Eigen::MatrixXd::Zero(2, 1)};
   lap.a.T_e = {Eigen::MatrixXd::Zero(1, 1)};
   lap.a.C_t = {Eigen::MatrixXd::Zero(1, 1)};

@@ -35,6 +35,7 @@ test::Lap lap_with_traction() {
   test::add_friction(lap.b, random);
   lap.a.traction_id = {"T"};
   lap.a.traction_direction = {"x"};
+  lap.a.traction_bearing = {""};
   lap.a.T_d = {Eigen::Vector3d(-0.5, -0.3, -0.1)};
   lap.a.T_e = {MatrixXd::Constant(1, 1, -0.05)};
   lap.a.C_t = {MatrixXd::Constant(1, 1, 1e-2)};
