@@ -56,15 +56,12 @@ double matrices_need(const JointScene& scene) {
 }
 
 /// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments.
-void require_memory(const JointScene& scene, const JointModel& joint, const JointEquations& equations, bool with_csv,
-                    bool with_sensitivities) {
+void require_memory(const JointScene& scene, const JointModel& joint, bool with_csv, bool with_sensitivities) {
   using program::bytes_text;
-  const JointNumbers numbers = joint_numbers(joint, equations.system);
+  const JointNumbers numbers = names_of_numbers(joint);  // their derivatives take as long as a run
   const double n = double(joint.n_planes());
   double of_plane = with_csv ? 64 : 12;
-  if (with_sensitivities)
-    of_plane += n + double(numbers.friction.size() + numbers.law.size() + numbers.force.size() +
-                           numbers.displacement.size() + numbers.gap.size());
+  if (with_sensitivities) of_plane += double(numbers.n_derivatives());
   constexpr double number = sizeof(double), of_rim = 17, of_stiffness = 24;
   double solving = 0, of_step = of_plane * n;
   for (const auto& plate : joint.plates) {
@@ -105,9 +102,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (scene.solver.method == Method::exact_path && joint.n_moments() > 0)
     refuse(scene.file + ": /solver/method", "\"exact path\", but springs of holes push and do not pull",
            "another method, or holes without \"compression_only\"");
+  require_memory(scene, joint, !csv_file.empty(), with_sensitivities);
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
-  require_memory(scene, joint, equations, !csv_file.empty(), with_sensitivities);
   const PathOptions solving{scene.initial, scene.solver};
   program::report_share(0);
   LoadPath path =

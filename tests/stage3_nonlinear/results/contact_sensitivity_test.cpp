@@ -78,7 +78,10 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {1}, options);
     ASSERT_FALSE(path.failure);
-    const MatrixXd by_gap = sensitivity(equations, joint_numbers(joint, equations.system), path.steps[0]).gap;
+    const Sensitivity by = sensitivity(equations, joint_numbers(joint, equations.system), path.steps[0]);
+    const MatrixXd& by_gap = by.gap;
+    EXPECT_EQ(names_of_numbers(joint).n_derivatives(), 1 + by.clearance.cols() + by.law.cols() + by.mu.cols() +
+                                                           by.force.cols() + by.displacement.cols() + by_gap.cols());
     ASSERT_EQ(by_gap.cols(), 2 * std::ssize(joint.fasteners));
     for (Index rim = 0; rim < by_gap.cols(); ++rim) {
       const Index n = std::ssize(joint.fasteners);

@@ -128,6 +128,26 @@ TEST(JointNumbers, LoadsAddUpToQ) {
   }
 }
 
+/// What a run needs of memory follows from the names of the numbers, without a derivative.
+TEST(JointNumbers, AreCountedByTheirNames) {
+  std::mt19937 random(74);
+  for (int i = 0; i < 30; ++i) {
+    auto joint = test::named_joint(random, i % test::n_kinds);
+    static_cast<void>(joint.equations());
+    const Solved a = solved(joint.model, {0});
+    const JointNumbers names = names_of_numbers(joint.model);
+    const Sensitivity& by = a.by.at(0);
+    EXPECT_EQ(names.n_derivatives(), by.load_factor.cols() + by.clearance.cols() + by.law.cols() + by.mu.cols() +
+                                         by.force.cols() + by.displacement.cols() + by.gap.cols());
+    EXPECT_EQ(names.force, a.numbers.force);
+    EXPECT_EQ(names.displacement, a.numbers.displacement);
+    ASSERT_EQ(names.friction.size(), a.numbers.friction.size());
+    for (std::size_t hole = 0; hole < names.friction.size(); ++hole)
+      EXPECT_EQ(names.friction[hole].name, a.numbers.friction[hole].name);
+    EXPECT_EQ(names.q_force.size(), 0) << "no derivatives";
+  }
+}
+
 double largest(const VectorXd& v) { return v.cwiseAbs().maxCoeff(); }
 
 /// Only load factor times load acts, of any law, with friction too.
