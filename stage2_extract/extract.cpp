@@ -23,13 +23,23 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
   a.plate_digest = plate.header.digest;
   a.disc_modulus = disc_modulus(plate);
   const auto edges = pfem::find_edges(plate.mesh);
-  a.friction_unit_force = a.friction_resultant = Eigen::VectorXd::Zero(a.n_friction_cases());
+  a.friction_unit_force = a.friction_resultant = a.friction_resultant_across =
+      Eigen::VectorXd::Zero(a.n_friction_cases());
   for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
     if (index_of(formats::side_names, a.friction_bearing[j]) == count_of(formats::side_names)) continue;  // a shear
     const auto& rim = plate.hole_rim[index_of(plate.hole_id, a.friction_hole[j])];
     const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.friction_bearing[j]));
     a.friction_unit_force[j] = bearing.unit_force;
     a.friction_resultant[j] = a.friction_bearing[j][0] == '+' ? bearing.resultant : -bearing.resultant;
+    a.friction_resultant_across[j] = bearing.resultant_across;
+  }
+  a.traction_resultant_across = Eigen::VectorXd::Zero(a.n_tractions());
+  for (Eigen::Index j = 0; j < a.n_tractions(); ++j) {
+    if (plate.traction_hole[j].empty()) continue;  // uniform on an edge
+    const auto& rim = plate.hole_rim[index_of(plate.hole_id, plate.traction_hole[j])];
+    const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.traction_bearing[j]));
+    const double across = bearing.force_across / bearing.unit_force;
+    a.traction_resultant_across[j] = a.traction_bearing[j][0] == '+' ? across : -across;  // per force along + the axis
   }
 }
 
@@ -92,9 +102,9 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   a.S_dd_error = error.bottomRightCorner(m, m);
   a.stresses = extract_stresses(plate, solver);
   result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
-  result.checks = check(plate, a.friction_resultant);
+  result.checks = check(plate, a);
   auto balanced = plate.cases;
-  for (const auto& free : free_translations(plate, a.friction_resultant)) {
+  for (const auto& free : free_translations(plate, a)) {
     a.unsupported.push_back(free.along);
     for (auto& level : balanced) balance(free, level);
   }

@@ -53,6 +53,16 @@ void matrix_datasets(File& file, Matrices& a) {
   file("friction/unit_force", a.friction_unit_force, {h}, area, "bearing force per unit peak contact stress");
   file("friction/resultant", a.friction_resultant, {h}, area,
        "resultant along the direction of a unit friction case, signed");
+  const auto across = [&](const char* path, auto& list, Eigen::Index n, const std::string& its_unit, const char* text) {
+    if constexpr (File::reads)
+      file(path, list, {n}, its_unit, text, or_else(0));
+    else
+      file(path, list.size() == 0 ? Eigen::VectorXd::Zero(n).eval() : list, {n}, its_unit, text);
+  };
+  across("friction/resultant_across", a.friction_resultant_across, h, area,
+         "resultant of a unit friction case along + the other axis");
+  across("traction/resultant_across", a.traction_resultant_across, q, "1",
+         "force along + the other axis per unit total force on each traction boundary");
   file("S_ee", a.S_ee, {np, e, e}, stiffness, "force on external i per displacement of external j");
   file("S_ed", a.S_ed, {np, e, m}, stiffness, "force on external i per displacement of disc j");
   file("S_dd", a.S_dd, {np, m, m}, stiffness, "force on disc i per displacement of disc j");

@@ -56,6 +56,9 @@ struct PlateMatrices : UnitCases {
   Eigen::VectorXd disc_modulus;
   Eigen::VectorXd friction_unit_force;  ///< (h) c: bearing force per unit peak contact stress, length^2
   Eigen::VectorXd friction_resultant;   ///< (h) resultant along the direction of a unit case, signed, length^2
+  /// (h), (q) resultants along + the other axis of a unit case, length^2, and of a unit total force on each traction
+  /// boundary, dimensionless. Empty in memory: all 0.
+  Eigen::VectorXd friction_resultant_across, traction_resultant_across;
   std::vector<Eigen::MatrixXd> S_ee, S_ed, S_dd;  ///< np x (e,e), (e,m), (m,m), force / length
   std::vector<Eigen::MatrixXd> R_ef, R_df;        ///< np x (e,h), (m,h), length^2
   std::vector<Eigen::MatrixXd> T_d, T_e;          ///< np x (m,q), (e,q), dimensionless

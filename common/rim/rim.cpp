@@ -10,12 +10,9 @@
 namespace fastjoint::rim {
 namespace {
 
-// Two points are the same, and a radius is the radius, to this share of the radius.
-constexpr double tolerance = 1e-6;
-
 bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector2d& center, double radius) {
-  return (arc.center - center).norm() < tolerance * radius &&
-         std::abs((mesh.nodes.col(arc.a) - arc.center).norm() - radius) < tolerance * radius;
+  return (arc.center - center).norm() < same_place * radius &&
+         std::abs((mesh.nodes.col(arc.a) - arc.center).norm() - radius) < same_place * radius;
 }
 
 }  // namespace
@@ -33,7 +30,7 @@ RimFinder::RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges) : mesh_(m
 
 Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius) const {
   Rim rim{center, radius, {}};
-  const Eigen::Array2d low = center.array() - tolerance * radius, high = center.array() + tolerance * radius;
+  const Eigen::Array2d low = center.array() - same_place * radius, high = center.array() + same_place * radius;
   for (auto x = arcs_.lower_bound(low.x()); x != arcs_.end() && x->first <= high.x(); ++x)
     for (auto y = x->second.lower_bound(low.y()); y != x->second.end() && y->first <= high.y(); ++y)
       for (const auto& [side, arc] : y->second)
@@ -101,6 +98,10 @@ Eigen::Vector2d axis(const std::string& direction) {
   return direction == "x" ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
 }
 
+bool is_along(double angle, const std::string& direction) {
+  return std::abs(direction == "x" ? std::sin(angle) : std::cos(angle)) < same_angle;
+}
+
 CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d) {
   const double cosine = n.dot(d);
   if (cosine <= 0) return {0, Eigen::Vector2d::Zero()};
@@ -109,15 +110,19 @@ CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d)
 
 Bearing bearing(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim, const Eigen::Vector2d& d) {
   Bearing sum;
+  const Eigen::Vector2d across = d.reverse().cwiseAbs();
   for (const auto& side : rim.sides) {
     constexpr int p = 8;  // only the number of points: enough for products of sines over a quarter
     const auto rule = rim_rule(mesh, edges, side, p);
     for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
-      const auto at = cosine_bearing(-rule.normal.col(q), d);
+      const Eigen::Vector2d n = -rule.normal.col(q);
+      const auto at = cosine_bearing(n, d);
       const double t_ds = mesh.thickness[side.element] * rule.ds[q];
       sum.area += t_ds * at.contact;
       sum.unit_force += t_ds * at.contact * at.contact;
       sum.resultant += t_ds * at.contact * at.tangent.dot(d);
+      sum.force_across += t_ds * at.contact * n.dot(across);
+      sum.resultant_across += t_ds * at.contact * at.tangent.dot(across);
     }
   }
   return sum;

@@ -14,6 +14,12 @@
 
 namespace fastjoint::rim {
 
+/// Digits that a hand-written mesh has: two points of a rim are one, and two radii are one, to this part of the radius.
+inline constexpr double same_place = 1e-6;
+/// Two angles as close as this are one, radians: both ends of an arc, and the centre that either is seen from, may each
+/// be off by same_place.
+inline constexpr double same_angle = 4 * same_place;
+
 /// The part of a hole's circle that the model has: all of it, or half or a quarter on lines of symmetry.
 struct Rim {
   Eigen::Vector2d center;
@@ -43,9 +49,6 @@ struct SideAngles {
   [[nodiscard]] double high() const { return std::max(start, start + sweep); }
 };
 [[nodiscard]] std::vector<SideAngles> side_angles(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
-
-/// Two angles as close as this are one, radians.
-inline constexpr double same_angle = 1e-7;
 
 /// The pieces of a rim that end somewhere; none of a closed one.
 [[nodiscard]] std::vector<AngleRange> open_pieces(const std::vector<SideAngles>& sides);
@@ -77,6 +80,8 @@ struct Section {
 
 /// Unit vector along "x" or "y".
 [[nodiscard]] Eigen::Vector2d axis(const std::string& direction);
+/// True if the line at an angle, radians counter-clockwise from x, is along "x" or "y".
+[[nodiscard]] bool is_along(double angle, const std::string& direction);
 
 /// Cosine distribution on the half of a rim that bears along the unit vector d (docs/theory.md, section 4.2).
 struct CosineBearing {
@@ -86,12 +91,15 @@ struct CosineBearing {
 /// @param n Unit radial vector from the hole's centre. @param d Unit vector of the bearing direction.
 [[nodiscard]] CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d);
 
-/// Integrals over the part of a rim that bears along the unit vector d, as far as the model has it, length^2.
+/// Integrals over the part of a rim that bears along d, a unit vector along + or - an axis, as far as the model has it,
+/// length^2. Those across, along + the other axis, are 0 of a whole hole in a sheet of one thickness.
 struct Bearing {
   double area = 0;        ///< int t cos ds: d t of a whole hole
   double unit_force = 0;  ///< c = int t cos^2 ds: bearing force per unit peak contact stress; t d pi/4 of a whole hole,
                           ///< t d pi/8 of the half hole of a symmetric model
   double resultant = 0;   ///< along d, of unit friction with the cosine distribution
+  double force_across = 0;      ///< resultant across of the unit peak contact stress
+  double resultant_across = 0;  ///< resultant across of unit friction
 };
 [[nodiscard]] Bearing bearing(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim,
                               const Eigen::Vector2d& d);

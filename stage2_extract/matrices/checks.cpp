@@ -6,6 +6,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <set>
 
 #include "common/errors.hpp"
 
@@ -85,10 +86,10 @@ double residual_force(const PlateSolution& plate, const PlateCases& level, const
   return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 
-std::optional<double> equilibrium(const PlateSolution& plate, const Eigen::VectorXd& resultant,
+std::optional<double> equilibrium(const PlateSolution& plate, const formats::PlateMatrices& a,
                                   const PlateCases& level) {
   std::optional<double> worst;
-  for (const auto& free : free_translations(plate, resultant))
+  for (const auto& free : free_translations(plate, a))
     worst = std::max(worst.value_or(0), residual_force(plate, level, free));
   return worst;
 }
@@ -99,35 +100,39 @@ std::string shown(const std::optional<double>& value, const char* otherwise) {
 
 }  // namespace
 
-std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const Eigen::VectorXd& resultant) {
+std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const formats::PlateMatrices& a) {
   std::vector<FreeTranslation> result;
+  const std::set<std::string> holes(plate.disc_hole.begin(), plate.disc_hole.end());
   for (const std::string along : {"x", "y"}) {
     const auto count = [&](const std::vector<std::string>& names) {
       return std::count(names.begin(), names.end(), along);
     };
-    if (count(plate.supported) > 0 || (!plate.disc_direction.empty() && count(plate.disc_direction) == 0)) continue;
+    if (count(plate.supported) > 0 || count(plate.disc_direction) < std::ssize(holes)) continue;
     std::vector<std::string> direction = plate.external_direction;
     direction.insert(direction.end(), plate.disc_direction.begin(), plate.disc_direction.end());
     const auto is_along = [&](const std::vector<std::string>& names) -> Eigen::VectorXd {
       return Eigen::VectorXd::NullaryExpr(std::ssize(names),
                                           [&](Eigen::Index i) { return names[i].ends_with(along) ? 1.0 : 0.0; });
     };
-    result.push_back({along, is_along(direction), is_along(plate.friction_bearing).cwiseProduct(resultant).transpose(),
-                      is_along(plate.traction_direction).transpose()});
+    const Eigen::ArrayXd friction = is_along(plate.friction_bearing), traction = is_along(plate.traction_direction);
+    result.push_back(
+        {along, is_along(direction),
+         (friction * a.friction_resultant.array() + (1 - friction) * a.friction_resultant_across.array()).transpose(),
+         (traction + (1 - traction) * a.traction_resultant_across.array()).transpose()});
   }
   return result;
 }
 
 double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 
-Checks check(const PlateSolution& plate, const Eigen::VectorXd& resultant) {
+Checks check(const PlateSolution& plate, const formats::PlateMatrices& a) {
   const PlateCases& level = plate.cases.back();  // of the highest p
   const double scale = scale_of(plate, level.S);
   return {energy(plate, level.S),
           reciprocity(plate, level),
           negative_eigenvalue(level.S, scale),
           negative_eigenvalue(level.C, largest(level.C)),
-          equilibrium(plate, resultant, level),
+          equilibrium(plate, a, level),
           ratio(plate.probe.rounding, scale)};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/formats/plate_matrices.hpp"
 #include "common/formats/plate_solution.hpp"
 
 namespace fastjoint::stage2 {
@@ -12,17 +13,18 @@ namespace fastjoint::stage2 {
 /// Largest absolute entry, 0 of an empty matrix: what all checks are relative to.
 [[nodiscard]] double largest(const Eigen::MatrixXd& A);
 
-/// A direction that no support fixes and that every disc can move along, and what acts along it in unit cases.
+/// A direction that no support fixes and that the disc of every hole can move along, and what acts along it in unit
+/// cases.
 struct FreeTranslation {
   std::string along;            ///< "x" or "y"
   Eigen::VectorXd motion;       ///< (nc) of externals and discs together
   Eigen::RowVectorXd friction;  ///< (h) resultant of each friction case, length^2
-  Eigen::RowVectorXd traction;  ///< (q) 1 along it, else 0
+  Eigen::RowVectorXd traction;  ///< (q) resultant of a unit total force on each traction boundary
 };
 
-/// @param resultant PlateMatrices::friction_resultant
+/// @param a Names of the cases, and the resultants of friction and tractions along and across their directions.
 [[nodiscard]] std::vector<FreeTranslation> free_translations(const formats::PlateSolution& plate,
-                                                             const Eigen::VectorXd& resultant);
+                                                             const formats::PlateMatrices& a);
 
 /// Errors of identities that hold whatever the mesh, at the highest p; each relative to the largest entry of what it
 /// compares.
@@ -35,8 +37,8 @@ struct Checks {
   double rounding = 0;  ///< what rounding may change of S, as stage 1 has estimated it; it is part of the error of S
 };
 
-/// @param resultant PlateMatrices::friction_resultant.
-[[nodiscard]] Checks check(const formats::PlateSolution& plate, const Eigen::VectorXd& resultant);
+/// @param a As free_translations has it.
+[[nodiscard]] Checks check(const formats::PlateSolution& plate, const formats::PlateMatrices& a);
 
 /// Throws NumericalError with the name of the file and of the check that fails.
 void require_good(const Checks& checks, const std::string& file);

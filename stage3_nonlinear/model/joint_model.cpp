@@ -111,6 +111,13 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
                   plate.file, hole, bearing, mu));
 }
 
+/// Lets the disc of a hole that moves along two axes take the resultant of friction across its direction.
+/// @param other Unknown of the disc along the other axis.
+void take_across(const PlateModel& plate, Index other, FrictionLoad& friction) {
+  friction.across = entry_or_0(plate.friction_resultant_across, friction.case_index) * friction.peak;
+  friction.load[other] += friction.across;
+}
+
 /// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
 std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, Index hole) {
   std::array<bool, 2> sides{};
@@ -174,9 +181,12 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
   const auto sides = bearing_sides(scene, fastener, at);
   for (Index d = 0; d < model.n_directions(); ++d) {
     auto& friction = result.friction.emplace_back();
-    for (const Side side : {plus_side, minus_side})
-      if (sides[side] && plate.has_disc(result.disc + d))
-        friction[side] = friction_load(plate, hole.name, mu, model.axes[d], side);
+    const Index other = result.disc + 1 - d;
+    for (const Side side : {plus_side, minus_side}) {
+      if (!sides[side] || !plate.has_disc(result.disc + d)) continue;
+      friction[side] = friction_load(plate, hole.name, mu, model.axes[d], side);
+      if (model.n_directions() == 2 && plate.has_disc(other)) take_across(plate, other, friction[side]);
+    }
   }
   return result;
 }
@@ -278,7 +288,7 @@ void balance(FastenerModel& fastener) {
         FrictionLoad& friction = fastener.holes[at].friction[d][side];
         const double change = transferred / (1 + friction.share()) / friction.bearing;
         friction.load *= change;
-        for (double* each : {&friction.resultant, &friction.peak, &friction.bearing}) *each *= change;
+        for (double* each : {&friction.resultant, &friction.peak, &friction.bearing, &friction.across}) *each *= change;
       }
 }
 

@@ -47,6 +47,8 @@ struct PlateModel {
   MatrixXd T;                                            ///< (m+e+k, q), dimensionless
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
+  VectorXd friction_resultant_across;                        ///< (h), length^2; empty: all 0
+  VectorXd traction_resultant_across;                        ///< (q), dimensionless; empty: all 0
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
   std::vector<int> unsupported_axes;                         ///< along which no support of stage 1 takes a force
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
@@ -102,6 +104,9 @@ struct PlateModel {
 [[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices matrices,
                                     int p, const std::vector<int>& axes = {});
 
+/// Entry i of a list that is empty where all of it is 0.
+[[nodiscard]] inline double entry_or_0(const VectorXd& list, Index i) { return list.size() == 0 ? 0 : list[i]; }
+
 /// Directions of the discs of all files together, in the order of the first hole that has both, else x before y; 0 x, 1
 /// y. Throws FileError for a word that names none.
 [[nodiscard]] std::vector<int> joint_axes(std::span<const std::string> files,
@@ -113,7 +118,10 @@ struct FrictionLoad {
   double resultant = 0;  ///< |resultant| mu / c: force of friction on the rim
   Index case_index = 0;  ///< among the plate's friction cases
   double peak = 0;       ///< mu / c: peak stress Lambda of the case, 1 / length^2
-  double bearing = 1;    ///< force of bearing on the rim; other than 1 it has been put into the three above
+  double bearing = 1;    ///< force of bearing on the rim; other than 1 it has been put into the others
+  /// Force of friction on the rim along + the other axis, of a hole whose disc moves along both. The disc takes it
+  /// back as bearing, which is in `load`: what the law transfers along the other axis remains the law's.
+  double across = 0;
 
   /// Force of friction over that of bearing.
   [[nodiscard]] double share() const { return resultant / bearing; }

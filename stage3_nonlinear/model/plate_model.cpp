@@ -243,6 +243,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.friction_bearing = a.friction_bearing;
   plate.friction_unit_force = a.friction_unit_force;
   plate.friction_resultant = a.friction_resultant;
+  plate.friction_resultant_across = a.friction_resultant_across;
+  plate.traction_resultant_across = a.traction_resultant_across;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_bearing = a.traction_bearing;
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);

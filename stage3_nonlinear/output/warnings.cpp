@@ -233,7 +233,8 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
     return fmt::format(
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
         "carries load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made "
-        "by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1",
+        "by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1, across to "
+        "-friction/resultant_across and -traction/resultant_across",
         scene.file, increment, failure.unbalanced, failure.out_of_balance, failure.allowed, kept);
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";

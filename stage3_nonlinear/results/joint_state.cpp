@@ -57,6 +57,11 @@ void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const V
     asked += friction.load * std::abs(b);
     state.Lambda[friction.case_index] += friction.peak * std::abs(b);
     state.friction[hole.disc + d] += b * friction.resultant;
+    if (friction.across == 0) continue;
+    const Index other = hole.disc + 1 - d;
+    const double across = friction.across * std::abs(b);
+    state.friction[other] += across;
+    for (double* bearing_there : {&state.bearing[other], &asked[other]}) *bearing_there -= across;
   }
 }
 
@@ -149,7 +154,10 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
     worst_row = std::max(worst_row, std::abs(asked[m + i] - state.Pe[i]));
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
-  for (Index i = 0; i < std::ssize(state.traction); ++i) state.applied[plate.traction_axis[i]] += state.traction[i];
+  for (Index i = 0; i < std::ssize(state.traction); ++i) {
+    state.applied[plate.traction_axis[i]] += state.traction[i];
+    state.applied[1 - plate.traction_axis[i]] += state.traction[i] * entry_or_0(plate.traction_resultant_across, i);
+  }
   for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += state.bearing[i] + state.friction[i];
   state.by_supports = -(state.applied + state.by_fasteners);
   return state;

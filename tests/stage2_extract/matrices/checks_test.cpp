@@ -57,6 +57,53 @@ TEST(Checks, MatricesOfAFloatingSheetBalanceToTheLastDigits) {
   }
 }
 
+/// Friction and bearing loads have a resultant across their direction where the thickness differs around the hole; it
+/// is in the balance of a sheet that floats, as is that along.
+TEST(Checks, ThicknessThatDiffersAroundHoles) {
+  auto plate =
+      test::make_plate(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.4, 0.5, 0.2}, {"o", 1.5, 0.6, 0.25, 0, false}},
+                                        R"(, "p": [3, 4], "disc_directions": ["x", "y"],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
+                 {"id": "B", "on": "o", "direction": "x", "kind": "bearing"},
+                 {"id": "C", "on": "o", "direction": "y", "kind": "bearing"}])"));
+  auto& mesh = plate.mesh.mesh;
+  for (int i = 0; i < mesh.n_elements(); ++i) {
+    const Eigen::Vector2d middle = mesh.nodes(Eigen::all, mesh.quads.col(i)).rowwise().mean();
+    mesh.thickness[i] = 0.1 * (1 + 0.3 * middle.x() + 0.2 * middle.y());
+  }
+  plate.problem = test::assemble(plate.scene, plate.mesh);
+  const auto result = test::extract(test::solve(plate), false);
+  EXPECT_LT(*result.checks.equilibrium, 1e-12);
+  EXPECT_NO_THROW(stage2::require_good(result.checks, "f.h5"));
+  const auto& a = result.matrices;
+  for (const std::string axis : {"x", "y"}) {
+    const double P = axis == "x" ? 1 : 0;
+    const auto sum = [&](const Eigen::MatrixXd& discs, const Eigen::MatrixXd& externals) -> Eigen::RowVectorXd {
+      return discs.row(axis == "x" ? 0 : 1) + P * externals;
+    };
+    const Eigen::RowVectorXd of_friction = sum(a.R_df.back(), a.R_ef.back()), of_load = sum(a.T_d.back(), a.T_e.back());
+    for (Eigen::Index j = 0; j < 4; ++j) {  // bearing sides +x, -x, +y, -y
+      const bool along = a.friction_bearing[j].ends_with(axis);
+      EXPECT_NEAR(of_friction[j], along ? -a.friction_resultant[j] : -a.friction_resultant_across[j], 1e-15);
+      EXPECT_GT(std::abs(a.friction_resultant_across[j]), 1e-4);
+    }
+    for (Eigen::Index j = 0; j < 2; ++j) {
+      EXPECT_NEAR(of_load[j], a.traction_direction[j] == axis ? -1 : -a.traction_resultant_across[j], 1e-14);
+      EXPECT_GT(std::abs(a.traction_resultant_across[j]), 1e-3);
+    }
+  }
+}
+
+/// The disc of a half hole holds the sheet across its line, so that nothing floats along y.
+TEST(Checks, AHalfHoleHoldsTheSheetAcrossItsLine) {
+  const auto result =
+      test::extract(test::grid_scene({0, 1, 2}, {0, 1}, {{"half", 0.5, 0, 0.2}, {"whole", 1.5, 0.5, 0.2}},
+                                     R"(, "p": [1, 2], "disc_directions": ["x", "y"])"),
+                    false);
+  EXPECT_NO_THROW(stage2::require_good(result.checks, "f.h5"));
+  EXPECT_LT(*result.checks.equilibrium, 1e-12) << "along x";
+}
+
 /// The sheet follows its one disc: S and B are rounding, which must not be compared with itself.
 TEST(Checks, ASheetThatOneDiscInContactHolds) {
   const auto result = test::extract(R"({"format": "plate", "version": 1, "analysis": "plane stress", "p": [4, 5],
