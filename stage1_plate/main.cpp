@@ -45,12 +45,13 @@ struct WorstOfKind {
 };
 
 /// Warns of what is to be doubted: links (section 3 of the paper: what they do converges slowly or not at all), a
-/// thickness or a disc's modulus far from the sheet's other numbers.
-void warn(const stage1::PlateScene& scene, const pfem::Mesh& mesh) {
+/// thickness or a disc's modulus far from the sheet's other numbers, half holes off lines of symmetry.
+void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
   constexpr double foil = 1e-4, apart = 300;  // GPa beside MPa are 1000
   const auto say = [&](const std::string& doubt) {
     std::cerr << fmt::format("{}: warning: {}: {}\n", command.name, scene.file, program::one_line(doubt));
   };
+  const pfem::Mesh& mesh = plate.solution.mesh;
   const double width = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).minCoeff();
   const double thinnest = mesh.thickness.minCoeff(), thickest = mesh.thickness.maxCoeff();
   bool has_links = !scene.points.empty();
@@ -74,6 +75,7 @@ void warn(const stage1::PlateScene& scene, const pfem::Mesh& mesh) {
       stiff.add(ratio(E), fmt::format("/holes/{}/spring/disk/E: {:g} is {:.3g} times the modulus {:g} of the sheet", i,
                                       disc, disc / E, E));
   }
+  for (const auto& line : plate.missing_symmetry) say(line);
   if (has_links) say("points and links concentrate their load at nodes: the results depend on the mesh");
   if (thin.count > 0) say(fmt::format("/geometry: {}: one of them may be in another unit of length", thin.worst()));
   if (stiff.count > 0) say(stiff.worst() + ": one of them may be in another unit of stress");
@@ -109,7 +111,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   const auto accuracy = meet_accuracy(scene, arguments);
   if (accuracy) scene = accuracy->scene;
   const auto plate = stage1::solve_plate(scene, program::generator(command.name), timings);
-  warn(scene, plate.solution.mesh);
+  warn(scene, plate);
   timings.phase("write");
   formats::write(arguments.output, plate.solution);
   if (arguments.quiet) return;

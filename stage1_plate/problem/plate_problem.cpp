@@ -54,8 +54,7 @@ std::vector<std::string> directions_of(const PlateScene& scene, const PlateMesh&
   if (is(to - from, rim::full_turn / 4)) return {all[0]};
   if (!is(to - from, rim::full_turn / 2)) return all;
   for (const auto& direction : all)
-    if (const Eigen::Vector2d line(std::cos(from), std::sin(from)); is(std::abs(line.dot(rim::axis(direction))), 1))
-      return {direction};
+    if (rim::is_along(from, direction)) return {direction};
   return all;
 }
 

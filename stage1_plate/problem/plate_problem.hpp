@@ -58,8 +58,14 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
 /// Throws InputError for an arc that the rim of the model does not have, and for a load that loads nothing.
 void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem);
 
+/// Warnings of sprung half and quarter holes on lines that no support makes lines of symmetry, one for each line: their
+/// discs stand in for what is missing. Each says which support to add.
+[[nodiscard]] std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMesh& plate,
+                                                        const Unknowns& unknowns);
+
 /// Throws NumericalError if the plate, or a part of it, could move as a rigid body while all externals and discs are
-/// held; the message says how (docs/theory.md, section 4.6). The factor alone would not show it.
+/// held; the message says how (docs/theory.md, section 4.6), and what is missing on lines of symmetry. The factor alone
+/// would not show it.
 void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

@@ -133,13 +133,15 @@ void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns&
     const Part& part = all.parts[i];
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(all.held[i]);
     if (eigen.eigenvalues()[0] > free_to_move * std::max(1.0, eigen.eigenvalues()[2])) continue;
+    std::string missing;
+    for (const auto& each : missing_symmetry(scene, plate, unknowns)) missing += ". " + each;
     throw NumericalError(fmt::format(
         "{}: /supports: nothing keeps the {} from moving {} while all externals and discs are held; allowed: a plate "
-        "that supports, externals, sprung holes and points hold against every rigid motion",
+        "that supports, externals, sprung holes and points hold against every rigid motion{}",
         scene.file,
         all.parts.size() == 1 ? std::string("plate")
                               : fmt::format("part of the plate around ({:g}, {:g})", part.middle.x(), part.middle.y()),
-        words(part, eigen.eigenvectors().col(0))));
+        words(part, eigen.eigenvectors().col(0)), missing));
   }
 }
 

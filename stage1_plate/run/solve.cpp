@@ -127,7 +127,7 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   timings.phase("solve");
   solve_cases(problem, skeleton, solution);
   for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
-  return {need, std::move(solution)};
+  return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns)};
 }
 
 std::string summary(const SolvedPlate& plate, const std::string& file) {

@@ -49,6 +49,7 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
 struct SolvedPlate {
   MemoryNeed need;
   formats::PlateSolution solution;
+  std::vector<std::string> missing_symmetry;  ///< warnings
 };
 
 /// Mesh, matrices, unit cases. Phases: mesh, integrate, solve.

@@ -12,6 +12,7 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
+using testing::UnorderedElementsAre;
 
 std::string message(const std::string& json) {
   const test::Plate plate = test::make_plate(json);
@@ -44,6 +45,38 @@ TEST(Holding, TheFreeMotionIsNamed) {
       AllOf(StartsWith("plate.json: /supports: nothing keeps the plate from moving along x"), HasSubstr("allowed:")));
   EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "left", "fix": ["x"]}])")), HasSubstr("moving along y"));
   EXPECT_THAT(message(square({first, open}, "")), HasSubstr("moving by turning about (0.5, 0.5)"));
+}
+
+std::vector<std::string> missing(const std::string& json) {
+  const test::Plate plate = test::make_plate(json);
+  return stage1::missing_symmetry(plate.scene, plate.mesh, plate.problem.unknowns);
+}
+
+/// Only a support that fixes the line of a half hole across itself makes it a line of symmetry.
+TEST(Holding, ALineOfSymmetryWithoutSupportIsNamed) {
+  const test::HoleText half = {"half", 0.5, 0, 0.2}, other = {"other", 1.5, 0, 0.2}, whole = {"whole", 1.5, 0.5, 0.2};
+  const auto on = [](const std::string& supports) {
+    return R"(, "disc_directions": ["x", "y"], "supports": [)" + supports + "]";
+  };
+  const std::string left = R"({"on": "left", "fix": ["x", "y"]})", bottom = R"({"on": "bottom", "fix": ["y"]})";
+  using testing::ElementsAre;
+  EXPECT_THAT(
+      missing(square({half, other}, on(left))),
+      ElementsAre(AllOf(HasSubstr("/holes/0: hole \"half\" (1 more likewise) is half of a hole"),
+                        HasSubstr("the line y = 0, which no support fixes along y"), HasSubstr("add " + bottom))));
+  EXPECT_THAT(missing(square({half, other}, on(left + "," + bottom))), ElementsAre());
+  EXPECT_THAT(missing(square({half}, on(R"({"on": "bottom", "fix": ["x"]})"))), ElementsAre(HasSubstr(bottom)));
+  EXPECT_THAT(missing(square({whole}, on(left))), ElementsAre());
+  EXPECT_THAT(missing(square({{"notch", 0.5, 0, 0.2, 0, false}}, on(left))), ElementsAre()) << "an open hole";
+  EXPECT_THAT(missing(square({half}, R"(, "disc_directions": ["y"])")), ElementsAre()) << "a pin presses on a notch";
+  EXPECT_THAT(
+      missing(square({half}, R"(, "external": [{"id": "P", "on": "bottom", "direction": "y", "kind": "rigid"}])")),
+      ElementsAre());
+  const test::HoleText quarter = {"q", 2, 1, 0.2};
+  EXPECT_THAT(missing(square({quarter}, on(left))),
+              UnorderedElementsAre(AllOf(HasSubstr("a quarter of a hole"), HasSubstr(R"({"on": "top", "fix": ["y"]})")),
+                                   AllOf(HasSubstr("x = 2"), HasSubstr(R"({"on": "right", "fix": ["x"]})"))));
+  EXPECT_THAT(message(square({half}, on(""))), AllOf(HasSubstr("by turning about (0.5, "), HasSubstr("add " + bottom)));
 }
 
 TEST(Holding, EveryPartMustBeHeld) {

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "stage1_plate/problem/plate_problem.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+/// A line through the centre of a half or quarter hole along which the sheet ends.
+struct Line {
+  int hole;      ///< the first one on it
+  int across;    ///< component that is constant on it: 0 x, 1 y
+  double at;     ///< its value, length
+  bool is_half;  ///< else a quarter hole
+  int more = 0;  ///< number of other holes on it
+};
+
+const char* name_of(int component) { return component == 0 ? "x" : "y"; }
+
+/// True if a side of an element lies on the line.
+bool is_on(const PlateScene& scene, const PlateMesh& plate, const Line& line, const pfem::Side& side) {
+  const auto ends = plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element));
+  const double tolerance = rim::same_place * scene.holes[line.hole].radius;
+  return ((plate.mesh.nodes(line.across, ends).array() - line.at).abs() < tolerance).all();
+}
+
+/// True if a support or a rigid external decides how some part of the line moves across itself.
+bool is_held(const PlateScene& scene, const PlateMesh& plate, const Line& line) {
+  const auto lies_there = [&](const std::string& set) {
+    return std::ranges::any_of(plate.sets.at(set), [&](const auto& side) { return is_on(scene, plate, line, side); });
+  };
+  const std::string across = name_of(line.across);
+  return std::ranges::any_of(scene.supports,
+                             [&](const Support& support) {
+                               return std::ranges::count(support.fix, across) > 0 && lies_there(support.on);
+                             }) ||
+         std::ranges::any_of(rigid_externals(scene), [&](int i) {
+           return scene.externals[i].direction == across && lies_there(scene.externals[i].on);
+         });
+}
+
+/// Lines of a hole on which a support is missing.
+std::vector<Line> lines_of(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns, int hole) {
+  const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[hole]));
+  if (!scene.holes[hole].spring || pieces.size() != 1) return {};
+  const auto [from, to] = pieces[0];
+  const auto covers = [&](double angle) { return std::abs(to - from - angle) < rim::same_angle; };
+  const bool is_half = covers(rim::full_turn / 2);
+  if (!is_half && !covers(rim::full_turn / 4)) return {};
+  std::vector<Line> lines;
+  for (const double end : is_half ? std::vector{from} : std::vector{from, to})
+    for (const int across : {0, 1}) {
+      if (!rim::is_along(end, name_of(1 - across))) continue;
+      const auto* const first = unknowns.disc_direction.data() + unknowns.first_disc[hole];
+      const auto* const last = unknowns.disc_direction.data() + unknowns.first_disc[hole + 1];
+      const bool disc_moves_across = std::find(first, last, name_of(across)) != last;
+      const Line line{hole, across, scene.holes[hole].center[across], is_half};
+      // Half a hole whose disc moves off the border is a notch in it, which a pin may press on.
+      if (!(is_half && disc_moves_across) && !is_held(scene, plate, line)) lines.push_back(line);
+    }
+  return lines;
+}
+
+/// The support that would make it a line of symmetry, as PLATE.json has it.
+std::string support_on(const PlateScene& scene, const PlateMesh& plate, const Line& line) {
+  for (const auto& [name, sides] : plate.sets)
+    if (std::ranges::all_of(sides, [&](const auto& side) { return is_on(scene, plate, line, side); }))
+      return fmt::format(R"(add {{"on": "{}", "fix": ["{}"]}} to "supports")", name, name_of(line.across));
+  return fmt::format(
+      R"(name the edges on this line in /geometry/mesh/edges and add {{"on": that name, "fix": ["{}"]}} to "supports")",
+      name_of(line.across));
+}
+
+}  // namespace
+
+std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  std::vector<Line> lines;
+  for (int hole = 0; hole < count_of(scene.holes); ++hole)
+    for (const Line& line : lines_of(scene, plate, unknowns, hole)) {
+      const double tolerance = rim::same_place * scene.holes[hole].radius;
+      const auto known = std::ranges::find_if(lines, [&](const Line& other) {
+        return other.across == line.across && std::abs(other.at - line.at) < tolerance;
+      });
+      if (known == lines.end())
+        lines.push_back(line);
+      else
+        ++known->more;
+    }
+  std::vector<std::string> result;
+  for (const Line& line : lines) {
+    const std::string more = line.more > 0 ? fmt::format(" ({} more likewise)", line.more) : "";
+    result.push_back(fmt::format(
+        "/holes/{}: hole \"{}\"{} is {} of a hole, cut by the line {} = {:g}, which no support fixes along {}: the "
+        "disc "
+        "alone carries what the other side of the line would. If the sheet is symmetric about this line, {}",
+        line.hole, scene.holes[line.hole].id, more, line.is_half ? "half" : "a quarter", name_of(line.across), line.at,
+        name_of(line.across), support_on(scene, plate, line)));
+  }
+  return result;
+}
+
+}  // namespace fastjoint::stage1
