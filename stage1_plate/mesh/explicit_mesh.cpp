@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "common/count.hpp"
 
@@ -26,14 +28,22 @@ void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
 }
 
 void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
-  constexpr double tolerance = 1e-6;  // of the radius: digits that a hand-written file has
+  std::map<std::pair<int, int>, int> arc_of_edge;  // by its lower and its higher node
   for (int i = 0; i < count_of(mesh.arcs); ++i) {
     const auto& arc = mesh.arcs[i];
     const std::string place = fmt::format("/geometry/mesh/arcs/{}", i);
     const double from = (mesh.nodes.col(arc.a) - arc.center).norm();
     const double to = (mesh.nodes.col(arc.b) - arc.center).norm();
-    if (!(std::abs(from - to) < tolerance * from))
+    if (!(std::abs(from - to) < rim::same_place * from))
       reject(scene, place, fmt::format("its ends are {:.9g} and {:.9g} from the centre", from, to), "equal distances");
+    const auto [first, is_new] = arc_of_edge.try_emplace(std::minmax(arc.a, arc.b), i);
+    const Eigen::Vector2d& other = mesh.arcs[first->second].center;
+    if (!((arc.center - other).norm() < rim::same_place * from))
+      reject(scene, place + "/center",
+             fmt::format("({:.9g}, {:.9g}), but the same edge is an arc about ({:.9g}, {:.9g}) by "
+                         "/geometry/mesh/arcs/{}",
+                         arc.center.x(), arc.center.y(), other.x(), other.y(), first->second),
+             "one centre for each edge");
     const auto curve = pfem::Curve::arc(mesh.nodes.col(arc.a), mesh.nodes.col(arc.b), arc.center);
     constexpr double longest = 3.0;  // radians; at pi it is no longer clear which way the arc runs
     if (std::abs(curve.sweep()) > longest)
@@ -53,6 +63,19 @@ void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
              fmt::format("the edge between nodes {} and {} belongs to {} elements", edges.nodes(0, edge),
                          edges.nodes(1, edge), n),
              "at most 2");
+}
+
+/// Two elements of the same nodes share all four edges, which is no more than neighbours may.
+void check_repeated_elements(const PlateScene& scene, const pfem::Mesh& mesh) {
+  std::map<std::array<int, 4>, int> element_of;  // by its nodes, ascending
+  for (int i = 0; i < mesh.n_elements(); ++i) {
+    std::array<int, 4> nodes{};
+    std::ranges::copy(mesh.quads.col(i), nodes.begin());
+    std::ranges::sort(nodes);
+    if (const auto [found, is_new] = element_of.try_emplace(nodes, i); !is_new)
+      reject(scene, fmt::format("/geometry/mesh/quads/{}", i),
+             fmt::format("it has the same nodes as /geometry/mesh/quads/{}", found->second), "each element once");
+  }
 }
 
 /// Coordinate of a point along an edge, 0 to 1 from its first to its last node, and how far off the edge it lies over
@@ -146,8 +169,7 @@ Cut cut_of(const PlateScene& scene, const MeshSection& section) {
 /// @param line Coordinate `axis` of the first edge of the section.
 void check_cut(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer, const Cut& cut,
                const NodePair& edge, const pfem::Side& side, double line) {
-  constexpr double tolerance = 1e-9;      // of the edge's length
-  constexpr double rim_tolerance = 1e-6;  // of the radius: digits that a hand-written file has
+  constexpr double tolerance = 1e-9;  // of the edge's length
   if (plate.edges.arc[plate.edges.of_element(side.local_edge, side.element)] >= 0)
     reject(scene, pointer, named(edge) + " is an arc", "straight edges");
   const Eigen::Vector2d a = plate.mesh.nodes.col(edge.first);
@@ -161,7 +183,7 @@ void check_cut(const PlateScene& scene, const PlateMesh& plate, const std::strin
   const std::string place = fmt::format("{} is at {} = {:.9g}", named(edge), cut.direction, at);
   if (!(std::abs(at - line) <= tolerance * ab.norm()))
     reject(scene, pointer, place, fmt::format("edges on one line; the first is at {} = {:.9g}", cut.direction, line));
-  if (!(cut.sign * (at - cut.hole.center[cut.axis]) >= (1 - rim_tolerance) * cut.hole.radius))
+  if (!(cut.sign * (at - cut.hole.center[cut.axis]) >= (1 - rim::same_place) * cut.hole.radius))
     reject(scene, pointer, place,
            fmt::format("{} {} {:.9g}, beyond the rim of hole \"{}\" on its side {}{}", cut.direction,
                        cut.sign > 0 ? ">=" : "<=", cut.hole.center[cut.axis] + cut.sign * cut.hole.radius, cut.hole.id,
@@ -207,6 +229,7 @@ PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
   check_nodes(scene, plate.mesh);
   check_arcs(scene, plate.mesh, plate.edges);
   check_shared_edges(scene, plate.edges);
+  check_repeated_elements(scene, plate.mesh);
   check_hanging_nodes(scene, plate.mesh, plate.edges);
   name_edges(scene, geometry, plate);
   return plate;

@@ -31,17 +31,34 @@ void check_elements(const PlateScene& scene, const PlateMesh& plate) {
   }
 }
 
+/// Gives all arcs of a rim the centre of its first, so that sides that share a node meet there at one angle. The mesh's
+/// own centres differ by no more than rim::same_place.
+void share_center(const rim::Rim& rim, PlateMesh& plate) {
+  const auto arc_of = [&](const pfem::Side& side) -> pfem::Arc& {
+    return plate.mesh.arcs[plate.edges.arc[plate.edges.of_element(side.local_edge, side.element)]];
+  };
+  for (const auto& side : rim.sides) arc_of(side).center = arc_of(rim.sides[0]).center;
+}
+
 void find_rims(const PlateScene& scene, PlateMesh& plate) {
   const rim::RimFinder find_rim(plate.mesh, plate.edges);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const Hole& hole = scene.holes[i];
-    plate.rims.push_back(find_rim(hole.center, hole.radius));
-    const double covered = rim::covered_angle(plate.mesh, plate.edges, plate.rims.back()) / rim::degree;
-    if (std::ranges::none_of(std::array{90, 180, 360}, [&](int whole) { return std::abs(covered - whole) < 1e-4; }))
-      reject(scene, fmt::format("/holes/{}", i),
-             fmt::format("the mesh has {:.6g} degrees of boundary arcs of radius {:g} about ({:g}, {:g})", covered,
-                         hole.radius, hole.center.x(), hole.center.y()),
+    const std::string place = fmt::format("/holes/{}", i);
+    const auto rim = find_rim(hole.center, hole.radius);
+    share_center(rim, plate);
+    const double covered = rim::covered_angle(plate.mesh, plate.edges, rim);
+    if (std::ranges::none_of(std::array{4, 2, 1},
+                             [&](int part) { return std::abs(covered - rim::full_turn / part) < rim::same_angle; }))
+      reject(scene, place,
+             fmt::format("the mesh has {:.6g} degrees of boundary arcs of radius {:g} about ({:g}, {:g})",
+                         covered / rim::degree, hole.radius, hole.center.x(), hole.center.y()),
              "360 degrees, or 180 or 90 for a hole cut by lines of symmetry");
+    if (const int other = index_of(plate.rims, rim.sides, &rim::Rim::sides); other < i)
+      reject(scene, place,
+             fmt::format("hole \"{}\" has the rim of hole \"{}\", /holes/{}", hole.id, scene.holes[other].id, other),
+             "one hole at each place");
+    plate.rims.push_back(rim);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -30,7 +31,7 @@ std::vector<double> read_lines(const Value& value) {
   const auto items = value.items(2);
   std::vector<double> lines;
   for (const auto& item : items) {
-    const double line = item.number();
+    const double line = read_coordinate(item);
     if (!lines.empty() && !(line > lines.back())) item.not_allowed("cell lines in ascending order");
     lines.push_back(line);
   }
@@ -58,7 +59,7 @@ void read_cells(const Value& value, Table& table, const Read& read) {
     table.row(row++) = read_list<typename Table::Scalar>(line, table.cols(), read).transpose();
 }
 
-double read_thickness(const Value& value) { return value.number(input::positive); }
+double read_thickness(const Value& value) { return read_quantity(value); }
 
 GridGeometry read_grid(const Value& value, const Materials& materials) {
   value.only({"x", "y", "thickness", "material"});
@@ -86,10 +87,16 @@ std::pair<int, int> read_edge(const Value& value, int n_nodes) {
   return {a, b};
 }
 
-/// Reads a list of edges, each by its two nodes, and at least one.
+/// Reads a list of edges, each by its two nodes, and at least one. The load on one that stood twice would count twice.
 std::vector<std::pair<int, int>> read_edges(const Value& value, int n_nodes) {
   std::vector<std::pair<int, int>> edges;
-  for (const auto& edge : value.items(1)) edges.push_back(read_edge(edge, n_nodes));
+  std::map<std::pair<int, int>, std::string> places;  // by the lower and the higher node
+  for (const auto& item : value.items(1)) {
+    const auto [a, b] = edges.emplace_back(read_edge(item, n_nodes));
+    if (const auto [found, is_new] = places.try_emplace(std::minmax(a, b), item.pointer()); !is_new)
+      item.fail(fmt::format("the edge between nodes {} and {} stands twice", a, b),
+                "each edge once; the other is at " + found->second);
+  }
   return edges;
 }
 
@@ -143,18 +150,6 @@ std::string read_side(const Value& value, const PlateScene& scene) {
   return side;
 }
 
-std::vector<std::pair<int, int>> read_cut(const Value& value, int n_nodes) {
-  const auto items = value.items();
-  auto edges = read_edges(value, n_nodes);
-  std::set<std::pair<int, int>> seen;
-  for (int i = 0; i < count_of(edges); ++i) {
-    const auto [a, b] = edges[i];
-    if (!seen.insert(std::minmax({a, b})).second)
-      items[i].fail(fmt::format("the edge between nodes {} and {} stands twice", a, b), "each edge once");
-  }
-  return edges;
-}
-
 }  // namespace
 
 std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const Materials& materials) {
@@ -173,7 +168,7 @@ void read_sections(const Value& root, PlateScene& scene) {
   for (const auto& item : read_items(root.at("geometry").at("mesh"), "sections")) {
     item.only({"hole", "side", "edges"});
     MeshSection section{read_hole(item.at("hole"), scene), read_side(item.at("side"), scene),
-                        read_cut(item.at("edges"), geometry->mesh.n_nodes())};
+                        read_edges(item.at("edges"), geometry->mesh.n_nodes())};
     if (!seen.insert({section.hole, section.side}).second)
       item.fail(
           fmt::format("a second section of hole \"{}\" on its side {}", scene.holes[section.hole].id, section.side),

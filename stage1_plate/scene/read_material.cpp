@@ -16,7 +16,7 @@ constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed = fals
 
 Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
   value.only({"E", "nu"});
-  const auto constants = pfem::isotropic(value.at("E").number(input::positive), value.at("nu").number(poisson_range));
+  const auto constants = pfem::isotropic(read_quantity(value.at("E")), value.at("nu").number(poisson_range));
   if (!pfem::is_stable(constants, analysis))
     value.at("nu").not_allowed(
         "a number > -1 and < 0.5 in plane strain (0.5 is incompressible: its stiffness is infinite)");
@@ -26,12 +26,12 @@ Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
 Eigen::Matrix3d read_orthotropic(const Value& value, Analysis analysis) {
   value.only({"E1", "E2", "nu12", "G12", "angle", "E3", "nu13", "nu23"});
   pfem::OrthotropicConstants c{};
-  c.E1 = value.at("E1").number(input::positive);
-  c.E2 = value.at("E2").number(input::positive);
+  c.E1 = read_quantity(value.at("E1"));
+  c.E2 = read_quantity(value.at("E2"));
   c.nu12 = value.at("nu12").number();
-  c.G12 = value.at("G12").number(input::positive);
+  c.G12 = read_quantity(value.at("G12"));
   if (analysis == Analysis::plane_strain) {
-    c.E3 = value.at("E3").number(input::positive);
+    c.E3 = read_quantity(value.at("E3"));
     c.nu13 = value.at("nu13").number();
     c.nu23 = value.at("nu23").number();
   } else {
@@ -61,7 +61,7 @@ double read_disk(const Value& disk, double radius) {
   for (const auto& law : spring_laws()) names.push_back(law.name);
   const auto name = disk.find("law");
   const SpringLaw& law = spring_laws()[name ? index_of(names, name->choice(names)) : 0];
-  const double E = disk.at("E").number(input::positive);
+  const double E = read_quantity(disk.at("E"));
   input::Range range = poisson_range;
   range.high_allowed = law.incompressible_allowed;
   return law.modulus(E, disk.at("nu").number(range), 2 * radius);
@@ -111,8 +111,8 @@ Spring read_spring(const Value& value, double radius) {
     spring.modulus = read_disk(*disk, radius);
     spring.disk_E = disk->at("E").number();
   }
-  if (modulus) spring.modulus = modulus->number(input::positive);
-  if (links) spring.link = links->number(input::positive);
+  if (modulus) spring.modulus = read_quantity(*modulus, softest_spring);
+  if (links) spring.link = read_quantity(*links, softest_spring);
   const auto arc = value.find("arc");
   if (arc) {
     spring.acts = {read_arc(*arc)};

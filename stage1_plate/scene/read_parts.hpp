@@ -23,6 +23,16 @@ struct Materials {
 
 [[nodiscard]] Eigen::Vector2d read_point(const input::Value& value);
 
+/// Numbers from 1e-30 to 1e30 can be multiplied and squared as the programs do, and stay numbers. Any unit has them.
+inline constexpr double smallest = 1e-30, largest = 1e30;
+/// A spring that is as good as none may be softer, since nothing divides by it.
+inline constexpr double softest_spring = 1e-300;
+
+/// Reads a length, a modulus or a stiffness: a number from `low` to largest.
+[[nodiscard]] double read_quantity(const input::Value& value, double low = smallest);
+/// Reads a coordinate, any number up to largest.
+[[nodiscard]] double read_coordinate(const input::Value& value);
+
 /// Elements of the array at a key, none if it is missing.
 [[nodiscard]] std::vector<input::Value> read_items(const input::Value& value, const char* key);
 

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <charconv>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -47,7 +48,7 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     Hole hole;
     hole.id = read_new_name(item.at("id"), ids);
     hole.center = read_point(item.at("center"));
-    hole.radius = item.at("radius").number(input::positive);
+    hole.radius = read_quantity(item.at("radius"));
     if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius);
     constexpr int most_rings = 20;
     const auto rings = item.find("rings");
@@ -64,8 +65,8 @@ std::vector<PointSpring> read_points(const Value& root, std::set<std::string>& i
   std::vector<PointSpring> points;
   for (const auto& item : read_items(root, "points")) {
     item.only({"id", "at", "stiffness"});
-    points.push_back(
-        {read_new_name(item.at("id"), ids), read_point(item.at("at")), item.at("stiffness").number(input::positive)});
+    points.push_back({read_new_name(item.at("id"), ids), read_point(item.at("at")),
+                      read_quantity(item.at("stiffness"), softest_spring)});
   }
   return points;
 }
@@ -128,9 +129,21 @@ int degree(std::string_view text) {
 
 }  // namespace
 
+double read_quantity(const Value& value, double low) {
+  const double x = value.number(input::positive);
+  if (x < low || x > largest) value.not_allowed(fmt::format("{:g} to {:g}, in other units", low, largest));
+  return x;
+}
+
+double read_coordinate(const Value& value) {
+  const double x = value.number();
+  if (std::abs(x) > largest) value.not_allowed(fmt::format("{:g} to {:g}, in other units", -largest, largest));
+  return x;
+}
+
 Eigen::Vector2d read_point(const Value& value) {
-  const auto xy = value.numbers(2, 2, input::any_number);
-  return {xy[0], xy[1]};
+  const auto xy = value.items(2, 2);
+  return {read_coordinate(xy[0]), read_coordinate(xy[1])};
 }
 
 std::vector<Value> read_items(const Value& value, const char* key) {

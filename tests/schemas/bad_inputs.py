@@ -89,6 +89,7 @@ BAD_INPUTS = [
     ("plate_mesh_edge_of_one", "plate_mesh", "/geometry/mesh/edges/cap/0", [2]),
     ("plate_mesh_edge_node_negative", "plate_mesh", "/geometry/mesh/edges/cap/0/0", -1),
     ("plate_mesh_edge_to_itself", "plate_mesh", "/geometry/mesh/edges/cap/0", [2, 2]),
+    ("plate_mesh_edge_twice", "plate_mesh", "/geometry/mesh/edges/cap", [[2, 3], [2, 3]]),
     ("plate_mesh_sections_object", "plate_mesh", "/geometry/mesh/sections", {"hole": "1", "side": "+x", "edges": [[1, 2]]}),
     ("plate_mesh_sections_in_a_grid", "plate_half_holes", "/geometry/grid/sections", []),
     ("plate_mesh_section_hole_empty", "plate_mesh", "/geometry/mesh/sections/0/hole", ""),

@@ -55,6 +55,22 @@ TEST(ExplicitMesh, MistakesAreNamed) {
               HasSubstr("/supports/0/on"));
 }
 
+/// What stands twice would count twice, or the last alone.
+TEST(ExplicitMesh, WhatStandsTwiceIsNamed) {
+  for (const char* edge : {"[1, 2]", "[2, 1]"}) {
+    const std::string arcs = R"({"edge": [2, 3], "center": [0.5, 0]}, {"edge": [1, 2], "center": [0, 0.5]})";
+    EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3]",
+                                   fmt::format(R"(, "arcs": [{}, {{"edge": {}, "center": [-3, 0.5]}}])", arcs, edge))),
+                AllOf(HasSubstr("/geometry/mesh/arcs/2/center: (-3, 0.5), but the same edge is an arc about (0, 0.5)"),
+                      HasSubstr("by /geometry/mesh/arcs/1;")));
+    EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3]", fmt::format(R"(, "edges": {{"e": [[1, 2], {}]}})", edge))),
+                AllOf(HasSubstr("/geometry/mesh/edges/e/1: "), HasSubstr("/geometry/mesh/edges/e/0")));
+  }
+  EXPECT_EQ(message(mesh_scene(square, "[0,1,2,3]", R"(, "edges": {"e": [[1, 2]], "f": [[2, 1]]})")), "no error");
+  EXPECT_THAT(message(mesh_scene(square, "[0,1,2,3],[2,3,0,1]")),
+              AllOf(HasSubstr("/geometry/mesh/quads/1: "), HasSubstr("same nodes as /geometry/mesh/quads/0")));
+}
+
 TEST(ExplicitMesh, HangingNodesAreFound) {
   const std::string nodes = "[0,0],[1,0],[1,1],[0,1],[2,0],[2,0.5],[1,0.5],[2,1]";
   EXPECT_THAT(message(mesh_scene(nodes, "[0,1,2,3],[1,4,5,6],[6,5,7,2]")),
@@ -137,7 +153,8 @@ TEST(ExplicitMesh, HolesMustBeInTheMesh) {
 
 /// The paper's half plate: 14 elements, 22 vertices, 35 edges, 4 of them on the line of symmetry. Two of six elements
 /// are replaced by five each (one inside, four around it), which keeps the border.
-std::string paper_half_plate() {
+/// @param first, others Centres of the first arc and of the others.
+std::string paper_half_plate(const std::string& first = "[0, 0]", const std::string& others = "[0, 0]") {
   const double c = 10 / std::sqrt(2.0);
   const std::string nodes = fmt::format(
       "[10,0],[{0},{0}],[0,10],[-{0},{0}],[-10,0],"  // 0-4 rim
@@ -152,9 +169,10 @@ std::string paper_half_plate() {
       "[18,19,20,21],[13,9,19,18],[9,8,20,19],[8,12,21,20],[12,13,18,21]";
   return mesh_scene(
       nodes, quads,
-      R"(, "arcs": [{"edge": [0, 1], "center": [0, 0]}, {"edge": [1, 2], "center": [0, 0]},
-                       {"edge": [2, 3], "center": [0, 0]}, {"edge": [3, 4], "center": [0, 0]}],
-                       "edges": {"symmetry": [[0, 5], [5, 10], [4, 9], [9, 13]], "top": [[12, 8], [8, 7], [7, 6], [6, 11]]})",
+      fmt::format(R"(, "arcs": [{{"edge": [0, 1], "center": {0}}}, {{"edge": [1, 2], "center": {1}}},
+                       {{"edge": [2, 3], "center": {1}}}, {{"edge": [3, 4], "center": {1}}}],
+                       "edges": {{"symmetry": [[0, 5], [5, 10], [4, 9], [9, 13]], "top": [[12, 8], [8, 7], [7, 6], [6, 11]]}})",
+                  first, others),
       R"(, "holes": [{"id": "pin", "center": [0, 0], "radius": 10, "spring": {"disk": {"E": 244, "nu": 0.41}}}],
                        "supports": [{"on": "symmetry", "fix": ["y"]}],
                        "external": [{"id": "T", "on": "top", "direction": "y", "kind": "traction"}])");
@@ -166,6 +184,26 @@ TEST(ExplicitMesh, FourteenElementHalfPlateHas920UnknownsAtP8) {
   EXPECT_EQ(plate.mesh.mesh.n_nodes(), 22);
   EXPECT_EQ(plate.mesh.edges.size(), 35);
   EXPECT_EQ(plate.problem.unknowns.n_free[8], 920);
+}
+
+/// Centres that differ by less than 1e-6 of the radius are one: all sides meet, and the half hole is on its line.
+TEST(ExplicitMesh, DigitsOfAHandWrittenFileMakeNoOtherRim) {
+  for (const auto& [first, others] :
+       {std::pair("[9e-6, 0]", "[0, 0]"), {"[0, 0]", "[-4e-6, 5e-6]"}, {"[0, -4e-6]", "[0, -4e-6]"}}) {
+    const test::Plate plate = test::make_plate(paper_half_plate(first, others));
+    const auto& mesh = plate.mesh;
+    EXPECT_EQ(rim::open_pieces(rim::side_angles(mesh.mesh, mesh.edges, mesh.rims[0])).size(), 1U) << first << others;
+    EXPECT_EQ(plate.problem.unknowns.disc_direction, std::vector<std::string>{"x"}) << first << others;
+    EXPECT_TRUE(stage1::missing_symmetry(plate.scene, mesh, plate.problem.unknowns).empty()) << first << others;
+  }
+  EXPECT_THAT(message(paper_half_plate("[2e-5, 0]")), HasSubstr("135 degrees"));
+}
+
+TEST(ExplicitMesh, TwoHolesOnOneRimAreRefused) {
+  std::string json = paper_half_plate();
+  const std::string holes = "\"holes\": [";
+  json.insert(json.find(holes) + holes.size(), R"({"id": "open", "center": [0, 0], "radius": 10}, )");
+  EXPECT_THAT(message(json), AllOf(HasSubstr("/holes/1: hole \"pin\""), HasSubstr("hole \"open\", /holes/0")));
 }
 
 }  // namespace
