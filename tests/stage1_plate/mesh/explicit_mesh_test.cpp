@@ -199,6 +199,19 @@ TEST(ExplicitMesh, DigitsOfAHandWrittenFileMakeNoOtherRim) {
   EXPECT_THAT(message(paper_half_plate("[2e-5, 0]")), HasSubstr("135 degrees"));
 }
 
+/// The set of edges that lies on the line of a half hole is the one to support.
+TEST(ExplicitMesh, ALineOfSymmetryWithoutSupportIsNamed) {
+  for (const bool named : {true, false}) {
+    std::string json = paper_half_plate();
+    const std::string support = R"({"on": "symmetry", "fix": ["y"]})", set = "[[0, 5], [5, 10], [4, 9], [9, 13]]";
+    json.replace(json.find(support), support.size(), R"({"on": "symmetry", "fix": ["x"]})");
+    if (!named) json.replace(json.find(set), set.size(), "[[10, 11]]");
+    const test::Plate plate = test::make_plate(json);
+    EXPECT_THAT(stage1::missing_symmetry(plate.scene, plate.mesh, plate.problem.unknowns),
+                testing::ElementsAre(HasSubstr(named ? "add " + support : "name the edges on this line")));
+  }
+}
+
 TEST(ExplicitMesh, TwoHolesOnOneRimAreRefused) {
   std::string json = paper_half_plate();
   const std::string holes = "\"holes\": [";
