@@ -24,7 +24,7 @@ def run(folder, program, *arguments):
 
 
 def sheet(x, y, thickness, material, holes, disc, *, contact=True, radius, p=(5, 8), harmonics=16,
-          directions=("x", "y"), **more):
+          directions=("x", "y"), rings=None, **more):
     """PLATE.json of a grid with holes {id: (x, y)}, each with springs of a disc (E, nu)."""
     spring = {"disk": {"E": disc[0], "nu": disc[1]}, "compression_only": contact}
     if contact:
@@ -33,7 +33,8 @@ def sheet(x, y, thickness, material, holes, disc, *, contact=True, radius, p=(5,
             "disc_directions": directions,
             "materials": {"sheet": {"E": material[0], "nu": material[1]}},
             "geometry": {"grid": {"x": x, "y": y, "thickness": thickness, "material": "sheet"}},
-            "holes": [{"id": id, "center": at, "radius": radius, "spring": spring} for id, at in holes.items()], **more}
+            "holes": [{"id": id, "center": at, "radius": radius, "spring": spring, **({"rings": rings} if rings else {})}
+                      for id, at in holes.items()], **more}
 
 
 def joint(folder, plates, laws, fasteners, loads, **more):
@@ -236,9 +237,9 @@ def limits(folder):
     def plates(contact):
         holes = {"1": (10, 10), "2": (30, 10)}
         common = ([0, 20, 40], [0, 20], 2, (70000, 0.3), holes, (70000, 0.3))
-        a = sheet(*common, contact=contact, radius=3, p=(4, 5), external=[
+        a = sheet(*common, contact=contact, radius=3, rings=1, p=(4, 5), external=[
             {"id": "P", "on": "left", "direction": "x", "kind": "rigid"}], supports=[{"on": "bottom", "fix": ["y"]}])
-        b = sheet(*common, contact=contact, radius=3, p=(4, 5), supports=[{"on": "right", "fix": ["x", "y"]}])
+        b = sheet(*common, contact=contact, radius=3, rings=1, p=(4, 5), supports=[{"on": "right", "fix": ["x", "y"]}])
         return {"a": a, "b": b}
 
     def solve(contact, gaps, make=joint):
