@@ -68,11 +68,21 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower, std::vector<int>& 
 /// A singular matrix leaves 1e-16 to 1e-13, whatever the units and stiffnesses of its rows are.
 constexpr double least_left = 1e-12;
 
-void check_memory(int status) {
-  if (status == CHOLMOD_OUT_OF_MEMORY)
+/// Throws NumericalError if CHOLMOD could not do its work at all; that a matrix is not positive definite is left to the
+/// caller.
+void check_status(const cholmod_common& c) {
+  if (c.status == CHOLMOD_OUT_OF_MEMORY)
     throw NumericalError("the stiffness matrix does not fit into memory; use fewer elements or a lower p");
-  if (status == CHOLMOD_TOO_LARGE)
+  if (c.status == CHOLMOD_TOO_LARGE)
     throw NumericalError("the stiffness matrix is too large for 32-bit indices; use fewer elements or a lower p");
+  if (c.status < CHOLMOD_OK)
+    throw NumericalError(
+        fmt::format("CHOLMOD cannot factorise the stiffness matrix ({}, its status {}); check moduli, thicknesses and "
+                    "element shapes",
+                    c.status == CHOLMOD_INVALID         ? "it is empty or damaged"
+                    : c.status == CHOLMOD_NOT_INSTALLED ? "this CHOLMOD lacks a part that is needed"
+                                                        : "it gives no reason",
+                    c.status));
 }
 
 /// Columns [first, last) of L and their rows, ascending, the columns themselves first; entry (i, j) is at i + j ld.
@@ -206,10 +216,10 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) : i
   auto entries = entries_in_block(lower, n);
   cholmod_sparse A = view(lower, entries);
   impl_->factor.reset(cholmod_analyze(&A, &c));
-  check_memory(c.status);
+  check_status(c);
   cholmod_factor* L = impl_->factor.get();
   cholmod_factorize(&A, L, &c);
-  check_memory(c.status);
+  check_status(c);
   if (c.status == CHOLMOD_NOT_POSDEF || L->minor < L->n)
     throw NumericalError(fmt::format(
         "the stiffness matrix is not positive definite: pivot of row {} of {} is not positive", L->minor, L->n));
@@ -263,7 +273,7 @@ std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph) {
   auto entries = entries_in_block(graph, graph.cols());
   cholmod_sparse A = view(graph, entries);
   const Factor L(cholmod_analyze(&A, &c), {&c});
-  check_memory(c.status);
+  check_status(c);
   const int* order = static_cast<const int*>(L->Perm);
   return {order, order + graph.rows()};
 }

@@ -51,6 +51,16 @@ TEST(Cholesky, NamesTheIndefiniteRow) {
   }
 }
 
+/// A matrix that CHOLMOD refuses gives no factor to look at: here one without any entry, for which it returns null.
+TEST(Cholesky, SaysThatCholmodRefusesAMatrix) {
+  Sparse empty(5, 5);
+  empty.makeCompressed();
+  const auto refusal =
+      ThrowsMessage<NumericalError>(HasSubstr("CHOLMOD cannot factorise the stiffness matrix (it is empty"));
+  EXPECT_THAT([&] { Cholesky c(empty); }, refusal);
+  EXPECT_THAT([&] { (void)elimination_order(empty); }, refusal);
+}
+
 TEST(Cholesky, RefusesAMatrixThatIsSingularToWorkingPrecision) {
   const double floats = 1.0 - 1.0 / 50;  // the value at which the chain of 50 is singular
   for (const double above : {0.0, 1e-15}) EXPECT_THROW(Cholesky c(chain(50, floats + above)), NumericalError) << above;
