@@ -22,12 +22,22 @@ namespace {
 
 using nlohmann::json;
 
-/// Watches the keys of the objects that are open, since the parser would silently keep the last of two, and strings.
+/// Deepest nesting of arrays and objects: far beyond any scene, far below what writing a value out takes the stack for.
+constexpr int deepest = 100;
+
+/// Watches strings, the depth, and the keys of the objects that are open, since the parser would silently keep the last
+/// of two.
 struct Watch {
   const std::string& file;
   std::vector<std::set<std::string>> open = {};
+  std::string key = {};  ///< last key of the outermost object
 
-  bool operator()(int /*depth*/, json::parse_event_t event, const json& value) {
+  bool operator()(int depth, json::parse_event_t event, const json& value) {
+    if (event == json::parse_event_t::key && depth == 1) key = value.get<std::string>();
+    const bool opens = event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
+    if (opens && depth >= deepest)
+      throw InputError(fmt::format("{}: /{}: arrays and objects are nested more than {} deep; allowed: at most {}",
+                                   file, key, deepest, deepest));
     if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos)
       throw InputError(
           fmt::format("{}: the string {} holds the character \\u0000, which would end it in other files; "

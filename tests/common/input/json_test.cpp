@@ -79,6 +79,22 @@ TEST(Json, DuplicateKeysAreRefusedAtEveryDepth) {
   EXPECT_EQ(message(R"({"a": {"b": 1}, "c": {"b": 1}})", nothing), "no error");
 }
 
+/// Arrays as deep as a text is long would overflow the stack of what shows or copies them.
+TEST(Json, DepthHasALimit) {
+  const auto nested = [](int n, const std::string& open, const std::string& close) {
+    std::string text;
+    for (int i = 0; i < 2 * n; ++i) text += i < n ? open : close;
+    return text;
+  };
+  const auto number = [](const Value& v) { (void)v.number(); };
+  EXPECT_THAT(message(nested(100, "[", "]"), number), HasSubstr("is not allowed; allowed: a number"));
+  EXPECT_THAT(message(nested(101, "[", "]"), number),
+              StartsWith("f.json: /: arrays and objects are nested more than 100"));
+  EXPECT_THAT(message("{\"b\": 1, \"a\": " + nested(100000, "[", "]") + "}", number),
+              AllOf(StartsWith("f.json: /a: "), HasSubstr("allowed: at most 100")));
+  EXPECT_THAT(message(nested(100000, "{\"a\":", "}"), number), StartsWith("f.json: /a: "));
+}
+
 TEST(Json, CommentsAreAllowed) { EXPECT_EQ(message("{ // why\n \"a\": /* what */ 1}", nothing), "no error"); }
 
 TEST(Value, NamesPlaceFoundAndAllowed) {
