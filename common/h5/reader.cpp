@@ -47,6 +47,13 @@ std::optional<std::string> read_text_attribute(hid_t owner, const char* name) {
   return text;
 }
 
+/// Path of the file that an object is in.
+std::string file_of(hid_t object) {
+  std::string path(std::max<ssize_t>(H5Fget_name(object, nullptr, 0), 0), '\0');
+  H5Fget_name(object, path.data(), path.size() + 1);
+  return path;
+}
+
 std::string shape_text(const Shape& shape) {
   std::vector<std::string> extents;
   for (const auto e : shape) extents.push_back(e == any ? "any" : e == some ? "at least 1" : std::to_string(e));
@@ -57,6 +64,7 @@ std::string shape_text(const Shape& shape) {
 
 struct Reader::Impl {
   std::string path, digest;
+  double size = 0;  ///< of the file, bytes
   File file;
   bool compare_units = true;
 
@@ -67,7 +75,34 @@ struct Reader::Impl {
   Dataset open(const std::string& name) const {
     Dataset set(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT));
     if (!set) fail(name, fmt::format("dataset is missing or damaged ({})", last_error()));
+    check_own(set, name);
     return set;
+  }
+
+  /// Refuses a dataset whose values are in other files or datasets: no digest covers those, and a virtual dataset may
+  /// be its own source, with which the library never ends.
+  void check_own(const Dataset& set, const std::string& name) const {
+    const Properties creation(H5Dget_create_plist(set.get()));
+    const H5D_layout_t layout = H5Pget_layout(creation.get());
+    const bool known = layout == H5D_COMPACT || layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED;
+    if (file_of(set.get()) == file_of(file.get()) && known && H5Pget_external_count(creation.get()) == 0) return;
+    fail(name,
+         "its values are in another file or dataset (a link, external or virtual storage), expected values in "
+         "this file; read them and write them into it");
+  }
+
+  /// Refuses extents that the file cannot hold, before anything is allocated for them.
+  void check_size(const Dataset& set, const std::string& name, const std::vector<hsize_t>& extents) const {
+    constexpr double densest = 1032;  // what deflate can make of one byte; fill values need no bytes at all
+    const Type type(H5Dget_type(set.get()));
+    const Properties creation(H5Dget_create_plist(set.get()));
+    auto bytes = double(H5Tget_size(type.get()));
+    for (const hsize_t extent : extents) bytes *= double(extent);
+    const bool as_they_are = H5Pget_layout(creation.get()) != H5D_CHUNKED && H5Dget_storage_size(set.get()) > 0;
+    if (bytes > (as_they_are ? 1 : densest) * size)
+      fail(name,
+           fmt::format("claims {:.3g} bytes, shape ({}), more than a file of {:.0f} bytes can hold; it is damaged",
+                       bytes, fmt::join(extents, ", "), size));
   }
 
   Shape shape(const Dataset& set, const std::string& name, const Shape& expected) const {
@@ -80,6 +115,7 @@ struct Reader::Impl {
     for (std::size_t i = 0; fits && i < found.size(); ++i)
       fits = expected[i] == any || found[i] == expected[i] || (expected[i] == some && found[i] > 0);
     if (!fits) fail(name, fmt::format("shape is {}, expected {}", shape_text(found), shape_text(expected)));
+    check_size(set, name, extents);
     return found;
   }
 
@@ -154,6 +190,7 @@ Reader::Reader(std::string path, const std::string& format, int major) : impl_(s
   if (std::error_code none; fs::exists(impl_->path, none) && !fs::is_regular_file(impl_->path, none))
     throw FileError(fmt::format("{}: is not a regular file", impl_->path));
   impl_->digest = checked_digest(impl_->path);
+  impl_->size = double(fs::file_size(impl_->path));
   if (H5Fis_hdf5(impl_->path.c_str()) <= 0)
     throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", impl_->path, format));
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));

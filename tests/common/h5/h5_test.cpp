@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <hdf5.h>
 
+#include <functional>
 #include <limits>
 
 #include "common/errors.hpp"
@@ -13,6 +14,7 @@ namespace fastjoint::h5 {
 namespace {
 
 using Eigen::MatrixXd, Eigen::VectorXd, Eigen::VectorXi;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 using Stack = std::vector<MatrixXd>;
@@ -157,6 +159,60 @@ TEST_F(WrongFile, EntriesThatAreNotAllowed) {
   EXPECT_THAT(refused(i, "i", {.text = "others", .step = 1}), HasSubstr("i: holds 4, 4, expected others"));
   EXPECT_THAT(refused(words, "words", one_of({"x", "y"})), HasSubstr("words: holds \"z\", expected one of x, y"));
   EXPECT_THAT(refused(words, "words", {.text = "none", .words = {{}}}), HasSubstr("holds \"x\", expected none"));
+}
+
+/// Puts a dataset "v" of three numbers into a file in another way than the writer's.
+void replace_v(const std::string& path, const std::function<void(hid_t creation, hid_t file)>& store, hsize_t n = 3) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT), creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Ldelete(file, "v", H5P_DEFAULT);
+  store(creation, file);
+  if (H5Lexists(file, "v", H5P_DEFAULT) == 0) {
+    const hid_t space = H5Screate_simple(1, &n, nullptr);
+    H5Dclose(H5Dcreate2(file, "v", H5T_IEEE_F64LE, space, H5P_DEFAULT, creation, H5P_DEFAULT));
+    H5Sclose(space);
+  }
+  H5Pclose(creation);
+  H5Fclose(file);
+}
+
+TEST_F(WrongFile, ValuesThatAreNotInTheFile) {
+  const auto refused = [&](const std::function<void(hid_t, hid_t)>& store) {
+    write_sample(path_);
+    replace_v(path_, store);
+    return message([](const Reader& f) { read<VectorXd>(f, "v", {some}, "mm"); });
+  };
+  const std::string elsewhere = folder_.write("other", std::string(24, 'x'));
+  const std::string message = "a.h5:v: its values are in another file or dataset";
+  EXPECT_THAT(refused([&](hid_t creation, hid_t) { H5Pset_external(creation, elsewhere.c_str(), 0, 24); }),
+              HasSubstr(message));
+  EXPECT_THAT(refused([&](hid_t creation, hid_t) {  // its own source: to read it never ended
+                const hsize_t n = 3;
+                const hid_t space = H5Screate_simple(1, &n, nullptr);
+                H5Pset_virtual(creation, space, ".", "v", space);
+                H5Sclose(space);
+              }),
+              HasSubstr(message));
+  write_sample(folder_.path("b.h5"));
+  EXPECT_THAT(refused([](hid_t, hid_t file) { H5Lcreate_external("b.h5", "v", file, "v", H5P_DEFAULT, H5P_DEFAULT); }),
+              HasSubstr(message));
+}
+
+/// Nothing is allocated for an extent that the file cannot hold, be its values left out or its header damaged.
+TEST_F(WrongFile, ExtentsThatTheFileCannotHold) {
+  const auto refused = [&](hsize_t n) {
+    write_sample(path_);
+    replace_v(
+        path_,
+        [](hid_t creation, hid_t) {
+          const hsize_t chunk = 3;
+          H5Pset_chunk(creation, 1, &chunk);
+        },
+        n);
+    return message([](const Reader& f) { read<VectorXd>(f, "v", {some}, "mm"); });
+  };
+  EXPECT_EQ(refused(1000), "no error") << "zeros, none of which was written";
+  for (const int power : {30, 60})
+    EXPECT_THAT(refused(hsize_t{1} << power), AllOf(HasSubstr("a.h5:v: claims "), HasSubstr("bytes can hold")));
 }
 
 TEST_F(WrongFile, EntriesThatDoNotMakeTheShapeAreNotWritten) {
