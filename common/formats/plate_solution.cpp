@@ -7,6 +7,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
+#include "common/formats/plate_checks.hpp"
 
 namespace fastjoint::formats {
 namespace {
@@ -230,18 +231,6 @@ void datasets(File& file, Solution& a) {
        h5::or_else(0));
 }
 
-/// Refuses a rim that is not the one that the mesh has around that hole.
-void check_rims(const h5::Reader& file, const PlateSolution& a) {
-  const rim::RimFinder find_rim(a.mesh, pfem::find_edges(a.mesh));
-  for (int hole = 0; hole < count_of(a.hole_rim); ++hole) {
-    const rim::Rim& rim = a.hole_rim[hole];
-    if (!(rim.sides == find_rim(rim.center, rim.radius).sides))
-      throw FileError(fmt::format(
-          "{}:hole/rim: the sides of hole \"{}\" are not those arcs of the mesh that have its centre and its radius {}",
-          file.path(), a.hole_id[hole], rim.radius));
-  }
-}
-
 }  // namespace
 
 void write(const std::string& path, const PlateSolution& a) {
@@ -254,7 +243,7 @@ PlateSolution read_plate_solution(const std::string& path) {
   h5::Reader file(path, format, major);
   PlateSolution a;
   datasets(file, a);
-  check_rims(file, a);
+  check_consistent(path, a);
   return a;
 }
 

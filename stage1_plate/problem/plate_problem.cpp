@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "common/formats/header.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -105,17 +106,6 @@ rim::Harmonics contact_of(const PlateScene& scene, const PlateMesh& plate, int h
   rim::Harmonics contact{scene.holes[hole].sprung().harmonics};
   if (!pieces.empty()) contact.start = pieces[0].from, contact.sweep = pieces[0].to - pieces[0].from;
   return contact;
-}
-
-/// Names of the friction cases of a hole.
-std::vector<std::string> friction_names(const Unknowns& unknowns, const std::optional<rim::Harmonics>& contact,
-                                        int hole) {
-  std::vector<std::string> names;
-  for (int k = 0; contact && k < contact->n_shears(); ++k) names.push_back(rim::shear_name(k));
-  for (int disc = unknowns.first_disc[hole]; disc < unknowns.first_disc[hole + 1]; ++disc)
-    for (const char* sign : {"+", "-"})
-      if (!contact) names.push_back(sign + unknowns.disc_direction[disc]);
-  return names;
 }
 
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
@@ -288,7 +278,9 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     if (!scene.holes[i].spring) continue;
-    const auto names = friction_names(problem.unknowns, sprung.springs[i]->contact, i);
+    const int first = problem.unknowns.first_disc[i], n = problem.unknowns.first_disc[i + 1] - first;
+    const auto names = formats::friction_cases(std::span(problem.unknowns.disc_direction).subspan(first, n),
+                                               sprung.springs[i]->contact);
     problem.friction_hole.insert(problem.friction_hole.end(), names.size(), scene.holes[i].id);
     problem.friction_bearing.insert(problem.friction_bearing.end(), names.begin(), names.end());
   }

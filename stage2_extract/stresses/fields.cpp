@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cassert>
 
 #include "common/count.hpp"
@@ -21,18 +22,33 @@ plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbe
                                 pfem::name_of(numbering.space)));
   plate::Unknowns unknowns{a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole,
                            a.disc_direction};
-  unknowns.first_disc = {0};
-  for (const auto& id : a.hole_id) {
-    int end = unknowns.first_disc.back();
-    while (end < unknowns.n_discs() && a.disc_hole[end] == id) ++end;
-    if (std::count(a.disc_hole.begin(), a.disc_hole.end(), id) != end - unknowns.first_disc.back())
+  for (Eigen::Index i = 0; i < a.p.size(); ++i)
+    if (const int n = unknowns.n_free[a.p[i]]; a.ndof[i] != n)
       throw FileError(
-          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one behind the other, in the order "
-                      "of the holes",
-                      file, id));
-    unknowns.first_disc.push_back(end);
-  }
+          fmt::format("{}:ndof: holds {} at p = {}, expected {}, as many as are in unknown up to that degree", file,
+                      a.ndof[i], a.p[i], n));
+  unknowns.first_disc = {0};
+  for (const auto& id : a.hole_id)
+    unknowns.first_disc.push_back(unknowns.first_disc.back() + static_cast<int>(std::ranges::count(a.disc_hole, id)));
   return unknowns;
+}
+
+/// Refuses a map of unknowns in which functions that no other element and no support has are not free: they are
+/// condensed as plate unknowns. The same of vertices that springs hold to discs.
+void check_free(const PlateSolution& a, const plate::PlateStiffness& K, const std::string& file) {
+  for (int element = 0; element < a.mesh.n_elements(); ++element) {
+    const auto& kept = K.elements.classes[K.elements.class_of[element]].kept;
+    for (int mode = 0; mode < count_of(kept); ++mode)
+      if (const int function = K.numbering.function(mode, element);
+          !kept[mode] && a.unknown.col(function).minCoeff() < 0)
+        throw FileError(
+            fmt::format("{}:unknown: holds {} in row {}, expected a plate unknown of a function inside element {}",
+                        file, a.unknown.col(function).minCoeff(), function, element));
+  }
+  for (const auto& tie : K.ties)
+    if (tie.dof == pfem::fixed_dof)
+      throw FileError(fmt::format("{}:point/vertex: holds {}, which a support holds, expected a vertex that can move",
+                                  file, tie.vertex));
 }
 
 plate::SprungMesh sprung_mesh(const PlateSolution& a, const pfem::Edges& edges, const plate::Unknowns& unknowns) {
@@ -59,6 +75,7 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
     K.ties.push_back(
         {point.vertex, a.unknown(axis, point.vertex), K.unknowns.controlled_of_disc(point.disc), point.stiffness});
   }
+  check_free(a, K, file);
   return K;
 }
 

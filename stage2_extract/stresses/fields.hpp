@@ -27,7 +27,7 @@ struct Fields {
 class FieldSolver {
  public:
   /// @param plate Must outlive this. @param file Its name, for messages.
-  /// Throws FileError if the map of unknowns or the discs do not fit the mesh and its holes.
+  /// Throws FileError if the map of unknowns does not fit the mesh.
   FieldSolver(const formats::PlateSolution& plate, const std::string& file);
   FieldSolver(const FieldSolver&) = delete;
   FieldSolver& operator=(const FieldSolver&) = delete;

@@ -4,10 +4,12 @@
 #include <gmock/gmock.h>
 #include <hdf5.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
 #include "common/errors.hpp"
+#include "stage2_extract/stresses/fields.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/plates.hpp"
 
@@ -30,8 +32,9 @@ class EditedPlate : public testing::Test {
                 ThrowsMessage<FileError>(HasSubstr(fmt::format("plate.h5:{}", message))));
   }
 
-  PlateSolution good_ = test::solve(test::make_plate(test::grid_scene(
-      {0, 1}, {0, 1}, {{"a", 0.5, 0.5, 0.2}}, R"(, "p": [2, 3], "supports": [{"on": "left", "fix": ["x", "y"]}],
+  PlateSolution good_ = test::solve(test::make_plate(
+      test::grid_scene({0, 1}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
+                       R"(, "p": [2, 3], "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
                  {"id": "T", "on": "top", "direction": "y", "kind": "traction"}])")));
 };
@@ -81,6 +84,91 @@ TEST_F(EditedPlate, IndicesThatNameNothing) {
   refused([](auto& a) { a.sections.at(0).hole = 1; }, "section/hole: holds 1, expected integers from 0 to 0");
   refused([](auto& a) { a.friction_hole[0] = ""; }, "friction/hole: holds \"\", expected names in hole/id");
   refused([](auto& a) { a.traction_hole[0] = std::string("b"); }, "traction/hole: holds \"b\", expected");
+}
+
+/// Each is a good index by itself; together they would be written past the ends of lists, or never end.
+TEST_F(EditedPlate, PlateUnknownsOnceAndInOrder) {
+  const auto at = [&](int dof) {
+    const auto* found = std::find(good_.unknown.data(), good_.unknown.data() + good_.unknown.size(), dof);
+    return found - good_.unknown.data();
+  };
+  const int last = good_.ndof[1] - 1;
+  const auto set = [&](std::initializer_list<std::pair<int, int>> changes, const std::string& message) {
+    refused(
+        [&](auto& a) {
+          for (const auto& [from, to] : changes) a.unknown.data()[at(from)] = to;
+        },
+        "unknown: holds " + message);
+  };
+  set({{7, -1}}, "8 in row ");
+  set({{last, -1}}, fmt::format("{} plate unknowns, expected {}", last, last + 1));
+  set({{7, 3}}, "3 in row ");
+  set({{last, 0}}, "0 in row ");
+  set({{5, 6}, {6, 5}}, "6 in row ");
+  refused([](auto& a) { a.ndof[1] += 1; }, "unknown: holds ");
+}
+
+TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
+  const auto pop = [](auto& a) {  // the last friction case
+    a.friction_hole.pop_back();
+    a.friction_bearing.pop_back();
+    for (auto& level : a.cases) level.R = level.R.leftCols(3).eval();
+    a.probe.friction = a.probe.friction.head(3).eval();
+  };
+  refused(pop, "friction/hole: case 3 of 3 is missing, expected \"a:-y\"");
+  refused([](auto& a) { std::swap(a.friction_bearing[0], a.friction_bearing[1]); },
+          "friction/hole: case 0 of 4 is \"a:-x\", expected \"a:+x\"");
+  refused([](auto& a) { a.disc_direction[1] = std::string("x"); }, "disc/direction: hole \"a\" has x, x");
+  refused([](auto& a) { a.disc_hole[1] = std::string("b"); }, "disc/hole: names 2 discs, expected 1: ");
+  refused(
+      [](auto& a) {
+        a.points = {{0, 1, 1.0}};
+      },
+      "point/disc: holds 1, expected the discs behind those of holes, from 2");
+  const rim::Harmonics waves{1};
+  refused(
+      [&](auto& a) {  // without the matrices that go with it: names are checked first
+        a.hole_spring[0].contact = waves;
+        a.contact.assign(2, {"a", waves, 1, 0.2, 1});
+        for (auto& level : a.cases) {
+          level.B = Eigen::MatrixXd::Zero(6, level.S.cols());
+          level.C = Eigen::MatrixXd::Zero(6, 6);
+          level.R_p = Eigen::MatrixXd::Zero(6, level.R.cols());
+          level.T_p = Eigen::MatrixXd::Zero(6, level.T.cols());
+        }
+        a.probe.pressure = a.probe.moment = a.probe.friction_moment = Eigen::VectorXd::Zero(6);
+      },
+      "pressure/hole: names a hole twice");
+}
+
+TEST_F(EditedPlate, ElementsAndArcsOfTheMesh) {
+  refused([](auto& a) { a.mesh.quads(1, 0) = a.mesh.quads(0, 0); }, "mesh/quads: element 0 has the nodes ");
+  refused(
+      [](auto& a) {
+        a.mesh.nodes.conservativeResize(2, a.mesh.n_nodes() + 1);
+        a.mesh.nodes.rightCols(1).setConstant(9);
+      },
+      "mesh/quads: no element has node ");
+  refused([](auto& a) { a.mesh.arcs[0].b = a.mesh.arcs[0].a; }, "mesh/arc_nodes: holds ");
+}
+
+/// What a field needs beyond that: functions inside elements are free.
+TEST_F(EditedPlate, UnknownsThatDoNotFitTheMesh) {
+  const auto refused_by_solver = [&](const std::function<void(PlateSolution&)>& edit, const std::string& message) {
+    PlateSolution plate = good_;
+    edit(plate);
+    EXPECT_THAT([&] { stage2::FieldSolver(plate, "plate.h5"); }, ThrowsMessage<FileError>(HasSubstr(message)));
+  };
+  refused_by_solver([](auto& a) { a.ndof[0] += 1; }, "plate.h5:ndof: holds ");
+  refused_by_solver(
+      [](auto& a) {  // a function inside an element is held, and all the rest fits
+        int n = 0;
+        a.unknown(0, a.unknown.cols() - 1) = -1;
+        for (int& dof : a.unknown.reshaped())
+          if (dof >= 0) dof = n++;
+        a.ndof[1] = n;
+      },
+      "plate.h5:unknown: holds -1 in row ");
 }
 
 TEST_F(EditedPlate, RowsOfASparseMatrix) {

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/plate_checks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <set>
+#include <span>
+
+#include "common/count.hpp"
+#include "common/errors.hpp"
+
+namespace fastjoint::formats {
+namespace {
+
+[[noreturn]] void fail(const std::string& file, const char* dataset, const std::string& found,
+                       const std::string& expected) {
+  throw FileError(fmt::format("{}:{}: {}, expected {}; run stage1_plate again", file, dataset, found, expected));
+}
+
+/// Refuses elements with a node twice, nodes without an element, and arcs without an edge.
+void check_mesh(const std::string& file, const pfem::Mesh& mesh, const pfem::Edges& edges) {
+  std::vector<bool> used(mesh.n_nodes(), false);
+  for (int element = 0; element < mesh.n_elements(); ++element) {
+    const auto quad = mesh.quads.col(element);
+    if (std::set<int>(quad.begin(), quad.end()).size() < 4)
+      fail(file, "mesh/quads", fmt::format("element {} has the nodes {}", element, fmt::join(quad, ", ")),
+           "four different ones");
+    for (const int node : quad) used[node] = true;
+  }
+  if (const auto unused = std::ranges::find(used, false); unused != used.end())
+    fail(file, "mesh/quads", fmt::format("no element has node {}", unused - used.begin()), "each in an element");
+  if (!edges.arc_without_edge.empty()) {
+    const auto& arc = mesh.arcs[edges.arc_without_edge.front()];
+    fail(file, "mesh/arc_nodes", fmt::format("holds {}, {}", arc.a, arc.b), "nodes that an edge joins");
+  }
+}
+
+/// Refuses a rim that is not the one that the mesh has around that hole.
+void check_rims(const std::string& file, const PlateSolution& a, const pfem::Edges& edges) {
+  const rim::RimFinder find_rim(a.mesh, edges);
+  for (int hole = 0; hole < count_of(a.hole_rim); ++hole) {
+    const rim::Rim& rim = a.hole_rim[hole];
+    if (!(rim.sides == find_rim(rim.center, rim.radius).sides))
+      throw FileError(fmt::format(
+          "{}:hole/rim: the sides of hole \"{}\" are not those arcs of the mesh that have its centre and its radius {}",
+          file, a.hole_id[hole], rim.radius));
+  }
+}
+
+/// Stage 1 numbers the plate unknowns in the order of the functions, u_x before u_y.
+void check_unknowns(const std::string& file, const PlateSolution& a) {
+  const int n = a.ndof[a.ndof.size() - 1];
+  int next = 0;
+  for (int function = 0; function < a.unknown.cols(); ++function)
+    for (const int dof : a.unknown.col(function))
+      if (dof >= 0 && dof != next++)
+        fail(file, "unknown", fmt::format("holds {} in row {} instead of {}", dof, function, next - 1),
+             fmt::format("each plate unknown from 0 to {} once, in this order", n - 1));
+  if (next != n)
+    fail(file, "unknown", fmt::format("holds {} plate unknowns", next), fmt::format("{}, as ndof has them", n));
+}
+
+/// Returns the directions of the discs of each hole, and refuses discs in another order than that of the holes, then of
+/// the points.
+std::vector<std::span<const std::string>> check_discs(const std::string& file, const PlateSolution& a) {
+  std::vector<std::span<const std::string>> of_hole;
+  int end = 0;
+  for (const auto& id : a.hole_id) {
+    const int first = end;
+    while (end < count_of(a.disc_hole) && a.disc_hole[end] == id) ++end;
+    if (std::ranges::count(a.disc_hole, id) != end - first)
+      throw FileError(
+          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one behind the other, in the order "
+                      "of the holes",
+                      file, id));
+    of_hole.push_back(std::span(a.disc_direction).subspan(first, end - first));
+    const std::set<std::string> directions(of_hole.back().begin(), of_hole.back().end());
+    if (std::ssize(directions) != end - first)
+      fail(file, "disc/direction", fmt::format("hole \"{}\" has {}", id, fmt::join(of_hole.back(), ", ")),
+           "each direction once");
+  }
+  const int first = end;
+  for (int point = 0; point < count_of(a.points); ++point)
+    if (a.points[point].disc != end++)
+      fail(file, "point/disc", fmt::format("holds {}", a.points[point].disc),
+           fmt::format("the discs behind those of holes, from {} on, each once", first));
+  if (end != count_of(a.disc_hole))
+    fail(file, "disc/hole", fmt::format("names {} discs", a.disc_hole.size()),
+         fmt::format("{}: those of holes, then one for each spring of a point", end));
+  return of_hole;
+}
+
+/// Refuses rims of contact and friction cases that are not those of the holes, in their order.
+void check_cases(const std::string& file, const PlateSolution& a,
+                 const std::vector<std::span<const std::string>>& directions) {
+  std::vector<std::string> rims, cases, expected;
+  for (int hole = 0; hole < count_of(a.hole_id); ++hole) {
+    if (directions[hole].empty()) continue;
+    if (a.hole_spring[hole].contact) rims.push_back(a.hole_id[hole]);
+    for (const auto& name : friction_cases(directions[hole], a.hole_spring[hole].contact))
+      expected.push_back(a.hole_id[hole] + ":" + name);
+  }
+  if (!std::ranges::equal(rims, a.contact, {}, {}, &ContactRim::hole))
+    fail(file, "pressure/hole", "names a hole twice, one without a disc, or holes in another order than hole/id",
+         fmt::format("{}", fmt::join(rims, ", ")));
+  for (int i = 0; i < count_of(a.friction_hole); ++i) cases.push_back(a.friction_hole[i] + ":" + a.friction_bearing[i]);
+  const auto [found, wanted] = std::ranges::mismatch(cases, expected);
+  if (found != cases.end() || wanted != expected.end())
+    fail(file, "friction/hole",
+         fmt::format("case {} of {} is {}", found - cases.begin(), cases.size(),
+                     found == cases.end() ? "missing" : "\"" + *found + "\""),
+         wanted == expected.end() ? fmt::format("{} cases", expected.size()) : "\"" + *wanted + "\"");
+}
+
+}  // namespace
+
+void check_consistent(const std::string& file, const PlateSolution& plate) {
+  const pfem::Edges edges = pfem::find_edges(plate.mesh);
+  check_mesh(file, plate.mesh, edges);
+  check_rims(file, plate, edges);
+  check_unknowns(file, plate);
+  check_cases(file, plate, check_discs(file, plate));
+}
+
+}  // namespace fastjoint::formats
