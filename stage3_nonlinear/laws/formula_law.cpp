@@ -202,7 +202,8 @@ LawPointer read_formula_law(const input::Value& law) {
              .bearing_of_plate = whole,
              .t = geometry.t,
              .E = geometry.E,
-             .d = geometry.d});
+             .d = geometry.d,
+             .n_shear = n_shear});
 }
 
 }  // namespace fastjoint::stage3

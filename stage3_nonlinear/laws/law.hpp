@@ -42,6 +42,7 @@ struct Source {
   bool bearing_of_plate;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too
   std::array<double, 2> t{}, E{};  ///< of the sheets: thickness, length; Young's modulus, stress
   double d = 0;                    ///< diameter, length
+  int n_shear = 1;                 ///< shear planes; of two, sheet 1 is the one in the middle
 };
 
 /// Force of a fastener against the relative displacement of its discs, delta >= 0, its clearance included.

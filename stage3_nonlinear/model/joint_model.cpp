@@ -14,6 +14,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
+#include "stage3_nonlinear/model/fastener_gaps.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -26,7 +27,8 @@ std::vector<PlateMatrices> read_all(const JointScene& scene) {
     try {
       all.push_back(formats::read_plate_matrices(plate.file));
     } catch (const FileError& e) {
-      const bool absent = !std::filesystem::exists(plate.file);
+      std::error_code unreachable;  // such as of a name that is too long
+      const bool absent = !std::filesystem::exists(plate.file, unreachable) && !unreachable;
       throw FileError(fmt::format("{}: {}{}", plate.where, e.what(),
                                   absent ? fmt::format("; stage2_extract PLATE.h5 -o {} makes it", plate.file) : ""));
     }
@@ -142,20 +144,17 @@ void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
 
 /// Refuses friction at a rim of contact whose file has no shears for it.
 void check_shears(const PlateModel& plate, const std::string& hole) {
-  const Index first = index_of(plate.friction_hole, hole);
-  if (first == std::ssize(plate.friction_hole) || plate.friction_bearing[first] != rim::shear_name(0))
+  const auto rim = std::ranges::find(plate.contact, hole, &formats::ContactRim::hole);
+  const auto shears = formats::friction_cases({}, rim->pressures);
+  const Index first = plate.first_shear(*rim), last = first + std::ssize(shears);
+  bool complete = last <= std::ssize(plate.friction_hole);
+  for (Index i = first; complete && i < last; ++i)
+    complete = plate.friction_hole[i] == hole && plate.friction_bearing[i] == shears[i - first];
+  if (!complete)
     throw InputError(
-        fmt::format("{}:friction/bearing: has no shears of hole \"{}\", whose springs push but do not pull; allowed: "
-                    "a file that stages 1 and 2 of this version make, or friction 0",
-                    plate.file, hole));
-}
-
-/// Radial gap between a fastener and its hole number `at`, length; infinite if the hole's diameter is not known.
-double gap_of(const FastenerScene& fastener, Index at, const PlateModel& plate) {
-  if (!fastener.diameter) return fastener.gap.empty() ? 0 : fastener.gap[at];
-  const auto rim = std::ranges::find(plate.contact, fastener.between[at].name, &formats::ContactRim::hole);
-  const double of_sheet = rim == plate.contact.end() ? std::numeric_limits<double>::infinity() : 2 * rim->radius;
-  return ((fastener.hole_diameter.empty() ? of_sheet : fastener.hole_diameter[at]) - *fastener.diameter) / 2;
+        fmt::format("{}:friction/bearing: has no shears of hole \"{}\", whose springs push but do not pull, or not all "
+                    "{} in their order; allowed: a file that stages 1 and 2 of this version make, or friction 0",
+                    plate.file, hole, shears.size()));
 }
 
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, Index at) {
@@ -204,6 +203,7 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
   FastenerModel result{fastener.id, {}, fastener.law_includes_friction, fastener.grounded};
   for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
   check_directions(model, fastener, result);
+  check_clearance(model, fastener, result);
   for (const auto& hole : result.holes)  // a disc takes the friction of a rim of contact: the shank carries both
     result.law_includes_friction |= model.plates[hole.plate].is_in_contact(model.plates[hole.plate].hole_of(hole.disc));
   balance(result);

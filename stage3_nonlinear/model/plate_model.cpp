@@ -64,6 +64,17 @@ bool is_other_side(const formats::PlateMatrices& a, Index traction) {
   return !bearing.empty() && !before.empty() && bearing[0] != before[0];
 }
 
+/// Rims of contact are looked for by their holes, in which discs press on them.
+void check_contact(const std::string& file, const formats::PlateMatrices& a, const PlateModel& plate) {
+  std::vector<std::string> names;
+  for (const auto& rim : a.contact) {
+    if (std::ranges::find(plate.holes, rim.hole) == plate.holes.end())
+      throw FileError(fmt::format("{}:pressure/hole: holds \"{}\", expected holes in disc/hole", file, rim.hole));
+    names.push_back(rim.hole);
+  }
+  check_once(file, "pressure/hole", names);
+}
+
 void check_symmetric(const std::string& file, const char* dataset, const MatrixXd& S) {
   if (S.size() == 0) return;
   const double largest = S.cwiseAbs().maxCoeff();
@@ -229,6 +240,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.plate_digest = a.plate_digest;
   plate.axes = axes.empty() ? joint_axes({&file, 1}, {&a, 1}) : axes;
   place_discs(file, a, plate);
+  check_contact(file, a, plate);
   plate.externals = a.external_id;
   plate.tractions = a.traction_id;
   check_symmetric(file, "S_dd", a.S_dd[level]);

@@ -37,10 +37,15 @@ namespace fastjoint::stage3 {
 
 /// Numbers that hardly any joint has, one sentence each: friction above 1, a gap or |delta| above a radius, centres of
 /// a fastener's holes apart (of three and more fasteners between two plates: from the median, since plates may be drawn
-/// in coordinates of their own), a formula for other sheets, F above d t E. Numbers that MATRICES.h5 does not tell of a
+/// in coordinates of their own), diameters that contradict each other, a formula for other sheets or another number of
+/// them, F above d t E. Numbers that MATRICES.h5 does not tell of a
 /// hole are not compared.
 [[nodiscard]] std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint,
                                                            const LoadPath& path);
+
+/// Diameters that contradict those of the sheets' holes or each other by more than 5 %, whatever the law:
+/// hole_diameter, and those of the two holes of a shear plane, less the gaps in them.
+[[nodiscard]] std::vector<std::string> unlike_diameters(const JointScene& scene, const JointModel& joint);
 
 /// One sentence for each kind of doubt about rims, naming the hole and the increment where it is largest.
 [[nodiscard]] std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states);

@@ -22,9 +22,14 @@ using Plates = std::pair<Index, Index>;
 /// one more hole like the first.
 struct KnownPlane {
   Index at;
-  Plates plates;    ///< ascending
-  Vector2d offset;  ///< between the centres, from the higher plate to the lower
-  Array2d t, d, E;  ///< of the first and the second hole; E along the joint's direction
+  Plates plates;           ///< ascending
+  Vector2d offset;         ///< between the centres, from the higher plate to the lower
+  Array2d t, d, E;         ///< of the first and the second hole; E along the joint's direction
+  Array2d shank;           ///< diameters less the gaps
+  int n_sheets;            ///< that the fastener joins; 0 where the ground holds it too, whose thickness is not known
+  bool first_of_fastener;  ///< the plane between its first two holes
+  /// Which hole, 0 or 1, is in the middle sheet of three.
+  [[nodiscard]] int middle() const { return first_of_fastener ? 1 : 0; }
 };
 
 std::vector<KnownPlane> known_planes(const JointModel& joint) {
@@ -32,7 +37,16 @@ std::vector<KnownPlane> known_planes(const JointModel& joint) {
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const HoleModel &first = joint.holes(plane).front(), &second = joint.holes(plane).back();
-    KnownPlane known{j, std::minmax(first.plate, second.plate), Vector2d::Zero(), {0, 0}, {0, 0}, {0, 0}};
+    const FastenerModel& fastener = joint.fasteners[plane.fastener];
+    KnownPlane known{.at = j,
+                     .plates = std::minmax(first.plate, second.plate),
+                     .offset = Vector2d::Zero(),
+                     .t = {0, 0},
+                     .d = {0, 0},
+                     .E = {0, 0},
+                     .shank = {0, 0},
+                     .n_sheets = fastener.grounded ? 0 : count_of(fastener.holes),
+                     .first_of_fastener = plane.first == 0};
     for (const Index side : {0, 1}) {
       const HoleModel& hole = side == 0 ? first : second;
       const auto& a = joint.plates[hole.plate].stresses;
@@ -41,6 +55,7 @@ std::vector<KnownPlane> known_planes(const JointModel& joint) {
       known.offset += ((side == 0) == (first.plate <= second.plate) ? 1 : -1) * a.rim_center.row(at).transpose();
       known.t[side] = a.rim_thickness[at];
       known.d[side] = 2 * a.rim_radius[at];
+      known.shank[side] = known.d[side] - 2 * hole.gap;
       const bool one_E = joint.n_directions() == 1 ||
                          std::abs(a.rim_modulus(at, 0) - a.rim_modulus(at, 1)) <= 1e-9 * a.rim_modulus(at, 0);
       known.E[side] = one_E ? a.rim_modulus(at, joint.axes[0]) : 0;
@@ -61,21 +76,43 @@ Vector2d common_offset(std::vector<Vector2d> offsets) {
   return median;
 }
 
-/// Numbers that a formula has other than the sheets, "t = 3, 3 instead of 1.6, 2"; empty if nothing.
-std::string unlike(const Source& formula, const KnownPlane& known, double clearance) {
+/// Numbers that a formula has other than the sheets, "t = 3, 3 instead of 1.6, 2", if its sheet 1 is that of hole
+/// `one`, 0 or 1.
+std::vector<std::string> unlike(const Source& formula, const KnownPlane& known, double clearance, int one) {
   constexpr double same_t = 0.01, same_E = 0.2, same_d = 0.05;  // a hole is a little wider than its shank
   std::vector<std::string> parts;
-  const auto compare = [&](const char* key, Array2d said, Array2d here, double tolerance, double slack) {
-    std::sort(said.begin(), said.end());  // either order of sheets
-    std::sort(here.begin(), here.end());
-    if (here[0] > 0 && ((said - here).abs() > tolerance * here + slack).any())
+  const auto compare = [&](const char* key, const Array2d& said, const Array2d& by_hole, double tolerance,
+                           double slack) {
+    const Array2d here(by_hole[one], by_hole[1 - one]);
+    if (here.minCoeff() > 0 && ((said - here).abs() > tolerance * here + slack).any())
       parts.push_back(
           fmt::format("{} = {:.6g}, {:.6g} instead of {:.6g}, {:.6g}", key, said[0], said[1], here[0], here[1]));
   };
   compare("t", {formula.t[0], formula.t[1]}, known.t, same_t, 0);
   compare("E", {formula.E[0], formula.E[1]}, known.E, same_E, 0);
-  compare("d", {formula.d, formula.d}, known.d, same_d, 2 * clearance);
+  compare("d", {formula.d, formula.d}, known.shank, same_d, 2 * clearance);
+  return parts;
+}
+
+/// The same in the order of sheets that the formula means: in double shear the middle one first, else either.
+std::string unlike(const Source& formula, const KnownPlane& known, double clearance) {
+  const bool ordered = formula.n_shear == 2 && known.n_sheets == 3;
+  auto parts = unlike(formula, known, clearance, ordered ? known.middle() : 0);
+  if (!ordered && !parts.empty())
+    if (auto other = unlike(formula, known, clearance, 1); other.size() < parts.size()) parts = std::move(other);
   return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+/// What contradicts a formula for single or double shear in the number of sheets; empty if nothing. Of more than three
+/// sheets no formula tells.
+const char* unlike_shear(const Source& formula, int n_sheets) {
+  if (formula.n_shear == 2 && n_sheets == 2)
+    return "\"double\", but the fastener goes through 2 sheets, which is single shear; right only if they are half of "
+           "a joint that is symmetric about its middle sheet";
+  if (formula.n_shear == 1 && n_sheets == 3)
+    return "\"single\", but the fastener goes through 3 sheets, which is double shear; the huth formulas know it, "
+           "with the middle sheet first in \"t\" and \"E\"";
+  return "";
 }
 
 using stresses::RimState;
@@ -98,7 +135,8 @@ constexpr std::array<RimDoubt, 6> doubts = {{
      "PLATE.json"},
     {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
      "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
-     "peak, {peak:.4g} {unit}, too low; give the hole's spring \"compression_only\": true in PLATE.json"},
+     "peak, {peak:.4g} {unit}, too low; give the hole's spring \"compression_only\": true in PLATE.json, and the "
+     "fastener a \"gap\" instead of \"clearance\""},
     {[](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
      "springs pull on its rim; give the hole's spring \"compression_only\": true in PLATE.json"},
@@ -124,7 +162,7 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
   const auto planes = known_planes(joint);
   std::map<Plates, std::vector<Vector2d>> offsets;
   for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
-  std::set<std::string> compared;
+  std::set<std::string> compared, sheared;
   for (const auto& known : planes) {
     const ShearPlane& plane = joint.planes[known.at];
     const std::string& where = scene.fasteners[plane.fastener].where;
@@ -136,11 +174,15 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
                                     where, gap, plane.law_name, radius));
     for (const HoleModel& hole : joint.holes(plane)) {
       constexpr double most_interference = 0.05;  // far beyond what metals bear without yielding
-      if (hole.gap < radius && -hole.gap < most_interference * radius) continue;
+      constexpr double same = 0.05 * (1 + 1e-9);  // a hole is a little wider than its shank
+      const FastenerScene& fastener = scene.fasteners[plane.fastener];
+      const bool by_sheet = fastener.diameter && fastener.hole_diameter.empty();
+      if (hole.gap < (by_sheet ? same : 1) * radius && -hole.gap < most_interference * radius) continue;
       gaps.emplace_back(
           std::abs(hole.gap) / radius,
-          fmt::format("{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length",
-                      scene.fasteners[plane.fastener].where_gap(), hole.gap, joint.name(hole), radius));
+          fmt::format("{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length{}",
+                      fastener.where_gap(), hole.gap, joint.name(hole), radius,
+                      by_sheet ? "; if the hole is meant so, give its \"hole_diameter\" too" : ""));
     }
     if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
       distances.emplace_back(
@@ -151,6 +193,10 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
               where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
     const auto formula = joint.is_to_ground(plane) ? std::nullopt : plane.law->source();
     const std::string other = formula ? unlike(*formula, known, plane.clearance) : "";
+    const std::string shear = formula ? unlike_shear(*formula, known.n_sheets) : "";
+    if (!shear.empty() && sheared.insert(plane.law_name).second)
+      formulas.push_back(
+          fmt::format("{}: /laws/{}/shear: {} ({})", joint.file, plane.law_name, shear, joint.name(plane)));
     if (!other.empty() && compared.insert(plane.law_name).second)
       formulas.push_back(fmt::format(
           "{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another fastener, or in other units",
@@ -173,6 +219,8 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
   }
   std::vector<std::string> result;
   for (const auto* kind : {&friction, &gaps, &distances}) add_worst(result, *kind);
+  const auto diameters = unlike_diameters(scene, joint);
+  result.insert(result.end(), diameters.begin(), diameters.end());
   result.insert(result.end(), formulas.begin(), formulas.end());
   add_worst(result, movements);
   return result;

@@ -216,6 +216,17 @@ stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations, const
   return path;
 }
 
+void add_contact(PlateMatrices& plate, const std::string& hole, double radius) {
+  const rim::Harmonics waves{1};
+  plate.contact.push_back({hole, waves, 1, radius, 1});
+  const Index k = plate.n_pressures();
+  plate.C = {1e-3 * MatrixXd::Identity(k, k)};
+  plate.B_d = {MatrixXd::Zero(k, plate.n_discs())};
+  plate.B_e = {MatrixXd::Zero(k, plate.n_externals())};
+  plate.R_p = {MatrixXd::Zero(k, plate.n_friction_cases())};
+  plate.T_p = {MatrixXd::Zero(k, plate.n_tractions())};
+}
+
 MatrixXd random_stiffness(std::mt19937& random, int n) {
   const MatrixXd A = MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -1, 1); });
   return A * A.transpose() + MatrixXd::Identity(n, n);

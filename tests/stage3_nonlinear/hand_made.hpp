@@ -31,6 +31,9 @@ inline constexpr int ground = -1;
 /// have.
 void add_friction(formats::PlateMatrices& plate, std::mt19937& random);
 
+/// Makes the springs of a hole push but not pull: pressures of one wave, which no displacement of the plate presses on.
+void add_contact(formats::PlateMatrices& plate, const std::string& hole, double radius);
+
 /// Plate "a" pulled at its external "P" with `force`, plate "b" held or floating, fastener j through the
 /// holes j of both.
 struct Lap {

@@ -78,6 +78,32 @@ TEST(JointModel, RefusesGapsInHolesThatTheirSpringsFill) {
     EXPECT_EQ(with(none).fasteners[0].holes[1].gap, 0);
 }
 
+TEST(JointModel, RimsOfContactAreThoseOfDiscsAndHaveAllShears) {
+  auto lap = test::two_fastener_lap();
+  test::add_contact(lap.a, "3", 1);
+  expect_refusal<FileError>(lap, {}, "a.h5:pressure/hole: holds \"3\", expected holes in disc/hole");
+  lap = test::two_fastener_lap();
+  test::add_contact(lap.a, "1", 1);
+  test::add_contact(lap.a, "1", 1);
+  expect_refusal<FileError>(lap, {}, "a.h5:pressure/hole: \"1\" stands twice");
+  lap = test::two_fastener_lap();
+  lap.a.friction_hole = {"1", "1"};
+  lap.a.friction_bearing = {"t0", "t1"};  // of three
+  lap.a.friction_unit_force = lap.a.friction_resultant = Eigen::Vector2d::Zero();
+  lap.a.R_df = {Eigen::MatrixXd::Zero(2, 2)};
+  lap.a.R_ef = {Eigen::MatrixXd::Zero(1, 2)};
+  test::add_contact(lap.a, "1", 1);
+  expect_refusal<InputError>(lap, {{"fasteners", R"([{"id": "f", "between": ["a:1", "b:1"], "law": "lin",
+                                                      "friction": {"a": 0.1}}])"}},
+                             "a.h5:friction/bearing: has no shears of hole \"1\"");
+}
+
+TEST(JointModel, NamesAFileWhosePathIsTooLong) {
+  const std::string name(300, 'x');
+  expect_refusal<FileError>(test::two_fastener_lap(), {{"plates", R"({"a": ")" + name + R"(.h5", "b": "b.h5"})"}},
+                            ".h5: cannot be opened: File name too long");
+}
+
 TEST(JointModel, TakesTheFrictionCaseOfTheSideThatBears) {
   const auto lap = rubbing_lap();
   const JointModel joint = load(lap, with_friction);

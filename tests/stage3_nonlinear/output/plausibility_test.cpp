@@ -143,6 +143,69 @@ TEST_F(Plausibility, AFormulaForOtherSheetsIsNamedOnce) {
   EXPECT_EQ(warnings(members, lap), "");
 }
 
+/// Each has its sheet's thickness beside its modulus; in double shear the middle sheet comes first.
+TEST_F(Plausibility, AFormulaHasTheSheetsInItsOrder) {
+  auto lap = described(1);
+  lap.b.stresses.rim_thickness.setConstant(3);
+  lap.b.stresses.rim_modulus.setConstant(10000);
+  auto members = fasteners({1});
+  members["laws"] = formula("[3, 2]", "[10000, 72000]", "5");
+  EXPECT_EQ(warnings(members, lap), "");
+  members["laws"] = formula("[3, 2]", "[72000, 10000]", "5");
+  EXPECT_THAT(warnings(members, lap), HasSubstr("the formula has "));
+  members["plates"] = R"({"a": "a.h5", "b": "b.h5", "c": "b.h5"})";
+  members["fasteners"] = R"([{"id": "f1", "between": ["b:1", "a:1", "c:1"], "law": "lin"}])";
+  const auto huth = [](const char* shear, const char* sheets) {
+    return R"({"lin": {"type": "formula", "formula": "huth bolt", "mode": "total", "d": 5, "E_f": 210000, "shear": ")" +
+           std::string(shear) + "\", " + sheets + "}}";
+  };
+  constexpr const char *middle_first = R"("t": [2, 3], "E": [72000, 10000])",
+                       *strap_first = R"("t": [3, 2], "E": [10000, 72000])";
+  members["laws"] = huth("double", middle_first);
+  EXPECT_EQ(warnings(members, lap), "");
+  members["laws"] = huth("double", strap_first);
+  EXPECT_THAT(warnings(members, lap), HasSubstr("the formula has t = 3, 2 instead of 2, 3"));
+  members["laws"] = huth("single", strap_first);
+  EXPECT_THAT(warnings(members, lap),
+              HasSubstr("joint.json: /laws/lin/shear: \"single\", but the fastener goes through 3 "
+                        "sheets"));
+  members["fasteners"] = R"([{"id": "f1", "between": ["b:1", "a:1", "c:1", "ground"], "law": "lin"}])";
+  EXPECT_THAT(warnings(members, lap), Not(HasSubstr("/shear"))) << "the ground may stand for any number of sheets";
+  members = fasteners({1});
+  members["laws"] = huth("double", middle_first);
+  EXPECT_THAT(warnings(members, lap),
+              HasSubstr("joint.json: /laws/lin/shear: \"double\", but the fastener goes through 2 "
+                        "sheets"));
+}
+
+TEST_F(Plausibility, DiametersThatContradictEachOtherAreNamedWhateverTheLaw) {
+  const std::string diameter = "/fasteners/0/hole_diameter: ";
+  EXPECT_THAT(warnings(fasteners({1}, R"(, "diameter": 5.3, "hole_diameter": 5.3)"), described(1)),
+              HasSubstr("joint.json: " + diameter + "5.3 for hole \"a:1\", whose diameter in its sheet is 5: "));
+  EXPECT_EQ(warnings(fasteners({1}, R"(, "diameter": 5.25, "hole_diameter": 5.25)"), described(1)), "");
+  auto lap = described(1);
+  lap.b.stresses.rim_radius.setConstant(2.7);
+  EXPECT_THAT(
+      warnings(fasteners({1}), lap),
+      HasSubstr("joint.json: /fasteners/0/between: holes \"a:1\" and \"b:1\" have the diameters 5 and 5.4 in their "
+                "sheets"));
+  EXPECT_EQ(warnings(fasteners({1}, R"(, "clearance": 0.2)"), lap), "") << "that explains it";
+  EXPECT_EQ(warnings(fasteners({1}, R"(, "clearance": 0.2)"), described(1)), "");
+}
+
+/// A shank much thinner than the holes of its sheets; one that says how wide they are means it.
+TEST_F(Plausibility, ADiameterOfAnotherFastenerIsNamed) {
+  auto lap = described(1);
+  for (auto* plate : {&lap.a, &lap.b}) test::add_contact(*plate, "1", radius);
+  EXPECT_THAT(warnings(fasteners({1}, R"(, "diameter": 4)"), lap),
+              HasSubstr("joint.json: /fasteners/0/diameter: a gap of 0.5 at hole \"a:1\" of radius 2.5"));
+  EXPECT_THAT(warnings(fasteners({1}, R"(, "diameter": 4, "hole_diameter": 5)"), lap), Not(HasSubstr("/diameter")));
+  EXPECT_THAT(warnings(fasteners({1}, R"(, "diameter": 4.75)"), lap), Not(HasSubstr("/diameter")));
+  auto members = fasteners({1}, R"(, "gap": 0.3)");
+  members["laws"] = formula("[2, 2]", "[72000, 72000]", "4.4");
+  EXPECT_THAT(warnings(members, lap), Not(HasSubstr("the formula has"))) << "a shank as thin as the gap leaves it";
+}
+
 TEST_F(Plausibility, DisplacementsAboveARadiusAreNamedOnceWithTheirIncrement) {
   auto members = fasteners({1});
   members["loads"] = R"([{"external": "a:P", "force": 4000}])";
