@@ -16,7 +16,7 @@ STAGES = {
         "": ["linalg", "program"],
     },
     "stage2_extract": {
-        "matrices": ["formats", ""],
+        "matrices": ["formats", "matrices", ""],
         "stresses": ["formats", "pfem", "plate", "program", "rim", "stresses", ""],
         "field": ["formats", "pfem", "program", ""],
         "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
@@ -38,7 +38,7 @@ COMMON = {
     "input": [""],
     "linalg": [""],
     "matrices": [""],
-    "pfem": ["", "linalg"],
+    "pfem": ["", "linalg", "matrices"],
     "rim": ["pfem"],
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],

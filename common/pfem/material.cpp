@@ -2,10 +2,11 @@
 #include "common/pfem/material.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <complex>
+
+#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::pfem {
 namespace {
@@ -55,7 +56,7 @@ double hoop_by_pressure(const Eigen::Matrix3d& compliance, double theta) {
   companion.diagonal(-1).setOnes();
   companion.row(0) << 2 * s(1, 2), -(2 * s(0, 1) + s(2, 2)), 2 * s(0, 2), -s(0, 0);
   companion.row(0) /= s(1, 1);
-  const Eigen::Vector4cd roots = Eigen::EigenSolver<Eigen::Matrix4d>(companion, false).eigenvalues();
+  const Eigen::VectorXcd roots = matrices::eigenvalues(companion);
   std::complex<double> product = -1;
   for (const auto& root : roots)
     if (root.imag() > 0) product *= root;

@@ -3,12 +3,11 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <set>
 
 #include "common/errors.hpp"
+#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -71,9 +70,8 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
 std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale) {
   if (S.size() == 0) return std::nullopt;
   const Eigen::MatrixXd raised = S + worst_allowed * scale * Eigen::MatrixXd::Identity(S.rows(), S.rows());
-  if (Eigen::LLT<Eigen::MatrixXd>(raised).info() == Eigen::Success) return std::nullopt;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(S, Eigen::EigenvaluesOnly);
-  return ratio(eigen.eigenvalues()[0], scale);
+  if (matrices::is_positive_definite(raised)) return std::nullopt;
+  return ratio(matrices::symmetric_eigenvalues(S)[0], scale);
 }
 
 /// Force left along one direction that nothing supports, over all unit cases and loads.

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <Eigen/SparseCore>
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "common/errors.hpp"
+#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -51,9 +51,9 @@ class RigidJoint {
   [[nodiscard]] MatrixXd free_motions() const {
     // A little above the limit of is_held, whose rcond is an estimate in another norm.
     constexpr double small = 1e3 * singular;
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(S_z_);
-    const auto n = (eigen.eigenvalues().array() <= small * eigen.eigenvalues().maxCoeff()).count();
-    return scale_.asDiagonal() * eigen.eigenvectors().leftCols(n);
+    const auto eigen = matrices::symmetric_eigen(S_z_);
+    const auto n = (eigen.values.array() <= small * eigen.values.maxCoeff()).count();
+    return scale_.asDiagonal() * eigen.vectors.leftCols(n);
   }
 
  private:

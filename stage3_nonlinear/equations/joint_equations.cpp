@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-#include "common/matrices/inverse.hpp"
+#include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/equations/rim_friction.hpp"
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
 

@@ -2,13 +2,12 @@
 #include "stage3_nonlinear/equations/tangent.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "common/matrices/inverse.hpp"
+#include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
 
 namespace fastjoint::stage3 {
@@ -56,16 +55,14 @@ Mechanism mechanism(const JointEquations& equations, const ContactState& state, 
 /// Eigenvalues of the tangent whose real part is less than `least`.
 Index soft_modes(const CondensedSystem& system, const ContactState& state, double least) {
   if (system.has_friction()) {
-    const Eigen::EigenSolver<MatrixXd> eigen(tangent(system, state), false);
-    return (eigen.eigenvalues().real().array() < least).count();
+    return (matrices::eigenvalues(tangent(system, state)).real().array() < least).count();
   }
   // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
   Blocks root{state.ddelta.along.cwiseSqrt(), state.ddelta.across.cwiseSqrt()};
   for (const auto& rim : state.ddelta.rims) root.rims.emplace_back(rim.cwiseSqrt());
   const MatrixXd PS = state.times(system.S_ud, root).transpose();
   const MatrixXd A = state.times(PS, root) + state.times(MatrixXd::Identity(PS.rows(), PS.rows()), state.dF);
-  const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(A, Eigen::EigenvaluesOnly);
-  return (eigen.eigenvalues().array() < least).count();
+  return (matrices::symmetric_eigenvalues(A).array() < least).count();
 }
 
 /// A norm of the friction matrix H E, which none of its eigenvalues exceeds.
@@ -78,7 +75,7 @@ double friction_norm(const MatrixXd& H) {
 bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
   if (equations.metric.size() == 0) return false;
   const MatrixXd H = gradient(equations, J + singular_tangent * MatrixXd::Identity(J.rows(), J.cols()));
-  return Eigen::LLT<MatrixXd>(H + H.transpose()).info() == Eigen::Success;
+  return matrices::is_positive_definite(H + H.transpose());
 }
 
 /// True if the tangent is W times a symmetric Hessian H: without friction, rims of contact and laws that fall.
@@ -124,7 +121,7 @@ std::optional<double> self_locking(const CondensedSystem& system, const VectorXd
   if (friction_norm(H) < 1) return std::nullopt;
   constexpr double real = 1e-9;  // imaginary part of a real eigenvalue, by rounding
   double largest = 0;
-  const Eigen::VectorXcd values = Eigen::EigenSolver<MatrixXd>(-H, false).eigenvalues();
+  const Eigen::VectorXcd values = matrices::eigenvalues(-H);
   for (const auto& value : values)
     if (std::abs(value.imag()) <= real * std::abs(value)) largest = std::max(largest, value.real());
   if (!(largest >= 1)) return std::nullopt;
@@ -181,7 +178,7 @@ std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
     falling.push_back(j);
     for (Index d = 0; d < a; ++d) S(j * a + d, j * a + d) += law.least_slope();
   }
-  if (falling.empty() || Eigen::LLT<MatrixXd>(S).info() == Eigen::Success) return {};
+  if (falling.empty() || matrices::is_positive_definite(S)) return {};
   return falling;
 }
 

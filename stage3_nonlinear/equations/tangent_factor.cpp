@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <limits>
 #include <numeric>
 #include <utility>
 
+#include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 
 namespace fastjoint::stage3 {
@@ -97,15 +97,14 @@ MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
 }
 
 MatrixXd TangentFactor::free_motions(double least) const {
-  const Eigen::BDCSVD<MatrixXd> svd(small_, Eigen::ComputeFullV);
-  return extended(svd.matrixV().rightCols(std::max<Index>(1, (svd.singularValues().array() <= least).count())));
+  const auto svd = matrices::singular_values(small_);
+  return extended(svd.V.rightCols(std::max<Index>(1, (svd.values.array() <= least).count())));
 }
 
 TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double share) const {
-  Eigen::BDCSVD<MatrixXd> svd(small_, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  svd.setThreshold(share);
-  const auto solve = [&svd](const MatrixXd& f) -> MatrixXd { return svd.solve(f); };
-  const MatrixXd free = extended(svd.matrixV().rightCols(small_.cols() - svd.rank()));
+  const auto svd = matrices::singular_values(small_);
+  const auto solve = [&](const MatrixXd& f) -> MatrixXd { return svd.solve(f, share); };
+  const MatrixXd free = extended(svd.V.rightCols(small_.cols() - svd.rank(share)));
   if (short_waves_.empty()) return {solve(b), free};
   return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, b), free};
 }

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <limits>
 #include <set>
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/matrices/inverse.hpp"
+#include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 
 namespace fastjoint::stage3 {
@@ -92,8 +90,8 @@ void check_not_negative(const std::string& file, const MatrixXd& S) {
   const double allowed = symmetry_tolerance * S.cwiseAbs().maxCoeff();
   MatrixXd lifted = S;
   lifted.diagonal().array() += allowed;
-  if (Eigen::LLT<MatrixXd>(lifted).info() == Eigen::Success) return;
-  const double least = Eigen::SelfAdjointEigenSolver<MatrixXd>(S, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  if (matrices::is_positive_definite(lifted)) return;
+  const double least = matrices::symmetric_eigenvalues(S)[0];
   if (!(least >= -allowed))
     throw FileError(
         fmt::format("{}:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue {:.6g}, expected none "
@@ -120,10 +118,10 @@ void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
   Index row = 0;
   for (const auto& rim : a.contact) {
     const Index k = rim.pressures.size();
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> eigen(compliance.block(row, row, k, k));
-    const double least = little * eigen.eigenvalues()[k - 1];
-    const auto n = (eigen.eigenvalues().array() < least).count();
-    const auto unresolved = eigen.eigenvectors().leftCols(n);
+    const auto eigen = matrices::symmetric_eigen(compliance.block(row, row, k, k));
+    const double least = little * eigen.values[k - 1];
+    const auto n = (eigen.values.array() < least).count();
+    const auto unresolved = eigen.vectors.leftCols(n);
     compliance.block(row, row, k, k) += least * unresolved * unresolved.transpose();
     row += k;
   }
