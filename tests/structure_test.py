@@ -17,7 +17,7 @@ STAGES = {
     },
     "stage2_extract": {
         "matrices": ["formats", "matrices", ""],
-        "stresses": ["formats", "pfem", "plate", "program", "rim", "stresses", ""],
+        "stresses": ["formats", "matrices", "pfem", "plate", "program", "rim", "stresses", ""],
         "field": ["formats", "pfem", "program", ""],
         "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
     },

@@ -93,16 +93,6 @@ h5::Allowed friction_case_names() {
   return {.text = fmt::format("one of {}, t0, t1, ...", fmt::join(side_names, ", ")), .words = names};
 }
 
-std::vector<std::string> friction_cases(std::span<const std::string> directions,
-                                        const std::optional<rim::Harmonics>& contact) {
-  std::vector<std::string> names;
-  for (int k = 0; contact && k < contact->n_shears(); ++k) names.push_back(rim::shear_name(k));
-  for (const auto& direction : directions)
-    for (const char* sign : {"+", "-"})
-      if (!contact) names.push_back(sign + direction);
-  return names;
-}
-
 h5::Allowed degrees(int highest) {
   return {.text = fmt::format("ascending degrees from 1 to {}", highest), .low = 1, .high = double(highest), .step = 1};
 }

@@ -3,8 +3,6 @@
 
 #include <Eigen/Core>
 #include <numeric>
-#include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -93,11 +91,6 @@ inline constexpr const char* bearing_side =
 
 /// Names of all friction cases that there may be.
 [[nodiscard]] h5::Allowed friction_case_names();
-
-/// Names of the friction cases of a hole: of a rim of contact its shears, of another one + and - of each direction of
-/// the hole's discs.
-[[nodiscard]] std::vector<std::string> friction_cases(std::span<const std::string> directions,
-                                                      const std::optional<rim::Harmonics>& contact);
 
 /// Degrees from 1 to `highest`, each above the one before.
 [[nodiscard]] h5::Allowed degrees(int highest);

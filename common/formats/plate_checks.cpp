@@ -99,7 +99,7 @@ void check_cases(const std::string& file, const PlateSolution& a,
   for (int hole = 0; hole < count_of(a.hole_id); ++hole) {
     if (directions[hole].empty()) continue;
     if (a.hole_spring[hole].contact) rims.push_back(a.hole_id[hole]);
-    for (const auto& name : friction_cases(directions[hole], a.hole_spring[hole].contact))
+    for (const auto& name : rim::friction_cases(directions[hole], a.hole_spring[hole].contact))
       expected.push_back(a.hole_id[hole] + ":" + name);
   }
   if (!std::ranges::equal(rims, a.contact, {}, {}, &ContactRim::hole))

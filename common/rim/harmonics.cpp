@@ -141,4 +141,14 @@ Eigen::MatrixXd Harmonics::shear_products(double from, double to) const {
                    unit(*this) * (from - start), unit(*this) * (to - start));
 }
 
+std::vector<std::string> friction_cases(std::span<const std::string> directions,
+                                        const std::optional<Harmonics>& contact) {
+  std::vector<std::string> names;
+  for (int k = 0; contact && k < contact->n_shears(); ++k) names.push_back(shear_name(k));
+  for (const auto& direction : directions)
+    for (const char* sign : {"+", "-"})
+      if (!contact) names.push_back(sign + direction);
+  return names;
+}
+
 }  // namespace fastjoint::rim

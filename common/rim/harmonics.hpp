@@ -2,7 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "common/rim/angles.hpp"
 
@@ -44,5 +47,10 @@ struct Harmonics {
 
 /// "t0", "t1", ...: name of the friction case that is a shear of a rim of contact.
 [[nodiscard]] std::string shear_name(int k);
+
+/// Names of the friction cases of a hole: of a rim of contact its shears, of another one + and - of each direction of
+/// the hole's discs.
+[[nodiscard]] std::vector<std::string> friction_cases(std::span<const std::string> directions,
+                                                      const std::optional<Harmonics>& contact);
 
 }  // namespace fastjoint::rim

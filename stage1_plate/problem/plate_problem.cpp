@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "common/formats/header.hpp"
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -279,8 +278,8 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   for (int i = 0; i < count_of(scene.holes); ++i) {
     if (!scene.holes[i].spring) continue;
     const int first = problem.unknowns.first_disc[i], n = problem.unknowns.first_disc[i + 1] - first;
-    const auto names = formats::friction_cases(std::span(problem.unknowns.disc_direction).subspan(first, n),
-                                               sprung.springs[i]->contact);
+    const auto names =
+        rim::friction_cases(std::span(problem.unknowns.disc_direction).subspan(first, n), sprung.springs[i]->contact);
     problem.friction_hole.insert(problem.friction_hole.end(), names.size(), scene.holes[i].id);
     problem.friction_bearing.insert(problem.friction_bearing.end(), names.begin(), names.end());
   }

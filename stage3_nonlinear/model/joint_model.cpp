@@ -144,7 +144,7 @@ void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
 /// Refuses friction at a rim of contact whose file has no shears for it.
 void check_shears(const PlateModel& plate, const std::string& hole) {
   const auto rim = std::ranges::find(plate.contact, hole, &formats::ContactRim::hole);
-  const auto shears = formats::friction_cases({}, rim->pressures);
+  const auto shears = rim::friction_cases({}, rim->pressures);
   const Index first = plate.first_shear(*rim), last = first + std::ssize(shears);
   bool complete = last <= std::ssize(plate.friction_hole);
   for (Index i = first; complete && i < last; ++i)

@@ -28,6 +28,7 @@ void add_stresses(formats::PlateMatrices& plate) {
   a.sigma_tt[0].col(plate.n_externals()).setOnes();
   a.gross_area = a.net_area = Eigen::VectorXd(0);
   a.section_force = {Eigen::MatrixXd::Zero(0, plate.n_cases())};
+  a.stiffness_error = Eigen::VectorXd::Zero(1);
 }
 
 TEST_F(Run, PrintsTheStressesOfEveryIncrementIfAsked) {

@@ -167,13 +167,13 @@ std::string paper_half_plate(const std::string& first = "[0, 0]", const std::str
       "[0,5,6,1],[1,6,7,2],[2,7,8,3],[3,8,9,4],"
       "[14,15,16,17],[5,10,15,14],[10,11,16,15],[11,6,17,16],[6,5,14,17],"
       "[18,19,20,21],[13,9,19,18],[9,8,20,19],[8,12,21,20],[12,13,18,21]";
-  return mesh_scene(
-      nodes, quads,
-      fmt::format(R"(, "arcs": [{{"edge": [0, 1], "center": {0}}}, {{"edge": [1, 2], "center": {1}}},
+  return mesh_scene(nodes, quads,
+                    fmt::format(R"(, "arcs": [{{"edge": [0, 1], "center": {0}}}, {{"edge": [1, 2], "center": {1}}},
                        {{"edge": [2, 3], "center": {1}}}, {{"edge": [3, 4], "center": {1}}}],
                        "edges": {{"symmetry": [[0, 5], [5, 10], [4, 9], [9, 13]], "top": [[12, 8], [8, 7], [7, 6], [6, 11]]}})",
-                  first, others),
-      R"(, "holes": [{"id": "pin", "center": [0, 0], "radius": 10, "spring": {"disk": {"E": 244, "nu": 0.41}}}],
+                                first, others),
+                    R"(, "space": "trunk",
+                       "holes": [{"id": "pin", "center": [0, 0], "radius": 10, "spring": {"disk": {"E": 244, "nu": 0.41}}}],
                        "supports": [{"on": "symmetry", "fix": ["y"]}],
                        "external": [{"id": "T", "on": "top", "direction": "y", "kind": "traction"}])");
 }

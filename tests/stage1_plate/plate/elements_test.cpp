@@ -38,7 +38,7 @@ TEST(Elements, WhatIsCondensedIsTheirOwn) {
       EXPECT_TRUE(pfem::is_free(unknowns.dofs(1, function)));
     }
   }
-  EXPECT_EQ(n_condensed, 6 * (16 * 15 + 8 * 7)) << "interior modes and those of rims";
+  EXPECT_EQ(n_condensed, 6 * (16 * 49 + 8 * 7)) << "interior modes and those of rims";
 }
 
 /// Two holes side by side; what differs between them makes other classes, thickness does not.

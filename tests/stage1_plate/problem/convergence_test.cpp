@@ -94,7 +94,7 @@ TEST(Convergence, TheProductSpaceReachesEveryDigitOfTheReference) {
 /// The trunk space is part of the product space, and both are the same at p = 1.
 TEST(Convergence, TheProductSpaceIsNeverWorse) {
   const auto product = test::solve(test::make_plate(test::panel(1, 1, 0, test::in_space(Space::product))));
-  const auto trunk = test::solve(test::make_plate(test::panel(1, 1)));
+  const auto trunk = test::solve(test::make_plate(test::panel(1, 1, 0, test::in_space(Space::trunk))));
   for (std::size_t level = 0; level < 8; ++level) {
     const Eigen::Matrix2d of_product = product.cases[level].S - panel_S;
     const Eigen::Matrix2d of_trunk = trunk.cases[level].S - panel_S;

@@ -16,7 +16,7 @@ TEST(Unknowns, SupportsAndExternalsTakeAwayTheirs) {
     return test::make_plate(test::grid_scene({0, 1}, {0, 1}, {}, extra)).problem.unknowns;
   };
   const auto free = count("");  // one element
-  for (int p = 1; p <= 8; ++p) EXPECT_EQ(free.n_free[p], 2 * (4 * p + (p < 4 ? 0 : (p - 2) * (p - 3) / 2)));
+  for (int p = 1; p <= 8; ++p) EXPECT_EQ(free.n_free[p], 2 * (p + 1) * (p + 1));
   const auto held = count(R"(, "supports": [{"on": "left", "fix": ["x", "y"]}])");
   EXPECT_EQ(held.n_free[8], free.n_free[8] - 2 * (2 + 7));
   const auto rigid = count(R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])");

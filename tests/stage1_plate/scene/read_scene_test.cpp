@@ -49,9 +49,9 @@ TEST(ReadScene, TakesEveryKey) {
   EXPECT_EQ(std::pair(scene.p_low, scene.p_high), std::pair(2, 6));
 }
 
-TEST(ReadScene, TakesThePapersSpaceUnlessTold) {
+TEST(ReadScene, TakesTheProductSpaceUnlessTold) {
   const auto space = [](const std::string& text) { return read_scene(input::parse("plate.json", text)).space; };
-  EXPECT_EQ(space(replaced("\"space\": \"product\", ", "")), pfem::Space::trunk);
+  EXPECT_EQ(space(replaced("\"space\": \"product\", ", "")), pfem::Space::product);
   EXPECT_EQ(space(replaced("product", "trunk")), pfem::Space::trunk);
 }
 

@@ -15,7 +15,7 @@ using Eigen::Index;
 /// A strip one hole wide: no force leaves over its free edges.
 std::string strip(const std::string& more = "") {
   return test::grid_scene({0, 1, 2, 3.5}, {0, 0.8}, {{"a", 0.5, 0.4, 0.1, 1}, {"b", 1.5, 0.4, 0.12, 1}},
-                          fmt::format(R"(, "supports": [{{"on": "bottom", "fix": ["y"]}}],
+                          fmt::format(R"(, "space": "trunk", "supports": [{{"on": "bottom", "fix": ["y"]}}],
     "external": [{{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}}]{})",
                                       more));
 }

@@ -125,7 +125,8 @@ void expect_same(const JointModel& grounded, const JointModel& walled, const std
   EXPECT_LT((at.transferred_first - there.transferred_first).norm(), 1e-12 * b.F.norm()) << what;
   EXPECT_LT((at.transferred_second - there.transferred_second).norm(), 1e-12 * b.F.norm()) << what;
   EXPECT_LT((shares(grounded, at.transferred_first) - shares(walled, there.transferred_first)).norm(), 1e-8) << what;
-  EXPECT_LT(std::max(at.out_of_balance, there.out_of_balance), 1e-12) << what;
+  constexpr double rounding = 1e-11;  // the wall's stiffness times its displacements, by any kernel of the BLAS
+  EXPECT_LT(std::max(at.out_of_balance, there.out_of_balance), rounding) << what;
   EXPECT_LT(there.fasteners_out_of_balance, 1e-12) << what << ": what the ground gets balances its fasteners";
 }
 
