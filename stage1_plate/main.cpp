@@ -8,6 +8,7 @@
 
 #include "common/linalg/processor.hpp"
 #include "common/program/program.hpp"
+#include "common/program/warning.hpp"
 #include "stage1_plate/run/accuracy.hpp"
 #include "stage1_plate/run/solve.hpp"
 
@@ -48,8 +49,8 @@ struct WorstOfKind {
 /// thickness or a disc's modulus far from the sheet's other numbers, half holes off lines of symmetry.
 void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
   constexpr double foil = 1e-4, apart = 300;  // GPa beside MPa are 1000
-  const auto say = [&](const std::string& doubt) {
-    std::cerr << fmt::format("{}: warning: {}: {}\n", command.name, scene.file, program::one_line(doubt));
+  const auto say = [&](const char* code, const std::string& doubt) {
+    program::warn(std::cerr, command.name, {code, scene.file + ": " + doubt});
   };
   const pfem::Mesh& mesh = plate.solution.mesh;
   const double width = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).minCoeff();
@@ -75,10 +76,12 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
       stiff.add(ratio(E), fmt::format("/holes/{}/spring/disk/E: {:g} is {:.3g} times the modulus {:g} of the sheet", i,
                                       disc, disc / E, E));
   }
-  for (const auto& line : plate.missing_symmetry) say(line);
-  if (has_links) say("points and links concentrate their load at nodes: the results depend on the mesh");
-  if (thin.count > 0) say(fmt::format("/geometry: {}: one of them may be in another unit of length", thin.worst()));
-  if (stiff.count > 0) say(stiff.worst() + ": one of them may be in another unit of stress");
+  for (const auto& line : plate.missing_symmetry) say("symmetry-missing", line);
+  if (has_links)
+    say("springs-at-nodes", "points and links concentrate their load at nodes: the results depend on the mesh");
+  if (thin.count > 0)
+    say("thickness-unlikely", fmt::format("/geometry: {}: one of them may be in another unit of length", thin.worst()));
+  if (stiff.count > 0) say("disc-modulus-unlikely", stiff.worst() + ": one of them may be in another unit of stress");
 }
 
 /// The model that reaches the accuracy asked for, if one is.
@@ -90,12 +93,15 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
   const std::string option = arguments.text("--p");
   const std::string bound = option.empty() ? "\"p\" of the scene" : "--p " + option;
   if (!chosen.is_reached())
-    std::cerr << fmt::format(
-        "{}: warning: {}: {}; {}\n", command.name, scene.file, stage1::to_text(chosen),
-        scene.p_high < pfem::highest_p
-            ? fmt::format("that is the best that {} allows: degrees up to {} come closer", bound, pfem::highest_p)
-            : "that is the best with these cells: finer ones, above all at ends of clamped edges "
-              "and of steps in thickness, come closer");
+    program::warn(
+        std::cerr, command.name,
+        {"accuracy-not-reached",
+         fmt::format(
+             "{}: {}; {}", scene.file, stage1::to_text(chosen),
+             scene.p_high < pfem::highest_p
+                 ? fmt::format("that is the best that {} allows: degrees up to {} come closer", bound, pfem::highest_p)
+                 : "that is the best with these cells: finer ones, above all at ends of clamped edges "
+                   "and of steps in thickness, come closer")});
   return chosen;
 }
 

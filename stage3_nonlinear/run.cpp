@@ -12,6 +12,7 @@
 #include "common/h5/whole_file.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
+#include "common/program/warning.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
@@ -41,8 +42,8 @@ void check_results_spare(const program::Arguments& arguments, const std::string&
   for (const auto& [name, law] : scene.laws) check(law.law->file());
 }
 
-void warn(std::ostream& log, const std::vector<std::string>& sentences) {
-  for (const auto& sentence : sentences) log << program_name << ": warning: " << program::one_line(sentence) << "\n";
+void warn(std::ostream& log, const std::vector<program::Warning>& warnings) {
+  for (const auto& each : warnings) program::warn(log, program_name, each);
 }
 
 /// Bytes of the program and of the plates' matrices.

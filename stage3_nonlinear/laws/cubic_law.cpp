@@ -118,13 +118,13 @@ class CubicLaw final : public Law {
     return result;
   }
 
-  [[nodiscard]] std::vector<std::string> doubts() const override {
+  [[nodiscard]] std::vector<program::Warning> doubts() const override {
     const double worst = cubic_.least(1);
     if (cubic_.slope(worst) > 0) return {};
-    return {
-        fmt::format("the cubic does not rise everywhere up to its last delta {}: its slope at delta = {:.4g} is "
-                    "{:.4g}; the joint may have more than one solution",
-                    last_, worst * last_, cubic_.slope(worst) / last_)};
+    return {{"cubic-falls",
+             fmt::format("the cubic does not rise everywhere up to its last delta {}: its slope at delta = {:.4g} is "
+                         "{:.4g}; the joint may have more than one solution",
+                         last_, worst * last_, cubic_.slope(worst) / last_)}};
   }
 
  private:

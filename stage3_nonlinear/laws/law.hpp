@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/input/value.hpp"
+#include "common/program/warning.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -80,8 +81,8 @@ class Law {
   [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
   /// Path of the file that holds the law's points, if it has one of its own.
   [[nodiscard]] virtual std::string file() const { return {}; }
-  /// Sentences that the user should know of the parameters.
-  [[nodiscard]] virtual std::vector<std::string> doubts() const { return {}; }
+  /// Warnings about the parameters, without file and place.
+  [[nodiscard]] virtual std::vector<program::Warning> doubts() const { return {}; }
 };
 
 using LawPointer = std::shared_ptr<const Law>;

@@ -50,10 +50,10 @@ class PowerLaw final : public Law {
     return {slope(1), slope(-x / (n_ * A_)), slope(-x_log / (n_ * n_)), slope(1)};
   }
 
-  [[nodiscard]] std::vector<std::string> doubts() const override {
+  [[nodiscard]] std::vector<program::Warning> doubts() const override {
     constexpr double practical = 0.4;  // below (7) in the paper
     if (n_ >= practical) return {};
-    return {fmt::format("n = {} is below the practical range {} to 1", n_, practical)};
+    return {{"exponent-low", fmt::format("n = {} is below the practical range {} to 1", n_, practical)}};
   }
 
  private:

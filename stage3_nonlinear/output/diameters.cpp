@@ -24,7 +24,7 @@ double diameter_in_sheet(const JointModel& joint, const HoleModel& hole) {
 
 }  // namespace
 
-std::vector<std::string> unlike_diameters(const JointScene& scene, const JointModel& joint) {
+std::vector<program::Warning> unlike_diameters(const JointScene& scene, const JointModel& joint) {
   std::vector<Doubt> given, of_sheets;
   for (Index i = 0; i < std::ssize(scene.fasteners); ++i) {
     const FastenerScene& fastener = scene.fasteners[i];
@@ -53,8 +53,9 @@ std::vector<std::string> unlike_diameters(const JointScene& scene, const JointMo
                                          "length",
                                          fastener.where, joint.name(first), joint.name(second), one, other));
   }
-  std::vector<std::string> result;
-  for (const auto* kind : {&given, &of_sheets}) add_worst(result, *kind);
+  std::vector<program::Warning> result;
+  add_worst(result, "hole-diameter-unlike", given);
+  add_worst(result, "sheet-diameters-unlike", of_sheets);
   return result;
 }
 

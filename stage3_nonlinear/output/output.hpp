@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/formats/joint_result.hpp"
+#include "common/program/warning.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 
 namespace fastjoint::stage3 {
@@ -32,33 +33,34 @@ namespace fastjoint::stage3 {
 
 /// Warnings that the solution gives cause for, one sentence each: bearing of sheets counted twice, laws used
 /// beyond their last point, a mechanism within the gaps, other solutions, self-locking.
-[[nodiscard]] std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations,
-                                                const LoadPath& path);
+[[nodiscard]] std::vector<program::Warning> warnings(const JointModel& joint, const JointEquations& equations,
+                                                     const LoadPath& path);
 
 /// Numbers that hardly any joint has, one sentence each: friction above 1, a gap or |delta| above a radius, centres of
 /// a fastener's holes apart (of three and more fasteners between two plates: from the median, since plates may be drawn
 /// in coordinates of their own), diameters that contradict each other, a formula for other sheets or another number of
 /// them, F above d t E. Numbers that MATRICES.h5 does not tell of a
 /// hole are not compared.
-[[nodiscard]] std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint,
-                                                           const LoadPath& path);
+[[nodiscard]] std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
+                                                                const LoadPath& path);
 
 /// Diameters that contradict those of the sheets' holes or each other by more than 5 %, whatever the law:
 /// hole_diameter, and those of the two holes of a shear plane, less the gaps in them.
-[[nodiscard]] std::vector<std::string> unlike_diameters(const JointScene& scene, const JointModel& joint);
+[[nodiscard]] std::vector<program::Warning> unlike_diameters(const JointScene& scene, const JointModel& joint);
 
 /// One sentence for each kind of doubt about rims, naming the hole and the increment where it is largest.
-[[nodiscard]] std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states);
+[[nodiscard]] std::vector<program::Warning> rim_warnings(const JointModel& joint,
+                                                         const std::vector<JointState>& states);
 
 /// Message that says why a path with a failure ended, where, and what to check.
 /// @param output File that holds the increments before.
 [[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
                                           const std::string& output);
 
-/// A warning and the size of its doubt, > 0.
+/// The sentence of a warning and the size of its doubt, > 0.
 using Doubt = std::pair<double, std::string>;
 
 /// Appends the worst warning of one kind about several fasteners or holes, with the number of the others.
-void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind);
+void add_worst(std::vector<program::Warning>& warnings, const char* code, const std::vector<Doubt>& kind);
 
 }  // namespace fastjoint::stage3

@@ -119,6 +119,7 @@ using stresses::RimState;
 
 /// A doubt about rims: how much of it a rim gives cause for, 0 or NaN if none, and what to say where that is most.
 struct RimDoubt {
+  const char* code;
   double (*amount)(const RimState&, bool loose);
   const char* text;  ///< {at} the hole with the increment and the number of others, other fields as arguments name them
 };
@@ -126,34 +127,38 @@ struct RimDoubt {
 constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
 
 constexpr std::array<RimDoubt, 6> doubts = {{
-    {[](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
+    {"springs-wrong-arc", [](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
      "the springs of {at} pull the sheet instead of pushing it: they act on the arc that does not bear under these "
      "loads; give the hole's spring the other \"arc\" in PLATE.json"},
-    {[](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
+    {"springs-pull",
+     [](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
      "the springs all around {at} pull on its rim by up to {pull:.4g} {unit}, beside a bearing stress of {stress:.4g}: "
      "a fastener only pushes, and hoop peaks come out too low; give the hole's spring \"compression_only\": true in "
      "PLATE.json"},
-    {[](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
+    {"hole-filled",
+     [](const RimState& rim, bool loose) { return loose && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0; },
      "a fastener with a clearance fills {at}, whose springs act all around: the sheet comes out too stiff and its hoop "
      "peak, {peak:.4g} {unit}, too low; give the hole's spring \"compression_only\": true in PLATE.json, and the "
      "fastener a \"gap\" instead of \"clearance\""},
-    {[](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
+    {"kt-below-one", [](const RimState& rim, bool) { return rim.in_tension ? 1 - rim.net_concentration : 0; },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
      "springs pull on its rim; give the hole's spring \"compression_only\": true in PLATE.json"},
-    {[](const RimState& rim, bool) { return rim.across_share > allowed_across ? std::abs(rim.across) : 0; },
+    {"disc-held-across",
+     [](const RimState& rim, bool) { return rim.across_share > allowed_across ? std::abs(rim.across) : 0; },
      "the disc of {at} is held across its one direction by {across:.4g} {force}, beside a bearing force of "
      "{bearing:.4g}, and nothing in the joint gives that; let the discs move: \"disc_directions\": [\"x\", \"y\"] in "
      "all PLATE.json"},
-    {[](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
+    {"friction-off-axes", [](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
      "friction acts off the axes, by its components along x and y, at {at}: the loads hold, but peak hoop stresses "
      "there may lack what friction adds to them, most of it at 45 degrees"},
 }};
 
 }  // namespace
 
-std::vector<std::string> implausible_numbers(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
+std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
+                                                  const LoadPath& path) {
   std::vector<Doubt> friction, gaps, distances, movements;
-  std::vector<std::string> formulas;
+  std::vector<program::Warning> formulas;
   for (const auto& fastener : scene.fasteners)
     if (const double mu = *std::max_element(fastener.friction.begin(), fastener.friction.end()); mu > 1)
       friction.emplace_back(
@@ -195,12 +200,12 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
     const std::string other = formula ? unlike(*formula, known, plane.clearance) : "";
     const std::string shear = formula ? unlike_shear(*formula, known.n_sheets) : "";
     if (!shear.empty() && sheared.insert(plane.law_name).second)
-      formulas.push_back(
-          fmt::format("{}: /laws/{}/shear: {} ({})", joint.file, plane.law_name, shear, joint.name(plane)));
+      formulas.push_back({"formula-shear-unlike", fmt::format("{}: /laws/{}/shear: {} ({})", joint.file, plane.law_name,
+                                                              shear, joint.name(plane))});
     if (!other.empty() && compared.insert(plane.law_name).second)
-      formulas.push_back(fmt::format(
-          "{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another fastener, or in other units",
-          joint.file, plane.law_name, other, joint.name(plane)));
+      formulas.push_back({"formula-sheets-unlike", fmt::format("{}: /laws/{}: the formula has {} of the sheets at {}: "
+                                                               "it may be for another fastener, or in other units",
+                                                               joint.file, plane.law_name, other, joint.name(plane))});
     const double crushing = (known.d * known.t * known.E).minCoeff();  // 0: not known
     for (const auto& step : path.steps) {
       const double delta = std::abs(amounts(step.delta, joint.n_directions())[known.at]);
@@ -217,21 +222,23 @@ std::vector<std::string> implausible_numbers(const JointScene& scene, const Join
       break;
     }
   }
-  std::vector<std::string> result;
-  for (const auto* kind : {&friction, &gaps, &distances}) add_worst(result, *kind);
+  std::vector<program::Warning> result;
+  add_worst(result, "friction-unlikely", friction);
+  add_worst(result, "gap-unlikely", gaps);
+  add_worst(result, "holes-apart", distances);
   const auto diameters = unlike_diameters(scene, joint);
   result.insert(result.end(), diameters.begin(), diameters.end());
   result.insert(result.end(), formulas.begin(), formulas.end());
-  add_worst(result, movements);
+  add_worst(result, "units-mixed", movements);
   return result;
 }
 
-std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
+std::vector<program::Warning> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
   std::set<std::string> loose;
   for (const auto& plane : joint.planes)
     for (const HoleModel& hole : joint.holes(plane))
       if (plane.clearance > 0) loose.insert(joint.name(hole));
-  std::vector<std::string> result;
+  std::vector<program::Warning> result;
   for (const auto& doubt : doubts) {
     double most = 0;
     std::string at;
@@ -253,12 +260,13 @@ std::vector<std::string> rim_warnings(const JointModel& joint, const std::vector
     const Index others = holes.size() - 1;
     at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
     using fmt::arg;
-    result.push_back(fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file),
-                                 arg("at", at), arg("pull", worst->pull), arg("stress", worst->bearing_stress),
-                                 arg("peak", worst->peak_hoop), arg("net", worst->net_concentration),
-                                 arg("across", std::abs(worst->across)),
-                                 arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
-                                 arg("force", unit(joint.units, 0, 1)), arg("unit", unit(joint.units, -2, 1))));
+    result.push_back(
+        {doubt.code,
+         fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file), arg("at", at),
+                     arg("pull", worst->pull), arg("stress", worst->bearing_stress), arg("peak", worst->peak_hoop),
+                     arg("net", worst->net_concentration), arg("across", std::abs(worst->across)),
+                     arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
+                     arg("force", unit(joint.units, 0, 1)), arg("unit", unit(joint.units, -2, 1)))});
   }
   return result;
 }

@@ -28,7 +28,7 @@ const PathStep* first_step(const LoadPath& path, Is is) {
 }
 
 /// Warns of each plane at the first increment at which it happens.
-void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
+void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<program::Warning>& result) {
   std::vector<Doubt> beyond;
   for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     const ShearPlane& plane = joint.planes[j];
@@ -43,7 +43,7 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
                                       "included), which is extrapolated there",
                                       joint.name(plane), delta(*step), increment_text(path, *step), last));
   }
-  add_worst(result, beyond);
+  add_worst(result, "beyond-last-point", beyond);
 }
 
 std::string names(const JointModel& joint, const std::vector<Index>& planes) {
@@ -68,20 +68,21 @@ std::string motion_text(const JointModel& joint, const VectorXd& motion) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void warn_of_soft_plates(const JointModel& joint, std::vector<std::string>& result) {
+void warn_of_soft_plates(const JointModel& joint, std::vector<program::Warning>& result) {
   constexpr double soft = 1e-8;
   const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
   const PlateModel& stiffest = *std::ranges::max_element(joint.plates, {}, stiffness);
   for (const auto& plate : joint.plates)
     if (const double share = stiffness(plate) / stiffness(stiffest); share > 0 && share < soft)
       result.push_back(
-          fmt::format("plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the same units, and "
-                      "that its moduli and thickness are meant",
-                      plate.name, share, stiffest.name));
+          {"plate-soft",
+           fmt::format("plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the same units, and "
+                       "that its moduli and thickness are meant",
+                       plate.name, share, stiffest.name)});
 }
 
 /// Warns once for each law.
-void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& result) {
+void warn_of_bearing_twice(const JointModel& joint, std::vector<program::Warning>& result) {
   std::set<std::string> said;
   for (const auto& plane : joint.planes) {
     const auto source = plane.law->source();
@@ -89,32 +90,33 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<std::string>& re
     for (const HoleModel& hole : joint.holes(plane))
       if (joint.plates[hole.plate].on_springs[hole.disc / joint.n_directions()] && said.insert(plane.law_name).second)
         result.push_back(
-            fmt::format("/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole "
-                        "\"{}\" have already: the joint comes out too soft; take \"fastener only\"",
-                        plane.law_name, joint.name(hole)));
+            {"bearing-twice",
+             fmt::format("/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole "
+                         "\"{}\" have already: the joint comes out too soft; take \"fastener only\"",
+                         plane.law_name, joint.name(hole))});
   }
 }
 
-void warn_of_mechanisms(const JointModel& joint, const LoadPath& path, std::vector<std::string>& result) {
-  const auto say = [&](bool limit, const char* text, std::vector<Index> Mechanism::*planes) {
+void warn_of_mechanisms(const JointModel& joint, const LoadPath& path, std::vector<program::Warning>& result) {
+  const auto say = [&](bool limit, const char* code, const char* text, std::vector<Index> Mechanism::*planes) {
     const auto is = [&](const PathStep& step) { return step.check.mechanism && step.check.at_limit_load() == limit; };
     if (const PathStep* step = first_step(path, is))
-      result.push_back(fmt::format(fmt::runtime(text), increment_text(path, *step),
-                                   names(joint, *step->check.mechanism.*planes),
-                                   motion_text(joint, step->check.mechanism->motion)));
+      result.push_back({code, fmt::format(fmt::runtime(text), increment_text(path, *step),
+                                          names(joint, *step->check.mechanism.*planes),
+                                          motion_text(joint, step->check.mechanism->motion))});
   };
-  say(false,
+  say(false, "free-within-gaps",
       "at {} the joint is a mechanism within the gaps of {}: the forces are right, the displacements are one of many; "
       "in proportion, it is free to move {}",
       &Mechanism::open);
-  say(true,
+  say(true, "limit-load",
       "limit load reached at {}: the laws of {} allow no more force, and nothing else holds the joint; it moves on "
       "without more load, in proportion {}",
       &Mechanism::level);
 }
 
 void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                             std::vector<std::string>& result) {
+                             std::vector<program::Warning>& result) {
   if (const auto planes = planes_that_may_snap(equations); !planes.empty() && !path.steps.empty()) {
     const char* found =
         !path.left ? "the one given is followed from no load"
@@ -123,17 +125,21 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
               "its limit load, and the one given was found from a first guess (\"initial\")"
             : "it is followed from no load up to load factor {:.6g}, where it jumps: the one given from there on is "
               "another";
-    result.push_back(fmt::format(
-        "the law of {} falls more steeply than the plates hold against: the solution may be one of several; {}",
-        names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0)));
+    result.push_back(
+        {"several-solutions",
+         fmt::format(
+             "the law of {} falls more steeply than the plates hold against: the solution may be one of several; {}",
+             names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0))});
   }
   const auto snaps = [](const PathStep& step) { return step.check.unstable > 0 && !step.check.locking; };
   if (const PathStep* step = first_step(path, snaps))
     result.push_back(
-        fmt::format("at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality "
-                    "it snaps through before; take a law that does not fall, or hold the joint by displacements",
-                    increment_text(path, *step),
-                    step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable)));
+        {"unstable-balance",
+         fmt::format(
+             "at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality "
+             "it snaps through before; take a law that does not fall, or hold the joint by displacements",
+             increment_text(path, *step),
+             step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable))});
 }
 
 /// @param factor At most 1.
@@ -144,14 +150,15 @@ std::string locking_text(double factor) {
       factor);
 }
 
-void warn_of_locking(const LoadPath& path, std::vector<std::string>& result) {
+void warn_of_locking(const LoadPath& path, std::vector<program::Warning>& result) {
   if (const PathStep* step = first_step(path, [](const PathStep& each) { return each.check.locking.has_value(); }))
-    result.push_back(fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking)));
+    result.push_back(
+        {"self-locking", fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking))});
 }
 
 /// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                       std::vector<std::string>& result) {
+                       std::vector<program::Warning>& result) {
   constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
   const ContactCorners corners(equations);
   MatrixXd most = MatrixXd::Zero(equations.n_directions(), equations.n_planes());
@@ -170,16 +177,17 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
     }
     if (unloaded.empty()) continue;
     result.push_back(
-        fmt::format("{} unloads {} along its loading curve: laws have no memory, but real fasteners keep a permanent "
-                    "set, so that forces from this increment on differ from theirs",
-                    increment_text(path, step), names(joint, unloaded)));
+        {"permanent-set",
+         fmt::format("{} unloads {} along its loading curve: laws have no memory, but real fasteners keep a permanent "
+                     "set, so that forces from this increment on differ from theirs",
+                     increment_text(path, step), names(joint, unloaded))});
     return;
   }
 }
 
 /// Names the rims of contact that interference holds, at the first increment of each.
 void warn_of_sticking(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                      std::vector<std::string>& result) {
+                      std::vector<program::Warning>& result) {
   std::vector<Doubt> sticking;
   Index rim = 0, moment = 0;
   for (const auto& plate : joint.plates)
@@ -196,13 +204,13 @@ void warn_of_sticking(const JointModel& joint, const JointEquations& equations, 
                                           increment_text(path, *step), plate.name, contact.hole, its.mu()));
       moment += its.size();
     }
-  add_worst(result, sticking);
+  add_worst(result, "rim-sticks", sticking);
 }
 
 }  // namespace
 
-std::vector<std::string> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
-  std::vector<std::string> result;
+std::vector<program::Warning> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
+  std::vector<program::Warning> result;
   warn_of_soft_plates(joint, result);
   warn_of_bearing_twice(joint, result);
   warn_beyond_last_point(joint, path, result);
@@ -211,15 +219,16 @@ std::vector<std::string> warnings(const JointModel& joint, const JointEquations&
   warn_of_locking(path, result);
   warn_of_unloading(joint, equations, path, result);
   warn_of_sticking(joint, equations, path, result);
-  for (auto& each : result) each.insert(0, joint.file + ": ");
+  for (auto& each : result) each.text.insert(0, joint.file + ": ");
   return result;
 }
 
-void add_worst(std::vector<std::string>& warnings, const std::vector<Doubt>& kind) {
+void add_worst(std::vector<program::Warning>& warnings, const char* code, const std::vector<Doubt>& kind) {
   if (kind.empty()) return;
   const std::string& worst = std::ranges::max_element(kind, {}, &Doubt::first)->second;
-  warnings.push_back(
-      kind.size() == 1 ? worst : fmt::format("{} ({} more likewise, this is the worst)", worst, kind.size() - 1));
+  warnings.push_back({code, kind.size() == 1
+                                ? worst
+                                : fmt::format("{} ({} more likewise, this is the worst)", worst, kind.size() - 1)});
 }
 
 std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,

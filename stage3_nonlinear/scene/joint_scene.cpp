@@ -66,13 +66,13 @@ std::map<std::string, LawScene> read_laws(const Value& laws) {
 }
 
 /// Doubts about the laws that fasteners have.
-std::vector<std::string> law_doubts(const Value& laws, const JointScene& scene) {
+std::vector<program::Warning> law_doubts(const Value& laws, const JointScene& scene) {
   std::set<std::string> used;
   for (const auto& fastener : scene.fasteners) used.insert(fastener.law.begin(), fastener.law.end());
-  std::vector<std::string> doubts;
+  std::vector<program::Warning> doubts;
   for (const auto& name : used)
     for (const auto& doubt : scene.laws.at(name).law->doubts())
-      doubts.push_back(fmt::format("{}: {}", where(laws.at(name.c_str())), doubt));
+      doubts.push_back({doubt.code, fmt::format("{}: {}", where(laws.at(name.c_str())), doubt.text)});
   return doubts;
 }
 

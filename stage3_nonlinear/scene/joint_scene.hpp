@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/input/value.hpp"
+#include "common/program/warning.hpp"
 #include "common/units.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 
@@ -106,7 +107,7 @@ struct JointScene {
   std::vector<double> load_factors{1};  ///< one per increment; none: increments at every event (follow_events)
   InitialScene initial;
   SolverScene solver;
-  std::vector<std::string> warnings;  ///< one sentence each, with file and pointer
+  std::vector<program::Warning> warnings;
 };
 
 /// Reads types and ranges strictly and checks what one file alone can tell: plates that are named exist and are held,

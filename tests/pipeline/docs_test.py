@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/ and code agree: docs_test.py. Sections that comments cite, files and names that documents mention are there."""
+"""docs/ and code agree: docs_test.py. Sections that comments cite, files and names that documents mention are there,
+codes of warnings are in their table."""
 import re
 from pathlib import Path
 
@@ -50,12 +51,22 @@ def check_links(document):
         assert path or anchor in anchors, f"{document.name}: no heading {anchor}"
 
 
+def check_warnings(results):
+    """The table of docs/results.md has the codes that files with warnings hold, each once, and in order."""
+    sources = [text for path in CODE if path.parts[len(ROOT.parts)].startswith("stage") and path.suffix == ".cpp"
+               for text in [path.read_text()] if re.search(r"program::(Warning|warn)\b", text)]
+    codes = {code for text in sources for code in re.findall(r'"([a-z]+(?:-[a-z]+)+)"', text)}
+    rows = re.findall(r"^\| `([a-z-]+)` \| [^|]+ \| [^|]+ \|$", results.split("\n## Warnings\n")[1].split("\n## ")[0], re.M)
+    assert len(rows) > 25 and rows == sorted(codes), set(rows) ^ codes
+
+
 def main():
     documents = [ROOT / "docs" / name for name in ("theory.md", "glossary.md")]
     theory, glossary = (document.read_text() for document in documents)
     check_sections(theory)
     check_files((theory, glossary))
     check_glossary(glossary)
+    check_warnings((ROOT / "docs/results.md").read_text())
     for document in documents:
         check_links(document)
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers that no joint has are warned of, those of the examples are not: plausible_test.py BIN_FOLDER.
 
-Each kind of warning is shown by the lap joint with one number spoiled, so that its words are those looked for.
+Each kind of warning is shown by the lap joint with one number spoiled, so that its code and what it names are those looked for.
 """
 import json
 import os
@@ -87,25 +87,25 @@ def gigapascals(sheets, joint):
             hole["spring"]["disk"]["E"] = 71
 
 
-KINDS = {
-    "may be another fastener's hole": swap,
-    "/clearance: the gap": lambda sheets, joint: joint["fasteners"][1].update(clearance=20),
-    "/friction: 15 is above 1": lambda sheets, joint: joint["fasteners"][0].update(friction=15),
-    "the formula has t = 0.16, 0.16 instead of 1.6": formula,
-    '/laws/rivet/shear: "double", but the fastener goes through 2 sheets': double_shear,
-    "/fasteners/0/hole_diameter: 5.4 for hole": wide_holes,
-    "is above the radius 2.4 of the hole": lambda sheets, joint: joint["loads"][0].update(force=4e8),
-    "is above the width 40 of the sheet": lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1600),
-    "of the radius 2.4 of hole": lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1.6e-6),
-    "is above d t E = ": gigapascals,
-    "/holes/0/spring/disk/E: 71000 is 981 times the modulus 72.4 of the sheet (3 more likewise, this is the worst): one of them may": disk,
+KINDS = {  # code and place or number: how it comes about
+    ("holes-apart", "/fasteners/0/between: "): swap,
+    ("gap-unlikely", "/fasteners/1/clearance: the gap"): lambda sheets, joint: joint["fasteners"][1].update(clearance=20),
+    ("friction-unlikely", "/fasteners/0/friction: 15 "): lambda sheets, joint: joint["fasteners"][0].update(friction=15),
+    ("formula-sheets-unlike", "t = 0.16, 0.16 instead of 1.6"): formula,
+    ("formula-shear-unlike", '/laws/rivet/shear: "double", but the fastener goes through 2 sheets'): double_shear,
+    ("hole-diameter-unlike", "/fasteners/0/hole_diameter: 5.4 "): wide_holes,
+    ("units-mixed", "is above the radius 2.4 "): lambda sheets, joint: joint["loads"][0].update(force=4e8),
+    ("thickness-unlikely", "is above the width 40 "): lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1600),
+    ("thickness-unlikely", "of the radius 2.4 "): lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1.6e-6),
+    ("units-mixed", "is above d t E = "): gigapascals,
+    ("disc-modulus-unlikely", "/holes/0/spring/disk/E: 71000 is 981 times the modulus 72.4 of the sheet (3 more likewise"): disk,
 }
 
 
 def check_kinds():
-    for words, change in KINDS.items():
+    for (code, words), change in KINDS.items():
         said = spoiled(change)
-        assert words in said and "warning: " in said, (words, said)
+        assert any(f"warning [{code}]: " in line and words in line for line in said.splitlines()), (code, words, said)
 
 
 def check_clearance_in_contact():
@@ -128,7 +128,7 @@ def check_examples():
     for folder, sheets, joints in examples():
         with tempfile.TemporaryDirectory() as name:
             said = solved(Path(name), sheets, joints, 2)
-        for words in ["may be", *KINDS]:
+        for words in ["may be", *(f"[{code}]" for code, _ in KINDS)]:
             assert words not in said, (folder, said)
         n_sheets, n_joints = n_sheets + len(sheets), n_joints + len(joints)
     assert n_sheets >= 8 and n_joints >= 3, (n_sheets, n_joints)

@@ -80,8 +80,8 @@ def check_choices(page):
         told = run.stdout.splitlines()[-1]
         assert f"> {told}\n" in page, f"README.md says otherwise than:\n{told}"
         assert ("warning" in run.stderr) == (choice != "frictionless"), run.stderr
-    for choice, words, unit in (("held", r"held across its one direction by ([\d.]+) N", "N"),
-                                ("filled", r"pull on its rim by up to ([\d.]+) N/mm\^2", "N/mm²")):
+    for choice, words, unit in (("held", r"\[disc-held-across\]: .* by ([\d.]+) N,", "N"),
+                                ("filled", r"\[springs-pull\]: .* by up to ([\d.]+) N/mm\^2", "N/mm²")):
         run = done("make", "-s", "-B", "-C", f"out/{choice}", "-f", "../../Makefile", "joint.h5")
         told = f"{float(re.search(words, run.stderr)[1]):.0f} {unit}"
         assert told in page.replace("\n", " "), (choice, told, run.stderr)

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
+
 #include "tests/pipeline/programs.hpp"
 
 namespace fastjoint {
@@ -64,16 +66,14 @@ TEST(UsageOfOptions, SpringsAtNodesAreWarnedOf) {
       "supports": [{{"on": "left", "fix": ["x", "y"]}}]}})",
                        spring, points);
   };
-  const std::string sentence =
-      "stage1_plate: warning: plate.json: points and links concentrate their load at nodes: "
-      "the results depend on the mesh\n";
   const std::string point = R"({"id": "p", "at": [1, 1], "stiffness": 1})";
   for (const auto& json :
        {scene(R"({"links": 1})", point), scene(R"({"links": 1})", ""), scene(R"({"modulus": 1})", point)}) {
     folder.write("plate.json", json);
     const auto run = test::stage1(folder, "plate.json -o plate.h5 --p 2");
     EXPECT_EQ(run.status, 0);
-    EXPECT_EQ(run.err, sentence);
+    EXPECT_THAT(run.err, testing::StartsWith("stage1_plate: warning [springs-at-nodes]: plate.json: "));
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
   }
   folder.write("plate.json", scene(R"({"modulus": 1})", ""));
   EXPECT_EQ(test::stage1(folder, "plate.json -o plate.h5 --p 2").err, "");
@@ -110,15 +110,15 @@ TEST(UsageOfOptions, Accuracy) {
   const auto missed = test::stage1(folder, "center.json -o b.h5 --accuracy 1e-9 --p 1..4 --quiet");
   EXPECT_EQ(missed.status, 0);
   EXPECT_THAT(missed.err,
-              AllOf(HasSubstr("warning: center.json: accuracy 1e-09: product space, p = 4"), HasSubstr(", of R about "),
-                    HasSubstr(", not reached; that is the best that --p 1..4 allows: degrees up to 8 come closer")));
+              AllOf(HasSubstr("warning [accuracy-not-reached]: center.json: accuracy 1e-09: product space, p = 4"),
+                    HasSubstr(", of R about "), HasSubstr(" --p 1..4 "), HasSubstr(" up to 8 ")));
   EXPECT_THAT(test::stage2(folder, "b.h5 -o b.m.h5").out, HasSubstr("p = 1..4"));
   folder.write("low.json", "{\"p\": [1, 3]," + test::example("center.json").substr(1));
   EXPECT_THAT(test::stage1(folder, "low.json -o l.h5 --accuracy 1e-9").err, HasSubstr("p = 3: error of S about "));
   EXPECT_THAT(test::stage1(folder, "low.json -o l.h5 --accuracy 1e-9").err,
-              HasSubstr("that is the best that \"p\" of the scene allows: degrees up to 8 come closer"));
+              AllOf(HasSubstr(" \"p\" of the scene "), HasSubstr(" up to 8 ")));
   EXPECT_THAT(test::stage1(folder, "low.json -o l.h5 --accuracy 1e-10 --p 1..8").err,
-              AllOf(HasSubstr("p = 8: "), HasSubstr("not reached; that is the best with these cells: finer ones")));
+              AllOf(HasSubstr("[accuracy-not-reached]: "), HasSubstr("p = 8: "), HasSubstr("these cells: finer ones")));
   const auto alone = test::stage1(folder, "center.json -o c.h5 --accuracy 1e-3 --p 8");
   EXPECT_EQ(alone.status, 2);
   EXPECT_THAT(alone.err, HasSubstr("degree 8 alone does not show its error"));

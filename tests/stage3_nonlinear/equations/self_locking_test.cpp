@@ -78,7 +78,7 @@ TEST_F(Locking, IsSolvedOnBothSidesOfTheLevelAndSaidBeyondIt) {
     for (const double mu : {0.1, 0.3, 0.49, 0.499, 0.501, 0.6, 0.9, 0.99}) {
       run(mu, law);
       EXPECT_NEAR(force() * (2 + k / rigid - 2 * mu) / k, 1, 1e-8) << mu;
-      const auto said = HasSubstr("times as large the joint locks itself: friction alone carries");
+      const auto said = HasSubstr("[self-locking]: ");
       if (mu < 0.5) {
         EXPECT_THAT(log_.str(), Not(said)) << mu;
       } else {
@@ -86,9 +86,7 @@ TEST_F(Locking, IsSolvedOnBothSidesOfTheLevelAndSaidBeyondIt) {
       }
     }
   run(0.625, spring);
-  EXPECT_THAT(log_.str(), HasSubstr("joint.json: at increment 1 (load factor 1), with friction 0.8 times as large the "
-                                    "joint locks itself: friction alone carries the load there, and beyond it a "
-                                    "solution need neither exist nor be the only one"));
+  EXPECT_THAT(log_.str(), HasSubstr("joint.json: at increment 1 (load factor 1), with friction 0.8 times as large "));
 }
 
 TEST_F(Locking, BeyondTheTangentsLevelThereIsNoSolutionAndTheMessageNamesTheFriction) {

@@ -82,12 +82,12 @@ TEST_F(LimitLoad, IsNamedWithItsFastenersAndHasNoErrorBar) {
     load(60, "[0.5, 1]", method);
     log_.str("");
     run();
-    EXPECT_THAT(log_.str(),
-                HasSubstr("joint.json: limit load reached at increment 2 (load factor 1): the laws of fastener "
-                          "\"f1\", fastener \"f2\" allow no more force, and nothing else holds the joint; it "
-                          "moves on without more load, in proportion plate \"a\" by 1 along x\n"))
+    EXPECT_THAT(
+        log_.str(),
+        AllOf(HasSubstr("[limit-load]: "), HasSubstr("joint.json: limit load reached at increment 2 (load factor 1): "),
+              HasSubstr(" fastener \"f1\", fastener \"f2\" "), HasSubstr(" plate \"a\" by 1 along x\n")))
         << method;
-    EXPECT_THAT(log_.str(), Not(HasSubstr("within the gaps"))) << method;
+    EXPECT_THAT(log_.str(), Not(HasSubstr("[free-within-gaps]"))) << method;
     const auto result = this->result();
     ASSERT_TRUE(result.F_error);
     EXPECT_TRUE(result.F_error->row(0).allFinite()) << method;
@@ -145,7 +145,7 @@ TEST_F(LimitLoad, OfThreeFastenersIsNamedWhateverTheSolver) {
           {test::chain(3, 1, 1e5, {{2, 3, 1e5}}), test::chain(3, 0, 1e5, {{0, ground, 1e5}})});
     EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr("limit load reached: beyond load factor")))
         << method;
-    EXPECT_THAT(log_.str(), Not(HasSubstr("the one given"))) << "nothing is given";
+    EXPECT_THAT(log_.str(), Not(HasSubstr("[several-solutions]"))) << "nothing is given";
   }
 }
 
@@ -176,7 +176,7 @@ TEST_F(LimitLoad, IsNotWhereAFastenerSlips) {
   members["loads"] = R"([{"external": "a:P", "force": 70}])";
   write(members);
   run();
-  EXPECT_THAT(log_.str(), Not(HasSubstr("limit load")));
+  EXPECT_THAT(log_.str(), Not(HasSubstr("[limit-load]")));
 }
 
 TEST_F(LimitLoad, IsNotWhereThePlatesHoldOn) {
@@ -237,16 +237,17 @@ TEST_F(ThreeSolutions, AreNotChosenByTheFirstGuess) {
   const double first = force_from(R"("rigid")", "50");
   for (const char* initial : {R"({"linear": 0.3})", R"({"linear": 1})", R"({"linear": 3})", R"("equal")"}) {
     EXPECT_NEAR(force_from(initial), first, 1e-8) << initial;
-    EXPECT_THAT(log_.str(), HasSubstr("may be one of several; the one given is followed from no load\n")) << initial;
+    EXPECT_THAT(log_.str(), AllOf(HasSubstr("[several-solutions]: "), HasSubstr(" followed from no load\n")))
+        << initial;
   }
 }
 
 TEST_F(ThreeSolutions, AJumpToAnotherIsSaid) {
   // The law's peak and what the sheets take there end the first branch below a load of 14.
   EXPECT_GT(force_from(R"("rigid")", "[1, 2]"), 10);
-  EXPECT_THAT(log_.str(), HasSubstr("may be one of several; at load factor 2 it could not be followed from the load "
-                                    "before, where the joint may have reached its limit load, and the one given was "
-                                    "found from a first guess (\"initial\")\n"));
+  EXPECT_THAT(log_.str(),
+              AllOf(HasSubstr("[several-solutions]: "), HasSubstr("; at load factor 2 it could not be followed "),
+                    HasSubstr("(\"initial\")\n")));
 }
 
 /// Residuals are relative to the load of their own increment.
