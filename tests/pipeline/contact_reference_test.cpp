@@ -27,7 +27,7 @@ std::string strip(const std::string& contact) {
   return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "p": {},
     "materials": {{"al": {{"E": 72000, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [0, 40, 80, 100], "y": [0, 40], "thickness": 2}}}},
-    "holes": [{{"id": "1", "center": [60, 20], "radius": 5, "spring": {{"disk": {{"E": 210000, "nu": 0.3}}{}}}}}],
+    "holes": [{{"id": "1", "center": [60, 20], "radius": 5, "rings": 0, "spring": {{"disk": {{"E": 210000, "nu": 0.3}}{}}}}}],
     "disc_directions": ["x", "y"], "supports": [{{"on": "left", "fix": ["y"]}}],
     "external": [{{"id": "P", "on": "left", "direction": "x", "kind": "rigid"}}]}})",
                      p, contact);
