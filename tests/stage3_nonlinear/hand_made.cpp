@@ -156,26 +156,6 @@ void set_friction(stage3::JointModel& joint, Index fastener, double mu) {
   balance(joint.fasteners[fastener]);
 }
 
-std::shared_ptr<const stage3::Law> law_of(const std::string& text) {
-  return stage3::read_law(input::Value(input::parse("joint.json", text)));
-}
-
-std::shared_ptr<const stage3::Law> linear_law(double k) {
-  return law_of(fmt::format(R"({{"type": "linear", "k": {}}})", k));
-}
-
-std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0) {
-  return law_of(fmt::format(R"({{"type": "power", "A": {}, "n": {}, "delta0": {}}})", A, n, delta0));
-}
-
-std::shared_ptr<const stage3::Law> bilinear_law(double k, double F_yield, double k_yield) {
-  return law_of(fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})", k, F_yield, k_yield));
-}
-
-std::shared_ptr<const stage3::Law> cubic_law(const std::array<double, 3>& delta, const std::array<double, 3>& F) {
-  return law_of(fmt::format(R"({{"type": "cubic", "delta": {}, "F": {}}})", delta, F));
-}
-
 stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
   const int n = std::uniform_int_distribution<int>(1, 12)(random);
   const double k_a = decades(random, 1e3, 1e5);
@@ -230,22 +210,6 @@ void add_contact(PlateMatrices& plate, const std::string& hole, double radius) {
 MatrixXd random_stiffness(std::mt19937& random, int n) {
   const MatrixXd A = MatrixXd::NullaryExpr(n, n, [&] { return uniform(random, -1, 1); });
   return A * A.transpose() + MatrixXd::Identity(n, n);
-}
-
-std::string joint_text(const std::map<std::string, std::string>& members) {
-  std::map<std::string, std::string> all{{"format", R"("joint")"},
-                                         {"version", "1"},
-                                         {"plates", R"({"a": "a.h5", "b": "b.h5"})"},
-                                         {"laws", R"({"lin": {"type": "linear", "k": 1000}})"},
-                                         {"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"},
-                       {"id": "f2", "between": ["a:2", "b:2"], "law": "lin"}])"},
-                                         {"loads", R"([{"external": "a:P", "force": 100}])"},
-                                         {"increments", "1"}};
-  for (const auto& [key, value] : members) all[key] = value;
-  std::string text = "{";
-  for (const auto& [key, value] : all)
-    if (!value.empty()) text += (text.size() > 1 ? ",\n\"" : "\n\"") + key + "\": " + value;
-  return text + "\n}\n";
 }
 
 std::string write_joint(const TemporaryFolder& folder, const Lap& lap,

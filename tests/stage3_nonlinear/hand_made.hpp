@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
 #include <map>
 #include <random>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "tests/stage3_nonlinear/scenes.hpp"
 #include "tests/support/files.hpp"
 
 namespace fastjoint::test {
@@ -51,14 +51,6 @@ void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Eigen::
 /// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
 void set_friction(stage3::JointModel& joint, Eigen::Index fastener, double mu);
 
-/// Laws as the input gives them; `text` is their JSON.
-[[nodiscard]] std::shared_ptr<const stage3::Law> law_of(const std::string& text);
-[[nodiscard]] std::shared_ptr<const stage3::Law> linear_law(double k);
-[[nodiscard]] std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0 = 0);
-[[nodiscard]] std::shared_ptr<const stage3::Law> bilinear_law(double k, double F_yield, double k_yield);
-[[nodiscard]] std::shared_ptr<const stage3::Law> cubic_law(const std::array<double, 3>& delta,
-                                                           const std::array<double, 3>& F);
-
 /// Ranges of random joints.
 struct RandomJoint {
   double least_n = 0.4;  ///< exponents from here to 1
@@ -81,14 +73,9 @@ struct RandomJoint {
 /// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).
 [[nodiscard]] Eigen::MatrixXd random_stiffness(std::mt19937& random, int n);
 
-/// Writes a.h5 and b.h5 and a joint.json around these members of its object; returns the path of the JSON.
-/// What `members` does not give is: two plates, law "lin" (k = 1000), fasteners "f1", "f2" through holes 1
-/// and 2, force 100 on "a:P", one increment.
+/// Writes a.h5 and b.h5 and a joint.json of joint_text(members); returns the path of the JSON.
 [[nodiscard]] std::string write_joint(const TemporaryFolder& folder, const Lap& lap,
                                       const std::map<std::string, std::string>& members = {});
-
-/// The text of that JSON.
-[[nodiscard]] std::string joint_text(const std::map<std::string, std::string>& members = {});
 
 /// Two discs each: a pulled at P, b held at its left end; segments of stiffness 1000.
 [[nodiscard]] Lap two_fastener_lap();

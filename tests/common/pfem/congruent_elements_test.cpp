@@ -5,7 +5,7 @@
 
 #include "tests/support/meshes.hpp"
 
-namespace fastjoint::pfem {
+namespace fastjoint::pfem::congruent_elements_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -74,4 +74,4 @@ TEST(CongruentElements, TellsWhatDiffers) {
 }
 
 }  // namespace
-}  // namespace fastjoint::pfem
+}  // namespace fastjoint::pfem::congruent_elements_test

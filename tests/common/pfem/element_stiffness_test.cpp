@@ -15,7 +15,7 @@
 #include "tests/support/meshes.hpp"
 #include "tests/support/spaces.hpp"
 
-namespace fastjoint::pfem {
+namespace fastjoint::pfem::element_stiffness_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -274,4 +274,4 @@ INSTANTIATE_TEST_SUITE_P(Degrees, StiffnessP, testing::Combine(test::both_spaces
                          });
 
 }  // namespace
-}  // namespace fastjoint::pfem
+}  // namespace fastjoint::pfem::element_stiffness_test

@@ -10,7 +10,7 @@
 
 #include <cmath>
 
-namespace fastjoint::stresses {
+namespace fastjoint::stresses::contact_hoop_test {
 namespace {
 
 using Eigen::Index;
@@ -82,4 +82,4 @@ TEST(ContactHoop, ConvergesWithTheFourthPowerOfTheStep) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stresses
+}  // namespace fastjoint::stresses::contact_hoop_test

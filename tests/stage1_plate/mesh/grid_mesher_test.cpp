@@ -14,7 +14,7 @@
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
-namespace fastjoint {
+namespace fastjoint::grid_mesher_test {
 namespace {
 
 using test::HoleText;
@@ -169,4 +169,4 @@ TEST(GridMesher, CloseToACellLineItWorksUntilItSaysSo) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::grid_mesher_test

@@ -9,7 +9,7 @@
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
-namespace fastjoint {
+namespace fastjoint::named_edges_test {
 namespace {
 
 using testing::ElementsAre;
@@ -140,4 +140,4 @@ TEST(MeshSections, RoundOffIsAllowed) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::named_edges_test

@@ -7,7 +7,7 @@
 #include "stage1_plate/problem/plate_problem.hpp"
 #include "tests/support/plates.hpp"
 
-namespace fastjoint {
+namespace fastjoint::bearing_load_test {
 namespace {
 
 using testing::HasSubstr;
@@ -96,4 +96,4 @@ TEST(BearingLoad, WhereItCannotAct) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::bearing_load_test

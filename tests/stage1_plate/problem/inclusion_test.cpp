@@ -16,7 +16,7 @@
 #include "tests/support/plates.hpp"
 #include "tests/support/stress.hpp"
 
-namespace fastjoint {
+namespace fastjoint::inclusion_test {
 namespace {
 
 constexpr double radius = 0.5;
@@ -181,4 +181,4 @@ TEST(Inclusion, EachLawHasTheHarmonicOfTheElasticDiskThatItIsMadeFor) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::inclusion_test

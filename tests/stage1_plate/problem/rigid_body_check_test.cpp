@@ -6,7 +6,7 @@
 #include "common/errors.hpp"
 #include "tests/support/plates.hpp"
 
-namespace fastjoint {
+namespace fastjoint::rigid_body_check_test {
 namespace {
 
 using testing::AllOf;
@@ -88,4 +88,4 @@ TEST(Holding, EveryPartMustBeHeld) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::rigid_body_check_test

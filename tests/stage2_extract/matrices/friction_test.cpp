@@ -6,7 +6,7 @@
 #include "tests/support/plates.hpp"
 #include "tests/support/straightforward.hpp"
 
-namespace fastjoint {
+namespace fastjoint::friction_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -74,4 +74,4 @@ TEST(Friction, ReactionsConverge) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::friction_test

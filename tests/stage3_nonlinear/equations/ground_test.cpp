@@ -13,7 +13,7 @@
 #include "tests/stage3_nonlinear/run_fixture.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::ground_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -254,4 +254,4 @@ TEST_F(GroundRun, SaysHowAMechanismMayBeHeld) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::ground_test

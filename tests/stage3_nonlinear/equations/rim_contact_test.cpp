@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::rim_contact_test {
 namespace {
 
 constexpr double stiffness = 3;
@@ -95,4 +95,4 @@ TEST(RimContact, ArcsAndOpeningsBetweenSamplesAreFound) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::rim_contact_test

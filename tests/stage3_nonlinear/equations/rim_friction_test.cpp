@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::rim_friction_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -128,4 +128,4 @@ TEST(RimFriction, TurnsWithTheForce) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::rim_friction_test

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "common/errors.hpp"
-#include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/stage3_nonlinear/scenes.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::flexibility_formula_test {
 namespace {
 
 using testing::HasSubstr;
@@ -278,4 +278,4 @@ INSTANTIATE_TEST_SUITE_P(
             "/d: 0 is not allowed; allowed: a number > 0"}));
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::flexibility_formula_test

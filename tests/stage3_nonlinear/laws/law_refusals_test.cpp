@@ -4,7 +4,7 @@
 #include "common/errors.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::law_refusals_test {
 namespace {
 
 using testing::HasSubstr;
@@ -65,4 +65,4 @@ INSTANTIATE_TEST_SUITE_P(
                 "/F/1: -2 is not allowed; allowed: a number > 0"}));
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::law_refusals_test

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/stage3_nonlinear/scenes.hpp"
 #include "tests/support/warning.hpp"
 
 namespace fastjoint::stage3 {

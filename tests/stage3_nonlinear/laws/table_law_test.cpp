@@ -7,7 +7,7 @@
 
 #include "common/errors.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
-#include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/stage3_nonlinear/scenes.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/message.hpp"
 

@@ -10,7 +10,7 @@
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::event_path_test {
 namespace {
 
 using Eigen::Index;
@@ -267,4 +267,4 @@ TEST(Events, SearchEndsWhereTheJointDoes) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::event_path_test

@@ -11,7 +11,7 @@
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::exact_path_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -227,4 +227,4 @@ TEST(ExactPath, EndsWhereFrictionTurnsItBackAndHandsOver) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::exact_path_test

@@ -8,7 +8,7 @@
 
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::load_path_test {
 namespace {
 
 using Eigen::VectorXd;
@@ -295,4 +295,4 @@ TEST(LoadPath, OfManyFastenersIsThatOfDampedNewton) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::load_path_test

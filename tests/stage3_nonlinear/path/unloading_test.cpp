@@ -5,7 +5,7 @@
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::unloading_test {
 namespace {
 
 const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 200}};
@@ -33,4 +33,4 @@ TEST(Unloading, BringsForcesBackTheWayTheyCame) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::unloading_test

@@ -8,7 +8,7 @@
 #include "stage3_nonlinear/results/sensitivity.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
-namespace fastjoint {
+namespace fastjoint::force_error_matrices_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -116,4 +116,4 @@ TEST(ForceError, IsThatOfTheTractionsReactionsAtTheRateOfTheirCompliance) {
 }
 
 }  // namespace
-}  // namespace fastjoint
+}  // namespace fastjoint::force_error_matrices_test

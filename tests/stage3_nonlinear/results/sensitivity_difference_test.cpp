@@ -11,7 +11,7 @@
 #include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/stage3_nonlinear/named_laws.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::sensitivity_difference_test {
 namespace {
 
 using Eigen::Index;
@@ -213,4 +213,4 @@ TEST_P(SensitivityOf, RandomJointsIsTheLimitOfCentralDifferences) {
 INSTANTIATE_TEST_SUITE_P(Kind, SensitivityOf, testing::Range(0, test::n_kinds));
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::sensitivity_difference_test

@@ -8,7 +8,7 @@
 
 #include "tests/stage3_nonlinear/named_laws.hpp"
 
-namespace fastjoint::stage3 {
+namespace fastjoint::stage3::sensitivity_test {
 namespace {
 
 using Eigen::Index;
@@ -282,4 +282,4 @@ TEST(Sensitivity, AtALimitPointIsInfinite) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stage3
+}  // namespace fastjoint::stage3::sensitivity_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "common/errors.hpp"
-#include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/stage3_nonlinear/scenes.hpp"
 #include "tests/support/warning.hpp"
 
 namespace fastjoint::stage3 {
