@@ -16,15 +16,18 @@ import meshio
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import stress_field  # noqa: E402
+from scripts import run_script  # noqa: E402
 DRAW = str(ROOT / "scripts/draw_stress")
 EXAMPLE = ROOT / "examples/three_fasteners"
 
 
-def run(*words):
-    return subprocess.run(words, capture_output=True, text=True)
+def run(program, *words):
+    if program == DRAW:
+        return run_script("draw_stress", *words)
+    return subprocess.run([program, *words], capture_output=True, text=True)
 
 
 def done(*words):

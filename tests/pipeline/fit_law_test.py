@@ -19,6 +19,9 @@ from law_fit_test import ENDLESS, FEW, MEASURED, near, table
 from law_fit import Failure, fit_cubic, fit_power
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+from scripts import run_script  # noqa: E402
+
 ROOT_LAW = "delta,F\n0.01,100\n0.04,200\n0.09,300\n0.16,400\n"  # F = 1000 delta^0.5
 
 
@@ -31,7 +34,7 @@ def load_script():
 
 def call(*words, status=0):
     """Output and messages of the script as a user calls it."""
-    run = subprocess.run([ROOT / "scripts/fit_law", *words], capture_output=True, text=True)
+    run = run_script("fit_law", *words)
     assert run.returncode == status, (words, run)
     return run.stdout, run.stderr
 

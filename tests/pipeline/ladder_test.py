@@ -13,13 +13,17 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+sys.dont_write_bytecode = True
+from scripts import run_script  # noqa: E402
+
 # AFFDL-TR-67-184: on the doubler at fastener 1 ... 10, in lb, printed to 0.1.
 PRINTED = [385.1, 1554.5, 853.1, 442.1, 181.7, -17.0, -221.4, -501.1, -951.4, -1725.7]
 P, SEGMENT, FASTENER, CLEARANCE = 8000, 4.7e6, 8e5, 0.003
 
 
 def chain(*words):
-    return subprocess.run([ROOT / "scripts/chain_matrices", *map(str, words)], capture_output=True, text=True)
+    return run_script("chain_matrices", *words)
 
 
 def write_chain(path, *words):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What stage 1 says that it needs, against what it takes; what cannot fit is refused at once: memory_test.py BIN_FOLDER."""
+"""What stage 1 says that it needs, against what it takes; what cannot fit is refused at once: memory_test.py BIN_FOLDER [sweep].
+With the last word large sheets and many increments too."""
 import json
 import os
 import re
@@ -12,8 +13,8 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 MB = 1e6
 # squares each way, options of make_panel, of stage1_plate
-RUNS = [(1, [], []), (5, ["--rings", "2"], []), (10, [], ["--p", "8"]), (6, ["--space", "product"], ["--p", "8"]),
-        (14, ["--p", "5..6"], [])]
+RUNS = [(1, [], []), (5, ["--rings", "2"], []), (6, ["--space", "product"], ["--p", "8"])]
+LARGE = [(10, [], ["--p", "8"]), (14, ["--p", "5..6"], []), (14, [], ["--threads", "2"]), (20, ["--space", "product"], [])]
 OF_STAGE2 = (r"^stage2_extract: error: plate.h5: this takes about (\d+) MB of memory, (\d+) MB are available; allowed: "
              r"a file of a lower p or fewer holes(?:, or --loads-only|, or fewer increments)?\n$")
 
@@ -119,10 +120,9 @@ def check_search(scene, accuracy, own):
                    r"available; allowed: fewer degrees or a lower one \(--p\), or fewer holes\n$", own)
 
 
-def check_stage2(own):
+def check_stage2(runs, own):
     """What reading takes is known by the size of the file, what is made of it by its cases and degrees."""
-    for n, of_stage1, words in ((8, ["--p", "8"], []), (8, ["--p", "8"], ["--field", "external:P"]),
-                                (10, ["--p", "2..3"], []), (14, [], ["--loads-only"])):
+    for n, of_stage1, words in runs:
         assert stage1(panel(n, []), *of_stage1).returncode == 0
         check_refusals(("stage2_extract", "plate.h5", *words), "field.vtu" if "--field" in words else "matrices.h5",
                        OF_STAGE2, own)
@@ -159,29 +159,35 @@ def check_stage3(n, p, of_stage2, friction, increments, words, own):
     check_refusals(("stage3_nonlinear", "joint.json", *words), "result.h5", told, own)
 
 
+def sweep(own):
+    for each in LARGE:
+        check_need(*each)
+    check_end_without_threads()
+    check_search(panel(3, []), "1e-9", own)
+    check_stage2([(8, ["--p", "8"], []), (10, ["--p", "2..3"], []), (14, [], ["--loads-only"])], own)
+    check_stresses(5, "4..5", 1000, own)
+    check_stresses(14, "6..7", 80, own)
+    check_stage3(5, "2..3", [], 0.2, 1000, ["--csv", "result.csv"], own)
+
+
 def main():
     os.environ["OPENBLAS_NUM_THREADS"] = "1"  # its threads reserve 128 MB each, some time after the program has begun
     os.environ["PATH"] = f"{Path(sys.argv[1]).resolve()}:{os.environ['PATH']}"
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        for run in RUNS:
-            check_need(*run)
+        for each in RUNS:
+            check_need(*each)
         check_need(3, [], [], contact_panel)
         check_need(5, [], ["--p", "8", "--threads", "2"], irregular_panel)
         check_need(5, [], ["--p", "1..4"], irregular_panel)
-        check_need(14, [], ["--threads", "2"])
-        check_need(20, ["--space", "product"], [])
         own = check_refusal()
-        check_end_without_threads()
-        check_search(panel(3, []), "1e-9", own)
         check_search(irregular_panel(5), "1e-2", own)
-        check_stage2(own)
+        check_stage2([(8, ["--p", "8"], ["--field", "external:P"])], own)
         check_stresses(8, "7..8", 2, own)
-        check_stresses(5, "4..5", 1000, own)
-        check_stresses(14, "6..7", 80, own)
         check_stage3(7, "7..8", [], 0, 2, [], own)
-        check_stage3(5, "2..3", [], 0.2, 1000, ["--csv", "result.csv"], own)
         check_stage3(7, "2..3", ["--loads-only"], 0.2, 300, ["--sensitivities"], own)
+        if sys.argv[2:] == ["sweep"]:
+            sweep(own)
         os.chdir("/")
 
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The splice of examples/rows: its page has the table that it prints, and columns are equal: rows_test.py BIN_FOLDER."""
+"""The splice of examples/rows: its page has the table that it prints, and columns are equal: rows_test.py BIN_FOLDER [sweep].
+Of the table of gaps the first row, with the last word all."""
 import os
 import re
 import subprocess
@@ -15,8 +16,9 @@ with tempfile.TemporaryDirectory() as folder:
     copytree(ROOT / "examples/rows", f"{folder}/examples/rows", ignore=ignore_patterns("*.h5", "out"))
     copytree(ROOT / "scripts", f"{folder}/scripts")
     path = os.environ | {"PATH": f"{Path(sys.argv[1]).resolve()}:{os.environ['PATH']}"}
-    printed, driven = (subprocess.run(["make", "-s", target], cwd=f"{folder}/examples/rows", env=path, check=True,
-                                      capture_output=True, text=True).stdout for target in ("table", "driven"))
+    driving = ["make", "-s", "driven"] if sys.argv[2:] == ["sweep"] else [ROOT / "scripts/with_python", "driven.py", "0.01"]
+    printed, driven = (subprocess.run(words, cwd=f"{folder}/examples/rows", env=path, check=True, capture_output=True,
+                                      text=True).stdout for words in (["make", "-s", "table"], driving))
 table = printed[printed.index("| springs |"):]
 page = (ROOT / "examples/rows/README.md").read_text()
 assert table.split("\n\n")[0] in page, f"README.md shows another table than:\n{table}"
