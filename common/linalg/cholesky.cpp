@@ -226,7 +226,7 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) : i
   for (int i = 0; i < static_cast<int>(L->nsuper); ++i) {
     const Supernode s(*L, i);
     for (int j = s.first; j < s.last; ++j) {
-      const double pivot = s.value[(j - s.first) * (s.ld + 1)];
+      const double pivot = s.value[Eigen::Index(j - s.first) * (s.ld + 1)];
       if (const double left = pivot * pivot / lower.valuePtr()[lower.outerIndexPtr()[j]]; !(left > least_left))
         throw NumericalError(
             fmt::format("the stiffness matrix is singular to working precision: elimination leaves {:.1e} of the "
