@@ -94,7 +94,7 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
   for (const auto& [hole, terms] : elements.rims)
     border_of[hole] = terms.coupling.cols() + terms.pressure.cols() + terms.friction.cols();
   for (auto& [hole, width] : border_of) element.n_border += std::exchange(width, element.n_border);
-  std::vector<int> order = element.inside, row(2 * n_modes, -1);
+  std::vector<int> order = element.inside, row(std::size_t{2} * n_modes, -1);
   order.insert(order.end(), element.outside.begin(), element.outside.end());
   const Eigen::Index n = order.size();
   for (int i = 0; i < n; ++i) row[order[i]] = i;
