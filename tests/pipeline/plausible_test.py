@@ -127,7 +127,7 @@ def check_examples():
     n_sheets = n_joints = 0
     for folder, sheets, joints in examples():
         with tempfile.TemporaryDirectory() as name:
-            said = solved(Path(name), sheets, joints, 2)
+            said = solved(Path(name), sheets, joints, 3)
         for words in ["may be", *(f"[{code}]" for code, _ in KINDS)]:
             assert words not in said, (folder, said)
         n_sheets, n_joints = n_sheets + len(sheets), n_joints + len(joints)

@@ -161,6 +161,11 @@ void check(const std::string& name, Ratios found, const std::map<std::string, Li
 
 constexpr Limits of_S = {1.5, 0, 4.6}, of_C = {1.6, 0.005, 4.7}, of_R = {2, 0.005, 4.1};
 
+TEST(Errors, OfTwoRandomSheets) {
+  constexpr Limits of_few = {1.5, 0, 10};
+  check("two random sheets", ratios(random_sheets(2, false)), {{"S", of_few}, {"C_t", of_few}, {"R", of_few}});
+}
+
 TEST(ErrorSweep, RandomSheets) {
   check("random sheets", ratios(random_sheets(20, false)), {{"S", of_S}, {"C_t", of_C}, {"R", of_R}});
 }
