@@ -14,6 +14,10 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.insert(0, str(ROOT / "tests/support"))
+sys.dont_write_bytecode = True
+from examples import copy_example  # noqa: E402
+
 
 
 def amounts(plate, step):
@@ -103,7 +107,7 @@ def check_default(folder):
 
 def check_filled(folder):
     """The highest peaks that the limits and the example tell of, by the command that they name."""
-    shutil.copytree(ROOT / "examples/lap_joint", folder, ignore=shutil.ignore_patterns("*.h5", "out"))
+    folder = copy_example("lap_joint", folder)
     limits, example = ((ROOT / page).read_text().replace("\n", " ") for page in ("docs/limits.md", "examples/lap_joint/README.md"))
     for words in ([], ["filled"]):
         run = subprocess.run(["make", "-s", *words], cwd=folder, check=True, capture_output=True, text=True)
@@ -187,7 +191,7 @@ def main(bin_folder):
                         check_pressure(matrices, state, step)
             check_csv(folder / "joint.csv", result)
         check_default(folder)
-        check_filled(Path(name) / "example")
+        check_filled(name)
         check_free(folder)
         check_warning(folder)
         check_loads_only(folder)
