@@ -25,8 +25,8 @@ def run(*words):
     try:
         result = subprocess.run([str(word) for word in words], env=ONE_THREAD, capture_output=True, text=True)
     except FileNotFoundError:
-        sys.exit(f"{Path(sys.argv[0]).name}: error: {words[0]} is not on PATH; after the build: "
-                 "PATH=$PWD/build/release/bin:$PATH")
+        sys.exit(f"{Path(sys.argv[0]).name}: error: {words[0]} is not on PATH; after "
+                 "cmake --build --preset release --target all benchmarks: PATH=$PWD/build/release/bin:$PATH")
     if result.returncode:
         sys.exit(f"{Path(sys.argv[0]).name}: error: {result.stderr.strip()}")
     return result.stdout
