@@ -19,7 +19,7 @@ from programs import ROOT, Programs
 GOOD = sorted((ROOT / "tests/schemas/good").glob("*.json"))
 TESTS_OF_FASTENERS = sorted((ROOT / "tests/schemas/good").glob("*.csv"))
 SCHEMAS = {kind: json.loads((ROOT / f"schemas/{kind}.schema.json").read_text()) for kind in ("plate", "joint")}
-P = 1  # the lowest degree is enough for a verdict
+P = 3  # the lowest degree of which all joints converge soon is enough for a verdict
 
 # Places whose loss is a matter of meaning: something else refers to what stood there.
 REFERRED_TO = re.compile(r"/materials/[^/]+|/geometry/mesh/(arcs|edges(/[^/]+)?)|/laws/[^/]+|/plates/[^/]+")
