@@ -32,7 +32,8 @@ double gap_of(const FastenerScene& fastener, Index at, const PlateModel& plate) 
 }
 
 std::vector<double> equal_gaps(const std::vector<double>& clearance, const std::vector<bool>& in_contact) {
-  // With the first gap s the others are offset + sign s, alternately; the ground counts as a last hole without a gap.
+  // Every gap is offset + sign s, s the first one: neighbours add up to their clearance. The ground counts as a last
+  // hole, without a gap.
   const Index n = std::ssize(clearance) + 1;
   std::vector<double> offset(n, 0), sign(n, 1);
   double low = 0, high = std::numeric_limits<double>::infinity();

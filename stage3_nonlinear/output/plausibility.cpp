@@ -179,10 +179,10 @@ std::vector<program::Warning> implausible_numbers(const JointScene& scene, const
                                     where, gap, plane.law_name, radius));
     for (const HoleModel& hole : joint.holes(plane)) {
       constexpr double most_interference = 0.05;  // far beyond what metals bear without yielding
-      constexpr double same = 0.05 * (1 + 1e-9);  // a hole is a little wider than its shank
+      constexpr double widest = 0.25;             // of the hole; ISO 273's coarse clearance holes: M8 in 10 mm
       const FastenerScene& fastener = scene.fasteners[plane.fastener];
       const bool by_sheet = fastener.diameter && fastener.hole_diameter.empty();
-      if (hole.gap < (by_sheet ? same : 1) * radius && -hole.gap < most_interference * radius) continue;
+      if (hole.gap < (by_sheet ? widest : 1) * radius && -hole.gap < most_interference * radius) continue;
       gaps.emplace_back(
           std::abs(hole.gap) / radius,
           fmt::format("{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length{}",
