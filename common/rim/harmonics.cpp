@@ -36,6 +36,24 @@ constexpr double mean_of_wave = 1 / std::numbers::sqrt2;  ///< mean of sqrt(2) c
 
 bool is_half(const Harmonics& a) { return std::abs(a.sweep - std::numbers::pi) < 1e-7; }
 
+/// Columns of the whole circle's distributions, (2 highest + 1, n), for the waves of a part of it.
+template <class WaveOf>
+Eigen::MatrixXd of_whole(const Harmonics& a, int n, WaveOf wave_of) {
+  Eigen::MatrixXd T = Eigen::MatrixXd::Zero(2 * a.highest + 1, n);
+  for (int k = 0; k < n; ++k) {
+    const Wave wave = wave_of(a, k);
+    const int order = static_cast<int>(std::lround(wave.multiple * unit(a)));
+    const double phase = order * a.start;
+    if (order == 0)
+      T(0, k) = 1;
+    else if (wave.is_sine)
+      T.col(k).segment<2>(2 * order - 1) << -std::sin(phase), std::cos(phase);
+    else
+      T.col(k).segment<2>(2 * order - 1) << std::cos(phase), std::sin(phase);
+  }
+  return T;
+}
+
 /// cos and sin of the multiples 0..highest of an angle, by turns: their errors are rounding times the multiple.
 class Multiples {
  public:
@@ -95,6 +113,20 @@ std::vector<Wave> waves(const Harmonics& a, int n, WaveOf wave_of) {
 int Harmonics::size() const {
   constexpr double rounding = 1e-9;
   return is_whole() ? 2 * highest + 1 : 1 + static_cast<int>(highest * sweep / std::numbers::pi + rounding);
+}
+
+bool Harmonics::repeats() const {
+  const double parts = full_turn / sweep;
+  constexpr double same = 1e-6;
+  return std::abs(parts - 1) < same || std::abs(parts - 2) < same || std::abs(parts - 4) < same;
+}
+
+Eigen::MatrixXd Harmonics::pressures_of_whole() const {
+  return is_whole() ? Eigen::MatrixXd::Identity(size(), size()) : of_whole(*this, size(), pressure_wave);
+}
+
+Eigen::MatrixXd Harmonics::shears_of_whole() const {
+  return is_whole() ? Eigen::MatrixXd::Identity(size(), size()) : of_whole(*this, n_shears(), shear_wave);
 }
 
 Eigen::VectorXd Harmonics::at(double angle) const {

@@ -25,6 +25,8 @@ struct Harmonics {
 
   friend bool operator==(const Harmonics&, const Harmonics&) = default;
   [[nodiscard]] bool is_whole() const { return sweep == full_turn; }
+  /// True of a whole circle and of the half or quarter that lines of symmetry leave of one.
+  [[nodiscard]] bool repeats() const;
   /// Number of pressures.
   [[nodiscard]] int size() const;
   /// Number of shears.
@@ -39,6 +41,10 @@ struct Harmonics {
   /// the normal and of shears times the tangent (-sin theta, cos theta) along x (0) or y (1), (size), (n_shears).
   [[nodiscard]] Eigen::VectorXd push(int axis) const;
   [[nodiscard]] Eigen::VectorXd drag(int axis) const;
+  /// The same pressures and shears as those of the whole circle up to the same wave length, which lines of symmetry
+  /// make of a part that repeats: (2 highest + 1, size) and (2 highest + 1, n_shears), with orthonormal columns.
+  [[nodiscard]] Eigen::MatrixXd pressures_of_whole() const;
+  [[nodiscard]] Eigen::MatrixXd shears_of_whole() const;
   /// Integrals over theta of the products of pressures between two angles, shape (size, size), radians.
   [[nodiscard]] Eigen::MatrixXd products(double from, double to) const;
   /// The same of shears with pressures, shape (n_shears, size), radians.

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/stresses/hoop_stress.hpp"
+
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <unsupported/Eigen/FFT>
+#include <utility>
+
+namespace fastjoint::stresses {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::Index;
+using namespace std::complex_literals;
+constexpr double step = rim::full_turn / HoopStress::n_points, first_angle = step / 2;  // jumps lie on round angles
+
+/// Waves m = 0..n/2-1 of two real functions by their values at the points, (2, n / 2).
+Eigen::Matrix2Xcd waves_of(const Eigen::VectorXcd& values) {
+  Eigen::FFT<double> fft;
+  Eigen::VectorXcd F;
+  fft.fwd(F, values);
+  const Index n = values.size();
+  Eigen::Matrix2Xcd waves(2, n / 2);
+  for (Index m = 0; m < n / 2; ++m) {
+    const Complex plus = F[m], minus = std::conj(F[(n - m) % n]),
+                  turn = std::polar(1.0 / double(n), double(m) * first_angle);
+    waves(0, m) = std::conj((plus + minus) / 2.0) * turn;
+    waves(1, m) = std::conj((plus - minus) / 2.0i) * turn;
+  }
+  return waves;
+}
+
+/// Sums over m >= first of the waves at all points, (2, n).
+Eigen::Matrix2Xcd sums(const Eigen::Matrix2Xcd& waves, Index first) {
+  Eigen::FFT<double> fft;
+  const Index n = 2 * waves.cols();
+  Eigen::Matrix2Xcd result(2, n);
+  for (const int row : {0, 1}) {
+    Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n), F;
+    for (Index m = first; m < n / 2; ++m) f[m] = waves(row, m) * std::polar(1.0, -double(m) * first_angle);
+    fft.fwd(F, f);
+    result.row(row) = F.transpose();
+  }
+  return result;
+}
+
+/// Waves m = 0.. of a function with coefficients of the whole circle's distributions.
+Eigen::VectorXcd complex_waves(const Eigen::VectorXd& coefficients) {
+  const Index highest = coefficients.size() / 2;
+  Eigen::VectorXcd f(highest + 1);
+  f[0] = coefficients[0];
+  for (Index m = 1; m <= highest; ++m)
+    f[m] = Complex(coefficients[2 * m - 1], coefficients[2 * m]) / std::numbers::sqrt2;
+  return f;
+}
+
+/// Waves 0..n-1 along x and y of normal and tangential waves 0..n.
+Eigen::Matrix2Xcd cartesian(const Eigen::VectorXcd& normal, const Eigen::VectorXcd& tangential) {
+  const Index n = normal.size() - 1;
+  Eigen::Matrix2Xcd u(2, n);
+  for (Index m = 0; m < n; ++m) {
+    const auto before = [&](const Eigen::VectorXcd& f) { return m > 0 ? f[m - 1] : std::conj(f[1]); };
+    const auto times = [&](const Eigen::VectorXcd& f) {  // cosine and sine
+      return std::pair((f[m + 1] + before(f)) / 2.0, (f[m + 1] - before(f)) / 2.0i);
+    };
+    const auto [n_cos, n_sin] = times(normal);
+    const auto [t_cos, t_sin] = times(tangential);
+    u.col(m) << n_cos - t_sin, n_sin + t_cos;
+  }
+  return u;
+}
+
+}  // namespace
+
+HoopStress::HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& waves,
+                       const Eigen::VectorXd& displacement, Tractions tractions)
+    : sheet_(sheet),
+      waves_(waves),
+      tractions_(std::move(tractions)),
+      first_short_(waves.highest),
+      u_(cartesian(complex_waves(-waves.pressures_of_whole() * displacement.head(waves.size())),
+                   complex_waves(-waves.shears_of_whole() * displacement.tail(waves.n_shears())))),
+      angles_(Eigen::VectorXd::LinSpaced(n_points, first_angle, first_angle + (n_points - 1) * step)),
+      values_(n_points) {
+  Eigen::Matrix2Xd traction(2, n_points);
+  for (int i = 0; i < n_points; ++i) traction.col(i) = traction_at(angles_[i]);
+  T_ = waves_of(traction.row(0).cast<Complex>() + 1i * traction.row(1).cast<Complex>());
+  const Eigen::Matrix2Xcd short_waves = sums(T_, first_short_);
+  for (int i = 0; i < n_points; ++i)
+    values_[i] = hoop(angles_[i], strain(angles_[i], short_waves.col(i), traction.col(i)), traction.col(i));
+}
+
+Eigen::Vector2d HoopStress::traction_at(double angle) const {
+  double inside = rim::wrapped(angle, waves_.start), sign = 1;
+  if (!waves_.is_whole()) {
+    const double past = inside - waves_.start;
+    const int part = static_cast<int>(past / waves_.sweep);
+    const double rest = past - part * waves_.sweep;
+    if (part % 2 == 1) sign = -1;
+    inside = waves_.start + (sign > 0 ? rest : waves_.sweep - rest);
+  }
+  const Eigen::Vector2d on_rim = tractions_(inside);
+  const double p = on_rim.x(), t = sign * on_rim.y(), c = std::cos(angle), s = std::sin(angle);
+  return {p * c - t * s, p * s + t * c};
+}
+
+double HoopStress::strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const {
+  // What the tractions are at this place is known; only the other part of their short waves needs the sum.
+  const Complex turn = std::polar(1.0, -angle);
+  Eigen::Vector2d rest = traction - T_.col(0).real();
+  Eigen::Vector2cd slope = Eigen::Vector2cd::Zero();
+  Complex at = turn;
+  for (int m = 1; m < first_short_; ++m, at *= turn) {
+    rest -= 2 * (T_.col(m) * at).real();
+    slope -= double(m) * 1.0i * at * u_.col(m);
+  }
+  Eigen::Vector2cd exact;
+  for (const int i : {0, 1}) exact[i] = Complex(rest[i] / 2, short_waves[i].imag());
+  slope = (slope / sheet_.radius() + sheet_.slope() * exact).eval();
+  return 2 * (-std::sin(angle) * slope[0].real() + std::cos(angle) * slope[1].real());
+}
+
+double HoopStress::hoop(double angle, double strain, const Eigen::Vector2d& traction) const {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double p = c * traction.x() + s * traction.y(), t = c * traction.y() - s * traction.x();
+  const Eigen::Vector3d by = sheet_.along(angle);
+  return (strain + by[0] * p + by[2] * t) / by[1];
+}
+
+double HoopStress::at(double angle) const {
+  Eigen::Vector2cd short_waves = Eigen::Vector2cd::Zero();
+  const Complex turn = std::polar(1.0, -angle);
+  Complex at = std::polar(1.0, -angle * first_short_);
+  for (Index m = first_short_; m < T_.cols(); ++m, at *= turn) short_waves += T_.col(m) * at;
+  const Eigen::Vector2d traction = traction_at(angle);
+  return hoop(angle, strain(angle, short_waves, traction), traction);
+}
+
+}  // namespace fastjoint::stresses

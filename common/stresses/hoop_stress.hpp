@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "common/rim/harmonics.hpp"
+#include "common/rim/rim_compliance.hpp"
+
+namespace fastjoint::stresses {
+
+/// Pressure and shear on the sheet at an angle of the rim that the model has, stress.
+using Tractions = std::function<Eigen::Vector2d(double angle)>;
+
+/// Hoop stress around a rim as a function of the angle, from the displacements of the rim in long waves and from its
+/// known tractions (docs/theory.md, section 11).
+///
+/// The strain along the rim is that of the long waves, which the finite elements give by energy products, and beyond
+/// them that which the tractions make in an infinite sheet, by RimCompliance: only what falls off within the hole's
+/// own neighbourhood is taken from there. Hooke's law and the tractions then give the hoop stress.
+class HoopStress {
+ public:
+  /// @param waves        A whole rim, or a part that repeats.
+  /// @param displacement Normal, then tangential displacement of the disc against the sheet, or of the sheet against
+  ///                     any rigid body with the opposite sign, (size + n_shears), length.
+  /// @param tractions    On the sheet; asked for angles on the part of the rim that the model has.
+  HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& waves, const Eigen::VectorXd& displacement,
+             Tractions tractions);
+
+  /// Hoop stress at an angle, radians.
+  [[nodiscard]] double at(double angle) const;
+  /// Angles in equal steps around the whole circle, radians, and the hoop stress there, (n_points).
+  [[nodiscard]] const Eigen::VectorXd& angles() const { return angles_; }
+  [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
+
+  static constexpr int n_points = 1024;
+
+ private:
+  /// Tractions along x and y at any angle of the whole circle.
+  [[nodiscard]] Eigen::Vector2d traction_at(double angle) const;
+  /// Hoop stress of a strain along the rim.
+  [[nodiscard]] double hoop(double angle, double strain, const Eigen::Vector2d& traction) const;
+  /// Strain along the rim.
+  /// @param short_waves  Their sum over m >= first_short of (X_m, Y_m) e^(-i m angle).
+  [[nodiscard]] double strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const;
+
+  rim::RimCompliance sheet_;
+  rim::Harmonics waves_;
+  Tractions tractions_;
+  int first_short_;      ///< lowest order along x and y that follows from the tractions
+  Eigen::Matrix2Xcd u_;  ///< (2, first_short) waves m = 0.. of the displacements along x and y, length
+  Eigen::Matrix2Xcd T_;  ///< (2, n_points / 2) waves m = 0.. of the tractions, stress
+  Eigen::VectorXd angles_, values_;
+};
+
+}  // namespace fastjoint::stresses
