@@ -2,8 +2,7 @@
 #include "stage2_extract/extract.hpp"
 
 #include "common/count.hpp"
-#include "stage2_extract/stresses/rim_stress.hpp"
-#include "stage2_extract/stresses/stresses.hpp"
+#include "stage2_extract/matrices/holes.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -26,18 +25,18 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
   a.friction_unit_force = a.friction_resultant = a.friction_resultant_across =
       Eigen::VectorXd::Zero(a.n_friction_cases());
   for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
-    if (index_of(formats::side_names, a.friction_bearing[j]) == count_of(formats::side_names)) continue;  // a shear
     const auto& rim = plate.hole_rim[index_of(plate.hole_id, a.friction_hole[j])];
     const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.friction_bearing[j]));
     a.friction_unit_force[j] = bearing.unit_force;
     a.friction_resultant[j] = a.friction_bearing[j][0] == '+' ? bearing.resultant : -bearing.resultant;
     a.friction_resultant_across[j] = bearing.resultant_across;
   }
-  a.traction_resultant_across = Eigen::VectorXd::Zero(a.n_tractions());
+  a.traction_resultant_across = a.traction_unit_force = Eigen::VectorXd::Zero(a.n_tractions());
   for (Eigen::Index j = 0; j < a.n_tractions(); ++j) {
     if (plate.traction_hole[j].empty()) continue;  // uniform on an edge
     const auto& rim = plate.hole_rim[index_of(plate.hole_id, plate.traction_hole[j])];
     const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.traction_bearing[j]));
+    a.traction_unit_force[j] = bearing.unit_force;
     const double across = bearing.force_across / bearing.unit_force;
     a.traction_resultant_across[j] = a.traction_bearing[j][0] == '+' ? across : -across;  // per force along + the axis
   }
@@ -52,7 +51,8 @@ void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eig
 /// joint the fasteners would have to carry it.
 void balance(const FreeTranslation& free, formats::PlateCases& level) {
   if (free.motion.isZero(0)) return;
-  level.B -= level.B.lazyProduct(free.motion).eval() * (free.motion.transpose() / free.motion.squaredNorm());
+  auto by_motion = level.W.leftCols(free.motion.size());
+  by_motion -= by_motion.lazyProduct(free.motion).eval() * (free.motion.transpose() / free.motion.squaredNorm());
   for (int side = 0; side < 2; ++side) {
     balance(free.motion, Eigen::RowVectorXd::Zero(level.S.cols()), level.S);
     level.S.transposeInPlace();
@@ -64,7 +64,7 @@ void balance(const FreeTranslation& free, formats::PlateCases& level) {
 
 void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrices& a) {
   const auto e = a.n_externals(), m = a.n_discs();
-  for (const auto& [S, R, T, C_t, B, C, R_p, T_p] : levels) {
+  for (const auto& [S, R, T, C_t, W, N] : levels) {
     a.S_ee.push_back(S.topLeftCorner(e, e));
     a.S_ed.push_back(S.topRightCorner(e, m));
     a.S_dd.push_back(S.bottomRightCorner(m, m));
@@ -73,17 +73,13 @@ void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrice
     a.T_e.push_back(T.topRows(e));
     a.T_d.push_back(T.bottomRows(m));
     a.C_t.push_back(C_t);
-    a.B_e.push_back(B.leftCols(e));
-    a.B_d.push_back(B.rightCols(m));
-    a.C.push_back(C);
-    a.R_p.push_back(R_p);
-    a.T_p.push_back(T_p);
+    a.W.emplace_back(W.topRows(a.n_loaded_waves()));
   }
 }
 
 }  // namespace
 
-Extraction extract(const formats::PlateSolution& plate, const std::string& generator, FieldSolver* solver) {
+Extraction extract(formats::PlateSolution plate, const std::string& generator, bool with_stresses) {
   Extraction result;
   auto& a = result.matrices;
   describe(plate, generator, a);
@@ -100,15 +96,15 @@ Extraction extract(const formats::PlateSolution& plate, const std::string& gener
   a.S_ee_error = error.topLeftCorner(e, e);
   a.S_ed_error = error.topRightCorner(e, m);
   a.S_dd_error = error.bottomRightCorner(m, m);
-  a.stresses = extract_stresses(plate, solver);
   result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
   result.checks = check(plate, a);
-  auto balanced = plate.cases;
   for (const auto& free : free_translations(plate, a)) {
     a.unsupported.push_back(free.along);
-    for (auto& level : balanced) balance(free, level);
+    for (auto& level : plate.cases) balance(free, level);
   }
-  store(balanced, a);
+  store(plate.cases, a);
+  a.stresses = describe_holes(plate, with_stresses);
+  if (!with_stresses) a.waves.resize(a.contact.size());
   return result;
 }
 

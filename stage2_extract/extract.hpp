@@ -5,7 +5,6 @@
 #include "common/formats/plate_solution.hpp"
 #include "common/matrices/stiffness_error.hpp"
 #include "stage2_extract/matrices/checks.hpp"
-#include "stage2_extract/stresses/fields.hpp"
 
 namespace fastjoint::stage2 {
 
@@ -17,9 +16,7 @@ struct Extraction {
 };
 
 /// @param generator Name and version of the program.
-/// @param solver    Solver of the plate, if stresses at rims and forces over sections are wanted in every unit case,
-/// else null.
-[[nodiscard]] Extraction extract(const formats::PlateSolution& plate, const std::string& generator,
-                                 FieldSolver* solver);
+/// @param with_stresses Also what stresses at rims and forces over sections follow from.
+[[nodiscard]] Extraction extract(formats::PlateSolution plate, const std::string& generator, bool with_stresses);
 
 }  // namespace fastjoint::stage2

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
-#include <memory>
-#include <optional>
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
@@ -15,29 +13,18 @@
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
 #include "stage2_extract/field/field.hpp"
-#include "stage2_extract/stresses/joint_sheet.hpp"
-#include "stage2_extract/stresses/rim_stress.hpp"
-#include "stage2_extract/stresses/stresses.hpp"
 
 namespace {
 
 using namespace fastjoint;
 
-/// Bytes of stresses in every unit case beyond which MATRICES.h5 goes without them.
-constexpr double most_of_rows = 512e6;
-
 const program::Command command = {
     "stage2_extract",
     "Extracts from a solved plate its condensed stiffness S, the friction matrices R and every other linear quantity,\n"
-    "superconvergent, for every degree, with error estimates. With --stresses: the stresses of a joint, for sheets of\n"
-    "any size. With --field: one stress field, for ParaView.",
+    "superconvergent, for every degree, with error estimates. With --field: one stress field, for ParaView.",
     "PLATE.h5",
     "MATRICES.h5",
-    {{"--loads-only", "",
-      "write no stresses in unit cases (default: up to 512 MB of them; above, none, which the summary says)"},
-     {"--stresses", "RESULT.h5",
-      "write instead RESULT.h5 of a joint with the stresses at this sheet's rims at every increment; -o may be the "
-      "same"},
+    {{"--loads-only", "", "leave out what stresses at holes and forces over sections follow from"},
      {"--field", "SPEC",
       "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, or cases with amounts, "
       "external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
@@ -45,12 +32,10 @@ const program::Command command = {
      {"--increment", "N", "increment of RESULT.h5 to show; default: the last"},
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
-void write_matrices(const program::Arguments& arguments, const formats::PlateSolution& plate,
-                    std::unique_ptr<stage2::FieldSolver> solver, program::Timings& timings) {
-  const bool left_out = !solver && !arguments.flag("--loads-only");
+void write_matrices(const program::Arguments& arguments, formats::PlateSolution plate, program::Timings& timings) {
   timings.phase("extract");
-  const auto extraction = stage2::extract(plate, program::generator(command.name), solver.get());
-  solver.reset();  // its memory is for writing
+  const auto extraction =
+      stage2::extract(std::move(plate), program::generator(command.name), !arguments.flag("--loads-only"));
   stage2::require_good(extraction.checks, arguments.input);
   const auto& a = extraction.matrices;
   timings.phase("write");
@@ -69,20 +54,6 @@ void write_matrices(const program::Arguments& arguments, const formats::PlateSol
                                ? matrices::to_text(extraction.errors)
                                : "error unknown: one degree alone does not show it");
   std::cout << stage2::report(extraction.checks) << fmt::format("  digest {}\n", digest);
-  if (left_out)
-    std::cout << fmt::format(
-        "  stresses in every unit case, {}, are left out; those of a joint: stage2_extract {} "
-        "--stresses RESULT.h5 -o RESULT.h5\n",
-        program::bytes_text(stage2::stress_bytes(plate, plate.n_cases())), arguments.input);
-}
-
-void write_stresses(const program::Arguments& arguments, stage2::FieldSolver& solver, stage2::JointSheet& sheet,
-                    program::Timings& timings) {
-  timings.phase("extract");
-  stage2::set_rims(sheet, solver, arguments.input, arguments.text("--stresses"));
-  timings.phase("write");
-  formats::write(arguments.output, sheet.joint);
-  if (!arguments.quiet) std::cout << arguments.output << ": " << stage2::rim_summary(sheet);
 }
 
 void write_field(const program::Arguments& arguments, stage2::FieldSolver& solver, const stage2::FieldRequest& request,
@@ -105,31 +76,22 @@ void write_field(const program::Arguments& arguments, stage2::FieldSolver& solve
 /// Options are checked before a large file is read.
 stage2::FieldRequest field_request(const program::Arguments& arguments) {
   constexpr int most_increments = 1000000;
-  const bool field = arguments.flag("--field"), stresses = arguments.flag("--stresses");
-  if (stresses && (field || arguments.flag("--loads-only")))
-    throw InputError("--stresses: goes neither with --field nor with --loads-only; leave these out");
-  program::check_spare("--timings", arguments.timings, arguments.text("--stresses"), "the file of --stresses");
-  stage2::FieldRequest request = {arguments.text("--field"), stresses ? "" : arguments.text("--plate"),
+  stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
                                   arguments.integer("--increment", 1, most_increments, 0),
                                   arguments.integer("--p", 1, pfem::highest_p, 0)};
-  stage2::check_field_options(request, field, arguments.output, arguments.timings);
+  stage2::check_field_options(request, arguments.flag("--field"), arguments.output, arguments.timings);
   return request;
 }
 
-/// @param or_else Another way to take less memory, for the message.
-void require_memory(const std::string& file, double need, const std::string& or_else = "") {
+void require_memory(const std::string& file, double need) {
   constexpr double libraries = 23e6;  // and what is left of the factor
-  program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes" + or_else);
+  program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes");
 }
 
-/// Bytes of what is made of the plate: condensed matrices, each as large as the plate's file, stresses, and the factor
-/// of the highest degree that they come from.
-double extraction_need(const formats::PlateSolution& plate, const stage2::FieldSolver* solver, double file_size) {
+/// Bytes of what is made of the plate: condensed matrices, about as large as the plate's file.
+double extraction_need(double file_size) {
   constexpr double copies = 3, gaps = 1.15;  // what the allocator cannot use between them
-  const auto n = plate.n_cases();
-  const double rows = solver ? stage2::stress_bytes(plate, n) + stage2::block_bytes(plate, n) : 0;
-  const double factor = solver ? solver->factor_bytes(solver->numbering().p) : 0;
-  return gaps * (copies * file_size + rows + factor);
+  return gaps * copies * file_size;
 }
 
 /// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file, which has
@@ -141,18 +103,6 @@ double field_need(const stage2::FieldSolver& solver, double file_size) {
   return file_size + solver.factor_bytes(p) + n_nodes * (numbers + text);
 }
 
-/// Bytes of the stresses of a joint's increments: a factor of the highest degree, the fields of a block of them and
-/// what solving copies, the two functions of an element's coefficients at every point, stresses and results.
-double stresses_need(const stage2::FieldSolver& solver, const stage2::JointSheet& sheet, double file_size) {
-  constexpr double copies = 3;
-  const auto& plate = solver.plate();
-  const auto n = sheet.amounts.cols();
-  const double points = count_of(plate.hole_rim) * stage2::n_points_per_turn;
-  const double functions = 2 * points * 2 * double(solver.numbering().function.rows()) * sizeof(double);
-  return copies * (file_size + stage2::block_bytes(plate, n)) + solver.factor_bytes(solver.numbering().p) + functions +
-         stage2::stress_bytes(plate, n);
-}
-
 void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("read");
   const auto request = field_request(arguments);
@@ -162,27 +112,18 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
     const auto bytes = std::filesystem::file_size(file, none);
     return none ? 0 : double(bytes);
   };
-  const double size = size_of(arguments.input) + size_of(arguments.text("--stresses"));
+  const double size = size_of(arguments.input);
   require_memory(arguments.input, of_reading * size);
-  const auto plate = formats::read_plate_solution(arguments.input);
-  std::optional<stage2::JointSheet> sheet;
-  if (arguments.flag("--stresses"))
-    sheet = stage2::read_joint_sheet(plate, arguments.input, arguments.text("--stresses"), arguments.text("--plate"));
-  const bool rows = !arguments.flag("--loads-only") && stage2::stress_bytes(plate, plate.n_cases()) <= most_of_rows;
-  std::unique_ptr<stage2::FieldSolver> solver;
-  timings.phase("integrate");
-  if (arguments.flag("--field") || sheet || rows)
-    solver = std::make_unique<stage2::FieldSolver>(plate, arguments.input);
-  if (arguments.flag("--field"))
-    require_memory(arguments.input, field_need(*solver, size));
-  else if (sheet)
-    require_memory(arguments.input, stresses_need(*solver, *sheet, size), ", or fewer increments");
-  else
-    require_memory(arguments.input, extraction_need(plate, solver.get(), size), rows ? ", or --loads-only" : "");
+  auto plate = formats::read_plate_solution(arguments.input);
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
-  if (arguments.flag("--field")) return write_field(arguments, *solver, request, timings);
-  if (sheet) return write_stresses(arguments, *solver, *sheet, timings);
-  write_matrices(arguments, plate, std::move(solver), timings);
+  if (!arguments.flag("--field")) {
+    require_memory(arguments.input, extraction_need(size));
+    return write_matrices(arguments, std::move(plate), timings);
+  }
+  timings.phase("integrate");
+  stage2::FieldSolver solver(plate, arguments.input);
+  require_memory(arguments.input, field_need(solver, size));
+  write_field(arguments, solver, request, timings);
 }
 
 }  // namespace

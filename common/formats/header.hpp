@@ -35,9 +35,26 @@ struct ContactRim {
   double area;     ///< thickness times length of the rim that the model has, length^2
 };
 
+/// A rim with waves that the finite elements carry: its displacements, and of contact its tractions too.
+struct WaveRim {
+  std::string hole;
+  rim::Harmonics waves;
+  double radius;   ///< length
+  double area;     ///< thickness times length of the rim that the model has, length^2
+  double modulus;  ///< K of the springs, 0 of an open hole, force / length^3
+  /// Strains (x, y, xy) of the sheet at the rim by its stresses, 1 / stress; 0 where no closed form holds, as it is not
+  /// the same all around, or the rim is not a whole one or a part between lines of symmetry.
+  Eigen::Matrix3d compliance = Eigen::Matrix3d::Zero();
+  std::vector<rim::AngleRange> acts{};  ///< the sprung parts of the rim
+
+  [[nodiscard]] bool has_closed_form() const { return compliance(0, 0) > 0; }
+  /// Number of pressures, then shears.
+  [[nodiscard]] Eigen::Index size() const { return waves.size() + waves.n_shears(); }
+};
+
 /// A plate with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,
-/// m discs (hole x direction), k pressures of contact (hole, distribution), h friction cases (hole, direction, bearing
-/// + then -), q tractions.
+/// m discs (hole x direction), k loaded waves (rim of contact; pressures, then shears), h friction cases (hole,
+/// direction, bearing + then -) of other holes, q tractions.
 struct UnitCases {
   Header header;
   pfem::Space space = pfem::Space::trunk;                    ///< of a plate of finite elements
@@ -48,21 +65,27 @@ struct UnitCases {
   /// its negative force is of the second.
   std::vector<std::string> traction_id, traction_direction;
   std::vector<std::string> traction_bearing;  ///< (q) side of the hole that bears, "+x", ...; "" of edges
+  std::vector<std::string> traction_hole{};   ///< (q) that a cosine pressure loads, "" for an edge
   std::vector<ContactRim> contact{};          ///< in the order of the holes
+  std::vector<WaveRim> waves{};               ///< those of `contact`, then others in the order of the holes
   std::vector<std::string> friction_hole;     ///< (h)
-  std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y", or a rim::shear_name at rims of contact
+  std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y"
 
   [[nodiscard]] Eigen::Index n_externals() const { return external_id.size(); }
   [[nodiscard]] Eigen::Index n_discs() const { return disc_hole.size(); }
-  [[nodiscard]] Eigen::Index n_pressures() const {
-    return std::accumulate(contact.begin(), contact.end(), Eigen::Index{0},
-                           [](Eigen::Index sum, const ContactRim& rim) { return sum + rim.pressures.size(); });
+  /// Number of waves of the first rims of `waves`.
+  [[nodiscard]] Eigen::Index n_waves_before(Eigen::Index rim) const {
+    return std::accumulate(waves.begin(), waves.begin() + rim, Eigen::Index{0},
+                           [](Eigen::Index sum, const WaveRim& each) { return sum + each.size(); });
   }
+  /// k: number of waves of rims of contact, and of all rims.
+  [[nodiscard]] Eigen::Index n_loaded_waves() const { return n_waves_before(std::ssize(contact)); }
+  [[nodiscard]] Eigen::Index n_waves() const { return n_waves_before(std::ssize(waves)); }
   [[nodiscard]] Eigen::Index n_friction_cases() const { return friction_hole.size(); }
   [[nodiscard]] Eigen::Index n_tractions() const { return traction_id.size(); }
-  /// Unit cases in their order: externals, discs, pressures, friction, tractions.
+  /// Unit cases in their order: externals, discs, loaded waves, friction, tractions.
   [[nodiscard]] Eigen::Index n_cases() const {
-    return n_externals() + n_discs() + n_pressures() + n_friction_cases() + n_tractions();
+    return n_externals() + n_discs() + n_loaded_waves() + n_friction_cases() + n_tractions();
   }
 };
 
@@ -79,6 +102,14 @@ void space(File& file, AnySpace& a);
 template <class File, class Contact>
 void contact_datasets(File& file, Contact& a, const Units& units, const std::string& group = "");
 
+/// The datasets of UnitCases::waves.
+template <class File, class Waves>
+void wave_datasets(File& file, Waves& a, const Units& units);
+
+/// Number of degrees, the highest ones, at which waves that nothing loads and section forces are carried: their
+/// difference estimates errors.
+inline constexpr Eigen::Index n_stress_degrees = 2;
+
 /// Names of the sides of a hole.
 inline const std::vector<std::string> side_names = {"+x", "-x", "+y", "-y"};
 
@@ -88,9 +119,6 @@ inline constexpr const char* bearing_side =
 
 /// Names of the sides that bear of tractions, "" for one on an edge and where a file has none.
 [[nodiscard]] h5::Allowed traction_sides();
-
-/// Names of all friction cases that there may be.
-[[nodiscard]] h5::Allowed friction_case_names();
 
 /// Degrees from 1 to `highest`, each above the one before.
 [[nodiscard]] h5::Allowed degrees(int highest);

@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 8;
+constexpr int minor = 9;
 
 using V = RimValues;
 using enum Dimension;
@@ -57,38 +57,56 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "Pe", a.Pe, {steps, e}, force, "force on each external");
   contact_datasets(file, a.contact, units, group);
   const Eigen::Index g = a.contact.size();
-  Eigen::Index k = 0;
-  for (const auto& rim : a.contact) k += rim.pressures.size();
-  file(group + "pressure/added", a.pressure, {steps, k}, unit(units, -2, 1),
-       "amount of each pressure that contact adds to that of springs all around");
-  file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
-  file(group + "contact/no_load_peak", a.contacts.no_load_peak, {g}, unit(units, -2, 1),
-       "largest pressure on the rim at no load", h5::or_else(0));
-  file(group + "contact/no_load_least", a.contacts.no_load_least, {g}, unit(units, -2, 1),
-       "least pressure on the rim at no load", h5::or_else(0));
-  file(group + "contact/full_until", a.contacts.full_until, {g}, "1",
-       "load factor at which a rim with interference first loses full contact", h5::not_negative.or_else(h5::infinite));
-  file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
-  file(group + "contact/from", a.contacts.from, {steps, g}, "deg", "start of the widest arc on which they touch");
-  file(group + "contact/to", a.contacts.to, {steps, g}, "deg", "end of this arc, counter-clockwise from x");
-  file(group + "contact/peak_pressure", a.contacts.peak_pressure, {steps, g}, unit(units, -2, 1),
-       "largest pressure on the rim");
-  file(group + "contact/peak_angle", a.contacts.peak_angle, {steps, g}, "deg",
-       "place of this pressure, or of the least gap");
-  file(group + "contact/least_gap", a.contacts.least_gap, {steps, g}, length,
-       "least gap between disc and rim, 0 where they touch");
-  file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
-  const Eigen::Index h = a.friction_hole.size();
-  file(group + "friction/bearing", a.friction_bearing, {h}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y; at rims of contact t0, t1, ...: which shear");
-  file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
-  file(group + "traction/id", a.traction_id, {any}, "1",
-       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
-  file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side,
-       traction_sides());
-  file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
-  rim_datasets(file, group + "rim/", a.rims, steps, units);
+  if constexpr (File::reads) a.waves.resize(g);
+  file(group + "wave/order", Column{a.waves, [](auto& rim) -> auto& { return rim.waves.highest;
 }
+}  // namespace
+, {g}, "1",
+       "highest order of the waves of each rim of contact that are unit cases of the sheet",
+       h5::integers(1, rim::most_harmonics));
+Eigen::Index k = 0, n_w = 0;
+for (Eigen::Index i = 0; i < g; ++i) {
+  if constexpr (File::reads) {
+    const int order = a.waves[i].waves.highest;
+    a.waves[i].hole = a.contact[i].hole;
+    a.waves[i].waves = a.contact[i].pressures;
+    a.waves[i].waves.highest = order;
+  }
+  k += a.waves[i].size();
+  n_w += a.contact[i].pressures.size();
+}
+file(group + "wave/amount", a.amounts, {steps, k}, unit(units, -2, 1),
+     "amount of each of these waves, pressures then shears, rim after rim; of pressures what contact adds to that of "
+     "springs all around");
+file(group + "contact/w", a.w, {steps, n_w}, length,
+     "mean over the rim of the disc's normal displacement against the sheet times each distribution of pressure, rim "
+     "after rim");
+file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
+file(group + "contact/no_load_peak", a.contacts.no_load_peak, {g}, unit(units, -2, 1),
+     "largest pressure on the rim at no load", h5::or_else(0));
+file(group + "contact/no_load_least", a.contacts.no_load_least, {g}, unit(units, -2, 1),
+     "least pressure on the rim at no load", h5::or_else(0));
+file(group + "contact/full_until", a.contacts.full_until, {g}, "1",
+     "load factor at which a rim with interference first loses full contact", h5::not_negative.or_else(h5::infinite));
+file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
+file(group + "contact/from", a.contacts.from, {steps, g}, "deg", "start of the widest arc on which they touch");
+file(group + "contact/to", a.contacts.to, {steps, g}, "deg", "end of this arc, counter-clockwise from x");
+file(group + "contact/peak_pressure", a.contacts.peak_pressure, {steps, g}, unit(units, -2, 1),
+     "largest pressure on the rim");
+file(group + "contact/peak_angle", a.contacts.peak_angle, {steps, g}, "deg",
+     "place of this pressure, or of the least gap");
+file(group + "contact/least_gap", a.contacts.least_gap, {steps, g}, length,
+     "least gap between disc and rim, 0 where they touch");
+file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
+const Eigen::Index h = a.friction_hole.size();
+file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
+file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
+file(group + "traction/id", a.traction_id, {any}, "1",
+     "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
+file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side, traction_sides());
+file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
+rim_datasets(file, group + "rim/", a.rims, steps, units);
+}  // namespace fastjoint::formats
 
 template <class File, class Sensitivity>
 void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen::Index n, const Units& units) {

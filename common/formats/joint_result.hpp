@@ -67,10 +67,12 @@ struct PlateHistory {
   std::vector<std::string> traction_bearing{};  ///< (q) as UnitCases has it
   std::vector<ContactRim> contact{};            ///< (g)
   std::vector<std::string> friction_hole, friction_bearing;
-  Eigen::MatrixXd D;           ///< (steps, m) disc displacements, length
-  Eigen::MatrixXd De;          ///< (steps, e) displacements of the rigid externals, length
-  Eigen::MatrixXd Pe;          ///< (steps, e) forces on them, force
-  Eigen::MatrixXd pressure{};  ///< (steps, k) amount of each pressure that contact adds to that of the springs, stress
+  Eigen::MatrixXd D;             ///< (steps, m) disc displacements, length
+  Eigen::MatrixXd De;            ///< (steps, e) displacements of the rigid externals, length
+  Eigen::MatrixXd Pe;            ///< (steps, e) forces on them, force
+  std::vector<WaveRim> waves{};  ///< (g) waves of the rims of contact that are unit cases
+  Eigen::MatrixXd amounts{};     ///< (steps, k) amount of each of these waves, stress
+  Eigen::MatrixXd w{};  ///< (steps, sum of sizes) of the disc's normal displacement against the sheet each wave, length
   ContactHistory contacts{};
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force

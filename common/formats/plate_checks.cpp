@@ -95,16 +95,26 @@ std::vector<std::span<const std::string>> check_discs(const std::string& file, c
 /// Refuses rims of contact and friction cases that are not those of the holes, in their order.
 void check_cases(const std::string& file, const PlateSolution& a,
                  const std::vector<std::span<const std::string>>& directions) {
-  std::vector<std::string> rims, cases, expected;
+  std::vector<std::string> cases, expected;
+  const auto place = [&](const auto& rim) { return index_of(a.hole_id, rim.hole); };
+  const auto check_order = [&](const char* dataset, const auto& rims) {
+    for (std::size_t i = 0; i < rims.size(); ++i)
+      if (place(rims[i]) == count_of(a.hole_id) || (i > 0 && place(rims[i]) <= place(rims[i - 1])))
+        fail(file, dataset, fmt::format("has \"{}\" at {}", rims[i].hole, i), "holes of hole/id, in its order");
+  };
+  check_order("pressure/hole", std::span(a.contact));
+  const std::size_t n_loaded = a.contact.size();
+  if (a.waves.size() < n_loaded ||
+      !std::ranges::equal(a.contact, std::span(a.waves).first(n_loaded), {}, &ContactRim::hole, &WaveRim::hole))
+    fail(file, "wave/hole", "does not begin with the holes of pressure/hole", "those, then others");
+  check_order("wave/hole", std::span(a.waves).subspan(n_loaded));
   for (int hole = 0; hole < count_of(a.hole_id); ++hole) {
-    if (directions[hole].empty()) continue;
-    if (a.hole_spring[hole].contact) rims.push_back(a.hole_id[hole]);
-    for (const auto& name : rim::friction_cases(directions[hole], a.hole_spring[hole].contact))
-      expected.push_back(a.hole_id[hole] + ":" + name);
+    const bool in_contact = index_of(a.contact, a.hole_id[hole], &ContactRim::hole) < count_of(a.contact);
+    if (in_contact && directions[hole].empty())
+      fail(file, "pressure/hole", fmt::format("names \"{}\", which has no disc", a.hole_id[hole]), "holes with discs");
+    if (in_contact) continue;
+    for (const auto& name : rim::friction_cases(directions[hole])) expected.push_back(a.hole_id[hole] + ":" + name);
   }
-  if (!std::ranges::equal(rims, a.contact, {}, {}, &ContactRim::hole))
-    fail(file, "pressure/hole", "names a hole twice, one without a disc, or holes in another order than hole/id",
-         fmt::format("{}", fmt::join(rims, ", ")));
   for (int i = 0; i < count_of(a.friction_hole); ++i) cases.push_back(a.friction_hole[i] + ":" + a.friction_bearing[i]);
   const auto [found, wanted] = std::ranges::mismatch(cases, expected);
   if (found != cases.end() || wanted != expected.end())

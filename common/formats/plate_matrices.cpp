@@ -16,7 +16,8 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 7;
+constexpr int minor = 8;
+constexpr const char* per_case = "per unit of the case";
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
@@ -36,11 +37,13 @@ void name_datasets(File& file, Matrices& a) {
   axis.word = "";
   file("unsupported", a.unsupported, {any}, "1",
        "directions along which no support holds the plate: the forces on it are in balance there", axis);
+  file("traction/hole", a.traction_hole, {a.n_tractions()}, "1",
+       "open hole that each traction presses on, empty for an edge", or_else(""));
   contact_datasets(file, a.contact, a.header.units);
+  wave_datasets(file, a.waves, a.header.units);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y; at rims of contact t0, t1, ...: which shear",
-       friction_case_names());
+       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
 }
 
 template <class File, class Matrices>
@@ -48,9 +51,10 @@ void matrix_datasets(File& file, Matrices& a) {
   const Units& units = a.header.units;
   const std::string area = unit(units, 2, 0), stiffness = unit(units, -1, 1);
   const auto np = a.p.size(), e = a.n_externals(), m = a.n_discs(), h = a.n_friction_cases(), q = a.n_tractions();
-  const auto k = a.n_pressures();
   const h5::Allowed error = h5::not_negative.or_else(h5::infinite);
   file("friction/unit_force", a.friction_unit_force, {h}, area, "bearing force per unit peak contact stress");
+  file("traction/unit_force", a.traction_unit_force, {q}, area,
+       "force per unit peak of the cosine pressure in a hole, 0 for an edge", or_else(0));
   file("friction/resultant", a.friction_resultant, {h}, area,
        "resultant along the direction of a unit friction case, signed");
   const auto across = [&](const char* path, auto& list, Eigen::Index n, const std::string& its_unit, const char* text) {
@@ -75,18 +79,14 @@ void matrix_datasets(File& file, Matrices& a) {
   file("T_e", a.T_e, {np, e, q}, "1", "force that holds external i per unit total force on traction boundary j");
   file("C_t", a.C_t, {np, q, q}, unit(units, 1, -1),
        "mean displacement of traction boundary i per unit total force on j, all else held");
-  file("B_e", a.B_e, {np, k, e}, area,
-       "integral over the rim of the disc's displacement against the sheet times the distribution of pressure i, per "
-       "displacement of external j; per unit of i also the force on external j");
-  file("B_d", a.B_d, {np, k, m}, area, "the same per displacement of disc j");
-  file("C", a.C, {np, k, k}, unit(units, 5, -1), "what unit pressure j takes off integral i");
-  file("R_p", a.R_p, {np, k, h}, unit(units, 5, -1), "integral i by unit friction case j");
-  file("T_p", a.T_p, {np, k, q}, unit(units, 3, -1), "integral i by a unit total force on traction boundary j");
+  file("W", a.W, {np, a.n_loaded_waves(), a.n_cases()}, per_case,
+       "integral over the rim of the disc's displacement against the sheet times the distribution of each wave of "
+       "contact, normal for pressures and tangential for shears, in each unit case");
 }
 
 template <class File, class Stresses>
-void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Units& units) {
-  const std::string length = unit(units, 1, 0), area = unit(units, 2, 0), per_case = "per unit of the case";
+void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index all_cases, const Units& units) {
+  const std::string length = unit(units, 1, 0), area = unit(units, 2, 0);
   file("stress/p", a.p, {any}, "1", "degrees of the stresses and section forces", degrees(highest_degree).or_else(0));
   file("rim/hole", a.rim_hole, {any}, "1", "holes, open ones included", or_else(""));
   const Eigen::Index l = a.p.size(), r = a.rim_hole.size();
@@ -98,14 +98,9 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index all_cases, const Unit
        "mean modulus in tension of the sheet at the rim, along x and along y", or_else(0));
   file("rim/bearing_area", a.bearing_area, {r, 2}, area, "projected area of the rim for bearing along x and along y",
        h5::positive);
-  file("rim/start", a.rim_start, {r + 1}, "1", "first point of each rim, and the number of points");
-  file("rim/angle", a.angle, {any}, "deg", "place of each point on its rim, counter-clockwise from x");
-  const Eigen::Index k = a.angle.size(), n_cases = l > 0 ? all_cases : 0;
-  file("rim/hoop_by_pressure", a.hoop_by_pressure, {k}, "1",
-       "hoop stress over radial stress of short waves of pressure, 0 on rims without contact", or_else(0));
-  file("rim/sigma_rr", a.sigma_rr, {l, k, n_cases}, per_case, "radial stress at each point in each unit case");
-  file("rim/sigma_tt", a.sigma_tt, {l, k, n_cases}, per_case, "hoop stress at each point in each unit case");
-  file("rim/sigma_rt", a.sigma_rt, {l, k, n_cases}, per_case, "shear stress at each point in each unit case");
+  const Eigen::Index n_cases = l > 0 ? all_cases : 0;
+  file("rim/W", a.other_waves, {l, l > 0 ? n_waves : 0, n_cases}, per_case,
+       "the same as W, of the waves of other holes");
   file("section/hole", a.section_hole, {any}, "1", "hole that each section lies beside", or_else(""));
   const Eigen::Index s = a.section_hole.size();
   file("section/side", a.section_side, {s}, "1", "side of the hole that each section lies on", h5::one_of(side_names));
@@ -125,7 +120,7 @@ void datasets(File& file, Matrices& a) {
   file.attribute("plate_digest", a.plate_digest);
   name_datasets(file, a);
   matrix_datasets(file, a);
-  stress_datasets(file, a.stresses, a.n_cases(), a.header.units);
+  stress_datasets(file, a.stresses, a.n_waves() - a.n_loaded_waves(), a.n_cases(), a.header.units);
 }
 
 }  // namespace
@@ -138,13 +133,13 @@ std::string write(const std::string& path, const PlateMatrices& a) {
 
 PlateMatrices read_plate_matrices(const std::string& path) {
   h5::Reader file(path, format, major);
+  if (file.has("rim/sigma_tt") || file.has("B_d"))
+    throw FileError(
+        fmt::format("{}: was written before version 1.8, with stresses at points; run stage1_plate and "
+                    "stage2_extract again",
+                    path));
   PlateMatrices a;
   datasets(file, a);
-  const Eigen::VectorXi& start = a.stresses.rim_start;
-  if (start[0] != 0 || start[start.size() - 1] != a.stresses.angle.size() ||
-      !std::is_sorted(start.begin(), start.end()))
-    throw FileError(
-        fmt::format("{}:rim/start: does not rise from 0 to the {} points of rim/angle", path, a.stresses.angle.size()));
   return a;
 }
 

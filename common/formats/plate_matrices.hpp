@@ -12,11 +12,11 @@ namespace fastjoint::formats {
 /// Rows lie in memory as they do in the file, since they may be large.
 using StressRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Stresses of one plate per unit case, at l degrees (schemas/plate-matrices.md). A plate from elsewhere has none: l =
-/// 0.
+/// What stresses at holes follow from, per unit case, at l degrees (schemas/plate-matrices.md). A plate from elsewhere
+/// has none: l = 0.
 ///
-/// The n_cases unit cases are the e rigid externals (per length), m discs (per length), h friction cases (per stress),
-/// q tractions (per force); r rims of holes with k points in all; s sections.
+/// The n_cases unit cases are the e rigid externals (per length), m discs (per length), k loaded waves and h friction
+/// cases (per stress), q tractions (per force); r holes; s sections.
 struct PlateStresses {
   Eigen::VectorXi p;                  ///< (l) ascending; all of them if no more than two, else the two highest
   std::vector<std::string> rim_hole;  ///< (r)
@@ -25,15 +25,11 @@ struct PlateStresses {
   Eigen::VectorXd rim_thickness;      ///< (r) mean thickness of the plate there, length; 0 where the file does not say
   Eigen::MatrixXd rim_modulus;        ///< (r, 2) mean modulus in tension along x, along y, stress; 0 likewise
   Eigen::MatrixXd bearing_area;       ///< (r, 2) d t of a whole hole, for bearing along x and along y, length^2
-  /// (r + 1) first point of each rim
-  Eigen::VectorXi rim_start = Eigen::VectorXi::Zero(1);
-  Eigen::VectorXd angle;  ///< (k) of each point, degrees counter-clockwise from x
-  /// (k) hoop stress over radial stress of short waves of pressure; 0 on rims without contact
-  Eigen::VectorXd hoop_by_pressure;
-  std::vector<StressRows> sigma_rr, sigma_tt, sigma_rt;  ///< l x (k, n_cases)
-  std::vector<std::string> section_hole, section_side;   ///< (s)
-  Eigen::VectorXd gross_area, net_area;                  ///< (s) length^2
-  std::vector<StressRows> section_force;                 ///< l x (s, n_cases), tension positive
+  /// l x (w - k, n_cases) as PlateMatrices::W: of the waves that nothing loads
+  std::vector<StressRows> other_waves;
+  std::vector<std::string> section_hole, section_side;  ///< (s)
+  Eigen::VectorXd gross_area, net_area;                 ///< (s) length^2
+  std::vector<StressRows> section_force;                ///< l x (s, n_cases), tension positive
   /// (l) estimated relative error of S and C_t: that of a section's force is up to its square root; 0 where the file
   /// does not say
   Eigen::VectorXd stiffness_error;
@@ -63,9 +59,11 @@ struct PlateMatrices : UnitCases {
   std::vector<Eigen::MatrixXd> R_ef, R_df;        ///< np x (e,h), (m,h), length^2
   std::vector<Eigen::MatrixXd> T_d, T_e;          ///< np x (m,q), (e,q), dimensionless
   std::vector<Eigen::MatrixXd> C_t;               ///< np x (q,q), length / force
-  /// Integrals of PlateCases: with pressures q of contact, (P, F) has + (B_e, B_d)^T q, and they are
-  ///   m = B_e D_e + B_d D - C q + R_p Lambda + T_p f.
-  std::vector<Eigen::MatrixXd> B_e, B_d, C, R_p, T_p;  ///< np x (k,e), (k,m), (k,k), (k,h), (k,q)
+  /// np x (k, n_cases) PlateCases::W of the loaded waves: their integrals by each unit case. Its columns of externals
+  /// and discs, turned, are the forces on these by each loaded wave.
+  std::vector<StressRows> W;
+  Eigen::VectorXd
+      traction_unit_force;  ///< (q) force per unit peak of the cosine pressure in a hole, length^2; 0 of edges
   /// Estimated absolute error at the highest p; infinite where one p alone says nothing of it.
   Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
   PlateStresses stresses;

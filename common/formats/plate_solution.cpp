@@ -17,8 +17,9 @@ using h5::any;
 using h5::Column;
 
 constexpr const char* format = "plate-solution";
-constexpr int major = 4;
-constexpr int minor = 3;
+constexpr int major = 5;
+constexpr int minor = 0;
+constexpr const char* per_case = "per unit of the case";
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
 template <class File, class Mesh>
@@ -88,15 +89,9 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
   file("hole/arc", Column{arcs, [](auto& arc) { return std::tie(arc.item.from, arc.item.to); }}, {std::ssize(arcs), 2},
        "rad", "start and end of each arc on which springs act, counter-clockwise from x");
   contact_datasets(file, a.contact, a.header.units);
-  if constexpr (File::reads) {
+  wave_datasets(file, a.waves, a.header.units);
+  if constexpr (File::reads)
     for (const auto& [hole, range] : arcs) a.hole_spring[hole].acts.push_back(range);
-    for (const auto& rim : a.contact) {
-      const int hole = index_of(a.hole_id, rim.hole);
-      if (hole == n)
-        throw FileError(fmt::format("{}:pressure/hole: holds \"{}\", which is not in hole/id", file.path(), rim.hole));
-      a.hole_spring[hole].contact = rim.pressures;
-    }
-  }
 }
 
 template <class File, class Solution>
@@ -132,16 +127,11 @@ void name_datasets(File& file, Solution& a) {
   file("traction/hole", a.traction_hole, {q}, "1", "open hole that each traction presses on, empty for an edge",
        hole_or_edge);
   file("traction/bearing", a.traction_bearing, {q}, "1", bearing_side, traction_sides());
-  if constexpr (File::reads)
-    for (Index i = 0; i < q; ++i)  // before version 4.3 the side along the direction was the only one
-      if (a.traction_bearing[i].empty() && !a.traction_hole[i].empty())
-        a.traction_bearing[i] = "+" + a.traction_direction[i];
   file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   file("disc/direction", a.disc_direction, {std::ssize(a.disc_hole)}, "1", "direction of each disc, x or y", axis);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
-       "bearing side of each friction case: +x, -x, +y, -y; at rims of contact t0, t1, ...: which shear",
-       friction_case_names());
+       "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
   file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1",
        "vertex of the mesh that each spring of a point holds", h5::index_into(a.mesh.n_nodes()));
   const Index n_points = a.points.size();
@@ -178,22 +168,20 @@ void sparse_datasets(File& file, const std::string& group, Sparse& A, Index rows
 }
 
 /// Datasets of one degree.
+/// @param w, s Number of its waves and sections.
 template <class File, class Cases>
-void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Index k, Index h, Index q,
-                   const Units& units) {
+void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Index h, Index q, Index n_cases, Index w,
+                   Index s, const Units& units) {
   file(group + "S", a.S, {nc, nc}, unit(units, -1, 1),
        "force on externals, then discs, per unit displacement of each, before rounding is taken out");
   file(group + "R", a.R, {nc, h}, unit(units, 2, 0), "force on externals, then discs, by each unit friction case");
   file(group + "T", a.T, {nc, q}, "1", "force on externals, then discs, by a unit force of each traction");
   file(group + "C_t", a.C_t, {q, q}, unit(units, 1, -1),
        "mean displacement of each traction boundary by a unit force of each");
-  file(
-      group + "B", a.B, {k, nc}, unit(units, 2, 0),
-      "integral over the rim of the disc's displacement against the sheet times each pressure's distribution, per unit "
-      "displacement of externals, then discs");
-  file(group + "C", a.C, {k, k}, unit(units, 5, -1), "what each unit pressure of contact takes off these integrals");
-  file(group + "R_p", a.R_p, {k, h}, unit(units, 5, -1), "these integrals by each unit friction case");
-  file(group + "T_p", a.T_p, {k, q}, unit(units, 3, -1), "these integrals by a unit force of each traction");
+  file(group + "W", a.W, {w, n_cases}, per_case,
+       "integral over the rim of the disc's displacement against the sheet times the distribution of each wave, normal "
+       "for pressures and tangential for shears, in each unit case");
+  file(group + "N", a.N, {s, n_cases}, per_case, "normal force over each section in each unit case, tension positive");
 }
 
 template <class File, class Solution>
@@ -206,7 +194,7 @@ void datasets(File& file, Solution& a) {
   geometry_datasets(file, a);
   name_datasets(file, a);
   const Index n = a.ndof[a.ndof.size() - 1], nc = std::ssize(a.external_id) + std::ssize(a.disc_hole);
-  const Index k = a.n_pressures(), h = a.friction_hole.size(), q = a.traction_id.size();
+  const Index k = a.n_loaded_waves(), w = a.n_waves(), h = a.friction_hole.size(), q = a.traction_id.size();
   file("unknown", a.unknown.transpose(), {h5::some, 2}, "1",
        "what u_x and u_y of each function are: >= 0 plate unknown, -1 zero, -2 - i displacement i",
        h5::integers(-1 - nc, n - 1));
@@ -215,17 +203,18 @@ void datasets(File& file, Solution& a) {
   sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (int i = 0; i < count_of(a.cases); ++i)
-    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, k, h, q, units);
+    case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, h, q, a.n_cases(), a.has_stresses(i) ? w : k,
+                  a.has_stresses(i) ? std::ssize(a.sections) : 0, units);
   file("probe/displacement", a.probe.displacement, {nc}, length,
        "amounts of externals, then discs, in a state that is solved on its own to check S and T");
-  file("probe/pressure", a.probe.pressure, {k}, stress, "amounts of pressures of contact in another, to check B and C");
+  file("probe/wave", a.probe.wave, {k}, stress, "amounts of loaded waves in another, to check W");
   file("probe/friction", a.probe.friction, {h}, stress, "amounts of friction cases in the same, to check R");
   file("probe/force", a.probe.force, {nc}, force, "force on externals, then discs, in the first");
   file("probe/friction_force", a.probe.friction_force, {nc}, force, "force on externals, then discs, in the second");
-  file("probe/moment", a.probe.moment, {k}, unit(units, 3, 0),
-       "integral over the rim of the disc's displacement against the sheet times each pressure's distribution, in the "
+  file("probe/moment", a.probe.moment, {w}, unit(units, 3, 0),
+       "integral over the rim of the disc's displacement against the sheet times the distribution of each wave, in the "
        "first");
-  file("probe/friction_moment", a.probe.friction_moment, {k}, unit(units, 3, 0), "the same in the second");
+  file("probe/friction_moment", a.probe.friction_moment, {w}, unit(units, 3, 0), "the same in the second");
   file("probe/traction_work", a.probe.traction_work, {q}, length, "work of each unit traction in the first");
   file("probe/rounding", a.probe.rounding, {1}, stiffness, "what rounding may change of S, estimated by the first",
        h5::or_else(0));

@@ -19,22 +19,24 @@ struct PlateCases {
   Eigen::MatrixXd R;    ///< (nc, h) forces on them under unit friction cases, length^2
   Eigen::MatrixXd T;    ///< (nc, q) forces on them under a unit total force on each traction boundary
   Eigen::MatrixXd C_t;  ///< (q, q) mean displacement of the traction boundaries under these, length / force
-  // Integrals over rims of the disc's displacement relative to the sheet times each pressure's distribution.
-  Eigen::MatrixXd B;    ///< (k, nc) per unit displacement of externals and discs, length^2
-  Eigen::MatrixXd C;    ///< (k, k) what each unit pressure takes off them, length^5 / force
-  Eigen::MatrixXd R_p;  ///< (k, h) under unit friction cases, length^5 / force
-  Eigen::MatrixXd T_p;  ///< (k, q) under unit tractions, length^3 / force
+  /// (w, n_cases) integrals over rims of the disc's displacement against the sheet, normal for pressures and tangential
+  /// for shears, times the distribution of each wave, in every unit case: those of the k loaded waves, at the
+  /// n_stress_degrees highest degrees those of all waves. Per externals and discs length^2, loaded waves and friction
+  /// cases length^5 / force, tractions length^3 / force.
+  Eigen::MatrixXd W;
+  /// (s, n_cases) normal force over every section, tension positive; no rows below the n_stress_degrees highest degrees
+  Eigen::MatrixXd N;
 };
 
-/// Two states of the highest degree that are solved on their own, to check S, R, T, B and C by them.
+/// Two states of the highest degree that are solved on their own, to check S, R, T and W by them.
 struct Probe {
   Eigen::VectorXd displacement;     ///< (nc) amount of each controlled displacement in the first, length
-  Eigen::VectorXd pressure;         ///< (k) amount of each pressure of contact in the second, stress
+  Eigen::VectorXd wave;             ///< (k) amount of each loaded wave in the second, stress
   Eigen::VectorXd friction;         ///< (h) amount of each friction case in the second, stress
   Eigen::VectorXd force;            ///< (nc) that must act on externals and discs in the first
   Eigen::VectorXd friction_force;   ///< (nc) the same in the second
-  Eigen::VectorXd moment;           ///< (k) integral of each pressure's distribution in the first, length^3
-  Eigen::VectorXd friction_moment;  ///< (k) the same in the second
+  Eigen::VectorXd moment;           ///< (w) integral of each wave's distribution in the first, length^3
+  Eigen::VectorXd friction_moment;  ///< (w) the same in the second
   Eigen::VectorXd traction_work;    ///< (q) of each unit traction on the displacements of the first, length
   double rounding = 0;              ///< what rounding may change of S, estimated by the first, force / length
 };
@@ -60,13 +62,15 @@ struct PlateSolution : UnitCases {
   std::vector<rim::Rim> hole_rim;
   std::vector<rim::HoleSpring> hole_spring;
   std::vector<rim::Section> sections;
-  std::vector<std::string> supported;      ///< directions that a support fixes somewhere
-  std::vector<std::string> traction_hole;  ///< (q) that a cosine pressure loads, "" for an edge
+  std::vector<std::string> supported;  ///< directions that a support fixes somewhere
   Eigen::VectorXd held_stiffness;   ///< (nc) of each controlled displacement with all of the plate held, force / length
   Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of the unit tractions on the plate unknowns
   std::vector<PointSpring> points;
   std::vector<PlateCases> cases;  ///< one for each p
   Probe probe;
+
+  /// True of the degrees, by their index, at which all waves and the section forces are there.
+  [[nodiscard]] bool has_stresses(Eigen::Index level) const { return level + n_stress_degrees >= p.size(); }
 };
 
 /// Throws FileError; what was at `path` before survives.

@@ -21,20 +21,19 @@ void add_rim(const ElementClass::RimSide& rim, const std::vector<int>& row, Eige
   const RimTerms& terms = rim.terms;
   const Eigen::Index n_modes = std::ssize(row) / 2;
   const Eigen::Index n = terms.modes.size();
-  const auto n_discs = terms.coupling.cols(), n_pressures = terms.pressure.cols();
-  const auto disc = first_border, pressure = disc + n_discs, friction = pressure + n_pressures;
+  const auto n_discs = terms.coupling.cols(), n_waves = terms.waves.cols();
+  const auto disc = first_border, wave = disc + n_discs, friction = wave + n_waves;
   const auto row_of = [&](Eigen::Index i) { return row[(i < n ? 0 : n_modes) + terms.modes[i % n]]; };
   for (Eigen::Index i = 0; i < 2 * n; ++i) {
     if (row_of(i) < 0) continue;
     for (Eigen::Index j = 0; j <= i; ++j)
       if (row_of(j) >= 0) M(std::max(row_of(i), row_of(j)), std::min(row_of(i), row_of(j))) += terms.plate(i, j);
     M.col(row_of(i)).segment(disc, n_discs) += terms.coupling.row(i).transpose();
-    M.col(row_of(i)).segment(pressure, n_pressures) -= terms.pressure.row(i).transpose();
+    M.col(row_of(i)).segment(wave, n_waves) -= terms.waves.row(i).transpose();
     M.col(row_of(i)).segment(friction, terms.friction.cols()) -= terms.friction.row(i).transpose();
   }
   M.block(disc, disc, n_discs, n_discs) += terms.disc;
-  M.block(pressure, disc, n_pressures, n_discs) += terms.reaction.transpose();
-  M.block(friction, disc, terms.drag.cols(), n_discs) += terms.drag.transpose();
+  M.block(wave, disc, n_waves, n_discs) += terms.reaction.transpose();
 }
 
 /// Adds an element's matrix to a lower triangle whose pattern has room for it.
@@ -92,7 +91,7 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
   }
   std::map<int, Eigen::Index> border_of;  // by hole
   for (const auto& [hole, terms] : elements.rims)
-    border_of[hole] = terms.coupling.cols() + terms.pressure.cols() + terms.friction.cols();
+    border_of[hole] = terms.coupling.cols() + terms.waves.cols() + terms.friction.cols();
   for (auto& [hole, width] : border_of) element.n_border += std::exchange(width, element.n_border);
   std::vector<int> order = element.inside, row(std::size_t{2} * n_modes, -1);
   order.insert(order.end(), element.outside.begin(), element.outside.end());
@@ -113,7 +112,7 @@ FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, 
   double condensed = 0;
   for (const auto& each : plate.elements.classes)
     condensed += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()));
-  auto rows = skeleton.rows(plate, p);
+  auto rows = skeleton.rows(plate, p, plate.unknowns.n_border());
   const double entries = skeleton.size(rows).entries;
   std::fill(rows.first.end() - rows.n_border - 1, rows.first.end(), rows.n_skeleton);
   const auto size = skeleton.size(rows);
@@ -121,17 +120,19 @@ FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, 
           entry * (entries + size.entries) + number * (size.factor + size.largest_front)};
 }
 
-PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p)
-    : plate_(plate), classes_(plate.elements.classes.size()), rows_(skeleton.rows(plate, p)) {
+PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool with_other_waves)
+    : plate_(plate),
+      classes_(plate.elements.classes.size()),
+      rows_(skeleton.rows(plate, p, with_other_waves ? plate.unknowns.n_border() : plate.unknowns.n_amounts())) {
   linalg::for_each_index(classes_.size(), [&](std::size_t i) {
     const ElementClass& elements = plate.elements.classes[i];
     classes_[i] = condense(elements, plate.elements.stiffness[elements.congruent], plate.numbering, p);
   });
   const Eigen::SparseMatrix<double> A = bordered_stiffness(skeleton);
-  const int n_controlled = plate.unknowns.n_controlled(), n_rows = n_controlled + plate.unknowns.n_pressures();
+  const int n_controlled = plate.unknowns.n_controlled();
   coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
   const Eigen::SparseMatrix<double> lower = A.bottomRightCorner(rows_.n_border, rows_.n_border);
-  border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>()).topRows(n_rows);
+  border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>());
   held_ += lower.diagonal().head(n_controlled);
   diagonal_ = A.diagonal().head(rows_.n_skeleton);
   factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_skeleton);
@@ -151,7 +152,7 @@ Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skel
     std::vector<int> rows;
     for (const int i : K.outside) rows.push_back(rows_.of_dof(dofs.dof[i]));
     for (const int column : plate_.unknowns.border_of(plate_.elements.holes[element]))
-      rows.push_back(rows_.n_skeleton + column);
+      rows.push_back(column < rows_.n_border ? rows_.n_skeleton + column : -1);
     const double scale = plate_.elements.scale[element];
     assembler.add(rows, sign, scale, K.matrix.outside());
     for (const int row : std::set<int>(rows.begin(), rows.end()))
@@ -167,11 +168,37 @@ Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skel
   return A;
 }
 
-Eigen::MatrixXd PlateFactor::condensed() const {
+Eigen::MatrixXd PlateFactor::condensed(const Functions& functions) const {
   constexpr double rounding = 1e-12;
-  const auto n_rows = border_.rows(), nc = held_.size();
-  Eigen::MatrixXd forces = Eigen::MatrixXd(border_) - factor_->products(coupling_, n_rows);
-  auto square = forces.leftCols(n_rows);
+  const Eigen::Index n = rows_.n_border, n_amounts = plate_.unknowns.n_amounts(), nc = held_.size();
+  std::vector<Eigen::Triplet<double>> on_skeleton, on_border;
+  for (int i = 0; i < count_of(functions); ++i)
+    for (const auto& part : functions[i]) {
+      const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, part.element);
+      Eigen::Index at = 0;
+      for (const int mode : element(part.element).outside) {
+        const int row = rows_.of_dof(dofs.dof[mode]);
+        const double weight = dofs.sign[mode] * part.outside.row(at++).sum();
+        if (row >= rows_.n_skeleton)
+          on_border.emplace_back(i, row - rows_.n_skeleton, weight);
+        else if (row >= 0)
+          on_skeleton.emplace_back(n + i, row, weight);
+      }
+      for (const int column : plate_.unknowns.border_of(plate_.elements.holes[part.element])) {
+        const double weight = part.outside.row(at++).sum();
+        if (column < n) on_border.emplace_back(i, column, weight);
+      }
+    }
+  for (int column = 0; column < coupling_.outerSize(); ++column)
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(coupling_, column); entry; ++entry)
+      on_skeleton.emplace_back(entry.row(), column, entry.value());
+  Eigen::SparseMatrix<double> coupling(n + count_of(functions), rows_.n_skeleton), direct(count_of(functions), n);
+  coupling.setFromTriplets(on_skeleton.begin(), on_skeleton.end());
+  direct.setFromTriplets(on_border.begin(), on_border.end());
+  Eigen::MatrixXd forces(coupling.rows(), n_amounts);
+  forces << Eigen::MatrixXd(border_.leftCols(n_amounts)), Eigen::MatrixXd(direct.leftCols(n_amounts));
+  forces -= factor_->products(coupling, n_amounts).transpose();
+  auto square = forces.topRows(n_amounts);
   square.triangularView<Eigen::StrictlyUpper>() =
       square.transpose();  // products are symmetric but for their last digits
   auto S = forces.topLeftCorner(nc, nc);

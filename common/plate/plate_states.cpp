@@ -10,7 +10,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 PlateStates::PlateStates(const PlateFactor& factor, const MatrixXd& border, const Eigen::SparseMatrix<double>& loads)
-    : factor_(factor), border_(border.transpose()) {
+    : factor_(factor), border_(MatrixXd::Zero(border.cols(), factor.rows_.n_border)) {
+  border_.leftCols(border.rows()) = border.transpose();
   const Eigen::SparseMatrix<double> amounts = border_.sparseView();
   MatrixXd b = -(amounts * factor.coupling_);
   if (loads.nonZeros() > 0) {
@@ -42,17 +43,18 @@ void PlateStates::eliminate(const Eigen::SparseMatrix<double>& loads) {
       if (pfem::is_free(dofs.dof[i])) skeleton_loads_.col(factor_.rows_.of_unknown[dofs.dof[i]]) += load;
       if (pfem::is_controlled(dofs.dof[i])) border_loads_.col(pfem::controlled_index(dofs.dof[i])) += load;
     }
-    for (const int i : unknowns.border_of(factor_.plate_.elements.holes[element]))
-      border_loads_.col(i) += outside.row(row++).transpose();
+    for (const int i : unknowns.border_of(factor_.plate_.elements.holes[element])) {
+      if (i < border_loads_.cols()) border_loads_.col(i) += outside.row(row).transpose();
+      ++row;
+    }
     inside_[element] = inside / factor_.plate_.elements.scale[element];
   }
 }
 
 MatrixXd PlateStates::forces() const {
-  const auto n_rows = factor_.border_.rows();
   MatrixXd forces = factor_.border_ * border_.transpose();
-  forces += factor_.coupling_.topRows(n_rows) * skeleton_.transpose();
-  if (border_loads_.size() > 0) forces -= border_loads_.leftCols(n_rows).transpose();
+  forces += factor_.coupling_ * skeleton_.transpose();
+  if (border_loads_.size() > 0) forces -= border_loads_.transpose();
   return forces;
 }
 
@@ -79,7 +81,10 @@ MatrixXd PlateStates::outside(int element) const {
     if (pfem::is_controlled(dof)) u.col(column) = dofs.sign[i] * border_.col(pfem::controlled_index(dof));
     ++column;
   }
-  for (const int i : plate.unknowns.border_of(plate.elements.holes[element])) u.col(column++) = border_.col(i);
+  for (const int i : plate.unknowns.border_of(plate.elements.holes[element])) {
+    if (i < border_.cols()) u.col(column) = border_.col(i);
+    ++column;
+  }
   return u;
 }
 

@@ -8,26 +8,17 @@
 
 namespace fastjoint::plate {
 
-/// Linear functions of an element's coefficients, by what is left of them when the element is condensed: weights of
-/// what it shares with others and of its border, and of the loads inside it. They are condensed as loads are, since the
-/// stiffness is symmetric.
-struct CondensedFunctions {
-  int element;
-  Eigen::MatrixXd inside, outside;  ///< (n_inside, r), (n_outside, r)
-};
-
 /// Displacements of a plate in k states at one degree: those of the skeleton, from which those inside an element follow
 /// where they are asked for.
 class PlateStates {
  public:
   /// @param factor Factor to solve with; must outlive this.
-  /// @param border Amounts of controlled displacements, pressures of contact and friction cases, shape (nc + np + h,
-  /// k).
+  /// @param border Amounts of controlled displacements, waves that are loaded and friction cases, shape (n_amounts, k).
   /// @param loads  On the plate's unknowns beside, shape (n_p, k); few of them are not zero.
   PlateStates(const PlateFactor& factor, const Eigen::MatrixXd& border, const Eigen::SparseMatrix<double>& loads);
 
   /// Forces that must act on the controlled displacements in every state beside those of the loads on them, then the
-  /// integrals of PlateFactor::condensed, (nc + np, k).
+  /// integrals of PlateFactor::condensed, (n_border, k).
   [[nodiscard]] Eigen::MatrixXd forces() const;
   /// Work of the loads of every state on the displacements of each, shape (k, k).
   [[nodiscard]] Eigen::MatrixXd work() const;
@@ -54,9 +45,9 @@ class PlateStates {
   [[nodiscard]] Eigen::MatrixXd outside(int element) const;
 
   const PlateFactor& factor_;
-  Eigen::MatrixXd border_;                         ///< (k, nc + np + h)
+  Eigen::MatrixXd border_;                         ///< (k, n_border)
   Eigen::MatrixXd skeleton_;                       ///< (k, skeleton): what an element takes of it lies together
-  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (k, skeleton), (k, nc + np + h); empty if there are no loads
+  Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (k, skeleton), (k, n_border); empty if there are no loads
   std::map<int, Eigen::MatrixXd> inside_;          ///< of the elements with loads inside, eliminated, (n_inside, k)
 };
 

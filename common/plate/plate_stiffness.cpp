@@ -37,17 +37,19 @@ class ElementClassifier {
   using Key = std::vector<std::int64_t>;
 
   void add(int element) {
-    result_.holes.push_back(sprung_holes(element));
+    result_.holes.push_back(holes_on(element));
     const auto [found, is_new] = index_.try_emplace(key(element), count_of(result_.classes));
     if (is_new) add_class(element);
     result_.class_of.push_back(found->second);
     result_.scale[element] = sprung_.mesh.thickness[element] / result_.classes[found->second].thickness;
   }
 
-  [[nodiscard]] std::vector<int> sprung_holes(int element) const {
+  [[nodiscard]] bool has_terms(int hole) const { return sprung_.springs[hole] || sprung_.waves[hole]; }
+
+  [[nodiscard]] std::vector<int> holes_on(int element) const {
     std::vector<int> holes;
     for (const auto& [hole, side] : rims_[element])
-      if (sprung_.springs[hole] && std::find(holes.begin(), holes.end(), hole) == holes.end()) holes.push_back(hole);
+      if (has_terms(hole) && std::find(holes.begin(), holes.end(), hole) == holes.end()) holes.push_back(hole);
     return holes;
   }
 
@@ -68,20 +70,21 @@ class ElementClassifier {
     const auto bits = [&](double x) { key.push_back(std::bit_cast<std::int64_t>(x)); };
     for (int edge = 0; edge < pfem::n_local_edges; ++edge) key.push_back(is_edge_kept(element, edge));
     for (const auto& [hole, side] : rims_[element]) {
+      if (!has_terms(hole)) continue;
+      key.insert(key.end(), {index_of(result_.holes[element], hole), side.local_edge});
+      if (const auto& waves = sprung_.waves[hole]) {
+        key.insert(key.end(), {waves->shape.highest, waves->loaded});
+        bits(waves->shape.start);
+        bits(waves->shape.sweep);
+      }
       const auto& spring = sprung_.springs[hole];
       if (!spring) continue;
-      key.insert(key.end(), {index_of(result_.holes[element], hole), side.local_edge});
       bits(spring->modulus);
       bits(spring->link / sprung_.mesh.thickness[element]);
       for (const double each : sprung_.axes[hole].reshaped()) bits(each);
       for (const auto& arc : spring->acts) {
         bits(arc.from);
         bits(arc.to);
-      }
-      if (spring->contact) {
-        key.push_back(spring->contact->highest);
-        bits(spring->contact->start);
-        bits(spring->contact->sweep);
       }
     }
     return key;
@@ -95,7 +98,7 @@ class ElementClassifier {
       for (int k = 2; k <= numbering_.p; ++k)
         added.kept[pfem::edge_mode(numbering_.p, edge, k)] = is_edge_kept(element, edge);
     for (const auto& [hole, side] : rims_[element])
-      if (sprung_.springs[hole])
+      if (has_terms(hole))
         added.rims.push_back({index_of(result_.holes[element], hole), rim_terms(sprung_, hole, side, numbering_.p)});
     result_.classes.push_back(std::move(added));
   }
@@ -118,21 +121,34 @@ std::vector<int> Unknowns::border_of(const std::vector<int>& holes) const {
   std::vector<int> list;
   for (const int hole : holes) {
     for (int disc = first_disc[hole]; disc < first_disc[hole + 1]; ++disc) list.push_back(controlled_of_disc(disc));
-    for (int k = first_pressure[hole]; k < first_pressure[hole + 1]; ++k) list.push_back(n_controlled() + k);
-    for (int k = first_friction[hole]; k < first_friction[hole + 1]; ++k)
-      list.push_back(n_controlled() + n_pressures() + k);
+    for (int k = 0; k < n_waves[hole]; ++k) list.push_back(first_wave[hole] + k);
+    for (int k = 0; k < n_cases[hole]; ++k) list.push_back(first_friction[hole] + k);
   }
   return list;
 }
 
 void count_rim_cases(const SprungMesh& sprung, Unknowns& unknowns) {
-  auto &pressure = unknowns.first_pressure = {0}, &friction = unknowns.first_friction = {0};
-  for (int hole = 0; hole < count_of(sprung.springs); ++hole) {
-    const auto& spring = sprung.springs[hole];
-    pressure.push_back(pressure.back() + (spring && spring->contact ? spring->contact->size() : 0));
-    const Eigen::Index n = spring ? n_friction_cases(*spring, sprung.axes[hole].cols()) : 0;
-    friction.push_back(friction.back() + static_cast<int>(n));
+  const int n_holes = count_of(sprung.springs);
+  for (auto* list : {&unknowns.first_wave, &unknowns.first_friction, &unknowns.n_waves, &unknowns.n_cases})
+    list->assign(n_holes, 0);
+  int next = unknowns.n_controlled();
+  const auto number_waves = [&](bool loaded) {
+    const int first = next;
+    for (int hole = 0; hole < n_holes; ++hole)
+      if (const auto& waves = sprung.waves[hole]; waves && waves->loaded == loaded) {
+        unknowns.first_wave[hole] = next;
+        next += unknowns.n_waves[hole] = waves->size();
+      }
+    return next - first;
+  };
+  unknowns.n_loaded = number_waves(true);
+  const int first = next;
+  for (int hole = 0; hole < n_holes; ++hole) {
+    unknowns.first_friction[hole] = next;
+    next += unknowns.n_cases[hole] = sprung.n_friction_cases(hole);
   }
+  unknowns.n_friction = next - first;
+  unknowns.n_other = number_waves(false);
 }
 
 std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matrix2Xi& dofs) {

@@ -22,21 +22,25 @@ struct Unknowns {
   Eigen::Matrix2Xi dofs;    ///< (2, n_functions) what becomes of u_x and u_y of each global function
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_externals = 0;
-  std::vector<std::string> disc_hole, disc_direction;   ///< (m)
-  std::vector<int> first_disc{};                        ///< (holes + 1) first disc of each hole, none of an open one
-  std::vector<int> first_pressure{}, first_friction{};  ///< (holes + 1) first pressure and friction case of each hole
+  std::vector<std::string> disc_hole, disc_direction;  ///< (m)
+  std::vector<int> first_disc{};                       ///< (holes + 1) first disc of each hole, none of an open one
+  // Columns of the border behind the controlled displacements: waves that are loaded, friction cases, other waves.
+  int n_loaded = 0, n_friction = 0, n_other = 0;
+  std::vector<int> first_wave{}, first_friction{};  ///< (holes) first column of each hole's waves and friction cases
+  std::vector<int> n_waves{}, n_cases{};            ///< (holes) and their numbers
 
   [[nodiscard]] int controlled_of_disc(int disc) const { return n_externals + disc; }
   [[nodiscard]] int n_discs() const { return count_of(disc_hole); }
   [[nodiscard]] int n_controlled() const { return n_externals + n_discs(); }
-  [[nodiscard]] int n_pressures() const { return first_pressure.back(); }
-  [[nodiscard]] int n_friction_cases() const { return first_friction.back(); }
-  /// Columns of the border that act on an element with rims of these holes: of each hole the discs, the pressures of
-  /// contact, the friction cases. Controlled displacements count from 0, pressures and friction cases behind them.
+  /// Number of columns of the border that have an amount in some state: all but waves that nothing loads.
+  [[nodiscard]] int n_amounts() const { return n_controlled() + n_loaded + n_friction; }
+  [[nodiscard]] int n_border() const { return n_amounts() + n_other; }
+  /// Columns of the border that act on an element with rims of these holes: of each hole the discs, the waves, the
+  /// friction cases.
   [[nodiscard]] std::vector<int> border_of(const std::vector<int>& holes) const;
 };
 
-/// Sets Unknowns::first_pressure and first_friction.
+/// Numbers the columns of the border that belong to rims.
 void count_rim_cases(const SprungMesh& sprung, Unknowns& unknowns);
 
 /// Free unknowns of the functions of degree <= k, for every k up to the numbering's p.
@@ -63,7 +67,7 @@ struct PlateElements {
   std::vector<ElementClass> classes;
   std::vector<int> class_of;            ///< (elements)
   Eigen::VectorXd scale;                ///< (elements) thickness over that of the class: all matrices go with it
-  std::vector<std::vector<int>> holes;  ///< (elements) sprung holes with a rim on it
+  std::vector<std::vector<int>> holes;  ///< (elements) holes with springs or waves and a rim on it
 };
 
 /// Finds the classes and what rims add to each; integrates no element.

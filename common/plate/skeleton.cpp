@@ -47,8 +47,7 @@ Skeleton::Skeleton(const PlateStiffness& plate) {
   for (int element = 0; element < n_elements; ++element) cliques.push_back(on_skeleton_of(plate, element));
   order(cliques);
   const int first_border = count_of(function_);
-  higher_.resize(function_.size() + plate.unknowns.n_controlled() + plate.unknowns.n_pressures() +
-                 plate.unknowns.n_friction_cases());
+  higher_.resize(function_.size() + plate.unknowns.n_border());
   for (int i = 0; i < n_elements; ++i) {
     const auto border = border_beside(plate, i, cliques[i]);
     for (int& block : cliques[i]) block = position_[block];
@@ -100,7 +99,7 @@ int Skeleton::Rows::of_dof(int dof) const {
   return pfem::is_controlled(dof) ? n_skeleton + pfem::controlled_index(dof) : -1;
 }
 
-Skeleton::Rows Skeleton::rows(const PlateStiffness& plate, int p) const {
+Skeleton::Rows Skeleton::rows(const PlateStiffness& plate, int p, int n_border) const {
   const auto& n_functions = plate.numbering.n_functions;
   Rows rows;
   rows.of_unknown.assign(plate.unknowns.n_free.back(), -1);
@@ -118,14 +117,17 @@ Skeleton::Rows Skeleton::rows(const PlateStiffness& plate, int p) const {
     }
   }
   rows.n_skeleton = n;
-  rows.n_border = count_of(higher_) - count_of(function_);
+  rows.n_border = n_border;
   for (int i = 0; i <= rows.n_border; ++i) rows.first.push_back(n + i);
   return rows;
 }
 
 /// Symbolic elimination by blocks: a block hands what it is joined to on to the first of these.
 Skeleton::Size Skeleton::size(const Rows& rows) const {
-  std::vector<Blocks> joined = higher_;
+  const int n_blocks = count_of(rows.first) - 1;
+  std::vector<Blocks> joined(higher_.begin(), higher_.begin() + n_blocks);
+  for (auto& blocks : joined) std::erase_if(blocks, [&](int block) { return block >= n_blocks; });
+  const std::vector<Blocks> direct = joined;
   Size size{0, 0, 0};
   const auto n_rows = [&](int block) -> double { return rows.first[block + 1] - rows.first[block]; };
   const auto n_rows_of = [&](const Blocks& blocks) {
@@ -136,7 +138,7 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
   bool is_dense = false;
   for (int a = 0; a < count_of(joined); ++a) {
     const double own = n_rows(a), below = n_rows_of(joined[a]);
-    size.entries += own * (own + 1) / 2 + own * n_rows_of(higher_[a]);
+    size.entries += own * (own + 1) / 2 + own * n_rows_of(direct[a]);
     if (is_dense) continue;
     size.factor += own * own + own * below;
     size.largest_front = std::max(size.largest_front, below * below);
@@ -154,21 +156,21 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
 }
 
 Eigen::SparseMatrix<double> Skeleton::pattern(const Rows& rows) const {
-  const int n = rows.n_skeleton + rows.n_border;
-  const auto size = [&](int block) { return rows.first[block + 1] - rows.first[block]; };
+  const int n = rows.n_skeleton + rows.n_border, n_blocks = count_of(rows.first) - 1;
+  const auto size = [&](int block) { return block < n_blocks ? rows.first[block + 1] - rows.first[block] : 0; };
   Eigen::SparseMatrix<double> A(n, n);
   Eigen::Index n_entries = 0;
-  for (int a = 0; a < count_of(higher_); ++a) {
+  for (int a = 0; a < n_blocks; ++a) {
     n_entries += size(a) * (size(a) + 1) / 2;
     for (const int b : higher_[a]) n_entries += Eigen::Index{size(a)} * size(b);
   }
   A.reserve(n_entries);
-  for (int a = 0; a < count_of(higher_); ++a)
+  for (int a = 0; a < n_blocks; ++a)
     for (int column = rows.first[a]; column < rows.first[a + 1]; ++column) {
       A.startVec(column);
       for (int row = column; row < rows.first[a + 1]; ++row) A.insertBackByOuterInner(column, row) = 0;
       for (const int b : higher_[a])
-        for (int row = rows.first[b]; row < rows.first[b + 1]; ++row) A.insertBackByOuterInner(column, row) = 0;
+        for (int i = 0; i < size(b); ++i) A.insertBackByOuterInner(column, rows.first[b] + i) = 0;
     }
   A.finalize();
   return A;

@@ -9,8 +9,8 @@
 namespace fastjoint::plate {
 
 /// The vertices and edges on the skeletons of the elements as blocks of unknowns, in the order in which they are
-/// eliminated, and behind them the border: the controlled displacements, the pressures of contact and the friction
-/// cases, each a block. Ordered once for all degrees.
+/// eliminated, and behind them the border: the controlled displacements, the waves and the friction cases, each a
+/// block. Ordered once for all degrees.
 class Skeleton {
  public:
   explicit Skeleton(const PlateStiffness& plate);
@@ -24,8 +24,9 @@ class Skeleton {
     /// Row of a degree of freedom, or -1 for a fixed one.
     [[nodiscard]] int of_dof(int dof) const;
   };
-  /// @param plate That of the constructor, or one with the same unknowns.
-  [[nodiscard]] Rows rows(const PlateStiffness& plate, int p) const;
+  /// @param plate    That of the constructor, or one with the same unknowns.
+  /// @param n_border Number of columns of the border that count, the first ones.
+  [[nodiscard]] Rows rows(const PlateStiffness& plate, int p, int n_border) const;
   /// Entries of the bordered skeleton stiffness, of its factor and of the factor's largest front.
   struct Size {
     double entries, factor, largest_front;

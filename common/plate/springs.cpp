@@ -75,24 +75,23 @@ Eigen::VectorXd friction_load(const pfem::SideRule& rule, double thickness, cons
   return tested(rule, traction);
 }
 
-/// Pressures and shears of contact, on pieces short enough for their waves.
-void add_contact(const SprungMesh& sprung, int hole, const pfem::Side& side, int p, RimTerms& terms) {
-  const rim::Harmonics& contact = sprung.springs[hole]->contact.value();
+/// Pressures and shears of the waves, on pieces short enough for them.
+void add_waves(const SprungMesh& sprung, int hole, const pfem::Side& side, int p, RimTerms& terms) {
+  const rim::Harmonics& shape = sprung.waves[hole].value().shape;
   const auto along = sprung.axes[hole].transpose();
-  const double step = rim::full_turn / 4 / contact.highest;
+  const double step = rim::full_turn / 4 / shape.highest;
   std::vector<rim::AngleRange> pieces;
-  for (int i = 0; i < 4 * contact.highest; ++i) pieces.push_back({i * step, (i + 1) * step});
+  for (int i = 0; i < 4 * shape.highest; ++i) pieces.push_back({i * step, (i + 1) * step});
   const auto rule = rim::rim_rule(sprung.mesh, sprung.edges, side, p, pieces);
   const double thickness = sprung.mesh.thickness[side.element];
   for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
     const Eigen::Vector2d n = -rule.normal.col(q), t(-n.y(), n.x());
     const double angle = angle_of(n), weight = thickness * rule.ds[q];
-    const Eigen::RowVectorXd pressure = weight * contact.at(angle).transpose();
-    const Eigen::RowVectorXd shear = weight * contact.shears_at(angle).transpose();
-    terms.pressure += (rule.N.col(q) * n.transpose()).reshaped() * pressure;
-    terms.reaction += along * n * pressure;
-    terms.friction += (rule.N.col(q) * t.transpose()).reshaped() * shear;
-    terms.drag += along * t * shear;
+    Eigen::Matrix2Xd traction(2, terms.waves.cols());
+    traction << weight * n * shape.at(angle).transpose(), weight * t * shape.shears_at(angle).transpose();
+    const auto n_modes = rule.N.rows();
+    for (const int axis : {0, 1}) terms.waves.middleRows(axis * n_modes, n_modes) += rule.N.col(q) * traction.row(axis);
+    terms.reaction += along * traction;
   }
 }
 
@@ -103,32 +102,34 @@ SideSprings side_springs(const rim::HoleSpring& spring, const pfem::Mesh& mesh, 
   return spring.link > 0 ? links(spring, mesh, edges, side) : distributed(spring, mesh, edges, side, p);
 }
 
-Eigen::Index n_friction_cases(const rim::HoleSpring& spring, Eigen::Index n_directions) {
-  return spring.contact ? spring.contact->n_shears() : 2 * n_directions;
+int SprungMesh::n_friction_cases(int hole) const {
+  const bool none = !springs[hole] || (waves[hole] && waves[hole]->loaded);
+  return none ? 0 : 2 * static_cast<int>(axes[hole].cols());
 }
 
 RimTerms rim_terms(const SprungMesh& sprung, int hole, const pfem::Side& side, int p) {
-  const auto& [mesh, edges, rims, all_springs, all_axes] = sprung;
+  const auto& [mesh, edges, rims, all_springs, all_waves, all_axes] = sprung;
   const Eigen::Matrix2Xd& axes = all_axes[hole];
   const auto rule = rim::rim_rule(mesh, edges, side, p);
-  const auto springs = side_springs(all_springs[hole].value(), mesh, edges, side, p);
-  const auto& contact = all_springs[hole]->contact;
-  const Eigen::Index n = rule.modes.size(), a = axes.cols(), k = contact ? contact->size() : 0;
-  const Eigen::Index h = n_friction_cases(*all_springs[hole], axes.cols());
+  const Eigen::Index n = rule.modes.size(), a = axes.cols(), k = all_waves[hole] ? all_waves[hole]->size() : 0;
+  const Eigen::Index h = sprung.n_friction_cases(hole);
   RimTerms terms{rule.modes,
                  Eigen::MatrixXd::Zero(2 * n, 2 * n),
-                 Eigen::MatrixXd(2 * n, a),
-                 Eigen::MatrixXd(a, a),
+                 Eigen::MatrixXd::Zero(2 * n, a),
+                 Eigen::MatrixXd::Zero(a, a),
                  Eigen::MatrixXd::Zero(2 * n, k),
                  Eigen::MatrixXd::Zero(a, k),
-                 Eigen::MatrixXd::Zero(2 * n, h),
-                 Eigen::MatrixXd::Zero(a, h),
-                 springs.weight.sum()};
-  add_springs(springs, axes, terms);
-  if (contact) add_contact(sprung, hole, side, p, terms);
-  for (Eigen::Index i = 0; i < a && !contact; ++i) {
-    terms.friction.col(2 * i) = friction_load(rule, mesh.thickness[side.element], axes.col(i));
-    terms.friction.col(2 * i + 1) = friction_load(rule, mesh.thickness[side.element], -axes.col(i));
+                 Eigen::MatrixXd(2 * n, h),
+                 0};
+  if (all_springs[hole]) {
+    const auto springs = side_springs(*all_springs[hole], mesh, edges, side, p);
+    add_springs(springs, axes, terms);
+    terms.stiffness = springs.weight.sum();
+  }
+  if (k > 0) add_waves(sprung, hole, side, p, terms);
+  for (Eigen::Index i = 0; i < h; ++i) {
+    const Eigen::Vector2d d = (i % 2 == 0 ? 1 : -1) * axes.col(i / 2);
+    terms.friction.col(i) = friction_load(rule, mesh.thickness[side.element], d);
   }
   return terms;
 }

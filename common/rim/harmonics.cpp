@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/rim/harmonics.hpp"
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -147,8 +145,6 @@ Eigen::VectorXd Harmonics::shears_at(double angle) const {
                                       [&](Eigen::Index k) { return all.at(shear_wave(*this, static_cast<int>(k))); });
 }
 
-std::string shear_name(int k) { return fmt::format("t{}", k); }
-
 Eigen::VectorXd Harmonics::push(int axis) const {
   Eigen::VectorXd means = Eigen::VectorXd::Zero(size());
   if (is_whole()) means[1 + axis] = mean_of_wave;
@@ -173,13 +169,10 @@ Eigen::MatrixXd Harmonics::shear_products(double from, double to) const {
                    unit(*this) * (from - start), unit(*this) * (to - start));
 }
 
-std::vector<std::string> friction_cases(std::span<const std::string> directions,
-                                        const std::optional<Harmonics>& contact) {
+std::vector<std::string> friction_cases(std::span<const std::string> directions) {
   std::vector<std::string> names;
-  for (int k = 0; contact && k < contact->n_shears(); ++k) names.push_back(shear_name(k));
   for (const auto& direction : directions)
-    for (const char* sign : {"+", "-"})
-      if (!contact) names.push_back(sign + direction);
+    for (const char* sign : {"+", "-"}) names.push_back(sign + direction);
   return names;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -51,12 +50,18 @@ struct Harmonics {
   [[nodiscard]] Eigen::MatrixXd shear_products(double from, double to) const;
 };
 
-/// "t0", "t1", ...: name of the friction case that is a shear of a rim of contact.
-[[nodiscard]] std::string shear_name(int k);
+/// Waves of a rim that the finite elements carry: unit pressures and unit shears, and the displacements of the disc
+/// against the sheet in the same distributions (docs/theory.md, section 6.2).
+struct Waves {
+  Harmonics shape;      ///< up to the highest order that the elements carry
+  bool loaded = false;  ///< their tractions act in a joint, as those of contact do; else displacements alone are wanted
 
-/// Names of the friction cases of a hole: of a rim of contact its shears, of another one + and - of each direction of
-/// the hole's discs.
-[[nodiscard]] std::vector<std::string> friction_cases(std::span<const std::string> directions,
-                                                      const std::optional<Harmonics>& contact);
+  friend bool operator==(const Waves&, const Waves&) = default;
+  /// Number of pressures, then shears.
+  [[nodiscard]] int size() const { return shape.size() + shape.n_shears(); }
+};
+
+/// Names of the friction cases of a hole whose springs also pull: + and - of each direction of its discs.
+[[nodiscard]] std::vector<std::string> friction_cases(std::span<const std::string> directions);
 
 }  // namespace fastjoint::rim

@@ -66,9 +66,6 @@ struct HoleSpring {
   double modulus = 0;                 ///< force / length^3; 0 with links, and of an open hole
   double link = 0;                    ///< force / length at each node, half of it for either side that ends there
   std::vector<AngleRange> acts = {};  ///< the sprung parts of the rim
-  /// Pressures that contact may add to that of the springs, where they push but do not pull (docs/theory.md,
-  /// section 6.2).
-  std::optional<Harmonics> contact = {};
 };
 
 /// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.

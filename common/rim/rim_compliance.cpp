@@ -13,24 +13,18 @@ namespace {
 using Complex = std::complex<double>;
 using namespace std::complex_literals;
 
-/// Sum and product of the two roots with positive imaginary part of Lekhnitskii's equation
-/// a11 mu^4 - 2 a16 mu^3 + (2 a12 + a66) mu^2 - 2 a26 mu + a22 = 0. They are exact to rounding even where the two roots
-/// are one.
-struct Roots {
-  Complex sum, product;
-};
-
-Roots roots_of(const Eigen::Matrix3d& a) {
+/// The two roots with positive imaginary part of Lekhnitskii's equation
+/// a11 mu^4 - 2 a16 mu^3 + (2 a12 + a66) mu^2 - 2 a26 mu + a22 = 0. Their sum and product are exact to rounding even
+/// where the two are one.
+Eigen::Vector2cd roots_of(const Eigen::Matrix3d& a) {
   Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
   companion.diagonal(-1).setOnes();
   companion.row(0) << 2 * a(0, 2), -(2 * a(0, 1) + a(2, 2)), 2 * a(1, 2), -a(1, 1);
   companion.row(0) /= a(0, 0);
-  Roots roots{0, 1};
-  for (const auto& root : matrices::eigenvalues(companion)) {
-    if (root.imag() <= 0) continue;
-    roots.sum += root;
-    roots.product *= root;
-  }
+  Eigen::Vector2cd roots(1i, 1i);
+  int found = 0;
+  for (const auto& root : matrices::eigenvalues(companion))
+    if (root.imag() > 0 && found < 2) roots[found++] = root;
   return roots;
 }
 
@@ -65,11 +59,21 @@ Turned turned(const Eigen::VectorXcd& f) {
 }  // namespace
 
 RimCompliance::RimCompliance(const Eigen::Matrix3d& compliance, double radius)
-    : compliance_(compliance), radius_(radius) {
-  const auto [s, r] = roots_of(compliance);
+    : compliance_(compliance), radius_(radius), roots_(roots_of(compliance)) {
+  const Complex s = roots_.sum(), r = roots_.prod();
   const double a11 = compliance(0, 0), a12 = compliance(0, 1), a22 = compliance(1, 1);
   slope_ << compliance(0, 2) - a11 * s, a12 - a11 * r,  //
       a22 / r - a12, a22 * s / r - compliance(1, 2);
+}
+
+double RimCompliance::fall(const Eigen::Vector2d& place) const {
+  double largest = 0;
+  for (const Complex& mu : roots_) {
+    const Complex z = (place.x() + mu * place.y()) / radius_, root = std::sqrt(z * z - 1.0 - mu * mu);
+    const double zeta = std::max(std::abs((z + root) / (1.0 - 1i * mu)), std::abs((z - root) / (1.0 - 1i * mu)));
+    largest = std::max(largest, 1 / std::max(zeta, 1.0));
+  }
+  return largest;
 }
 
 Eigen::Vector3d RimCompliance::along(double angle) const {

@@ -19,6 +19,11 @@ class RimCompliance {
   RimCompliance(const Eigen::Matrix3d& compliance, double radius);
 
   [[nodiscard]] double radius() const { return radius_; }
+  /// The factor by which a wave of the rim's displacement falls from one order to the next, if what makes it lies at a
+  /// place: a/s of an isotropic sheet, s the distance; else the largest 1/|zeta_k| there of Lekhnitskii's coordinates,
+  /// a (1 - i mu_k) zeta_k / 2 + a (1 + i mu_k) / (2 zeta_k) = x + mu_k y. 1 on the rim and inside it.
+  /// @param place From the hole's centre, length.
+  [[nodiscard]] double fall(const Eigen::Vector2d& place) const;
   /// Strain along the rim by sigma_rr, sigma_tt and sigma_rt there, (3), 1 / stress.
   [[nodiscard]] Eigen::Vector3d along(double angle) const;
   /// (2, 2) complex, 1 / stress: the waves m of (du_x/dtheta, du_y/dtheta) over the radius by the waves m of the
@@ -34,6 +39,7 @@ class RimCompliance {
  private:
   Eigen::Matrix3d compliance_;
   double radius_;
+  Eigen::Vector2cd roots_;
   Eigen::Matrix2cd slope_;
 };
 

@@ -87,26 +87,6 @@ double unit_force(const PlateScene& scene, const PlateMesh& plate, const Tractio
   return force < nothing * plate.mesh.thickness.maxCoeff() * rim.radius ? 0 : force;
 }
 
-/// Pressures of contact on the rim of a hole. Throws InputError if the rim is in several pieces or of several
-/// thicknesses.
-rim::Harmonics contact_of(const PlateScene& scene, const PlateMesh& plate, int hole) {
-  const auto refuse = [&](const std::string& found, const char* allowed) {
-    reject(scene, fmt::format("/holes/{}/spring/compression_only", hole), found, allowed);
-  };
-  const rim::Rim& rim = plate.rims[hole];
-  const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, rim));
-  if (pieces.size() > 1)
-    refuse(fmt::format("the rim of hole \"{}\" is in {} pieces", scene.holes[hole].id, pieces.size()),
-           "springs that push but do not pull on a whole rim or one part of it");
-  for (const auto& side : rim.sides)
-    if (plate.mesh.thickness[side.element] != plate.mesh.thickness[rim.sides[0].element])
-      refuse(fmt::format("the sheet has several thicknesses around hole \"{}\"", scene.holes[hole].id),
-             "springs that push but do not pull on a rim of one thickness");
-  rim::Harmonics contact{scene.holes[hole].sprung().harmonics};
-  if (!pieces.empty()) contact.start = pieces[0].from, contact.sweep = pieces[0].to - pieces[0].from;
-  return contact;
-}
-
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   std::vector<plate::PointTie> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
@@ -253,10 +233,9 @@ void add_load(const plate::PlateStiffness& plate, int element, const std::vector
 }
 
 plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
-  plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, {}};
+  plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, rim_waves(scene, plate), {}};
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const auto& spring = sprung.springs.emplace_back(scene.holes[i].spring);
-    if (spring && scene.holes[i].spring->compression_only) sprung.springs.back()->contact = contact_of(scene, plate, i);
     const auto directions = spring ? directions_of(scene, plate, i) : std::vector<std::string>();
     auto& axes = sprung.axes.emplace_back(2, directions.size());
     for (int d = 0; d < count_of(directions); ++d) axes.col(d) = rim::axis(directions[d]);
@@ -276,10 +255,9 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   problem.T_c = Eigen::MatrixXd::Zero(problem.unknowns.n_controlled(), n_tractions);
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (int i = 0; i < count_of(scene.holes); ++i) {
-    if (!scene.holes[i].spring) continue;
+    if (problem.unknowns.n_cases[i] == 0) continue;
     const int first = problem.unknowns.first_disc[i], n = problem.unknowns.first_disc[i + 1] - first;
-    const auto names =
-        rim::friction_cases(std::span(problem.unknowns.disc_direction).subspan(first, n), sprung.springs[i]->contact);
+    const auto names = rim::friction_cases(std::span(problem.unknowns.disc_direction).subspan(first, n));
     problem.friction_hole.insert(problem.friction_hole.end(), names.size(), scene.holes[i].id);
     problem.friction_bearing.insert(problem.friction_bearing.end(), names.begin(), names.end());
   }

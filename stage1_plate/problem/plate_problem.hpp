@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,7 +49,16 @@ using Loads = std::vector<Eigen::Triplet<double>>;
 void add_load(const plate::PlateStiffness& plate, int element, const std::vector<int>& modes,
               const Eigen::VectorXd& values, int column, Loads& loads);
 
-/// The mesh with the scene's springs.
+/// Waves of every hole's rim that the elements carry: those of contact, loaded, and those of which stresses are asked.
+/// The order follows from how fast what edges and other holes send back falls (docs/theory.md, section 11.3).
+/// Throws InputError if a rim of contact is in several pieces or of several thicknesses.
+[[nodiscard]] std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const PlateMesh& plate);
+/// Strains of the sheet at a hole's rim by its stresses; zero where no closed form holds, as formats::WaveRim says.
+[[nodiscard]] Eigen::Matrix3d rim_compliance(const PlateScene& scene, const PlateMesh& plate, int hole);
+/// True if the rim is whole, or its ends lie on lines of symmetry.
+[[nodiscard]] bool ends_on_symmetry(const PlateScene& scene, const PlateMesh& plate, int hole);
+
+/// The mesh with the scene's springs and waves.
 [[nodiscard]] plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate);
 
 /// The problem with its unknowns, elements and cases, at the scene's highest p, and nothing integrated. Throws

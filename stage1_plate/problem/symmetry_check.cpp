@@ -76,6 +76,18 @@ std::string support_on(const PlateScene& scene, const PlateMesh& plate, const Li
 
 }  // namespace
 
+bool ends_on_symmetry(const PlateScene& scene, const PlateMesh& plate, int hole) {
+  const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[hole]));
+  if (pieces.size() > 1) return false;
+  const auto is_symmetric = [&](double end) {
+    for (const int across : {0, 1})
+      if (rim::is_along(end, name_of(1 - across)))
+        return is_held(scene, plate, {hole, across, scene.holes[hole].center[across], false});
+    return false;
+  };
+  return pieces.empty() || (is_symmetric(pieces[0].from) && is_symmetric(pieces[0].to));
+}
+
 std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
   std::vector<Line> lines;
   for (int hole = 0; hole < count_of(scene.holes); ++hole)

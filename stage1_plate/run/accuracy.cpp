@@ -33,7 +33,7 @@ void raise_degree(Accuracy& model) {
     const auto alone = Eigen::VectorXi::Constant(1, p);
     require_memory(model.scene.file, p, memory_need(problem, skeleton, alone));
     if (p == model.scene.p_low) integrate(model.scene, plate, problem);
-    const plate::PlateFactor K(problem, skeleton, p);
+    const plate::PlateFactor K(problem, skeleton, p, false);
     auto cases = solve_degree(problem, K, p).cases;
     levels.S.push_back(std::move(cases.S));
     levels.R.push_back(std::move(cases.R));

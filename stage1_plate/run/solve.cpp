@@ -10,6 +10,7 @@
 #include "common/count.hpp"
 #include "common/linalg/processor.hpp"
 #include "common/plate/plate_states.hpp"
+#include "common/plate/sections.hpp"
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/progress.hpp"
@@ -32,16 +33,24 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.header = {generator, scene.name, scene.units, scene.text};
   a.mesh = plate.mesh;
   a.elasticity = scene.elasticity;
-  const auto springs = sprung_mesh(scene, plate).springs;
+  const auto sprung = sprung_mesh(scene, plate);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     a.hole_id.push_back(scene.holes[i].id);
-    a.hole_spring.push_back(springs[i].value_or(rim::HoleSpring{}));
-    if (const auto& contact = a.hole_spring[i].contact) {
-      const double radius = plate.rims[i].radius, thickness = plate.mesh.thickness[plate.rims[i].sides[0].element];
-      a.contact.push_back(
-          {a.hole_id[i], *contact, a.hole_spring[i].modulus, radius, thickness * radius * contact->sweep});
-    }
+    a.hole_spring.push_back(sprung.springs[i].value_or(rim::HoleSpring{}));
   }
+  for (const bool loaded : {true, false})
+    for (int i = 0; i < count_of(scene.holes); ++i) {
+      const auto& waves = sprung.waves[i];
+      if (!waves || waves->loaded != loaded) continue;
+      const double radius = plate.rims[i].radius, thickness = plate.mesh.thickness[plate.rims[i].sides[0].element];
+      const double area = thickness * radius * waves->shape.sweep;
+      a.waves.push_back({a.hole_id[i], waves->shape, radius, area, a.hole_spring[i].modulus,
+                         rim_compliance(scene, plate, i), a.hole_spring[i].acts});
+      if (!loaded) continue;
+      rim::Harmonics pressures = waves->shape;
+      pressures.highest = scene.holes[i].sprung().harmonics;
+      a.contact.push_back({a.hole_id[i], pressures, a.hole_spring[i].modulus, radius, area});
+    }
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
   std::set<std::string> supported;
@@ -74,22 +83,34 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
 }
 
 /// The states solved for are the unit tractions, then the two of the probe.
-SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p) {
-  const Eigen::Index nc = problem.unknowns.n_controlled(), h = problem.unknowns.n_friction_cases();
-  const Eigen::Index k = problem.unknowns.n_pressures(), q = problem.T_c.cols();
-  const Eigen::VectorXd displacement = amounts(nc), pressure = amounts(k), friction = amounts(h);
-  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(nc + k + h, q + 2);
+SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
+                         const plate::PlateFactor::Functions& sections) {
+  const Unknowns& unknowns = problem.unknowns;
+  const Eigen::Index nc = unknowns.n_controlled(), k = unknowns.n_loaded, h = unknowns.n_friction;
+  const Eigen::Index q = problem.T_c.cols(), n_amounts = unknowns.n_amounts(), s = count_of(sections);
+  const Eigen::VectorXd displacement = amounts(nc), wave = amounts(k), friction = amounts(h);
+  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(n_amounts, q + 2);
   border.col(q).head(nc) = displacement;
-  border.col(q + 1).tail(k + h) << pressure, friction;
-  Eigen::SparseMatrix<double> loads = problem.T_f.topRows(problem.unknowns.n_free[p]);
+  border.col(q + 1).tail(k + h) << wave, friction;
+  Eigen::SparseMatrix<double> loads = problem.T_f.topRows(unknowns.n_free[p]);
   loads.conservativeResize(loads.rows(), q + 2);
   const plate::PlateStates states(K, border, loads);
-  const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed();
-  return {{SR.topLeftCorner(nc, nc), SR.topRightCorner(nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
-           work.topLeftCorner(q, q), SR.bottomLeftCorner(k, nc), -SR.block(nc, nc, k, k), SR.bottomRightCorner(k, h),
-           forces.bottomLeftCorner(k, q)},
-          {displacement, pressure, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), forces.col(q).tail(k),
-           forces.col(q + 1).tail(k), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
+  const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed(sections);
+  const Eigen::Index n_other = forces.rows() - n_amounts;
+  const auto waves = [&](const auto& rows, Eigen::Index first, Eigen::Index n) -> Eigen::MatrixXd {
+    Eigen::MatrixXd both(k + n_other, n);
+    both << rows.block(nc, first, k, n), rows.block(n_amounts, first, n_other, n);
+    return both;
+  };
+  Eigen::MatrixXd W(k + n_other, n_amounts + q), N = Eigen::MatrixXd::Zero(s, n_amounts + q);
+  W << waves(SR, 0, n_amounts), waves(forces, 0, q);
+  N.leftCols(n_amounts) = SR.bottomRows(s);
+  for (Eigen::Index i = 0; i < s; ++i)
+    for (const auto& part : sections[i]) N.row(i).tail(q) += states.values(part).topRows(q).transpose();
+  return {{SR.topLeftCorner(nc, nc), SR.block(0, nc + k, nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
+           work.topLeftCorner(q, q), std::move(W), std::move(N)},
+          {displacement, wave, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), waves(forces, q, 1),
+           waves(forces, q + 1, 1), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
            states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
 }
 
@@ -102,11 +123,15 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
   };
   report(0);
   a.cases.resize(a.p.size());
+  const pfem::Edges edges = pfem::find_edges(a.mesh);
   linalg::for_each_index(a.p.size(), [&](std::size_t i) {
     const Eigen::Index at = a.p.size() - 1 - i;  // the longest first
-    const plate::PlateFactor K(problem, skeleton, a.p[at]);
+    const bool with_stresses = a.has_stresses(at);
+    const plate::PlateFactor K(problem, skeleton, a.p[at], with_stresses);
     report(0.5 * a.ndof[at]);
-    auto [cases, probe] = solve_degree(problem, K, a.p[at]);
+    const auto sections = plate::section_forces(K, a.mesh, edges, problem.numbering, a.elasticity,
+                                                with_stresses ? a.sections : std::vector<rim::Section>());
+    auto [cases, probe] = solve_degree(problem, K, a.p[at], sections);
     a.cases[at] = std::move(cases);
     if (i == 0) a.probe = std::move(probe), a.held_stiffness = K.held_stiffness();
     report(0.5 * a.ndof[at]);
@@ -148,13 +173,13 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
     const auto of_degree = plate::factor_bytes(problem, skeleton, degree);
     need = {of_degree.elements, need.condensed + of_degree.condensed, need.factor + of_degree.factor};
   }
-  const double nc = problem.unknowns.n_controlled() + problem.unknowns.n_pressures();
-  const double h = count_of(problem.friction_hole);
+  const double nc = problem.unknowns.n_amounts(), all = problem.unknowns.n_border();
   const double q = double(problem.T_c.cols());
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   // A step's results stand beside those of the step before: two copies of the fields, three of S and R.
-  const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * (nc + h) * nc);
-  const double file = 2 * count_of(p) * (nc + h) * nc;
+  const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * all * nc);
+  const double degrees = count_of(p), full = std::min<double>(degrees, formats::n_stress_degrees);
+  const double file = 2 * nc * (full * all + (degrees - full) * nc);
   constexpr double number = sizeof(double), libraries = 20e6;
   return {need.elements + need.condensed, need.factor, number * fields, number * file, libraries};
 }

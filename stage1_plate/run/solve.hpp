@@ -40,7 +40,9 @@ struct SolvedCases {
   formats::PlateCases cases;
   formats::Probe probe;
 };
-[[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p);
+/// @param sections Forces over the plate's sections; none at degrees without.
+[[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
+                                       const plate::PlateFactor::Functions& sections = {});
 
 /// Solves the unit cases at every degree, on several threads side by side, and at the highest the probe.
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution);

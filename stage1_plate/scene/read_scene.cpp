@@ -44,7 +44,7 @@ Units read_units(const Value& root) {
 std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::string>& ids) {
   std::vector<Hole> holes;
   for (const auto& item : read_items(root, "holes")) {
-    item.only({"id", "center", "radius", "spring", "rings"});
+    item.only({"id", "center", "radius", "spring", "rings", "waves", "stresses"});
     Hole hole;
     hole.id = read_new_name(item.at("id"), ids);
     hole.center = read_point(item.at("center"));
@@ -55,6 +55,8 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
     hole.has_rings = rings.has_value();
     const bool in_contact = hole.spring && hole.spring->compression_only;
+    if (const auto waves = item.find("waves")) hole.waves = waves->integer(1, rim::most_harmonics);
+    if (const auto stresses = item.find("stresses")) hole.stresses = stresses->boolean();
     hole.rings = rings ? rings->integer(0, most_rings) : is_grid && in_contact ? 1 : 0;
     holes.push_back(std::move(hole));
   }

@@ -55,6 +55,8 @@ struct Hole {
   std::optional<Spring> spring;  ///< none in an open hole, which has no disc
   int rings;                     ///< extra rings of elements around it (grid only)
   bool has_rings = false;        ///< whether the scene says how many
+  int waves = 0;                 ///< highest order of waves that the elements carry; 0: by what is around the hole
+  bool stresses = true;          ///< whether stresses at the rim are wanted
 
   /// The spring of a hole that has one.
   [[nodiscard]] const Spring& sprung() const {

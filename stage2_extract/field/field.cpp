@@ -15,7 +15,7 @@
 #include "common/pfem/element.hpp"
 #include "common/pfem/shape_functions.hpp"
 #include "common/program/program.hpp"
-#include "stage2_extract/stresses/joint_sheet.hpp"
+#include "stage2_extract/field/joint_sheet.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 using formats::PlateSolution;
 
 bool starts_as_case(const std::string& spec) {
-  constexpr std::string_view kinds[] = {"external:", "disc:", "friction:", "traction:"};
+  constexpr std::string_view kinds[] = {"external:", "disc:", "wave:", "friction:", "traction:"};
   return std::any_of(std::begin(kinds), std::end(kinds), [&](auto kind) { return spec.starts_with(kind); });
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/formats/plate_solution.hpp"
-#include "stage2_extract/stresses/fields.hpp"
+#include "stage2_extract/field/fields.hpp"
 
 namespace fastjoint::stage2 {
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "common/errors.hpp"
@@ -28,12 +29,12 @@ double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), least * largest(plate.held_stiffness));
 }
 
-/// Integral over a rim that errors of B are compared with: the largest of B, or a share of the rims' area where the
-/// plate follows its one disc.
-double scale_of_B(const PlateSolution& plate, const Eigen::MatrixXd& B) {
+/// Integral over a rim that errors of W by displacements are compared with: the largest, or a share of the rims' area
+/// where the plate follows its one disc.
+double scale_of_motion(const PlateSolution& plate, const PlateCases& level) {
   double area = 0;
-  for (const auto& rim : plate.contact) area = std::max(area, rim.area);
-  return std::max(largest(B), least * area);
+  for (const auto& rim : plate.waves) area = std::max(area, rim.area);
+  return std::max(largest(level.W.leftCols(level.S.rows())), least * area);
 }
 
 /// Forces that the probe's displacements need, by its own solution, against those by S.
@@ -42,10 +43,11 @@ std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& 
   return ratio(largest(plate.probe.force - S * plate.probe.displacement), scale_of(plate, S));
 }
 
-/// Forces of friction and tractions on externals and discs, by the probe's solutions, against R and T.
+/// Forces of waves, friction and tractions on externals and discs, and displacements of the rims, by the probe's
+/// solutions, against W, R and T.
 std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& level) {
   const auto& probe = plate.probe;
-  if (level.R.size() + level.T.size() + level.B.size() == 0) return std::nullopt;
+  if (level.R.size() + level.T.size() + level.W.size() == 0) return std::nullopt;
   double worst = 0;
   const auto add = [&](const Eigen::MatrixXd& error, double scale) {
     worst = std::max(worst, ratio(largest(error), scale));
@@ -53,11 +55,14 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
   const auto by = [](const auto& A, const Eigen::VectorXd& x) -> Eigen::VectorXd {
     return A.lazyProduct(x);  // OpenBLAS refuses matrices without rows
   };
-  add(probe.friction_force - by(level.R, probe.friction) - by(level.B.transpose(), probe.pressure),
-      std::max(largest(level.R), scale_of_B(plate, level.B)));
-  add(probe.moment - by(level.B, probe.displacement), scale_of_B(plate, level.B));
-  add(probe.friction_moment - by(level.R_p, probe.friction) + by(level.C, probe.pressure),
-      std::max(largest(level.C), largest(level.R_p)));
+  const auto nc = level.S.rows(), k = plate.n_loaded_waves(), h = plate.n_friction_cases();
+  const auto by_motion = level.W.leftCols(nc), by_load = level.W.middleCols(nc, k + h);
+  Eigen::VectorXd loads(k + h);
+  loads << probe.wave, probe.friction;
+  add(probe.friction_force - by(level.R, probe.friction) - by(by_motion.topRows(k).transpose(), probe.wave),
+      std::max(largest(level.R), scale_of_motion(plate, level)));
+  add(probe.moment - by(by_motion, probe.displacement), scale_of_motion(plate, level));
+  add(probe.friction_moment - by(by_load, loads), largest(by_load));
   if (level.T.size() > 0) {
     const double scale = std::max(largest(level.T), 1e-3);
     worst = std::max(worst, ratio(largest(probe.traction_work + level.T.transpose() * probe.displacement), scale));
@@ -74,13 +79,38 @@ std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale
   return ratio(matrices::symmetric_eigenvalues(S)[0], scale);
 }
 
+/// The smallest eigenvalue, over the largest entry, of what is not positive: of -W, the energy of the loaded waves, or
+/// of A / K - C, the compliance of the springs less that of a sheet with them, in means over the rims.
+std::optional<double> negative_compliance(const PlateSolution& plate, const PlateCases& level) {
+  const auto nc = level.S.rows(), k = plate.n_loaded_waves();
+  if (k == 0) return std::nullopt;
+  Eigen::MatrixXd energy = -level.W.block(0, nc, k, k);
+  Eigen::VectorXd root_of_area(k);
+  Eigen::VectorXi pressures(k);
+  Eigen::Index n = 0;
+  Eigen::VectorXd of_springs(k);
+  for (Eigen::Index i = 0, next = 0; i < std::ssize(plate.contact); ++i)
+    for (Eigen::Index j = 0; j < plate.waves[i].size(); ++j, ++next) {
+      root_of_area[next] = std::sqrt(plate.waves[i].area);
+      of_springs[next] = 1 / plate.waves[i].modulus;
+      if (j < plate.waves[i].waves.size()) pressures[n++] = static_cast<int>(next);
+    }
+  const auto mean = root_of_area.cwiseInverse().asDiagonal();
+  energy = (mean * energy * mean).eval();
+  if (const auto value = negative_eigenvalue(energy, largest(energy))) return value;
+  pressures.conservativeResize(n);
+  Eigen::MatrixXd rest = -energy(pressures, pressures);
+  rest.diagonal() += of_springs(pressures);
+  return negative_eigenvalue(rest, of_springs.maxCoeff());
+}
+
 /// Force left along one direction that nothing supports, over all unit cases and loads.
 double residual_force(const PlateSolution& plate, const PlateCases& level, const FreeTranslation& free) {
-  const auto& [S, R, T, C_t, B, C, R_p, T_p] = level;
+  const auto& [S, R, T, C_t, W, N] = level;
   double worst = std::max(ratio(largest(S * free.motion), scale_of(plate, S)),
-                          ratio(largest(B.lazyProduct(free.motion)), scale_of_B(plate, B)));
+                          ratio(largest(W.leftCols(S.rows()).lazyProduct(free.motion)), scale_of_motion(plate, level)));
   const Eigen::RowVectorXd of_friction = free.motion.transpose().lazyProduct(R) + free.friction;
-  worst = std::max(worst, ratio(largest(of_friction), std::max(largest(R), scale_of_B(plate, B))));
+  worst = std::max(worst, ratio(largest(of_friction), std::max(largest(R), scale_of_motion(plate, level))));
   return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 
@@ -129,7 +159,7 @@ Checks check(const PlateSolution& plate, const formats::PlateMatrices& a) {
   return {energy(plate, level.S),
           reciprocity(plate, level),
           negative_eigenvalue(level.S, scale),
-          negative_eigenvalue(level.C, largest(level.C)),
+          negative_compliance(plate, level),
           equilibrium(plate, a, level),
           ratio(plate.probe.rounding, scale)};
 }
@@ -142,7 +172,7 @@ void require_good(const Checks& checks, const std::string& file) {
                     file, what, value, worst_allowed));
   };
   if (checks.negative_eigenvalue) fail("smallest eigenvalue of S", *checks.negative_eigenvalue);
-  if (checks.negative_compliance) fail("smallest eigenvalue of C", *checks.negative_compliance);
+  if (checks.negative_compliance) fail("smallest eigenvalue of C, Q or A/K - C", *checks.negative_compliance);
   if (!(checks.energy.value_or(0) < worst_allowed)) fail("error of S", checks.energy.value_or(0));
   if (!(checks.reciprocity.value_or(0) < worst_allowed)) fail("error of reciprocity", checks.reciprocity.value_or(0));
   if (!(checks.equilibrium.value_or(0) < worst_allowed))

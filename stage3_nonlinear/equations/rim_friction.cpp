@@ -41,7 +41,7 @@ RimFriction rim_friction(const RimContact& rim, const Touching& at, const Vector
   RimFriction result{VectorXd::Zero(pressures.n_shears()), MatrixXd::Zero(pressures.n_shears(), rim.size())};
   if (!(amount > 0)) return result;
   const Vector2d along = b / amount;
-  const double direction = std::atan2(along.y(), along.x());
+  const double direction = result.direction = std::atan2(along.y(), along.x());
   result.slopes = rim.mu() * signed_share(pressures, at, direction);
   VectorXd c = rim.stiffness() * m;
   c[0] -= rim.stiffness() * rim.gap();
@@ -64,6 +64,7 @@ RimFriction rim_friction(const RimContact& rim, const Touching& at, const Vector
   result.slopes = (result.slopes - result.forces / share * d_share) / share;
   result.forces /= share;
   result.slips = false;
+  result.share = share;
   return result;
 }
 

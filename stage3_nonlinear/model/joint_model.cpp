@@ -141,21 +141,6 @@ void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
           plate.file, hole, plate.friction_bearing[i]));
 }
 
-/// Refuses friction at a rim of contact whose file has no shears for it.
-void check_shears(const PlateModel& plate, const std::string& hole) {
-  const auto rim = std::ranges::find(plate.contact, hole, &formats::ContactRim::hole);
-  const auto shears = rim::friction_cases({}, rim->pressures);
-  const Index first = plate.first_shear(*rim), last = first + std::ssize(shears);
-  bool complete = last <= std::ssize(plate.friction_hole);
-  for (Index i = first; complete && i < last; ++i)
-    complete = plate.friction_hole[i] == hole && plate.friction_bearing[i] == shears[i - first];
-  if (!complete)
-    throw InputError(
-        fmt::format("{}:friction/bearing: has no shears of hole \"{}\", whose springs push but do not pull, or not all "
-                    "{} in their order; allowed: a file that stages 1 and 2 of this version make, or friction 0",
-                    plate.file, hole, shears.size()));
-}
-
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, Index at) {
   const Reference& hole = fastener.between[at];
   const Index plate_at = index_of(model.plates, hole.plate, &PlateModel::name);
@@ -172,10 +157,7 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
            "a gap in holes with \"compression_only\", \"clearance\" in others");
   if (directions_at(plate, result.disc) == "x and y") check_rim_all_around(plate, hole.name);
   if (mu == 0) return result;
-  if (plate.is_in_contact(hole.name)) {
-    check_shears(plate, hole.name);
-    return result;
-  }
+  if (plate.is_in_contact(hole.name)) return result;
   const auto sides = bearing_sides(scene, fastener, at);
   for (Index d = 0; d < model.n_directions(); ++d) {
     auto& friction = result.friction.emplace_back();

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
+#include "stage3_nonlinear/model/contact_rims.hpp"
 #include "stage3_nonlinear/scene/joint_scene.hpp"
 
 namespace fastjoint::stage3 {
@@ -43,8 +44,9 @@ struct PlateModel {
   std::vector<bool> on_springs;                          ///< (m / a) the plate's own bearing is in S
   std::vector<formats::ContactRim> contact;              ///< (g) rims whose springs push but do not pull
   MatrixXd S;                                            ///< (m+e+k, m+e+k), force / length
-  MatrixXd R;                                            ///< (m+e+k, h), length^2
-  MatrixXd T;                                            ///< (m+e+k, q), dimensionless
+  /// (m+e+k, h + s) by friction cases, then by the shears of rims of contact, length^2
+  MatrixXd R;
+  MatrixXd T;                                                ///< (m+e+k, q), dimensionless
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
   VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
   VectorXd friction_resultant_across;                        ///< (h), length^2; empty: all 0
@@ -53,8 +55,15 @@ struct PlateModel {
   std::vector<int> unsupported_axes;                         ///< along which no support of stage 1 takes a force
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) the file's; infinite where it does not know it or p is not its highest
-  formats::PlateStresses stresses;  ///< as the file has them
-  std::optional<int> stress_level;  ///< those of the joint's degree, if there are any
+  formats::PlateStresses stresses;           ///< as the file has them
+  std::optional<int> stress_level;           ///< those of the joint's degree, if there are any
+  std::vector<formats::WaveRim> waves{};     ///< rims with waves of the elements: those of contact, then others
+  std::vector<ShortWaves> short_waves{};     ///< (g) waves beyond those, in closed form
+  std::vector<MatrixXd> wave_rows{};         ///< PlateCases::W of all rims at the joint's degree and the one before
+  Index file_unit_cases = 0;                 ///< of the file, the columns of wave_rows
+  Index n_loaded_waves = 0;                  ///< of which this many are waves of contact
+  std::vector<std::string> traction_hole{};  ///< (q) hole that each traction presses on, "" for an edge
+  VectorXd traction_unit_force{};            ///< (q) force per unit peak of its cosine pressure, length^2
   // Loads at load factor 1.
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
@@ -90,9 +99,11 @@ struct PlateModel {
   }
   /// False of a direction in which a line of symmetry holds the hole's disc.
   [[nodiscard]] bool has_disc(Index disc) const { return std::ranges::binary_search(discs, disc); }
-  /// First friction case of a rim of contact: the first of its shears.
+  /// Column of R of the first shear of a rim of contact.
   [[nodiscard]] Index first_shear(const formats::ContactRim& rim) const {
-    return std::ranges::find(friction_hole, rim.hole) - friction_hole.begin();
+    Index first = std::ssize(friction_hole);
+    for (const auto* before = contact.data(); before != &rim; ++before) first += before->pressures.n_shears();
+    return first;
   }
   /// First unknown of the moments of contact.
   [[nodiscard]] Index first_moment() const { return n_discs() + n_externals(); }

@@ -8,6 +8,7 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
+#include "stage3_nonlinear/model/contact_rims.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 
 namespace fastjoint::stage3 {
@@ -128,41 +129,43 @@ void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
 }
 
 /// Replaces the matrices of a plate with all its springs, in which its rims of contact have pressures q beside them, by
-/// those of the plate with the moments of these rims as unknowns and their springs outside. With B, C, R_p, T_p in the
-/// units of the moments, F = S u + B^T q + R Lambda + T f and m = B u - C q + R_p Lambda + T_p f give q, and the force
-/// on the moments is K A m - q (docs/theory.md, section 6.3).
+/// those of the plate with the moments of these rims as unknowns and their springs outside. F = S u + B^T q + R Lambda
+/// + T f and m = B u - C q + R_p Lambda + T_p f give q, and the force on the moments is K A m - q (docs/theory.md,
+/// section 6.3). Behind the friction cases of R stand the shears of these rims.
 void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level, PlateDegrees& degrees) {
-  const Index k = a.n_pressures(), n = degrees.S.back().rows();
-  if (k == 0) return;
-  VectorXd area(k), springs(k);
+  const Index n = degrees.S.back().rows();
+  if (a.contact.empty()) return;
+  const RimMatrices rims = rim_matrices(a, level);
+  const Index k = rims.C.rows();
+  VectorXd springs(k);
   Index row = 0;
   for (const auto& rim : a.contact) {
-    area.segment(row, rim.pressures.size()).setConstant(rim.area);
     springs.segment(row, rim.pressures.size()).setConstant(rim.modulus * rim.area);
     row += rim.pressures.size();
   }
-  const auto mean = area.cwiseInverse().asDiagonal();
-  MatrixXd B(k, n);
-  B << a.B_d[level], a.B_e[level];
-  B = mean * B;
-  MatrixXd compliance = mean * a.C[level] * mean;
+  const MatrixXd& B = rims.B;
+  MatrixXd compliance = rims.C;
   auto inverse = matrices::inverse_of_positive(compliance);
   constexpr double stiffest = 1e6;  // of the springs
   if (!inverse || !((inverse->diagonal().array() / springs.array()).maxCoeff() < stiffest)) {
     soften_unresolved(a, compliance);
     inverse = matrices::inverse_of_positive(compliance);
   }
-  if (!inverse) throw FileError(file + ":C: is not positive definite, expected what unit pressures take off");
+  if (!inverse) throw FileError(file + ":W: what unit pressures take off is not positive definite");
   const MatrixXd& stiffness = *inverse;
-  const MatrixXd by_motion = stiffness * B, by_traction = stiffness * mean * a.T_p[level];
+  const MatrixXd by_motion = stiffness * B, by_traction = stiffness * rims.T;
   const auto extended = [&](MatrixXd& load, const MatrixXd& moments) {
-    const MatrixXd by_load = stiffness * mean * moments;
+    const MatrixXd by_load = stiffness * moments;
     load += B.transpose() * by_load;
     load = stacked(load, -by_load);
   };
-  degrees.C.back() -= a.T_p[level].transpose() * mean * by_traction;
-  if (!degrees.R.empty()) extended(degrees.R.back(), a.R_p[level]);
-  extended(degrees.T.back(), a.T_p[level]);
+  degrees.C.back() -= rims.T.transpose() * by_traction;
+  MatrixXd R(n, degrees.R.back().cols() + rims.R.cols()), R_p(k, R.cols());
+  R << degrees.R.back(), rims.R;
+  R_p << rims.R_f, rims.R_p;
+  extended(R, R_p);
+  degrees.R.back() = std::move(R);
+  extended(degrees.T.back(), rims.T);
   MatrixXd S(n + k, n + k);
   S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose(), -by_motion, stiffness;
   S.diagonal().tail(k) -= springs;
@@ -197,11 +200,12 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
   for (Index i = first; i <= level; ++i) {
     degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
-    if (i + 1 >= level) degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
+    degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
     degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
     degrees.C.push_back(a.C_t[i]);
     free_rims(file, a, i, degrees);
   }
+  degrees.R.erase(degrees.R.begin(), degrees.R.end() - std::min<Index>(std::ssize(degrees.R), 2));
   return degrees;
 }
 
@@ -261,11 +265,24 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   plate.contact = a.contact;
+  plate.waves = a.waves;
+  for (Index i = 0; i < std::ssize(a.contact); ++i) plate.short_waves.push_back(short_waves(a.contact[i], a.waves[i]));
+  plate.file_unit_cases = a.n_cases();
+  plate.n_loaded_waves = a.n_loaded_waves();
+  plate.traction_hole = a.traction_hole;
+  plate.traction_unit_force = a.traction_unit_force;
   if (plate.S_error.rows() != plate.S.rows()) plate.S_error.resizeLike(plate.S);
   if (level + 1 < a.p.size() || plate.S.rows() > a.n_discs() + a.n_externals())
     plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
-  if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) plate.stress_level = at;
+  if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) {
+    plate.stress_level = at;
+    for (Index before = 0; before <= at; ++before) {
+      const auto& others = plate.stresses.other_waves[at - before];
+      MatrixXd& rows = plate.wave_rows.emplace_back(a.n_waves(), a.n_cases());
+      rows << a.W[level - before], others;
+    }
+  }
   plate.external_force = VectorXd::Zero(a.n_externals());
   plate.external_displacement.resize(a.external_id.size());
   plate.traction_force = VectorXd::Zero(a.n_tractions());

@@ -43,11 +43,13 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.D = of_discs(&PlateState::D);
   history.De = rows(&PlateState::De, plate.n_externals());
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
-  history.pressure = rows(&PlateState::pressure, plate.n_unknowns() - plate.first_moment());
-  history.Lambda = rows(&PlateState::Lambda, plate.friction_unit_force.size());
+  for (Index i = 0; i < std::ssize(plate.contact); ++i) history.waves.push_back(plate.waves[i]);
+  history.amounts = rows(&PlateState::waves, plate.n_loaded_waves);
+  history.w = rows(&PlateState::moments, plate.n_unknowns() - plate.first_moment());
+  history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
   history.traction = rows(&PlateState::traction, plate.traction_force.size());
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
-  if (plate.stress_level) history.rims = stresses::rims_of(plate.stresses);
+  if (plate.stress_level) history.rims = rims_of(plate.stresses);
   for (const auto& state : states) {
     const auto& rims = state.plates[at].rims;
     history.rims.values.emplace_back(rims.begin(), rims.end());

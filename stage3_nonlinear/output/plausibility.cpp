@@ -115,8 +115,6 @@ const char* unlike_shear(const Source& formula, int n_sheets) {
   return "";
 }
 
-using stresses::RimState;
-
 /// A doubt about rims: how much of it a rim gives cause for, 0 or NaN if none, and what to say where that is most.
 struct RimDoubt {
   const char* code;

@@ -119,8 +119,6 @@ std::string error_bar(const JointModel& joint, const formats::JointResult& resul
                      joint.name(joint.planes[plane]), step + 1);
 }
 
-using stresses::RimState;
-
 /// Column of the summary's table; its unit, if it has one, stands below the heading.
 struct Column {
   double RimState::*value;
@@ -163,7 +161,7 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
       const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
-      const bool sections = stresses::n_sections(joint.plates[i].stresses, hole) > 0;
+      const bool sections = n_sections(joint.plates[i].stresses, hole) > 0;
       rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
         const double value = state.plates[i].rims[rim].*column.value;
         const auto quantity = shown(column);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "stage3_nonlinear/equations/rim_friction.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -83,22 +85,45 @@ void add_shears(const JointModel& joint, Index at, VectorXd& asked, VectorXd& sh
   }
 }
 
-/// Pressures that contact adds to those of springs that also pull, by the moments and forces of a plate's rims, (k),
-/// stress.
-VectorXd added_pressure(const PlateModel& plate, const VectorXd& moments, const VectorXd& forces) {
-  VectorXd result = forces;
-  Index row = 0;
+/// Loads of the rims of contact of a plate, by the moments of their displacements and the forces of these.
+/// @param shears Amounts of all shears of the plate's rims, stress.
+std::vector<ContactLoad> contact_loads(const JointModel& joint, Index at, const VectorXd& moments,
+                                       const VectorXd& forces, const VectorXd& shears) {
+  const PlateModel& plate = joint.plates[at];
+  std::vector<ContactLoad> loads;
+  Index row = 0, shear = 0;
   for (const auto& rim : plate.contact) {
-    const Index k = rim.pressures.size();
-    result.segment(row, k) = forces.segment(row, k) / rim.area - rim.modulus * moments.segment(row, k);
+    const Index k = rim.pressures.size(), s = rim.pressures.n_shears();
+    const RimContact contact(rim.pressures, rim.modulus * rim.area, joint.gap(at, rim.hole), joint.mu(at, rim.hole));
+    const VectorXd m = moments.segment(row, k);
+    const Touching touching = contact.touching(m);
+    const RimFriction friction = rim_friction(contact, touching, m);
+    auto& load = loads.emplace_back(ContactLoad{m,
+                                                forces.segment(row, k) / rim.area,
+                                                shears.segment(shear, s),
+                                                contact.gap(),
+                                                contact.mu() / friction.share,
+                                                friction.direction,
+                                                {}});
+    for (const auto& arc : touching.arcs) load.ends.insert(load.ends.end(), {arc.from, arc.to});
     row += k;
+    shear += s;
   }
-  return result;
+  return loads;
+}
+
+/// Amounts of the unit cases of a plate's file.
+VectorXd unit_case_amounts(const PlateModel& plate, const PlateState& state) {
+  const Index h = std::ssize(plate.friction_hole);
+  const VectorXd D = state.D(plate.discs);
+  VectorXd amounts(state.De.size() + D.size() + state.waves.size() + h + state.traction.size());
+  amounts << state.De, D, state.waves, state.Lambda.head(h), state.traction;
+  return amounts;
 }
 
 /// The discs that the plate's file has, with their forces.
-stresses::LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
-  stresses::LoadedDiscs discs{{}, {}, state.bearing(plate.discs), state.friction(plate.discs)};
+LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
+  LoadedDiscs discs{{}, {}, state.bearing(plate.discs), state.friction(plate.discs)};
   for (const Index disc : plate.discs) {
     discs.hole.push_back(plate.hole_of(disc));
     discs.axis.push_back(plate.axis_of(disc));
@@ -113,15 +138,15 @@ stresses::LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& st
 PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F, double factor,
                        const Bearing& bearing, VectorXd& shear, double& worst_row) {
   const PlateModel& plate = joint.plates[at];
-  const Index m = plate.n_discs(), k = rim_F.size();
+  const Index m = plate.n_discs(), k = rim_F.size(), n_cosines = std::ssize(plate.friction_hole);
   const VectorXd none = VectorXd::Zero(m);
   VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_rate(factor));
   PlateState state{.D = u.head(m),
                    .De = u.segment(m, plate.n_externals()),
                    .Pe = factor * plate.external_force,
                    .moments = u.tail(k),
-                   .pressure = added_pressure(plate, u.tail(k), rim_F),
-                   .Lambda = VectorXd::Zero(plate.friction_unit_force.size()),
+                   .waves = {},
+                   .Lambda = VectorXd::Zero(plate.R.cols()),
                    .traction = factor * plate.traction_rate(factor),
                    .bearing = none,
                    .friction = none};
@@ -131,22 +156,19 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   const VectorXd on_discs = state.bearing;  // in holes of contact with their friction
   add_shears(joint, at, asked, shear, state);
-  const VectorXd D = state.D(plate.discs);
-  VectorXd amounts(state.De.size() + D.size() + k + state.Lambda.size() + state.traction.size());
-  amounts << state.De, D, state.pressure, state.Lambda, state.traction;
-  VectorXd gaps(std::ssize(plate.contact));
-  for (Index i = 0; i < gaps.size(); ++i) gaps[i] = joint.gap(at, plate.contact[i].hole);
-  if (plate.stress_level)
-    state.rims =
-        stresses::rim_states(plate.stresses, *plate.stress_level,
-                             [&](const formats::StressRows& of_cases) -> VectorXd { return of_cases * amounts; },
-                             loaded_discs(plate, state), {plate.contact, state.pressure, gaps});
-  for (Index rim = 0; rim < std::ssize(state.rims); ++rim)
-    if (plate.is_in_contact(plate.stresses.rim_hole[rim])) {
-      auto& its = state.rims[rim];  // what looks like pull is what the pressures of contact do not resolve
-      its.pulls = its.filled = false;
-      its.pull = 0;
-    }
+  const auto loads = contact_loads(joint, at, state.moments, rim_F, state.Lambda.tail(plate.R.cols() - n_cosines));
+  state.waves.resize(plate.n_loaded_waves);
+  Index next = 0;
+  for (Index i = 0; i < std::ssize(loads); ++i) {
+    const ShortWaves& rim = plate.short_waves[i];
+    state.waves.segment(next, rim.n_carried()) = wave_amounts(loads[i], rim, plate.contact[i].modulus);
+    next += rim.n_carried();
+  }
+  if (plate.stress_level) {
+    const VectorXd amounts = unit_case_amounts(plate, state);
+    state.rims = rim_states(plate.stresses, *plate.stress_level, amounts, loaded_discs(plate, state),
+                            loaded_rims(plate, amounts, loads));
+  }
   worst_row = std::max(
       {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {

@@ -5,9 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/stresses/rim_state.hpp"
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/rim_state.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -16,11 +16,11 @@ struct PlateState {
   VectorXd D;                  ///< (m) disc displacements, length
   VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
   VectorXd moments;            ///< (k) of the rims of contact, length
-  VectorXd pressure;           ///< (k) amount of each pressure that contact adds to that of the springs, stress
-  VectorXd Lambda;             ///< (h) peak stress of each friction case, stress
+  VectorXd waves;              ///< amount of each loaded wave of its file, stress
+  VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
-  std::vector<stresses::RimState> rims = {};  ///< of every hole, if its matrices hold stresses at the joint's degree
+  std::vector<RimState> rims = {};  ///< of every hole, if its matrices hold stresses at the joint's degree
   // Sums of the forces that act on the plate along x and y, force.
   Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
   Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction

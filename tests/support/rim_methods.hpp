@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "stage2_extract/stresses/fields.hpp"
+#include "stage2_extract/field/fields.hpp"
 #include "stage2_extract/stresses/rim_stress.hpp"
 
 namespace fastjoint::test {

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "common/errors.hpp"
-#include "stage2_extract/stresses/fields.hpp"
+#include "stage2_extract/field/fields.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/plates.hpp"
 

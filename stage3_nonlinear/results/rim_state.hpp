@@ -2,16 +2,16 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "common/formats/joint_result.hpp"
 #include "common/formats/plate_matrices.hpp"
-#include "common/stresses/contact_hoop.hpp"
+#include "stage3_nonlinear/results/loaded_rims.hpp"
 
-namespace fastjoint::stresses {
+namespace fastjoint::stage3 {
 
 /// One hole of a plate at one increment: what RESULT.h5 holds, and what only the summary and warnings need.
 struct RimState : formats::RimValues {
@@ -35,8 +35,6 @@ struct LoadedDiscs {
   Eigen::VectorXd bearing, friction;  ///< (m) resultants on the rim along it, force
 };
 
-using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;
-
 /// States of all holes of a plate.
 ///
 /// The error of the peak is the largest change of the hoop stress from the degree below within 45 degrees of it
@@ -46,10 +44,11 @@ using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;
 /// that bears; its error is its change from the degree below, but no less than the square root of the relative error of
 /// S times the largest force on the plate (docs/theory.md, sections 11.2 to 11.4).
 /// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
-/// @param in_state Makes of a matrix of `a`, (k, n) or (s, n), its column in the state.
-/// @param contacts At rims whose springs push but do not pull.
-[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const InState& in_state,
-                                               const LoadedDiscs& discs, const Contacts& contacts = {});
+/// @param amounts  Of the unit cases, (n_cases).
+/// @param rims     Those with waves and a closed form; other holes have no peak: 0 with an infinite error.
+[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& amounts,
+                                               const LoadedDiscs& discs,
+                                               const std::vector<std::optional<LoadedRim>>& rims);
 
 /// Number of sections across x that the plate has beside a hole.
 [[nodiscard]] int n_sections(const formats::PlateStresses& a, const std::string& hole);
@@ -57,4 +56,4 @@ using InState = std::function<Eigen::VectorXd(const formats::StressRows&)>;
 /// The holes of a plate; their values at every increment are left to the caller.
 [[nodiscard]] formats::RimHistory rims_of(const formats::PlateStresses& a);
 
-}  // namespace fastjoint::stresses
+}  // namespace fastjoint::stage3

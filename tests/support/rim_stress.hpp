@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "stage2_extract/stresses/fields.hpp"
+#include "stage2_extract/field/fields.hpp"
 
 namespace fastjoint::stage2 {
 

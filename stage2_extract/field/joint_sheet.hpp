@@ -7,11 +7,10 @@
 
 #include "common/formats/joint_result.hpp"
 #include "common/formats/plate_solution.hpp"
-#include "stage2_extract/stresses/fields.hpp"
 
 namespace fastjoint::stage2 {
 
-/// Names of a plate's unit cases: "external:P", "disc:1:x", "friction:1:+x", "traction:T"; shape (n_cases).
+/// Names of a plate's unit cases: "external:P", "disc:1:x", "wave:2:0", "friction:1:+x", "traction:T"; shape (n_cases).
 [[nodiscard]] std::vector<std::string> case_names(const formats::PlateSolution& plate);
 
 /// Names in a row for a message, the first dozen of a longer list.
@@ -30,14 +29,5 @@ struct JointSheet {
 /// Throws InputError if no sheet or increment fits or the sheet is of another PLATE.h5, FileError for a bad RESULT.h5.
 [[nodiscard]] JointSheet read_joint_sheet(const formats::PlateSolution& plate, const std::string& file,
                                           const std::string& result_file, const std::string& name);
-
-/// Solves for all increments at the joint's degree and the one below, and sets what the result says of the sheet's
-/// holes, as stage 3 does where MATRICES.h5 has stresses in every unit case.
-/// @param result_file Name of the joint's file, for messages.
-/// Throws InputError if the plate does not have the joint's degree or the result not the forces on the sheet's discs.
-void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, const std::string& result_file);
-
-/// The summary of the sheet's holes: the largest hoop stress of all increments.
-[[nodiscard]] std::string rim_summary(const JointSheet& sheet);
 
 }  // namespace fastjoint::stage2

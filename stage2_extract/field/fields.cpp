@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/stresses/fields.hpp"
+#include "stage2_extract/field/fields.hpp"
 
 #include <fmt/format.h>
 
@@ -52,10 +52,13 @@ void check_free(const PlateSolution& a, const plate::PlateStiffness& K, const st
 }
 
 plate::SprungMesh sprung_mesh(const PlateSolution& a, const pfem::Edges& edges, const plate::Unknowns& unknowns) {
-  plate::SprungMesh sprung{a.mesh, edges, a.hole_rim, {}, {}};
+  plate::SprungMesh sprung{a.mesh, edges, a.hole_rim, {}, {}, {}};
   for (int i = 0; i < count_of(a.hole_id); ++i) {
     const int first = unknowns.first_disc[i], n = unknowns.first_disc[i + 1] - first;
     sprung.springs.push_back(n == 0 ? std::nullopt : std::optional(a.hole_spring[i]));
+    auto& waves = sprung.waves.emplace_back();
+    for (int loaded = 0; loaded < count_of(a.contact); ++loaded)
+      if (a.waves[loaded].hole == a.hole_id[i]) waves = {a.waves[loaded].waves, true};
     auto& axes = sprung.axes.emplace_back(2, n);
     for (int d = 0; d < n; ++d) axes.col(d) = rim::axis(a.disc_direction[first + d]);
   }
@@ -91,7 +94,7 @@ double FieldSolver::factor_bytes(int p) const { return plate::factor_bytes(stiff
 
 void FieldSolver::factorise(int p) {
   factor_.reset();  // its memory first
-  factor_ = std::make_unique<plate::PlateFactor>(stiffness_, skeleton_, p);
+  factor_ = std::make_unique<plate::PlateFactor>(stiffness_, skeleton_, p, false);
   n_free_ = stiffness_.unknowns.n_free[p];
 }
 

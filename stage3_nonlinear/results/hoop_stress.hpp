@@ -8,7 +8,7 @@
 #include "common/rim/harmonics.hpp"
 #include "common/rim/rim_compliance.hpp"
 
-namespace fastjoint::stresses {
+namespace fastjoint::stage3 {
 
 /// Pressure and shear on the sheet at an angle of the rim that the model has, stress.
 using Tractions = std::function<Eigen::Vector2d(double angle)>;
@@ -54,4 +54,4 @@ class HoopStress {
   Eigen::VectorXd angles_, values_;
 };
 
-}  // namespace fastjoint::stresses
+}  // namespace fastjoint::stage3

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/stresses/hoop_stress.hpp"
+#include "stage3_nonlinear/results/hoop_stress.hpp"
 
 #include <cmath>
 #include <complex>
@@ -7,7 +7,7 @@
 #include <unsupported/Eigen/FFT>
 #include <utility>
 
-namespace fastjoint::stresses {
+namespace fastjoint::stage3 {
 namespace {
 
 using Complex = std::complex<double>;
@@ -137,4 +137,4 @@ double HoopStress::at(double angle) const {
   return hoop(angle, strain(angle, short_waves, traction), traction);
 }
 
-}  // namespace fastjoint::stresses
+}  // namespace fastjoint::stage3

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/stresses/joint_sheet.hpp"
+#include "stage2_extract/field/joint_sheet.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -8,9 +8,6 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "common/program/program.hpp"
-#include "common/stresses/rim_state.hpp"
-#include "stage2_extract/stresses/stresses.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -25,8 +22,8 @@ std::vector<std::string> names_of_cases(const Plate& a) {
   names.reserve(a.external_id.size() + a.disc_hole.size() + a.friction_hole.size() + a.traction_id.size());
   for (const auto& id : a.external_id) names.push_back("external:" + id);
   for (int i = 0; i < count_of(a.disc_hole); ++i) names.push_back("disc:" + a.disc_hole[i] + ":" + a.disc_direction[i]);
-  for (const auto& rim : a.contact)
-    for (int k = 0; k < rim.pressures.size(); ++k) names.push_back(fmt::format("pressure:{}:{}", rim.hole, k));
+  for (std::size_t rim = 0; rim < a.contact.size(); ++rim)
+    for (int k = 0; k < a.waves[rim].size(); ++k) names.push_back(fmt::format("wave:{}:{}", a.waves[rim].hole, k));
   for (int i = 0; i < count_of(a.friction_hole); ++i)
     names.push_back("friction:" + a.friction_hole[i] + ":" + a.friction_bearing[i]);
   for (const auto& id : a.traction_id) names.push_back("traction:" + id);
@@ -83,52 +80,9 @@ JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file,
   if (result.joint.load_factor.size() == 0)
     throw InputError(fmt::format("{}: holds no increment that converged", result_file));
   result.amounts.resize(plate.n_cases(), result.joint.load_factor.size());
-  result.amounts << sheet.De.transpose(), sheet.D.transpose(), sheet.pressure.transpose(), sheet.Lambda.transpose(),
+  result.amounts << sheet.De.transpose(), sheet.D.transpose(), sheet.amounts.transpose(), sheet.Lambda.transpose(),
       sheet.traction.transpose();
   return result;
-}
-
-void set_rims(JointSheet& sheet, FieldSolver& solver, const std::string& file, const std::string& result_file) {
-  const auto& plate = solver.plate();
-  const int p = sheet.joint.p;
-  auto& history = sheet.joint.plates[sheet.at];
-  if (std::find(plate.p.begin(), plate.p.end(), p) == plate.p.end())
-    throw InputError(fmt::format("{}: is of degree p = {}, which {} does not have; allowed: {}", result_file, p, file,
-                                 fmt::join(plate.p, ", ")));
-  if (!history.disc_forces)
-    throw InputError(
-        fmt::format("{}:plates/{}/disc/bearing: is missing; allowed: a file of version 1.5 or later, "
-                    "which stage3_nonlinear run again writes",
-                    result_file, history.name));
-  const auto a = extract_stresses(solver, p, sheet.amounts);
-  std::vector<int> axes;
-  for (const auto& direction : plate.disc_direction) axes.push_back(direction == "x" ? 0 : 1);
-  history.rims = stresses::rims_of(a);
-  for (Eigen::Index step = 0; step < sheet.amounts.cols(); ++step) {
-    const auto states = stresses::rim_states(
-        a, count_of(a.p) - 1, [&](const formats::StressRows& of_states) { return of_states.col(step); },
-        {plate.disc_hole, axes, history.disc_forces->bearing.row(step), history.disc_forces->friction.row(step)},
-        {history.contact, history.pressure.row(step), history.contacts.gap});
-    history.rims.values.emplace_back(states.begin(), states.end());
-  }
-}
-
-std::string rim_summary(const JointSheet& sheet) {
-  const auto& [joint, at, amounts] = sheet;
-  const auto& [name, rims] = std::tie(joint.plates[at].name, joint.plates[at].rims);
-  std::string text = fmt::format("sheet \"{}\", {}, {}, p = {}\n", name, program::counted(rims.hole.size(), "hole"),
-                                 program::counted(rims.values.size(), "increment"), joint.p);
-  formats::RimValues largest{.peak_hoop = -h5::infinite};
-  std::string where;
-  for (int step = 0; step < count_of(rims.values); ++step)
-    for (int hole = 0; hole < count_of(rims.hole); ++hole)
-      if (rims.values[step][hole].peak_hoop > largest.peak_hoop) {
-        largest = rims.values[step][hole];
-        where = fmt::format("hole \"{}\", increment {}", rims.hole[hole], step + 1);
-      }
-  if (where.empty()) return text;
-  return text + fmt::format("  largest hoop stress {:.6g} +- {:.1g} {} at {:.1f} deg of {}\n", largest.peak_hoop,
-                            largest.peak_error, unit(joint.header.units, -2, 1), largest.peak_angle, where);
 }
 
 }  // namespace fastjoint::stage2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/stresses/hoop_stress.hpp"
+#include "stage3_nonlinear/results/hoop_stress.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 
 #include "common/pfem/material.hpp"
 
-namespace fastjoint::stresses {
+namespace fastjoint::stage3 {
 namespace hoop_stress_test {
 
 using rim::Harmonics;
@@ -93,4 +93,4 @@ TEST(HoopStress, IsTheRadialStressUnderPressureInAnInfiniteIsotropicSheet) {
 }
 
 }  // namespace hoop_stress_test
-}  // namespace fastjoint::stresses
+}  // namespace fastjoint::stage3

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "common/stresses/rim_state.hpp"
+#include "stage3_nonlinear/results/rim_state.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace fastjoint::stresses {
+namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::Index;
@@ -257,4 +257,4 @@ TEST(RimState, OneDegreeAloneKnowsNoError) {
 }
 
 }  // namespace
-}  // namespace fastjoint::stresses
+}  // namespace fastjoint::stage3

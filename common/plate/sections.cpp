@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/plate/sections.hpp"
+
+#include "common/count.hpp"
+#include "common/pfem/element.hpp"
+#include "common/pfem/shape_functions.hpp"
+#include "common/plate/plate_states.hpp"
+
+namespace fastjoint::plate {
+namespace {
+
+/// The elements on both sides of every edge of a mesh.
+std::vector<std::vector<pfem::Side>> sides_of_edges(const pfem::Edges& edges) {
+  std::vector<std::vector<pfem::Side>> sides(edges.size());
+  for (int element = 0; element < edges.of_element.cols(); ++element)
+    for (int local = 0; local < pfem::n_local_edges; ++local)
+      sides[edges.of_element(local, element)].push_back({element, local});
+  return sides;
+}
+
+/// int n.sigma.n t ds over one side of an element as a function of the element's coefficients; n along x or y.
+Eigen::VectorXd side_force(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Numbering& numbering,
+                           const Eigen::Matrix3d& elasticity, const pfem::Side& side, Eigen::Index component) {
+  const auto rule = pfem::gauss(numbering.p + 3);  // a rational integrand: see ElementStiffness
+  const pfem::ElementMap map(mesh, edges, side.element);
+  const auto curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
+  const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);
+  const Eigen::MatrixXd B =
+      pfem::strain_operator(map, numbering.space, numbering.p, at.row(0).transpose(), at.row(1).transpose());
+  Eigen::RowVectorXd per_coefficient = Eigen::RowVectorXd::Zero(B.cols());
+  for (Eigen::Index q = 0; q < rule.x.size(); ++q)
+    per_coefficient += rule.w[q] * curve.derivative(rule.x[q]).norm() * mesh.thickness[side.element] *
+                       elasticity.row(component) * B.middleRows<3>(3 * q);
+  return per_coefficient.transpose();
+}
+
+}  // namespace
+
+PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mesh& mesh, const pfem::Edges& edges,
+                                      const pfem::Numbering& numbering, const std::vector<Eigen::Matrix3d>& elasticity,
+                                      const std::vector<rim::Section>& sections) {
+  const auto both = sides_of_edges(edges);
+  PlateFactor::Functions forces;
+  for (const auto& section : sections) {
+    forces.emplace_back();
+    for (const auto& side : section.sides) {
+      const auto& sides = both[edges.of_element(side.local_edge, side.element)];
+      for (const auto& one : sides) {
+        const Eigen::VectorXd force = side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one,
+                                                 section.side[1] == 'x' ? 0 : 1);
+        forces.back().push_back(PlateStates::condense(factor, one.element, force / count_of(sides)));
+      }
+    }
+  }
+  return forces;
+}
+
+}  // namespace fastjoint::plate

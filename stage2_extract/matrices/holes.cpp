@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage2_extract/matrices/holes.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+
+#include "common/count.hpp"
+#include "common/matrices/stiffness_error.hpp"
+
+namespace fastjoint::stage2 {
+namespace {
+
+/// Names, places, areas and what the plate is there.
+void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
+  const Eigen::Index r = plate.hole_rim.size();
+  a.rim_hole = plate.hole_id;
+  a.rim_center.resize(r, 2);
+  a.rim_radius.resize(r);
+  a.rim_thickness = Eigen::VectorXd::Zero(r);
+  a.rim_modulus = Eigen::MatrixXd::Zero(r, 2);
+  a.bearing_area.resize(r, 2);
+  for (Eigen::Index i = 0; i < r; ++i) {
+    a.rim_center.row(i) = plate.hole_rim[i].center.transpose();
+    a.rim_radius[i] = plate.hole_rim[i].radius;
+    const auto& sides = plate.hole_rim[i].sides;
+    const int n = count_of(sides);
+    for (const auto& side : sides) {
+      const auto& D = plate.elasticity[plate.mesh.material[side.element]];
+      a.rim_thickness[i] += plate.mesh.thickness[side.element] / n;
+      a.rim_modulus.row(i) += D.inverse().diagonal().head<2>().cwiseInverse().transpose() / n;
+    }
+    const auto area = [&](const char* side) {
+      return rim::bearing(plate.mesh, edges, plate.hole_rim[i], bearing_direction(side)).area;
+    };
+    a.bearing_area.row(i) << std::max(area("+x"), area("-x")), std::max(area("+y"), area("-y"));
+  }
+}
+
+/// Sets the places of the sections and their areas, net of what the hole takes.
+void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
+  const Eigen::Index s = plate.sections.size();
+  a.gross_area = Eigen::VectorXd::Zero(s);
+  a.net_area.resize(s);
+  for (Eigen::Index i = 0; i < s; ++i) {
+    const auto& section = plate.sections[i];
+    a.section_hole.push_back(plate.hole_id[section.hole]);
+    a.section_side.push_back(section.side);
+    for (const auto& side : section.sides)
+      a.gross_area[i] += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();
+    const auto& rim = plate.hole_rim[section.hole];
+    a.net_area[i] = a.gross_area[i] - rim::bearing(plate.mesh, edges, rim, bearing_direction(section.side)).area;
+  }
+}
+
+/// Estimated relative error of S and C_t at each of some degrees of the plate, infinite at its lowest.
+Eigen::VectorXd stiffness_errors(const formats::PlateSolution& plate, const Eigen::VectorXi& degrees) {
+  Eigen::VectorXd errors(degrees.size());
+  matrices::CondensedLevels levels;
+  levels.rounding = plate.probe.rounding;
+  Eigen::Index at = 0;
+  for (Eigen::Index i = 0; i < degrees.size(); ++i) {
+    for (; at < plate.p.size() && plate.p[at] <= degrees[i]; ++at) {
+      levels.S.push_back(plate.cases[at].S);
+      levels.R.emplace_back();
+      levels.C.push_back(plate.cases[at].C_t);
+    }
+    errors[i] = matrices::largest(matrices::relative_errors(levels, plate.p.head(at), plate.held_stiffness,
+                                                            matrices::fastest_rate(plate.elasticity)));
+  }
+  return errors;
+}
+
+}  // namespace
+
+Eigen::Vector2d bearing_direction(const std::string& side) {
+  const Eigen::Vector2d axis = rim::axis(side.substr(1));
+  return side[0] == '+' ? axis : Eigen::Vector2d(-axis);
+}
+
+formats::PlateStresses describe_holes(const formats::PlateSolution& plate, bool with_stresses) {
+  const auto edges = pfem::find_edges(plate.mesh);
+  formats::PlateStresses a;
+  describe_rims(plate, edges, a);
+  if (!with_stresses) return a;
+  describe_sections(plate, edges, a);
+  const Eigen::Index k = plate.n_loaded_waves(), np = plate.p.size();
+  a.p = plate.p.tail(std::min(np, formats::n_stress_degrees));
+  for (Eigen::Index i = np - a.p.size(); i < np; ++i) {
+    a.other_waves.emplace_back(plate.cases[i].W.bottomRows(plate.n_waves() - k));
+    a.section_force.emplace_back(plate.cases[i].N);
+  }
+  a.stiffness_error = stiffness_errors(plate, a.p);
+  return a;
+}
+
+}  // namespace fastjoint::stage2

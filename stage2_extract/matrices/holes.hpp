@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "common/formats/plate_matrices.hpp"
+#include "common/formats/plate_solution.hpp"
+
+namespace fastjoint::stage2 {
+
+/// Unit vector of a bearing side, "+x", "-x", "+y" or "-y".
+[[nodiscard]] Eigen::Vector2d bearing_direction(const std::string& side);
+
+/// The holes of the plate and what is known of the sheet there; with stresses also its sections, and the waves and
+/// section forces in every unit case at the highest degrees, as stage 1 has solved them.
+[[nodiscard]] formats::PlateStresses describe_holes(const formats::PlateSolution& plate, bool with_stresses);
+
+}  // namespace fastjoint::stage2

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/loaded_rims.hpp"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/count.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
+
+/// Direction of a bearing side, "+x", "-x", "+y" or "-y", radians.
+double direction_of(const std::string& side) {
+  return (side[1] == 'x' ? 0 : rim::full_turn / 4) + (side[0] == '+' ? 0 : rim::full_turn / 2);
+}
+
+/// Cosine distribution on the half of a rim around a direction.
+double cosine_bearing(double angle, double direction) { return std::max(std::cos(angle - direction), 0.0); }
+
+/// A cosine pressure or a cosine friction on half of the rim, of an amount.
+struct HalfLoad {
+  double direction, amount;
+};
+
+/// What is known of the tractions on a rim that is not in contact, besides the pressure of its springs.
+struct KnownLoads {
+  std::vector<HalfLoad> pressures, frictions;
+
+  [[nodiscard]] Eigen::Vector2d at(double angle) const {
+    Eigen::Vector2d result{0, 0};
+    for (const auto& [direction, amount] : pressures) result.x() += amount * cosine_bearing(angle, direction);
+    for (const auto& [direction, amount] : frictions)  // drags the sheet along its direction
+      result.y() -= amount * cosine_bearing(angle, direction) * sign_of(std::sin(angle - direction));
+    return result;
+  }
+};
+
+KnownLoads known_loads(const PlateModel& plate, const std::string& hole, const VectorXd& amounts) {
+  KnownLoads loads;
+  const Index q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
+  for (Index i = 0; i < h; ++i)
+    if (const double amount = amounts[amounts.size() - q - h + i]; plate.friction_hole[i] == hole && amount != 0)
+      loads.frictions.push_back({direction_of(plate.friction_bearing[i]), amount});
+  for (Index i = 0; i < std::ssize(plate.traction_hole); ++i)
+    if (const double amount = amounts[amounts.size() - q + i]; plate.traction_hole[i] == hole && amount != 0) {
+      const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;  // a unit force is along + on both sides
+      loads.pressures.push_back(
+          {direction_of(plate.traction_bearing[i]), sign * amount / plate.traction_unit_force[i]});
+    }
+  return loads;
+}
+
+bool is_isotropic(const Eigen::Matrix3d& a) {
+  constexpr double same = 1e-9;
+  const double scale = a(0, 0);
+  return std::abs(a(1, 1) - a(0, 0)) < same * scale && std::abs(a(0, 2)) < same * scale &&
+         std::abs(a(1, 2)) < same * scale && std::abs(a(2, 2) - 2 * (a(0, 0) - a(0, 1))) < same * scale;
+}
+
+/// Short waves of the disc's normal displacement against the sheet at a rim whose springs push and pull on given arcs,
+/// behind the long ones, (size of `full`): w_s = -(D p)_s with p = K w on the arcs, and what friction does.
+VectorXd with_short_waves(const formats::WaveRim& rim, const rim::Harmonics& full, const VectorXd& long_w,
+                          const KnownLoads& known) {
+  const Index n_long = long_w.size(), n = full.size(), s = n - n_long;
+  const MatrixXd D = rim::RimCompliance(rim.compliance, rim.radius).displacements(full);
+  MatrixXd sprung = MatrixXd::Zero(n, n);  // K times the mean over the rim of products, where springs act
+  for (const auto& arc : rim.acts)
+    for (const int turns : {-1, 0, 1}) {
+      const double from = std::max(arc.from + turns * rim::full_turn, full.start);
+      const double to = std::min(arc.to + turns * rim::full_turn, full.start + full.sweep);
+      if (from < to) sprung += full.products(from, to);
+    }
+  sprung *= rim.modulus / full.sweep;
+  VectorXd shear = VectorXd::Zero(full.n_shears());
+  constexpr int points = 2048;
+  for (int i = 0; i < points && !known.frictions.empty(); ++i) {
+    const double angle = full.start + (i + 0.5) / points * full.sweep;
+    shear += known.at(angle).y() / points * full.shears_at(angle);
+  }
+  const MatrixXd D_s = D.bottomRows(D.rows() - n_long).topRows(s);
+  const MatrixXd by_w = D_s.leftCols(n) * sprung;
+  const MatrixXd A = MatrixXd::Identity(s, s) + by_w.rightCols(s);
+  VectorXd w(n);
+  w << long_w, -A.partialPivLu().solve(by_w.leftCols(n_long) * long_w + D_s.rightCols(full.n_shears()) * shear);
+  return w;
+}
+
+/// Tractions on a rim that is not in contact: the pressure of its springs, and what is known.
+Tractions springs_and(const formats::WaveRim& rim, const VectorXd& long_w, const KnownLoads& known) {
+  if (rim.modulus == 0) return [known](double angle) { return known.at(angle); };
+  constexpr int highest = 48;
+  const bool all_around = std::ranges::any_of(rim.acts, [&](const auto& arc) {
+    return arc.to - arc.from >= rim.waves.sweep - 1e-9 && rim::covers({arc}, rim.waves.start);
+  });
+  rim::Harmonics full = rim.waves;
+  VectorXd w = long_w;
+  if (!(all_around && known.frictions.empty() && is_isotropic(rim.compliance)) && full.highest < highest) {
+    full.highest = highest;
+    w = with_short_waves(rim, full, long_w, known);
+  }
+  return [=, modulus = rim.modulus, acts = rim.acts](double angle) -> Eigen::Vector2d {
+    const double pressure = rim::covers(acts, angle) ? modulus * full.at(angle).dot(w) : 0;
+    return known.at(angle) + Eigen::Vector2d(pressure, 0);
+  };
+}
+
+/// Tractions of contact: what the springs push with, and friction in proportion.
+Tractions of_contact(const formats::ContactRim& rim, const ContactLoad& load) {
+  return [pressures = rim.pressures, modulus = rim.modulus, load](double angle) -> Eigen::Vector2d {
+    const double p = modulus * std::max(pressures.at(angle).dot(load.moments) - load.gap, 0.0);
+    return {p, -load.mu * p * sign_of(std::sin(angle - load.direction))};
+  };
+}
+
+/// Brings the displacement of the elements, whose short waves are those of springs that also pull, to that under the
+/// load of contact.
+void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, VectorXd& displacement) {
+  if (rim.is_empty()) return;
+  const Index s = rim.n - rim.n_long, s_t = rim.n_shears - rim.n_long_shears;
+  const VectorXd p_s = load.pressure.tail(s), tau_s = load.shear.tail(s_t);
+  const VectorXd w_s = -(rim.G * load.pressure.head(rim.n_long) + rim.G_t * load.shear.head(rim.n_long_shears));
+  displacement.head(rim.n_long) -= rim.G.transpose() * (p_s - modulus * load.moments.tail(s)) + rim.E * tau_s;
+  const auto rows = rim.D.middleRows(rim.n, rim.n_long_shears);
+  displacement.tail(rim.n_long_shears) -=
+      rows.middleCols(rim.n_long, s) * (p_s - modulus * w_s) + rows.rightCols(s_t) * tau_s;
+}
+
+}  // namespace
+
+VectorXd wave_amounts(const ContactLoad& load, const ShortWaves& rim, double modulus) {
+  VectorXd w = load.moments.head(rim.n_long);
+  if (!rim.is_empty())
+    w += rim.G.transpose() * (load.pressure - modulus * load.moments).tail(rim.n - rim.n_long) +
+         rim.E * load.shear.tail(rim.n_shears - rim.n_long_shears);
+  VectorXd amounts(rim.n_carried());
+  amounts << load.pressure.head(rim.n_long) - modulus * w, load.shear.head(rim.n_long_shears);
+  return amounts;
+}
+
+HoopStress LoadedRim::hoop(Index degree, const rim::Harmonics& shape) const {
+  const RimWaves& waves = degrees[degree];
+  VectorXd displacement(shape.size() + shape.n_shears());
+  displacement << waves.displacement.head(shape.size()), waves.displacement.segment(rim.waves.size(), shape.n_shears());
+  return {rim::RimCompliance(rim.compliance, rim.radius), shape, displacement, waves.tractions};
+}
+
+std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& amounts,
+                                                  const std::vector<ContactLoad>& contacts) {
+  std::vector<std::optional<LoadedRim>> result;
+  Index row = 0;
+  for (Index i = 0; i < std::ssize(plate.waves); ++i) {
+    const auto& rim = plate.waves[i];
+    const Index first = std::exchange(row, row + rim.size());
+    auto& loaded = result.emplace_back();
+    if (!rim.has_closed_form()) continue;
+    const bool in_contact = i < std::ssize(contacts);
+    loaded = LoadedRim{rim, {}, in_contact, {}};
+    const KnownLoads known = known_loads(plate, rim.hole, amounts);
+    for (const auto& rows : plate.wave_rows) {
+      VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
+      if (in_contact) correct(contacts[i], plate.short_waves[i], rim.modulus, displacement);
+      const Tractions tractions = in_contact ? of_contact(plate.contact[i], contacts[i])
+                                             : springs_and(rim, displacement.head(rim.waves.size()), known);
+      loaded->degrees.push_back({std::move(displacement), tractions});
+    }
+    if (in_contact) loaded->kinks = contacts[i].ends;
+    if (!in_contact && rim.modulus > 0)
+      for (const auto& arc : rim.acts) loaded->kinks.insert(loaded->kinks.end(), {arc.from, arc.to});
+  }
+  return result;
+}
+
+}  // namespace fastjoint::stage3

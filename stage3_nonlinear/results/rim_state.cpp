@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/rim_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "common/count.hpp"
+#include "common/rim/angles.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// Error where one degree alone says nothing.
+constexpr double unknown = std::numeric_limits<double>::infinity();
+
+/// Half width of what is left out around a jump of friction, degrees: the point itself and its neighbours.
+constexpr double left_out = 7.5;
+
+double turn(double angle) { return angle - 360 * std::round(angle / 360); }
+
+/// Friction whose peak is below 1 % of the bearing stress does not jump: that of the other axis must not hide the peak
+/// beside the hole under a force almost along one axis. The cosine distribution's peak stress over F / (d t) is twice
+/// its resultant over F.
+constexpr double hardly_jumps = 0.01 / 2;
+
+/// Places, degrees, at which friction jumps that has a case for each side: at the bearing direction along either axis.
+std::vector<double> jumps_of_sides(const Eigen::Vector2d& friction) {
+  std::vector<double> jumps;
+  for (const int axis : {0, 1})
+    if (friction[axis] != 0) jumps.push_back(90 * axis + (friction[axis] > 0 ? 0 : 180));
+  return jumps;
+}
+
+/// Pressure at points of a rim.
+struct RimPressure {
+  VectorXd angle;     ///< (n) equal steps all around or from end to end, degrees
+  VectorXd pressure;  ///< (n) stress
+  bool is_whole;
+
+  explicit RimPressure(const LoadedRim& rim) : is_whole(rim.rim.waves.is_whole()) {
+    constexpr int n = 72;
+    const auto& [highest, start, sweep] = rim.rim.waves;
+    const int steps = std::max(1, static_cast<int>(std::lround(n * sweep / rim::full_turn)));
+    angle = is_whole ? VectorXd::LinSpaced(n, 0, 360.0 * (n - 1) / n)
+                     : VectorXd::LinSpaced(steps + 1, start / rim::degree, (start + sweep) / rim::degree);
+    pressure = angle.unaryExpr([&](double at) { return rim.degrees[0].tractions(at * rim::degree).x(); });
+  }
+
+  /// Part of all pressure, by amount, on the half that bears under a force.
+  [[nodiscard]] double bearing_share(const Eigen::Vector2d& force) const {
+    const Eigen::ArrayXd at = angle.array() * rim::degree;
+    const auto bears = force[0] * at.cos() + force[1] * at.sin() > 0;
+    return bears.select(pressure.array().abs(), 0).sum() / pressure.lpNorm<1>();
+  }
+
+  /// Force on the rim along an axis by the pressure around a whole circle; NaN on part of a circle.
+  /// @param area d t
+  [[nodiscard]] double force(int axis, double area) const {
+    if (!is_whole) return std::nan("");
+    const Eigen::ArrayXd off_axis = (angle.array() - 90 * axis) * rim::degree;
+    return off_axis.cos().matrix().dot(pressure) / double(angle.size()) * std::numbers::pi * area;
+  }
+};
+
+/// Places, degrees, at which friction jumps that follows the pressure of contact: in the direction of its force, and
+/// opposite if there is pressure too.
+std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
+                                     const LoadedRim& rim) {
+  if (!(friction.norm() > hardly_jumps * bearing.norm())) return {};
+  const double direction = std::atan2(bearing.y(), bearing.x()) / rim::degree;
+  const auto& tractions = rim.degrees[0].tractions;
+  const double there = tractions(direction * rim::degree).x(),
+               opposite = tractions((direction + 180) * rim::degree).x();
+  return opposite > 0.01 * there ? std::vector{direction, direction + 180} : std::vector{direction};
+}
+
+/// Peak of the hoop stress around a rim.
+class PeakSearch {
+ public:
+  /// @param jumps Places at which friction jumps, degrees: close to them is no peak.
+  PeakSearch(const LoadedRim& rim, const std::vector<double>& jumps)
+      : rim_(rim), jumps_(jumps), hoop_(rim.hoop(0, rim.rim.waves)) {}
+
+  /// Largest of all values at the points of HoopStress and at kinks of the tractions, at the top of the parabola
+  /// through it and its neighbours if it is no kink.
+  void find(RimState& state) const {
+    const auto& [angle, value] = std::tie(hoop_.angles(), hoop_.values());
+    const Index n = angle.size();
+    std::optional<Index> best;
+    for (Index i = 0; i < n; ++i)
+      if (is_allowed(angle[i]) && (!best || value[i] > value[*best])) best = i;
+    if (!best) return;
+    const double before = value[(*best + n - 1) % n], at = value[*best], after = value[(*best + 1) % n];
+    const double curvature = before - 2 * at + after, step = angle[1] - angle[0];
+    const double shift = curvature < 0 ? (before - after) / (2 * curvature) : 0;
+    state.peak_hoop = at - curvature * shift * shift / 2;
+    double peak = angle[*best] + shift * step;
+    for (const double kink : rim_.kinks) {
+      const double distance = rim::wrapped(kink - angle[*best]);
+      if (std::abs(distance) < 2 * step) state.peak_hoop = at, peak = angle[*best];  // no parabola across a kink
+    }
+    for (const double kink : rim_.kinks)
+      if (const double there = is_allowed(kink) ? hoop_.at(kink) : state.peak_hoop; there > state.peak_hoop)
+        state.peak_hoop = there, peak = kink;
+    state.peak_angle = turn(peak / rim::degree);
+    state.peak_error = error(peak, state.peak_hoop);
+  }
+
+ private:
+  /// True on the part of the rim that the model has, away from jumps of friction.
+  [[nodiscard]] bool is_allowed(double angle) const {
+    const auto& waves = rim_.rim.waves;
+    constexpr double rounding = 1e-9;
+    if (!waves.is_whole() && rim::wrapped(angle, waves.start - rounding) > waves.start + waves.sweep + rounding)
+      return false;
+    return std::ranges::none_of(jumps_,
+                                [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= left_out; });
+  }
+
+  /// Largest change within 45 degrees of a place, to the degree below and to one order of waves less.
+  [[nodiscard]] double error(double peak, double /*value*/) const {
+    if (rim_.degrees.size() < 2) return unknown;
+    constexpr double around = rim::full_turn / 8;
+    rim::Harmonics fewer = rim_.rim.waves;
+    const int unit = static_cast<int>(std::lround(rim::full_turn / fewer.sweep / (fewer.is_whole() ? 1 : 2)));
+    fewer.highest -= std::max(unit, 1);
+    const HoopStress below = rim_.hoop(1, rim_.rim.waves), less = rim_.hoop(0, fewer);
+    double by_degree = 0, by_order = 0;
+    for (Index i = 0; i < hoop_.angles().size(); ++i) {
+      const double angle = hoop_.angles()[i];
+      if (!is_allowed(angle) || std::abs(rim::wrapped(angle - peak)) > around) continue;
+      by_degree = std::max(by_degree, std::abs(hoop_.values()[i] - below.values()[i]));
+      by_order = std::max(by_order, std::abs(hoop_.values()[i] - less.values()[i]));
+    }
+    return by_degree + by_order;
+  }
+
+  const LoadedRim& rim_;
+  const std::vector<double>& jumps_;
+  HoopStress hoop_;
+};
+
+/// @param forces       Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or
+/// 2).
+/// @param T            Force of the fastener along x, friction included.
+/// @param largest      Force anywhere on the plate.
+/// @param energy_error Relative error of the plate's fields in the energy norm, which that of a resultant of stresses
+///                     follows.
+void read_sections(const formats::PlateStresses& a, const std::string& hole, const Eigen::MatrixXd& forces, double T,
+                   double largest, double energy_error, RimState& state) {
+  std::optional<Index> plus, minus;
+  for (int i = 0; i < count_of(a.section_hole); ++i) {
+    if (a.section_hole[i] != hole) continue;
+    if (a.section_side[i] == "+x") plus = i;
+    if (a.section_side[i] == "-x") minus = i;
+  }
+  if (!plus && !minus) return;
+  // Tension is `right` on the side of +x and `left` on that of -x; T along +x takes left - right. It bears on the side
+  // that it pushes to.
+  const auto bypass = [&](const VectorXd& N) {
+    const double right = plus ? N[*plus] : N[*minus] - T;
+    const double left = minus ? N[*minus] : N[*plus] + T;
+    return T == 0 ? (left + right) / 2 : T > 0 ? right : left;
+  };
+  const VectorXd force = forces.col(0);
+  state.bypass_load = bypass(force);
+  state.bypass_error = forces.cols() > 1
+                           ? std::max(std::abs(bypass(forces.col(1)) - state.bypass_load), energy_error * largest)
+                           : unknown;
+  const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
+  constexpr double rounding = 1e-9;
+  if (!(std::abs(force[loaded]) > rounding * largest)) return;
+  state.in_tension = force[loaded] > 0;
+  state.gross_concentration = state.peak_hoop * a.gross_area[loaded] / std::abs(force[loaded]);
+  state.net_concentration = state.peak_hoop * a.net_area[loaded] / std::abs(force[loaded]);
+}
+
+/// Sets the peak, and what the pressure around the rim tells.
+/// @param axes Directions in which its disc moves.
+void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
+              const std::vector<int>& axes, double largest, const Eigen::RowVector2d& bearing_area, RimState& state) {
+  const Eigen::Vector2d jumps = (friction.array().abs() > hardly_jumps * bearing.norm()).select(friction, 0);
+  state.by_components = !rim.in_contact && jumps[0] != 0 && jumps[1] != 0;
+  const auto places = rim.in_contact ? jumps_of_contact(bearing, friction, rim) : jumps_of_sides(jumps);
+  PeakSearch(rim, places).find(state);
+  const RimPressure around(rim);
+  const double highest = around.pressure.lpNorm<Eigen::Infinity>();
+  constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
+  if (!rim.in_contact && highest > 0) {
+    state.pulls = bearing.norm() > 1e-9 * largest && around.bearing_share(bearing) < hardly;
+    const auto touched = (around.pressure.array().abs() > 1e-9 * highest).count();
+    state.filled = double(touched) > (1 - hardly) * double(around.pressure.size());
+    if (state.filled) state.pull = std::max(0.0, -around.pressure.minCoeff());
+  }
+  if (axes.size() == 1) state.across = -around.force(1 - axes[0], bearing_area[1 - axes[0]]);
+  state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
+}
+
+}  // namespace
+
+std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& amounts,
+                                 const LoadedDiscs& discs, const std::vector<std::optional<LoadedRim>>& rims) {
+  std::vector<RimState> states;
+  Eigen::MatrixXd forces(a.section_force[level].rows(), level > 0 ? 2 : 1);
+  for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * amounts;
+  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>());
+  for (int i = 0; i < count_of(a.rim_hole); ++i) {
+    RimState state;
+    Eigen::Vector2d bearing{0, 0}, friction{0, 0};
+    std::vector<int> axes;
+    for (int disc = 0; disc < count_of(discs.hole); ++disc) {
+      if (discs.hole[disc] != a.rim_hole[i]) continue;
+      axes.push_back(discs.axis[disc]);
+      bearing[axes.back()] = discs.bearing[disc];
+      friction[axes.back()] = discs.friction[disc];
+    }
+    state.bearing_load = bearing[0];
+    state.bearing_load_y = bearing[1];
+    state.bearing_stress = bearing.cwiseQuotient(a.bearing_area.row(i).transpose()).norm();
+    const auto found =
+        std::ranges::find_if(rims, [&](const auto& rim) { return rim && rim->rim.hole == a.rim_hole[i]; });
+    if (found != rims.end()) read_rim(**found, bearing, friction, axes, largest, a.bearing_area.row(i), state);
+    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, std::sqrt(a.stiffness_error[level]),
+                  state);
+    states.push_back(state);
+  }
+  return states;
+}
+
+int n_sections(const formats::PlateStresses& a, const std::string& hole) {
+  int n = 0;
+  for (int i = 0; i < count_of(a.section_hole); ++i) n += a.section_hole[i] == hole && a.section_side[i].back() == 'x';
+  return n;
+}
+
+formats::RimHistory rims_of(const formats::PlateStresses& a) {
+  formats::RimHistory rims{a.rim_hole, Eigen::VectorXi(std::ssize(a.rim_hole)), {}};
+  for (Index i = 0; i < rims.sections.size(); ++i) rims.sections[i] = n_sections(a, rims.hole[i]);
+  return rims;
+}
+
+}  // namespace fastjoint::stage3
