@@ -2,6 +2,7 @@
 #include "stage3_nonlinear/model/contact_rims.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <vector>
 
 #include "common/rim/rim_compliance.hpp"
@@ -69,14 +70,19 @@ MatrixXd diagonal_of(const std::vector<ShortWaves>& rims, MatrixXd ShortWaves::*
 
 ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried) {
   const auto& [full, long_waves] = std::tie(contact.pressures, carried.waves);
-  ShortWaves a{long_waves.size(), full.size(), long_waves.n_shears(), full.n_shears(), {}, {}, {}, {}, {}, {}};
+  ShortWaves a{
+      long_waves.size(), full.size(), long_waves.n_shears(), full.n_shears(), {}, full, {}, {}, {}, {}, {}, {}};
   const Index s = a.n - a.n_long, s_t = a.n_shears - a.n_long_shears;
   for (auto& [matrix, rows, cols] :
        {std::tuple(&a.G, s, a.n_long), std::tuple(&a.C, s, s), std::tuple(&a.G_t, s, a.n_long_shears),
         std::tuple(&a.C_t, s, s_t), std::tuple(&a.E, a.n_long, s_t)})
     *matrix = MatrixXd::Zero(rows, cols);
-  if (s == 0 || !carried.has_closed_form()) return a;
-  a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
+  if (!carried.has_closed_form()) return a;
+  const rim::RimCompliance sheet(carried.compliance, carried.radius);
+  a.D = sheet.displacements(full);
+  a.wider.highest = std::min(2 * full.highest, rim::most_harmonics);
+  a.D_beyond = sheet.displacements(a.wider).middleRows(a.n, a.wider.size() - a.n);
+  if (s == 0) return a;
   const MatrixXd nn = a.D.topLeftCorner(a.n, a.n), nt = a.D.topRightCorner(a.n, a.n_shears);
   const MatrixXd softened = MatrixXd::Identity(s, s) + contact.modulus * nn.bottomRightCorner(s, s);
   const Eigen::PartialPivLU<MatrixXd> lu(softened);

@@ -22,7 +22,11 @@ using Eigen::VectorXd;
 struct ShortWaves {
   Index n_long, n;                ///< pressures that the elements carry, and all
   Index n_long_shears, n_shears;  ///< shears likewise
-  MatrixXd D;                  ///< (n + n_shears)^2 displacements by tractions, length / stress; empty: no short waves
+  MatrixXd D;  ///< (n + n_shears)^2 displacements by tractions, length / stress; empty: no short waves
+  // Waves of twice the order that the joint solves for, which the joint's own leave out: what tractions do to the
+  // normal displacements beyond n, (n_beyond, all pressures and shears), length / stress.
+  rim::Harmonics wider;
+  MatrixXd D_beyond;
   MatrixXd G, C, G_t, C_t, E;  ///< length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0; }

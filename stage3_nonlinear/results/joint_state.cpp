@@ -85,10 +85,10 @@ void add_shears(const JointModel& joint, Index at, VectorXd& asked, VectorXd& sh
   }
 }
 
-/// Loads of the rims of contact of a plate, by the moments of their displacements and the forces of these.
+/// Loads of the rims of contact of a plate, by the moments of their displacements.
 /// @param shears Amounts of all shears of the plate's rims, stress.
 std::vector<ContactLoad> contact_loads(const JointModel& joint, Index at, const VectorXd& moments,
-                                       const VectorXd& forces, const VectorXd& shears) {
+                                       const VectorXd& shears) {
   const PlateModel& plate = joint.plates[at];
   std::vector<ContactLoad> loads;
   Index row = 0, shear = 0;
@@ -96,16 +96,7 @@ std::vector<ContactLoad> contact_loads(const JointModel& joint, Index at, const 
     const Index k = rim.pressures.size(), s = rim.pressures.n_shears();
     const RimContact contact(rim.pressures, rim.modulus * rim.area, joint.gap(at, rim.hole), joint.mu(at, rim.hole));
     const VectorXd m = moments.segment(row, k);
-    const Touching touching = contact.touching(m);
-    const RimFriction friction = rim_friction(contact, touching, m);
-    auto& load = loads.emplace_back(ContactLoad{m,
-                                                forces.segment(row, k) / rim.area,
-                                                shears.segment(shear, s),
-                                                contact.gap(),
-                                                contact.mu() / friction.share,
-                                                friction.direction,
-                                                {}});
-    for (const auto& arc : touching.arcs) load.ends.insert(load.ends.end(), {arc.from, arc.to});
+    loads.push_back(contact_load(contact, plate.short_waves[loads.size()], rim.area, m, shears.segment(shear, s)));
     row += k;
     shear += s;
   }
@@ -156,7 +147,7 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   const VectorXd on_discs = state.bearing;  // in holes of contact with their friction
   add_shears(joint, at, asked, shear, state);
-  const auto loads = contact_loads(joint, at, state.moments, rim_F, state.Lambda.tail(plate.R.cols() - n_cosines));
+  const auto loads = contact_loads(joint, at, state.moments, state.Lambda.tail(plate.R.cols() - n_cosines));
   state.waves.resize(plate.n_loaded_waves);
   Index next = 0;
   for (Index i = 0; i < std::ssize(loads); ++i) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "common/count.hpp"
+#include "stage3_nonlinear/equations/rim_friction.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -109,11 +110,27 @@ Tractions springs_and(const formats::WaveRim& rim, const VectorXd& long_w, const
 }
 
 /// Tractions of contact: what the springs push with, and friction in proportion.
-Tractions of_contact(const formats::ContactRim& rim, const ContactLoad& load) {
-  return [pressures = rim.pressures, modulus = rim.modulus, load](double angle) -> Eigen::Vector2d {
-    const double p = modulus * std::max(pressures.at(angle).dot(load.moments) - load.gap, 0.0);
-    return {p, -load.mu * p * sign_of(std::sin(angle - load.direction))};
+Tractions of_contact(double modulus, double gap, const ContactLoad::Contour& contour) {
+  return [=](double angle) -> Eigen::Vector2d {
+    const double p = modulus * std::max(contour.shape.at(angle).dot(contour.w) - gap, 0.0);
+    return {p, -contour.mu * p * sign_of(std::sin(angle - contour.direction))};
   };
+}
+
+/// What a rim does under moments of its displacement, with the waves of its pressure, then of its shear, stress.
+struct Response {
+  ContactLoad::Contour contour;
+  VectorXd tractions;
+};
+
+Response respond(const RimContact& rim, double area, const VectorXd& w) {
+  const Touching touching = rim.touching(w);
+  const RimFriction friction = rim_friction(rim, touching, w);
+  Response result{{rim.pressures(), w, rim.mu() / friction.share, friction.direction, {}},
+                  VectorXd(w.size() + friction.forces.size())};
+  result.tractions << rim.forces(touching, w) / area, friction.forces / area;
+  for (const auto& arc : touching.arcs) result.contour.ends.insert(result.contour.ends.end(), {arc.from, arc.to});
+  return result;
 }
 
 /// Brings the displacement of the elements, whose short waves are those of springs that also pull, to that under the
@@ -130,6 +147,26 @@ void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, Vec
 }
 
 }  // namespace
+
+ContactLoad contact_load(const RimContact& rim, const ShortWaves& waves, double area, const VectorXd& moments,
+                         const VectorXd& shear) {
+  const Response own = respond(rim, area, moments);
+  ContactLoad load{moments, own.tractions.head(moments.size()), shear, rim.gap(), own.contour, own.contour};
+  if (waves.D_beyond.size() == 0) return load;
+  // The waves that are left out follow by turns: where all touches each wave n is 1 / (1 + K c_n) of what a step makes.
+  const RimContact wider(waves.wider, rim.stiffness(), rim.gap(), rim.mu());
+  const double modulus = rim.stiffness() / area;
+  const VectorXd damping = (1 + modulus * waves.D_beyond.diagonal(waves.n).array()).inverse();
+  VectorXd w = VectorXd::Zero(wider.size());
+  w.head(waves.n) = moments;
+  constexpr int steps = 4;
+  for (int i = 0; i < steps; ++i) {
+    const VectorXd made = -waves.D_beyond * respond(wider, area, w).tractions;
+    w.tail(made.size()) += damping.cwiseProduct(made - w.tail(made.size()));
+  }
+  load.wider = respond(wider, area, w).contour;
+  return load;
+}
 
 VectorXd wave_amounts(const ContactLoad& load, const ShortWaves& rim, double modulus) {
   VectorXd w = load.moments.head(rim.n_long);
@@ -148,6 +185,10 @@ HoopStress LoadedRim::hoop(Index degree, const rim::Harmonics& shape) const {
   return {rim::RimCompliance(rim.compliance, rim.radius), shape, displacement, waves.tractions};
 }
 
+HoopStress LoadedRim::hoop(const Tractions& tractions) const {
+  return {rim::RimCompliance(rim.compliance, rim.radius), rim.waves, degrees[0].displacement, tractions};
+}
+
 std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& amounts,
                                                   const std::vector<ContactLoad>& contacts) {
   std::vector<std::optional<LoadedRim>> result;
@@ -158,16 +199,20 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     auto& loaded = result.emplace_back();
     if (!rim.has_closed_form()) continue;
     const bool in_contact = i < std::ssize(contacts);
-    loaded = LoadedRim{rim, {}, in_contact, {}};
+    loaded = LoadedRim{rim, {}, in_contact, {}, {}, {}};
     const KnownLoads known = known_loads(plate, rim.hole, amounts);
     for (const auto& rows : plate.wave_rows) {
       VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
       if (in_contact) correct(contacts[i], plate.short_waves[i], rim.modulus, displacement);
-      const Tractions tractions = in_contact ? of_contact(plate.contact[i], contacts[i])
+      const Tractions tractions = in_contact ? of_contact(rim.modulus, contacts[i].gap, contacts[i].wider)
                                              : springs_and(rim, displacement.head(rim.waves.size()), known);
       loaded->degrees.push_back({std::move(displacement), tractions});
     }
-    if (in_contact) loaded->kinks = contacts[i].ends;
+    if (in_contact) {
+      loaded->kinks = contacts[i].wider.ends;
+      loaded->kinks_by_joints_waves = contacts[i].joints.ends;
+      loaded->by_joints_waves = of_contact(rim.modulus, contacts[i].gap, contacts[i].joints);
+    }
     if (!in_contact && rim.modulus > 0)
       for (const auto& arc : rim.acts) loaded->kinks.insert(loaded->kinks.end(), {arc.from, arc.to});
   }

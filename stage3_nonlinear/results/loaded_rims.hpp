@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "stage3_nonlinear/equations/rim_contact.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 #include "stage3_nonlinear/results/hoop_stress.hpp"
 
@@ -22,19 +23,36 @@ struct LoadedRim {
   std::vector<RimWaves> degrees;  ///< the joint's, then the one below if there is one
   bool in_contact;
   std::vector<double> kinks;  ///< places where tractions have kinks or jumps, radians
+  // In contact: tractions and their kinks by the joint's waves alone.
+  Tractions by_joints_waves{};
+  std::vector<double> kinks_by_joints_waves{};
 
+  /// Hoop stress by the displacements of one degree up to an order.
   [[nodiscard]] HoopStress hoop(Index degree, const rim::Harmonics& shape) const;
+  /// The same of the joint's degree by other tractions.
+  [[nodiscard]] HoopStress hoop(const Tractions& tractions) const;
 };
 
 /// What the rims of contact of a plate bear, each from the moments of its displacement.
 struct ContactLoad {
-  VectorXd moments;          ///< waves of the disc's normal displacement against the sheet, length
-  VectorXd pressure;         ///< waves of the pressure on the sheet, stress
-  VectorXd shear;            ///< waves of the shear on it, stress; 0 without friction
-  double gap, mu;            ///< mu: shear over pressure; less than the fastener's where the rim sticks
-  double direction;          ///< of the force of the pressure on the sheet, radians
-  std::vector<double> ends;  ///< of the arcs on which they touch, radians
+  VectorXd moments;   ///< waves of the disc's normal displacement against the sheet, length
+  VectorXd pressure;  ///< waves of the pressure on the sheet, stress
+  VectorXd shear;     ///< waves of the shear on it, stress; 0 without friction
+  double gap;
+  /// The moments, and behind them those of the waves up to twice the order, which the joint leaves out: they follow
+  /// from the pressure in closed form. `shape` is theirs.
+  struct Contour {
+    rim::Harmonics shape;
+    VectorXd w;                ///< length
+    double mu;                 ///< shear over pressure; less than the fastener's where the rim sticks
+    double direction;          ///< of the force of the pressure on the sheet, radians
+    std::vector<double> ends;  ///< of the arcs on which they touch, radians
+  };
+  Contour joints, wider;  ///< of the joint's waves, and of more
 };
+/// @param rim With the moments' stiffness, gap and friction.
+[[nodiscard]] ContactLoad contact_load(const RimContact& rim, const ShortWaves& waves, double area,
+                                       const VectorXd& moments, const VectorXd& shear);
 
 /// Amounts of the waves that the elements carry under a load of contact: of pressures those that are added to what the
 /// springs of the base bear, then of shears, (n_carried), stress.

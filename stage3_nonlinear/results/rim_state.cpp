@@ -85,35 +85,46 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
 class PeakSearch {
  public:
   /// @param jumps Places at which friction jumps, degrees: close to them is no peak.
-  PeakSearch(const LoadedRim& rim, const std::vector<double>& jumps)
-      : rim_(rim), jumps_(jumps), hoop_(rim.hoop(0, rim.rim.waves)) {}
+  PeakSearch(const LoadedRim& rim, const std::vector<double>& jumps) : rim_(rim), jumps_(jumps) {}
+
+  /// Sets the peak, its place and its error; nothing if jumps leave no place for one.
+  void find(RimState& state) const {
+    const HoopStress hoop = rim_.hoop(0, rim_.rim.waves);
+    const auto peak = top(hoop, rim_.kinks);
+    if (!peak) return;
+    state.peak_hoop = peak->value;
+    state.peak_angle = turn(peak->angle / rim::degree);
+    state.peak_error = error(hoop, *peak);
+  }
+
+ private:
+  struct Peak {
+    double value, angle;  ///< radians
+  };
 
   /// Largest of all values at the points of HoopStress and at kinks of the tractions, at the top of the parabola
-  /// through it and its neighbours if it is no kink.
-  void find(RimState& state) const {
-    const auto& [angle, value] = std::tie(hoop_.angles(), hoop_.values());
+  /// through it and its neighbours if no kink is near.
+  [[nodiscard]] std::optional<Peak> top(const HoopStress& hoop, const std::vector<double>& kinks) const {
+    const auto &angle = hoop.angles(), &value = hoop.values();
     const Index n = angle.size();
     std::optional<Index> best;
     for (Index i = 0; i < n; ++i)
       if (is_allowed(angle[i]) && (!best || value[i] > value[*best])) best = i;
-    if (!best) return;
-    const double before = value[(*best + n - 1) % n], at = value[*best], after = value[(*best + 1) % n];
-    const double curvature = before - 2 * at + after, step = angle[1] - angle[0];
-    const double shift = curvature < 0 ? (before - after) / (2 * curvature) : 0;
-    state.peak_hoop = at - curvature * shift * shift / 2;
-    double peak = angle[*best] + shift * step;
-    for (const double kink : rim_.kinks) {
-      const double distance = rim::wrapped(kink - angle[*best]);
-      if (std::abs(distance) < 2 * step) state.peak_hoop = at, peak = angle[*best];  // no parabola across a kink
+    if (!best) return std::nullopt;
+    Peak peak{value[*best], angle[*best]};
+    const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
+    const bool near_kink =
+        std::ranges::any_of(kinks, [&](double kink) { return std::abs(rim::wrapped(kink - peak.angle)) < 2 * step; });
+    if (const double curvature = before - 2 * peak.value + after; curvature < 0 && !near_kink) {
+      const double shift = (before - after) / (2 * curvature);
+      peak = {peak.value - curvature * shift * shift / 2, peak.angle + shift * step};
     }
-    for (const double kink : rim_.kinks)
-      if (const double there = is_allowed(kink) ? hoop_.at(kink) : state.peak_hoop; there > state.peak_hoop)
-        state.peak_hoop = there, peak = kink;
-    state.peak_angle = turn(peak / rim::degree);
-    state.peak_error = error(peak, state.peak_hoop);
+    for (const double kink : kinks)
+      if (is_allowed(kink))
+        if (const double there = hoop.at(kink); there > peak.value) peak = {there, kink};
+    return peak;
   }
 
- private:
   /// True on the part of the rim that the model has, away from jumps of friction.
   [[nodiscard]] bool is_allowed(double angle) const {
     const auto& waves = rim_.rim.waves;
@@ -124,27 +135,30 @@ class PeakSearch {
                                 [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= left_out; });
   }
 
-  /// Largest change within 45 degrees of a place, to the degree below and to one order of waves less.
-  [[nodiscard]] double error(double peak, double /*value*/) const {
+  /// Largest change within 45 degrees of the peak to the degree below, and to one order of waves less; in contact also
+  /// half the change of the peak by the waves that the joint leaves out.
+  [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak) const {
     if (rim_.degrees.size() < 2) return unknown;
     constexpr double around = rim::full_turn / 8;
     rim::Harmonics fewer = rim_.rim.waves;
-    const int unit = static_cast<int>(std::lround(rim::full_turn / fewer.sweep / (fewer.is_whole() ? 1 : 2)));
-    fewer.highest -= std::max(unit, 1);
+    fewer.highest -= fewer.sweep < rim::full_turn / 3 ? 2 : 1;
     const HoopStress below = rim_.hoop(1, rim_.rim.waves), less = rim_.hoop(0, fewer);
     double by_degree = 0, by_order = 0;
-    for (Index i = 0; i < hoop_.angles().size(); ++i) {
-      const double angle = hoop_.angles()[i];
-      if (!is_allowed(angle) || std::abs(rim::wrapped(angle - peak)) > around) continue;
-      by_degree = std::max(by_degree, std::abs(hoop_.values()[i] - below.values()[i]));
-      by_order = std::max(by_order, std::abs(hoop_.values()[i] - less.values()[i]));
+    for (Index i = 0; i < hoop.angles().size(); ++i) {
+      const double angle = hoop.angles()[i];
+      if (!is_allowed(angle) || std::abs(rim::wrapped(angle - peak.angle)) > around) continue;
+      by_degree = std::max(by_degree, std::abs(hoop.values()[i] - below.values()[i]));
+      by_order = std::max(by_order, std::abs(hoop.values()[i] - less.values()[i]));
     }
-    return by_degree + by_order;
+    double by_waves = 0;
+    if (rim_.in_contact)
+      if (const auto other = top(rim_.hoop(rim_.by_joints_waves), rim_.kinks_by_joints_waves))
+        by_waves = std::abs(other->value - peak.value);
+    return by_degree + by_order + 0.5 * by_waves;
   }
 
   const LoadedRim& rim_;
   const std::vector<double>& jumps_;
-  HoopStress hoop_;
 };
 
 /// @param forces       Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or
