@@ -13,11 +13,11 @@ namespace fastjoint::stage1 {
 namespace {
 
 /// Part of a wave of order 1 below which what comes back from elsewhere is left to the closed form.
-constexpr double left_out = 1e-6;
+constexpr double left_out = 1e-4;
 constexpr int lowest_order = 4;
 /// Waves that an element of degree p follows along its side, per degree: a side with k waves needs p > pi k, and a
 /// little more.
-constexpr double waves_per_side = 0.25;
+constexpr double waves_per_side = 0.19;
 
 /// Where the field around a hole may stop being smooth, from any hole's view: borders, and edges between elements of
 /// unlike thickness or material.

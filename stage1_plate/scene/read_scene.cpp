@@ -2,9 +2,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/LU>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "common/errors.hpp"
@@ -54,13 +58,52 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
     hole.has_rings = rings.has_value();
-    const bool in_contact = hole.spring && hole.spring->compression_only;
     if (const auto waves = item.find("waves")) hole.waves = waves->integer(1, rim::most_harmonics);
     if (const auto stresses = item.find("stresses")) hole.stresses = stresses->boolean();
-    hole.rings = rings ? rings->integer(0, most_rings) : is_grid && in_contact ? 1 : 0;
+    hole.rings = rings ? rings->integer(0, most_rings) : 0;
     holes.push_back(std::move(hole));
   }
   return holes;
+}
+
+/// Largest modulus in tension over the least, of all directions in the plane.
+double modulus_ratio(const Eigen::Matrix3d& elasticity) {
+  const Eigen::Matrix3d compliance = elasticity.inverse();
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  constexpr int n_angles = 36;
+  for (int i = 0; i < n_angles; ++i) {
+    const double c = std::cos(std::numbers::pi * i / n_angles), s = std::sin(std::numbers::pi * i / n_angles);
+    const Eigen::Vector3d stress(c * c, s * s, c * s);
+    const double flexibility = stress.dot(compliance * stress);
+    least = std::min(least, flexibility);
+    most = std::max(most, flexibility);
+  }
+  return most / least;
+}
+
+/// Rings where the scene does not say how many: as many as leave each ring a moderate ratio of radii, which is smaller in
+/// sheets that are stiffer along one direction, whose fields change faster close to the rim; at least one in contact.
+/// None where no stresses are wanted.
+void set_default_rings(const GridGeometry& grid, PlateScene& scene) {
+  constexpr double widest = 3.2, widest_of_laminates = 2, alike = 2;
+  constexpr int most = 6;
+  double ratio = 1;
+  for (const auto& elasticity : scene.elasticity) ratio = std::max(ratio, modulus_ratio(elasticity));
+  const double step = std::log(ratio < alike ? widest : widest_of_laminates);
+  for (Hole& hole : scene.holes) {
+    if (hole.has_rings) continue;
+    const bool in_contact = hole.spring && hole.spring->compression_only;
+    double reach = hole.radius;  // to the farthest side of its cell
+    for (const int axis : {0, 1}) {
+      const auto& lines = axis == 0 ? grid.x : grid.y;
+      const auto above = std::upper_bound(lines.begin(), lines.end(), hole.center[axis]);
+      if (above != lines.end()) reach = std::max(reach, *above - hole.center[axis]);
+      const auto below = std::lower_bound(lines.begin(), lines.end(), hole.center[axis]);
+      if (below != lines.begin()) reach = std::max(reach, hole.center[axis] - below[-1]);
+    }
+    const int wanted = hole.stresses ? static_cast<int>(std::ceil(std::log(reach / hole.radius) / step)) - 1 : 0;
+    hole.rings = std::clamp(wanted, in_contact ? 1 : 0, most);
+  }
 }
 
 std::vector<PointSpring> read_points(const Value& root, std::set<std::string>& ids) {
@@ -173,6 +216,7 @@ PlateScene read_scene(const input::Document& document) {
   const auto discs = root.find("disc_directions");
   scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x", "y"};
   read_sections(root, scene);
+  if (const auto* grid = std::get_if<GridGeometry>(&scene.geometry)) set_default_rings(*grid, scene);
   scene.supports = read_supports(root, edge_names(scene));
   scene.externals = read_externals(root, edge_names(scene), scene.holes);
   if (const auto space = root.find("space")) scene.space = pfem::space_named(space->choice(pfem::space_names));

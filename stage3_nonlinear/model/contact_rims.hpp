@@ -29,7 +29,7 @@ struct ShortWaves {
   MatrixXd D_beyond;
   MatrixXd G, C, G_t, C_t, E;  ///< length / stress
 
-  [[nodiscard]] bool is_empty() const { return D.size() == 0; }
+  [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }
   /// Pressures and shears that the elements carry.
   [[nodiscard]] Index n_carried() const { return n_long + n_long_shears; }
 };

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <limits>
 
+#include "stage3_nonlinear/results/loaded_rims.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -19,7 +21,7 @@ std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim:
   return arcs;
 }
 
-/// Writes what a rim does at a step.
+/// Writes what a rim does at a step, by all waves of its displacement that are known.
 /// @param modulus K of its springs.
 void describe(const RimContact& rim, const VectorXd& moments, double modulus, Index step, Index at,
               formats::ContactHistory& a) {
@@ -66,9 +68,12 @@ std::vector<formats::ContactHistory> contact_histories(const JointModel& joint, 
         a.no_load_least[at] = pressure(-1);
         a.full_until[at] = path.interference->lost[rim];
       }
-      for (Index step = 0; step < steps; ++step)
-        describe(contact, path.steps[step].moments.segment(moment, contact.size()), plate.contact[at].modulus, step, at,
-                 a);
+      for (Index step = 0; step < steps; ++step) {
+        const VectorXd m = path.steps[step].moments.segment(moment, contact.size());
+        const auto wider = contact_load(contact, plate.short_waves[at], plate.contact[at].area, m, {}).wider;
+        describe({wider.shape, contact.stiffness(), contact.gap(), contact.mu()}, wider.w, plate.contact[at].modulus,
+                 step, at, a);
+      }
       moment += contact.size();
     }
   }

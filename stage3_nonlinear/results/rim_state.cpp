@@ -135,26 +135,36 @@ class PeakSearch {
                                 [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= left_out; });
   }
 
-  /// Largest change within 45 degrees of the peak to the degree below, and to one order of waves less; in contact also
-  /// half the change of the peak by the waves that the joint leaves out.
+  /// Twice the change to the degree below, what the changes by the last two pairs of orders leave for all orders to come,
+  /// and in contact half the change of the peak by the waves that the joint leaves out (docs/theory.md, section 11.4).
   [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak) const {
     if (rim_.degrees.size() < 2) return unknown;
-    constexpr double around = rim::full_turn / 8;
-    rim::Harmonics fewer = rim_.rim.waves;
-    fewer.highest -= fewer.sweep < rim::full_turn / 3 ? 2 : 1;
-    const HoopStress below = rim_.hoop(1, rim_.rim.waves), less = rim_.hoop(0, fewer);
-    double by_degree = 0, by_order = 0;
-    for (Index i = 0; i < hoop.angles().size(); ++i) {
-      const double angle = hoop.angles()[i];
-      if (!is_allowed(angle) || std::abs(rim::wrapped(angle - peak.angle)) > around) continue;
-      by_degree = std::max(by_degree, std::abs(hoop.values()[i] - below.values()[i]));
-      by_order = std::max(by_order, std::abs(hoop.values()[i] - less.values()[i]));
-    }
+    const rim::Harmonics& all = rim_.rim.waves;
+    const auto up_to = [&](int fewer) {
+      rim::Harmonics shape = all;
+      shape.highest = std::max(all.highest - fewer, 1);
+      return rim_.hoop(0, shape);
+    };
+    const HoopStress less = up_to(2), least = up_to(4);
+    const double by_degree = change(hoop, rim_.hoop(1, all), peak.angle);
+    const double last = change(hoop, less, peak.angle), before = change(less, least, peak.angle);
+    constexpr double fastest = 0.1, slowest = 0.8;  // fall of the changes from one pair of orders to the next
+    const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
     double by_waves = 0;
     if (rim_.in_contact)
       if (const auto other = top(rim_.hoop(rim_.by_joints_waves), rim_.kinks_by_joints_waves))
         by_waves = std::abs(other->value - peak.value);
-    return by_degree + by_order + 0.5 * by_waves;
+    return 2 * by_degree + last * fall / (1 - fall) + 0.5 * by_waves;
+  }
+
+  /// Largest difference of two hoop stresses within 45 degrees of a place.
+  [[nodiscard]] double change(const HoopStress& a, const HoopStress& b, double place) const {
+    constexpr double around = rim::full_turn / 8;
+    double largest = 0;
+    for (Index i = 0; i < a.angles().size(); ++i)
+      if (is_allowed(a.angles()[i]) && std::abs(rim::wrapped(a.angles()[i] - place)) <= around)
+        largest = std::max(largest, std::abs(a.values()[i] - b.values()[i]));
+    return largest;
   }
 
   const LoadedRim& rim_;
