@@ -17,18 +17,17 @@ STAGES = {
     },
     "stage2_extract": {
         "matrices": ["formats", "matrices", ""],
-        "stresses": ["formats", "matrices", "pfem", "plate", "program", "rim", "stresses", ""],
-        "field": ["formats", "pfem", "program", ""],
-        "": ["formats", "h5", "linalg", "matrices", "program", "rim", ""],
+        "field": ["formats", "pfem", "plate", "program", ""],
+        "": ["formats", "h5", "matrices", "program", ""],
     },
     "stage3_nonlinear": {
         "laws": ["input", "program", ""],
         "scene": ["input", "program", ""],
-        "model": ["formats", "matrices", ""],
+        "model": ["formats", "matrices", "rim", ""],
         "solvers": [],
         "equations": ["matrices", "rim", ""],
         "path": ["program"],
-        "results": ["formats", "matrices", "stresses", ""],
+        "results": ["formats", "matrices", "rim", ""],
         "output": ["formats", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],
     },
@@ -39,14 +38,13 @@ COMMON = {
     "linalg": [""],
     "matrices": [""],
     "pfem": ["", "linalg", "matrices"],
-    "rim": ["pfem"],
+    "rim": ["matrices", "pfem"],
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
     "formats": ["", "h5", "pfem", "rim"],
-    "stresses": ["", "formats", "rim"],
     "program": ["", "h5", "linalg"],
 }
-# Of finite elements the third stage knows the angles and pressures of a rim alone; of formats those without a mesh; of linear algebra
+# Of finite elements the third stage knows the angles, waves and closed forms of a rim alone; of formats those without a mesh; of linear algebra
 # nothing that takes CHOLMOD.
 THIRD_STAGE_MAY_NOT = ("common/pfem", "common/linalg/cholesky.hpp", "common/linalg/condensed.hpp", "common/plate/",
                        "common/rim/rim.hpp", "common/formats/plate_solution")

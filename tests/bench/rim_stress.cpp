@@ -7,7 +7,6 @@
 #include <iostream>
 
 #include "common/pfem/material.hpp"
-#include "stage2_extract/stresses/rim_stress.hpp"
 #include "tests/support/plates.hpp"
 #include "tests/support/rim_methods.hpp"
 
@@ -40,14 +39,14 @@ struct Methods {
 Methods hoop_stress(const formats::PlateSolution& plate, std::size_t level) {
   stage2::FieldSolver solver(plate, "strip");
   solver.factorise(plate.p[level]);
-  const auto points = stage2::rim_points(plate.mesh, solver.edges(), plate.hole_rim[0]);
+  const auto points = test::rim_points(plate.mesh, solver.edges(), plate.hole_rim[0]);
   const auto fields = solver.solve(Eigen::VectorXd::Ones(1));
   const Eigen::Index n = points.size();
   Methods m{Eigen::VectorXd(n),
             {},
             test::patch_hoop_strain(fields, points).col(0),
             test::harmonic_hoop_strain(fields, points, highest_harmonic).col(0)};
-  m.tractions = stage2::RimStress(solver, 0, points)(fields).tt.transpose();
+  m.tractions = test::RimStress(solver, 0, points)(fields).tt.transpose();
   const Eigen::Matrix3d compliance = solver.elasticity(0).inverse();
   for (Eigen::Index i = 0; i < n; ++i) {
     const auto& point = points[i];

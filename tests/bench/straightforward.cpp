@@ -47,8 +47,9 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   std::vector<std::string> S, R;
   for (int p = scene.p_low; p <= scene.p_high; ++p) {
     const auto matrices = test::plain_matrices(K_ff, problem, p);
-    S.push_back(json(matrices.S));
-    R.push_back(json(matrices.R));
+    const Eigen::Index nc = problem.unknowns.n_controlled(), h = problem.unknowns.n_friction;
+    S.push_back(json(matrices.topLeftCorner(nc, nc)));
+    R.push_back(json(matrices.block(0, nc + problem.unknowns.n_loaded, nc, h)));
     timings.set_unknowns(p, problem.unknowns.n_free[p]);
   }
   timings.phase("write");

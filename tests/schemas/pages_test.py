@@ -15,7 +15,7 @@ import h5py
 
 from programs import ROOT, Programs, must
 
-TEMPLATES = {"<k>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:]}
+TEMPLATES = {"<d>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:]}
 JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},

@@ -21,7 +21,6 @@ void add_shears(std::mt19937& random, const MatrixXd& H, const MatrixXd& G, Plat
   for (Index i = 0; i < n_holes; ++i) motion.middleRows(i * k, k) = H;
   motion.bottomRows(1) = Eigen::RowVector2d(1, 0).head(a);
   const MatrixXd to_balance = motion * (motion.transpose() * motion).inverse();
-  body.R.resize(body.S.rows(), n_holes * k);
   for (Index i = 0; i < n_holes; ++i) {
     const auto& pressures = body.contact[i].pressures;
     MatrixXd drag(a, k);
@@ -32,12 +31,7 @@ void add_shears(std::mt19937& random, const MatrixXd& H, const MatrixXd& G, Plat
     auto R = body.R.middleCols(i * k, k);
     R = -G.transpose() * load;
     R.middleRows(i * a, a) += drag;
-    for (int shear = 0; shear < k; ++shear) {
-      body.friction_hole.push_back(body.holes[i]);
-      body.friction_bearing.push_back(rim::shear_name(shear));
-    }
   }
-  body.friction_unit_force = body.friction_resultant = VectorXd::Zero(n_holes * k);
 }
 
 /// A body with `n_holes` rims of contact and one external along x. With the moments v of the rims' own displacement and
@@ -69,7 +63,12 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
   PlateModel body;
   for (Index i = 0; i < kind.n_holes; ++i) {
     body.holes.push_back(fmt::format("{}", i + 1));
-    body.contact.push_back({body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
+    const auto& rim = body.contact.emplace_back(
+        formats::ContactRim{body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
+    const auto& carried =
+        body.waves.emplace_back(formats::WaveRim{rim.hole, rim.pressures, rim.radius, rim.area, rim.modulus});
+    body.short_waves.push_back(short_waves(rim, carried));
+    body.n_loaded_waves += carried.size();
   }
   body.on_springs.assign(body.holes.size(), true);
   for (Index d = 0; d < a; ++d) body.axes.push_back(static_cast<int>(d));
@@ -77,7 +76,8 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
   body.externals = {"P"};
   body.external_axis = {0};
   body.S = G.transpose() * P * G;
-  body.R = body.T = MatrixXd::Zero(body.S.rows(), 0);
+  body.R = MatrixXd::Zero(body.S.rows(), kind.n_holes * pressures.n_shears());
+  body.T = MatrixXd::Zero(body.S.rows(), 0);
   if (kind.mu > 0) add_shears(random, H, G, body);
   body.degrees = {Eigen::VectorXi::Constant(1, 8), {body.S}, {body.R}, {body.T}, {MatrixXd::Zero(0, 0)}};
   body.S_error = MatrixXd::Zero(body.S.rows(), body.S.rows());

@@ -198,13 +198,13 @@ stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations, const
 
 void add_contact(PlateMatrices& plate, const std::string& hole, double radius) {
   const rim::Harmonics waves{1};
-  plate.contact.push_back({hole, waves, 1, radius, 1});
-  const Index k = plate.n_pressures();
-  plate.C = {1e-3 * MatrixXd::Identity(k, k)};
-  plate.B_d = {MatrixXd::Zero(k, plate.n_discs())};
-  plate.B_e = {MatrixXd::Zero(k, plate.n_externals())};
-  plate.R_p = {MatrixXd::Zero(k, plate.n_friction_cases())};
-  plate.T_p = {MatrixXd::Zero(k, plate.n_tractions())};
+  constexpr double modulus = 1, area = 1, compliance = 1e-3;
+  plate.contact.push_back({hole, waves, modulus, radius, area});
+  plate.waves.push_back({hole, waves, radius, area, modulus});
+  plate.W = {MatrixXd::Zero(plate.n_loaded_waves(), plate.n_cases())};
+  for (Index rim = 0, row = 0; rim < std::ssize(plate.contact); row += plate.waves[rim++].size())
+    for (Index i = row; i < row + waves.size(); ++i)
+      plate.W[0](i, plate.n_externals() + plate.n_discs() + i) = -compliance;
 }
 
 MatrixXd random_stiffness(std::mt19937& random, int n) {

@@ -29,6 +29,17 @@ std::vector<PlateText> plate_scenes() {
     "holes": [{"id": "a", "center": [0.4, 0.5], "radius": 0.2, "rings": 1, "spring": {"modulus": 1e6}},
               {"id": "b", "center": [1.5, 1.3], "radius": 0.2, "spring": {"links": 1e5}},
               {"id": "open", "center": [1.7, 0], "radius": 0.3}])";
+  const std::string contact = R"(, "disc_directions": ["x", "y"],
+    "holes": [{"id": "a", "center": [0.4, 0.5], "radius": 0.2, "waves": 5,
+               "spring": {"modulus": 1e7, "compression_only": true}},
+              {"id": "half", "center": [1.6, 0], "radius": 0.25, "rings": 0, "waves": 6,
+               "spring": {"modulus": 1e6, "compression_only": true}},
+              {"id": "open", "center": [1.7, 1.3], "radius": 0.2, "waves": 4},
+              {"id": "none", "center": [1.7, 0.7], "radius": 0.05, "stresses": false},
+              {"id": "sprung", "center": [0.5, 1.35], "radius": 0.15, "spring": {"modulus": 1e7, "arc": [-80, 30]}}],
+    "supports": [{"on": "bottom", "fix": ["y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
+                 {"id": "T", "on": "top", "direction": "y", "kind": "traction"}])";
   return {{"panel", panel(3, 2)},
           {"panel in the product space", panel(3, 2, 0, in_space(pfem::Space::product))},
           {"panel with many rings, element by element", panel(2, 1, 4)},
@@ -43,6 +54,7 @@ std::vector<PlateText> plate_scenes() {
          "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])")},
           {"points", two_holes(R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
          "points": [{"id": "K", "at": [2.2, 0.9], "stiffness": 1e5}, {"id": "L", "at": [1, 0.9], "stiffness": 3e4}])")},
+          {"contact beside springs and open holes", two_holes(contact)},
           {"own mesh", own_mesh}};
 }
 

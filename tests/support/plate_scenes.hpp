@@ -14,7 +14,8 @@ struct PlateText {
   std::string json;
 };
 
-/// Plates of every kind that a factor meets: spaces, rings, thicknesses, supports, externals, points, links, own mesh.
+/// Plates of every kind that a factor meets: spaces, rings, thicknesses, supports, externals, points, links, own mesh,
+/// contact beside springs and an open hole.
 [[nodiscard]] std::vector<PlateText> plate_scenes();
 
 }  // namespace fastjoint::test

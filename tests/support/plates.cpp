@@ -14,10 +14,10 @@ Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh)
   Problem a{stage1::number_unknowns(scene, mesh), {}, {}, {}, {}};
   stage1::integrate(scene, mesh, a);
   const auto& unknowns = a.unknowns;
-  const int n = unknowns.n_free.back(), nc = unknowns.n_controlled(), h = unknowns.n_friction_cases();
+  const int n = unknowns.n_free.back(), nc = unknowns.n_controlled(), n_loads = unknowns.n_border() - nc;
   std::vector<Eigen::Triplet<double>> K, L;
   a.K_cc = Eigen::MatrixXd::Zero(nc, nc);
-  a.L_c = Eigen::MatrixXd::Zero(nc, h);
+  a.L_c = Eigen::MatrixXd::Zero(nc, n_loads);
   const auto add = [](int dof, int column, double value, auto& free, Eigen::MatrixXd& controlled) {
     if (pfem::is_free(dof)) free.emplace_back(dof, column, value);
     if (pfem::is_controlled(dof)) controlled(pfem::controlled_index(dof), column) += value;
@@ -48,12 +48,17 @@ Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh)
         for (int e = 0; e < n_directions; ++e)
           add_pair(pfem::controlled_dof(unknowns.controlled_of_disc(disc + e)), moved, scale * terms.disc(e, d));
       }
-      for (int c = 0; c < terms.friction.cols(); ++c) {
-        const int column = unknowns.first_friction[hole] + c;
+      const auto add_load = [&](const auto& values, int column) {
         for (Eigen::Index i = 0; i < at.dof.size(); ++i)
-          add(at.dof[i], column, scale * at.sign[i] * terms.friction(i, c), L, a.L_c);
+          add(at.dof[i], column, scale * at.sign[i] * values[i], L, a.L_c);
+      };
+      for (int c = 0; c < terms.friction.cols(); ++c)
+        add_load(terms.friction.col(c), unknowns.first_friction[hole] - nc + c);
+      for (int k = 0; k < terms.waves.cols(); ++k) {
+        const int column = unknowns.first_wave[hole] - nc + k;
+        add_load(terms.waves.col(k), column);
         for (int d = 0; d < n_directions; ++d)
-          add(pfem::controlled_dof(unknowns.controlled_of_disc(disc + d)), column, -scale * terms.drag(d, c), L, a.L_c);
+          a.L_c(unknowns.controlled_of_disc(disc + d), column) -= scale * terms.reaction(d, k);
       }
     }
   }
@@ -65,7 +70,7 @@ Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh)
   }
   a.K_fc.resize(n, nc);
   a.K_fc.setFromTriplets(K.begin(), K.end());
-  a.L_f.resize(n, h);
+  a.L_f.resize(n, n_loads);
   a.L_f.setFromTriplets(L.begin(), L.end());
   return a;
 }
@@ -79,7 +84,7 @@ Plate make_plate(const std::string& json) {
 
 Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& border,
                        const Eigen::MatrixXd& loads) {
-  const plate::PlateFactor K(problem, plate::Skeleton(problem), p);
+  const plate::PlateFactor K(problem, plate::Skeleton(problem), p, false);
   const plate::PlateStates states(K, border, loads.sparseView());
   Eigen::MatrixXd X(problem.unknowns.n_free[p], border.cols());
   for (int element = 0; element < count_of(problem.elements.class_of); ++element) {
@@ -93,7 +98,7 @@ Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::
 
 Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p) {
   const int nc = problem.unknowns.n_controlled();
-  return fields(problem, p, Eigen::MatrixXd::Identity(nc + problem.unknowns.n_friction_cases(), nc),
+  return fields(problem, p, Eigen::MatrixXd::Identity(problem.unknowns.n_amounts(), nc),
                 Eigen::MatrixXd::Zero(problem.unknowns.n_free[p], nc));
 }
 
@@ -105,8 +110,7 @@ Eigen::VectorXd on_free(const stage1::PlateProblem& problem, const stage1::Loads
 }
 
 Eigen::MatrixXd fields_under(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& loads) {
-  const int n_border = problem.unknowns.n_controlled() + problem.unknowns.n_friction_cases();
-  return fields(problem, p, Eigen::MatrixXd::Zero(n_border, loads.cols()), loads);
+  return fields(problem, p, Eigen::MatrixXd::Zero(problem.unknowns.n_amounts(), loads.cols()), loads);
 }
 
 formats::PlateSolution solve(const Plate& plate) {
@@ -116,9 +120,7 @@ formats::PlateSolution solve(const Plate& plate) {
 }
 
 stage2::Extraction extract(const formats::PlateSolution& solution, bool stresses) {
-  if (!stresses) return stage2::extract(solution, "test", nullptr);
-  stage2::FieldSolver solver(solution, "plate.h5");
-  return stage2::extract(solution, "test", &solver);
+  return stage2::extract(solution, "test", stresses);
 }
 
 stage2::Extraction extract(const std::string& json, bool stresses) {

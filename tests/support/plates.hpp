@@ -11,12 +11,13 @@
 
 namespace fastjoint::test {
 
-/// A problem with what couples its plate unknowns to externals, discs and friction cases, assembled the plain way.
+/// A problem with what couples its plate unknowns to the border, assembled the plain way: externals and discs, then
+/// loaded waves, friction cases and other waves.
 struct Problem : stage1::PlateProblem {
   Eigen::SparseMatrix<double> K_fc;  ///< (n_f, nc)
   Eigen::MatrixXd K_cc;              ///< (nc, nc) with all of the plate held
-  Eigen::SparseMatrix<double> L_f;   ///< (n_f, h) loads of the unit friction cases
-  Eigen::MatrixXd L_c;               ///< (nc, h)
+  Eigen::SparseMatrix<double> L_f;   ///< (n_f, n_border - nc) loads of the unit waves and friction cases
+  Eigen::MatrixXd L_c;               ///< (nc, n_border - nc) what of them acts on the controlled displacements directly
 };
 [[nodiscard]] Problem assemble(const stage1::PlateScene& scene, const stage1::PlateMesh& mesh);
 
@@ -31,8 +32,8 @@ struct Plate {
 /// One column of loads on the free unknowns, shape (n_f).
 [[nodiscard]] Eigen::VectorXd on_free(const stage1::PlateProblem& problem, const stage1::Loads& loads);
 
-/// Plate unknowns at one degree under amounts of externals, discs and friction cases, (nc + h, k), and loads on them,
-/// (n_p, k); shape (n_p, k).
+/// Plate unknowns at one degree under amounts of the border, (n_amounts, k), and loads on them, (n_p, k); shape
+/// (n_p, k).
 [[nodiscard]] Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& border,
                                      const Eigen::MatrixXd& loads);
 /// Plate unknowns per unit of each controlled displacement at one degree, shape (n_p, nc).

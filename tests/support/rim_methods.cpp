@@ -23,7 +23,7 @@ Eigen::MatrixXd coefficients(const stage2::Fields& fields, int element, std::vec
 
 }  // namespace
 
-Eigen::MatrixXd plain_rim_stress(const stage2::Fields& fields, const stage2::RimPoint& point) {
+Eigen::MatrixXd plain_rim_stress(const stage2::Fields& fields, const RimPoint& point) {
   Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(3, fields.states.size());
   for (const auto& at : point.on) {
     const pfem::ElementMap map(fields.solver.plate().mesh, fields.solver.edges(), at.side.element);
@@ -36,7 +36,7 @@ Eigen::MatrixXd plain_rim_stress(const stage2::Fields& fields, const stage2::Rim
   return mean;
 }
 
-Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::vector<stage2::RimPoint>& points,
+Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::vector<RimPoint>& points,
                                      int highest) {
   const auto& plate = fields.solver.plate();
   const auto& rim = plate.hole_rim[0];
@@ -103,7 +103,7 @@ Eigen::MatrixXd powers(const Eigen::VectorXd& theta, int degree) {
 
 }  // namespace
 
-Eigen::MatrixXd patch_hoop_strain(const stage2::Fields& fields, const std::vector<stage2::RimPoint>& points) {
+Eigen::MatrixXd patch_hoop_strain(const stage2::Fields& fields, const std::vector<RimPoint>& points) {
   const auto& rim = fields.solver.plate().hole_rim[0];
   const Eigen::Index n = std::ssize(rim.sides) * degree(fields);
   Eigen::VectorXd theta(n);

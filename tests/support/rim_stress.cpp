@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage2_extract/stresses/rim_stress.hpp"
+#include "tests/support/rim_stress.hpp"
 
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "common/count.hpp"
-#include "common/pfem/element.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/shape_functions.hpp"
+#include "stage2_extract/matrices/holes.hpp"
 
-namespace fastjoint::stage2 {
+namespace fastjoint::test {
+
+using stage2::FieldSolver;
+
 namespace {
 
 RimPoint point_at(const std::vector<rim::SideAngles>& sides, double angle) {
@@ -30,16 +33,6 @@ struct Frame {
 
 Frame frame_at(double angle) { return {{std::cos(angle), std::sin(angle)}, {-std::sin(angle), std::cos(angle)}}; }
 
-/// Hoop stress of the finite elements at a point of a rim, per coefficient of the element, (2 n_modes).
-Eigen::VectorXd hoop_stress(const FieldSolver& solver, const OnSide& at, double angle) {
-  const auto& [element, local_edge] = at.side;
-  const pfem::ElementMap map(solver.plate().mesh, solver.edges(), element);
-  const Eigen::Matrix2Xd xi = pfem::along_edge(local_edge, Eigen::VectorXd::Constant(1, at.s));
-  const Eigen::MatrixXd B =
-      pfem::strain_operator(map, solver.numbering().space, solver.numbering().p, xi.row(0), xi.row(1));
-  return (pfem::polar_stress(angle).row(1) * solver.elasticity(element) * B).transpose();
-}
-
 }  // namespace
 
 std::vector<RimPoint> rim_points(const pfem::Mesh& mesh, const pfem::Edges& edges, const rim::Rim& rim) {
@@ -56,11 +49,6 @@ std::vector<RimPoint> rim_points(const pfem::Mesh& mesh, const pfem::Edges& edge
       points.push_back(point_at(sides, piece.from + i * (piece.to - piece.from) / n_steps));
   }
   return points;
-}
-
-Eigen::Vector2d bearing_direction(const std::string& side) {
-  const Eigen::Vector2d axis = rim::axis(side.substr(1));
-  return side[0] == '+' ? axis : Eigen::Vector2d(-axis);
 }
 
 RimStress::RimStress(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points) {
@@ -100,9 +88,6 @@ void RimStress::add_side(const FieldSolver& solver, int hole, const pfem::Side& 
     const Eigen::Matrix3d to_global = pfem::polar_stress(-point.angle);
     const Eigen::Vector3d c = (to_global.transpose() * compliance * to_global).row(1);
     part.hoop.col(i) << -c[0] / c[1], 1 / c[1], -c[2] / c[1];
-    if (!solver.plate().hole_spring[hole].contact) continue;
-    weights.col(n + i) = hoop_stress(solver, *on[i], point.angle);
-    part.hoop.col(i) = Eigen::Vector3d::UnitY();
   }
   part.u_n_and_hoop = solver.condense(side.element, weights);
   sides_.push_back(std::move(part));
@@ -132,20 +117,19 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
     const Eigen::Vector2d e = rim::axis(plate.disc_direction[i]);
     add(unit_case, rr, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }));
   }
-  for (const auto& rim : plate.contact)
-    for (int k = 0; k < rim.pressures.size(); ++k, ++unit_case)
-      if (rim.hole == id)
-        add(unit_case, rr,
-            -at_points([&](const Frame&, Eigen::Index i) { return rim.pressures.at(points[i].angle)[k]; }));
-  for (int i = 0, shear = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
+  for (std::size_t i = 0; i < plate.contact.size(); ++i) {
+    const rim::Harmonics& waves = plate.waves[i].waves;
+    const auto add_wave = [&](Eigen::Index component, const auto& at_angle) {
+      if (plate.waves[i].hole == id)
+        add(unit_case, component, -at_points([&](const Frame&, Eigen::Index k) { return at_angle(points[k].angle); }));
+      ++unit_case;
+    };
+    for (int k = 0; k < waves.size(); ++k) add_wave(rr, [&](double angle) { return waves.at(angle)[k]; });
+    for (int k = 0; k < waves.n_shears(); ++k) add_wave(rt, [&](double angle) { return waves.shears_at(angle)[k]; });
+  }
+  for (int i = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
     if (plate.friction_hole[i] != id) continue;
-    if (spring.contact) {
-      add(unit_case, rt,
-          -at_points([&](const Frame&, Eigen::Index k) { return spring.contact->shears_at(points[k].angle)[shear]; }));
-      ++shear;
-      continue;
-    }
-    const Eigen::Vector2d d = bearing_direction(plate.friction_bearing[i]);
+    const Eigen::Vector2d d = stage2::bearing_direction(plate.friction_bearing[i]);
     add(unit_case, rt, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
           const auto bearing = rim::cosine_bearing(at.n, d);
           return -bearing.contact * bearing.tangent.dot(at.t);
@@ -155,7 +139,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
     if (plate.traction_hole[i] != id) continue;
     // A unit force along the direction is a negative pressure on the side against it.
     const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;
-    const Eigen::Vector2d d = bearing_direction(plate.traction_bearing[i]);
+    const Eigen::Vector2d d = stage2::bearing_direction(plate.traction_bearing[i]);
     const double unit_force = rim::bearing(plate.mesh, solver.edges(), plate.hole_rim[hole], d).unit_force;
     add(unit_case, rr, at_points([&](const Frame& at, Eigen::Index) {
           return -sign * rim::cosine_bearing(at.n, d).contact / unit_force;
@@ -165,7 +149,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
   for (Eigen::Index i = 0; i < std::ssize(rows); ++i) tractions_.row(i) = rows[i];
 }
 
-RimStresses RimStress::operator()(const Fields& fields) const {
+RimStresses RimStress::operator()(const stage2::Fields& fields) const {
   const auto k = fields.states.size(), n = modulus_.size();
   const Eigen::MatrixXd amounts = fields.amounts(loading_, Eigen::all), known = amounts.transpose() * tractions_;
   RimStresses sigma{known.leftCols(n), Eigen::MatrixXd::Zero(k, n), known.rightCols(n)};
@@ -187,4 +171,4 @@ RimStresses RimStress::operator()(const Fields& fields) const {
   return sigma;
 }
 
-}  // namespace fastjoint::stage2
+}  // namespace fastjoint::test

@@ -7,7 +7,7 @@
 
 #include "stage2_extract/field/fields.hpp"
 
-namespace fastjoint::stage2 {
+namespace fastjoint::test {
 
 /// A point of a rim as one side of it sees the point.
 struct OnSide {
@@ -30,36 +30,32 @@ inline constexpr int n_points_per_turn = 72;
 /// equal steps as come closest to 5 degrees. No point of a rim without sides.
 [[nodiscard]] std::vector<RimPoint> rim_points(const pfem::Mesh& mesh, const pfem::Edges& edges, const rim::Rim& rim);
 
-/// Unit vector of a bearing side, "+x", "-x", "+y" or "-y".
-[[nodiscard]] Eigen::Vector2d bearing_direction(const std::string& side);
-
 /// Stresses at points of a rim in k states, each of shape (k, n_points).
 struct RimStresses {
   Eigen::MatrixXd rr, tt, rt;
 };
 
-/// The rim of a hole, ready to take stresses from fields of the degree that the solver has now.
+/// The rim of a hole, ready to take stresses from fields of the degree that the solver has now: at points, where the
+/// program has them in waves.
 ///
-/// sigma_rr and sigma_rt are the known tractions of springs, bearing load and friction; sigma_tt follows from them and
-/// the strain along the rim by the material's law, without a derivative across the rim (docs/theory.md, section 11.1).
-/// On rims of contact, whose waves of pressure are shorter than elements follow, it is that of the finite elements.
-/// The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other ways.
+/// sigma_rr and sigma_rt are the known tractions of springs, waves of contact, bearing load and friction; sigma_tt
+/// follows from them and the strain of the elements along the rim by the material's law, without a derivative across the
+/// rim. The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other ways.
 class RimStress {
  public:
-  RimStress(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
-  [[nodiscard]] RimStresses operator()(const Fields& fields) const;
+  RimStress(const stage2::FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
+  [[nodiscard]] RimStresses operator()(const stage2::Fields& fields) const;
 
  private:
   /// One side with its points.
   struct SidePoints {
     std::vector<int> points;
-    /// Radial displacements of all its points, then their hoop strains; of contact their hoop stresses.
-    plate::CondensedFunctions u_n_and_hoop;
-    Eigen::Matrix3Xd hoop;     ///< what sigma_rr, that strain or stress and sigma_rt give of sigma_tt at each
-    Eigen::RowVectorXd share;  ///< of this side in the mean at each
+    plate::CondensedFunctions u_n_and_hoop;  ///< radial displacements of all its points, then their hoop strains
+    Eigen::Matrix3Xd hoop;                   ///< what sigma_rr, that strain and sigma_rt give of sigma_tt at each
+    Eigen::RowVectorXd share;                ///< of this side in the mean at each
   };
-  void add_side(const FieldSolver& solver, int hole, const pfem::Side& side, const std::vector<RimPoint>& points);
-  void add_tractions(const FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
+  void add_side(const stage2::FieldSolver& solver, int hole, const pfem::Side& side, const std::vector<RimPoint>& points);
+  void add_tractions(const stage2::FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
 
   std::vector<SidePoints> sides_;
   std::vector<Eigen::Index> loading_;  ///< unit cases with tractions at this rim
@@ -67,4 +63,4 @@ class RimStress {
   Eigen::RowVectorXd modulus_;         ///< (points) of the springs, 0 where none act
 };
 
-}  // namespace fastjoint::stage2
+}  // namespace fastjoint::test

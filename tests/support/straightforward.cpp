@@ -29,7 +29,8 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
     add(element, all,
         stiffness(pfem::ElementMap(mesh.mesh, mesh.edges, element), scene.elasticity[mesh.mesh.material[element]],
                   mesh.mesh.thickness[element]));
-  const auto sprung = stage1::sprung_mesh(scene, mesh);
+  auto sprung = stage1::sprung_mesh(scene, mesh);
+  sprung.waves.assign(scene.holes.size(), std::nullopt);  // loads, which the stiffness does not have
   for (int hole = 0; hole < count_of(scene.holes); ++hole) {
     if (!scene.holes[hole].spring) continue;
     for (const auto& side : mesh.rims[hole].sides) {
@@ -45,14 +46,19 @@ Sparse free_stiffness(const stage1::PlateScene& scene, const stage1::PlateMesh& 
   return K;
 }
 
-PlainMatrices plain_matrices(const Sparse& K_ff, const Problem& problem, int p) {
+Eigen::MatrixXd plain_matrices(const Sparse& K_ff, const Problem& problem, int p) {
   const int n = problem.unknowns.n_free[p];
   const Eigen::CholmodSupernodalLLT<Sparse> factor(K_ff.block(0, 0, n, n));
-  const Sparse K_fc = problem.K_fc.topRows(n);
-  Eigen::MatrixXd B(n, problem.K_fc.cols() + problem.L_f.cols());
-  B << -Eigen::MatrixXd(K_fc), Eigen::MatrixXd(problem.L_f.topRows(n));
-  const Eigen::MatrixXd forces = K_fc.transpose() * Eigen::MatrixXd(factor.solve(B));
-  return {problem.K_cc + forces.leftCols(K_fc.cols()), forces.rightCols(problem.L_f.cols()) - problem.L_c};
+  const Sparse K_fc = problem.K_fc.topRows(n), L_f = problem.L_f.topRows(n);
+  const auto nc = K_fc.cols(), n_amounts = Eigen::Index{problem.unknowns.n_amounts()};
+  Eigen::MatrixXd B(n, n_amounts), result(problem.unknowns.n_border(), n_amounts);
+  B << -Eigen::MatrixXd(K_fc), Eigen::MatrixXd(L_f.leftCols(n_amounts - nc));
+  const Eigen::MatrixXd X = factor.solve(B);
+  result << Eigen::MatrixXd(K_fc.transpose() * X), Eigen::MatrixXd(L_f.transpose() * -X);
+  result.topLeftCorner(nc, nc) += problem.K_cc;
+  result.topRightCorner(nc, n_amounts - nc) -= problem.L_c.leftCols(n_amounts - nc);
+  result.bottomLeftCorner(L_f.cols(), nc) -= problem.L_c.transpose();
+  return result;
 }
 
 }  // namespace fastjoint::test

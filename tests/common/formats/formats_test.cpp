@@ -146,7 +146,18 @@ TEST_F(HandMade, TheSpaceIsTheTrunkSpaceUnlessTheFileSaysOtherwise) {
   refused(": attribute 'space' is 'serendipity', expected one of trunk, product");
 }
 
-/// One disc and the stresses at one point of its rim.
+/// Before version 1.8 stresses at points stood where the waves of the rims are now.
+TEST_F(HandMade, FilesWithStressesAtPointsAreRefused) {
+  const auto write_as_before = [&](const char* dataset) {
+    write([&](h5::Writer& file) { file(dataset, Eigen::Vector2d(1, 2), {2}, "", ""); });
+  };
+  for (const char* dataset : {"rim/sigma_tt", "B_d"}) {
+    write_as_before(dataset);
+    refused(": was written before version 1.8, with stresses at points; run stage1_plate and stage2_extract again");
+  }
+}
+
+/// A disc in contact with a whole hole, and an open half hole with waves of its own.
 PlateMatrices one_disc() {
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
   PlateMatrices a;
@@ -157,32 +168,67 @@ PlateMatrices one_disc() {
   a.S_dd = {one};
   a.S_dd_error = one;
   for (auto* empty : {&a.S_ee, &a.S_ed, &a.R_ef, &a.R_df, &a.T_d, &a.T_e, &a.C_t}) *empty = {Eigen::MatrixXd()};
+  a.contact = {{"a", {16}, 3e7, 0.5, 0.3}};
+  a.waves = {{"a", {2}, 0.5, 0.3, 3e7, Eigen::Matrix3d::Identity(), {{-3, -1}, {1, 3}}},
+             {"b", {4, 0, rim::full_turn / 2}, 0.25, 0.1, 0, Eigen::Matrix3d::Constant(2)},
+             {"c", {4}, 0.25, 0.1, 7, Eigen::Matrix3d::Zero(), {{0, 1}}}};
+  constexpr Eigen::Index loaded = 5 + 5, others = 5 + 4 + 9 + 9;
+  a.W = {StressRows::Random(loaded, 1 + loaded)};
   auto& s = a.stresses;
   s.p = a.p;
   s.rim_hole = s.section_hole = {"a"};
-  s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.angle = s.hoop_by_pressure = s.stiffness_error = one;
+  s.rim_radius = s.rim_thickness = s.gross_area = s.net_area = s.stiffness_error = one;
   s.rim_center = s.bearing_area = s.rim_modulus = Eigen::MatrixXd::Constant(1, 2, 0.5);
-  s.rim_start = Eigen::VectorXi::LinSpaced(2, 0, 1);
-  s.sigma_rr = s.sigma_tt = s.sigma_rt = s.section_force = {one};
+  s.other_waves = {StressRows::Random(others, 1 + loaded)};
+  s.section_force = {StressRows::Random(1, 1 + loaded)};
   s.section_side = {"+x"};
   return a;
+}
+
+TEST(PlateMatrices, WavesReadBack) {
+  const test::TemporaryFolder folder;
+  const PlateMatrices a = one_disc();
+  EXPECT_EQ(a.n_loaded_waves(), 10);
+  EXPECT_EQ(a.n_waves(), 10 + 9 + 18);
+  EXPECT_EQ(a.n_waves_before(1), 10);
+  EXPECT_EQ(a.n_cases(), 11);
+  write(folder.path("m.h5"), a);
+  const PlateMatrices b = read_plate_matrices(folder.path("m.h5"));
+  ASSERT_EQ(b.waves.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(b.waves[i].hole, a.waves[i].hole);
+    EXPECT_EQ(b.waves[i].waves, a.waves[i].waves);
+    EXPECT_EQ(b.waves[i].radius, a.waves[i].radius);
+    EXPECT_EQ(b.waves[i].area, a.waves[i].area);
+    EXPECT_EQ(b.waves[i].modulus, a.waves[i].modulus);
+    EXPECT_EQ(b.waves[i].compliance, a.waves[i].compliance);
+    EXPECT_EQ(b.waves[i].acts, a.waves[i].acts) << "two arcs, none, one";
+  }
+  EXPECT_TRUE(b.waves[0].has_closed_form());
+  EXPECT_FALSE(b.waves[2].has_closed_form());
+  EXPECT_EQ(b.contact[0].pressures, rim::Harmonics{16}) << "of stage 3, which are not the elements'";
+  EXPECT_EQ(b.W, a.W);
+  EXPECT_EQ(b.stresses.other_waves, a.stresses.other_waves);
+  EXPECT_EQ(b.stresses.section_force, a.stresses.section_force);
 }
 
 TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path("m.h5");
-  const auto refused = [&](const std::function<void(PlateStresses&)>& edit, const std::string& message) {
+  const auto refused = [&](const std::function<void(PlateStresses&, PlateMatrices&)>& edit,
+                           const std::string& message) {
     PlateMatrices a = one_disc();
-    edit(a.stresses);
+    edit(a.stresses, a);
     write(path, a);
     EXPECT_THAT([&] { (void)read_plate_matrices(path); }, ThrowsMessage<FileError>(HasSubstr("m.h5:" + message)));
   };
   write(path, one_disc());
   EXPECT_EQ(read_plate_matrices(path).stresses.section_side.at(0), "+x");
-  refused([](auto& s) { s.bearing_area(0, 1) = 0; }, "rim/bearing_area: holds 0, expected numbers > 0");
-  refused([](auto& s) { s.section_side = {""}; }, "section/side: holds \"\", expected one of +x, -x, +y, -y");
-  refused([](auto& s) { s.rim_start[1] = 2; }, "rim/start: does not rise from 0 to the 1 points of rim/angle");
-  refused([](auto& s) { s.p[0] = 100; }, "stress/p: holds 100, expected ascending degrees from 1 to 99");
+  refused([](auto& s, auto&) { s.bearing_area(0, 1) = 0; }, "rim/bearing_area: holds 0, expected numbers > 0");
+  refused([](auto& s, auto&) { s.section_side = {""}; }, "section/side: holds \"\", expected one of +x, -x, +y, -y");
+  refused([](auto& s, auto&) { s.p[0] = 100; }, "stress/p: holds 100, expected ascending degrees from 1 to 99");
+  refused([](auto&, auto& a) { a.waves[2].radius = 0; }, "wave/radius: holds 0, expected numbers > 0");
+  refused([](auto&, auto& a) { a.waves[1].modulus = -1; }, "wave/modulus: holds -1, expected numbers >= 0");
 }
 
 TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
@@ -208,8 +254,16 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     plate.plate_digest = "0123456789abcdef";
     plate.disc_hole = {"1"};
     plate.disc_direction = {"x"};
-    plate.friction_hole = {"1", "1"};
+    plate.friction_hole = {"2", "2"};
     plate.friction_bearing = {"+x", "-x"};
+    plate.contact = {{"1", {6}, 3e4, 5, 20}};
+    plate.waves = {{"1", {4}, 5, 20, 3e4}};
+    plate.amounts = Eigen::MatrixXd::Random(steps, 18);
+    plate.w = Eigen::MatrixXd::Random(steps, 13);
+    plate.contacts.gap = plate.contacts.no_load_peak = plate.contacts.no_load_least = plate.contacts.full_until =
+        Eigen::VectorXd::Constant(1, 0.01);
+    plate.contacts.touching = plate.contacts.from = plate.contacts.to = plate.contacts.peak_pressure =
+        plate.contacts.peak_angle = plate.contacts.least_gap = Eigen::MatrixXd::Ones(steps, 1);
     plate.D = Eigen::MatrixXd::Random(steps, 1);
     plate.De = plate.Pe = plate.traction = Eigen::MatrixXd(steps, 0);
     plate.Lambda = Eigen::MatrixXd::Random(steps, 2);
@@ -255,6 +309,11 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.plates.at(0).D, plate.D);
     EXPECT_EQ(b.plates[0].plate_digest, plate.plate_digest);
     EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);
+    EXPECT_EQ(b.plates[0].amounts, plate.amounts);
+    EXPECT_EQ(b.plates[0].w, plate.w);
+    ASSERT_EQ(b.plates[0].waves.size(), 1U);
+    EXPECT_EQ(b.plates[0].waves[0].hole, "1");
+    EXPECT_EQ(b.plates[0].waves[0].waves, rim::Harmonics{4});
     EXPECT_EQ(b.plates[0].friction_bearing, plate.friction_bearing);
     EXPECT_EQ(b.plates[0].rims.sections, rims.sections);
     for (const auto& each : rim_quantities())

@@ -43,13 +43,13 @@ TEST(Elements, WhatIsCondensedIsTheirOwn) {
 
 /// Two holes side by side; what differs between them makes other classes, thickness does not.
 TEST(Elements, TellWhatDiffers) {
-  const auto pair = [](const char* thickness, const char* spring, double radius, double y) {
+  const auto pair = [](const char* thickness, const char* spring, double radius, double y, const char* more = "") {
     return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x"],
       "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
       "geometry": {{"grid": {{"x": [0, 1, 2], "y": [0, 1], "thickness": {}}}}},
       "holes": [{{"id": "a", "center": [0.5, 0.5], "radius": 0.2, "spring": {{"modulus": 1e6}}}},
-                {{"id": "b", "center": [1.5, {}], "radius": {}, "spring": {}}}]}})",
-                       thickness, y, radius, spring);
+                {{"id": "b", "center": [1.5, {}], "radius": {}, "spring": {}{}}}]}})",
+                       thickness, y, radius, spring, more);
   };
   const char* same = R"({"modulus": 1e6})";
   EXPECT_EQ(n_classes(pair("0.1", same, 0.2, 0.5)), 8U);
@@ -59,6 +59,9 @@ TEST(Elements, TellWhatDiffers) {
   EXPECT_EQ(n_classes(pair("0.1", R"({"links": 1e6})", 0.2, 0.5)), 16U);
   EXPECT_EQ(n_classes(pair("0.1", same, 0.2000001, 0.5)), 16U);
   EXPECT_EQ(n_classes(pair("0.1", same, 0.2, 0.5000001)), 16U);
+  EXPECT_EQ(n_classes(pair("0.1", same, 0.2, 0.5, R"(, "waves": 11)")), 16U);
+  EXPECT_EQ(n_classes(pair("0.1", same, 0.2, 0.5, R"(, "stresses": false)")), 16U);
+  EXPECT_EQ(n_classes(pair("0.1", R"({"modulus": 1e6, "compression_only": true})", 0.2, 0.5, R"(, "rings": 0)")), 16U);
 }
 
 /// Links do not scale with the thickness as springs do.

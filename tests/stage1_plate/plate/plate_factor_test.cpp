@@ -10,8 +10,16 @@
 namespace fastjoint {
 namespace {
 
-/// S and R by shortcuts (elements condensed, each class once, no solution) against the
-/// straightforward path.
+/// Rows of the border that mean something: all but those of friction cases.
+std::vector<int> rows_of_forces_and_waves(const plate::Unknowns& unknowns) {
+  std::vector<int> rows;
+  const int first = unknowns.n_controlled() + unknowns.n_loaded;
+  for (int i = 0; i < unknowns.n_border(); ++i)
+    if (i < first || i >= first + unknowns.n_friction) rows.push_back(i);
+  return rows;
+}
+
+/// S, R and W by shortcuts (elements condensed, each class once, no solution) against the straightforward path.
 TEST(PlateFactor, GivesWhatTheStraightforwardPathGives) {
   for (const auto& [name, json] : test::plate_scenes()) {
     const auto plate = test::make_plate(json);
@@ -20,13 +28,34 @@ TEST(PlateFactor, GivesWhatTheStraightforwardPathGives) {
     const plate::Skeleton skeleton(problem);
     for (int p = 1; p <= 8; ++p) {
       const auto plain = test::plain_matrices(K_ff, problem, p);
-      const plate::PlateFactor K(problem, skeleton, p);
+      const plate::PlateFactor K(problem, skeleton, p, true);
       const auto nc = problem.K_cc.rows();
-      const Eigen::MatrixXd SR = K.condensed();
-      EXPECT_LT((SR.leftCols(nc) - plain.S).norm(), 1e-11 * problem.K_cc.norm()) << name << ", p = " << p;
-      EXPECT_LE((SR.rightCols(plain.R.cols()) - plain.R).norm(), 1e-11 * plain.R.norm()) << name << ", p = " << p;
+      const Eigen::MatrixXd all = K.condensed();
+      const auto rows = rows_of_forces_and_waves(problem.unknowns);
+      ASSERT_EQ(all.rows(), plain.rows());
+      ASSERT_EQ(all.cols(), plain.cols());
+      const Eigen::MatrixXd error = (all - plain)(rows, Eigen::all), right = plain(rows, Eigen::all);
+      const auto n_loads = right.cols() - nc, n_waves = right.rows() - nc;
+      EXPECT_LT(error.topLeftCorner(nc, nc).norm(), 1e-11 * problem.K_cc.norm()) << name << ", p = " << p;
+      const auto check = [&](const auto& part, const Eigen::MatrixXd& of_error, const Eigen::MatrixXd& of_right) {
+        EXPECT_LE(of_error.norm(), 1e-11 * of_right.norm()) << part << " of " << name << ", p = " << p;
+      };
+      check("forces by loads", error.topRightCorner(nc, n_loads), right.topRightCorner(nc, n_loads));
+      check("waves by motion", error.bottomLeftCorner(n_waves, nc), right.bottomLeftCorner(n_waves, nc));
+      check("waves by loads", error.bottomRightCorner(n_waves, n_loads), right.bottomRightCorner(n_waves, n_loads));
       EXPECT_LT((K.held_stiffness() - problem.K_cc.diagonal()).norm(), 1e-12 * problem.K_cc.norm()) << name;
     }
+  }
+}
+
+TEST(PlateFactor, WithoutOtherWavesLacksTheirRowsAlone) {
+  for (const auto& [name, json] : test::plate_scenes()) {
+    const auto plate = test::make_plate(json);
+    const plate::Skeleton skeleton(plate.problem);
+    const Eigen::MatrixXd all = plate::PlateFactor(plate.problem, skeleton, 5, true).condensed();
+    const Eigen::MatrixXd some = plate::PlateFactor(plate.problem, skeleton, 5, false).condensed();
+    ASSERT_EQ(some.rows(), plate.problem.unknowns.n_amounts()) << name;
+    EXPECT_LE((some - all.topRows(some.rows())).norm(), 1e-13 * all.norm()) << name;
   }
 }
 
@@ -35,7 +64,7 @@ TEST(PlateFactor, IsTheSameOnSeveralThreads) {
   const plate::Skeleton skeleton(plate.problem);
   const Eigen::MatrixXd B = Eigen::MatrixXd::Random(plate.problem.K_fc.rows(), 3);
   const auto solve = [&] {
-    return std::pair(plate::PlateFactor(plate.problem, skeleton, 8).condensed(),
+    return std::pair(plate::PlateFactor(plate.problem, skeleton, 8, true).condensed(),
                      test::fields_under(plate.problem, 8, B));
   };
   const auto [SR, X] = solve();
@@ -56,6 +85,8 @@ TEST(PlateFactor, DegreesSideBySideAreThoseOneAfterAnother) {
   for (std::size_t i = 0; i < plain.cases.size(); ++i) {
     EXPECT_EQ(side_by_side.cases[i].S, plain.cases[i].S) << i;
     EXPECT_EQ(side_by_side.cases[i].R, plain.cases[i].R) << i;
+    EXPECT_EQ(side_by_side.cases[i].W, plain.cases[i].W) << i;
+    EXPECT_EQ(side_by_side.cases[i].N, plain.cases[i].N) << i;
   }
   EXPECT_EQ(side_by_side.probe.force, plain.probe.force);
   EXPECT_EQ(side_by_side.held_stiffness, plain.held_stiffness);

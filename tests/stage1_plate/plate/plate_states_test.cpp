@@ -13,8 +13,9 @@ namespace {
 
 /// Loads by the states' amounts on the plate's unknowns of one degree, as the problem has them.
 Eigen::MatrixXd loads(const test::Problem& problem, int n, const Eigen::MatrixXd& border) {
-  const auto nc = problem.K_fc.cols();
-  return problem.L_f.topRows(n) * border.bottomRows(border.rows() - nc) - problem.K_fc.topRows(n) * border.topRows(nc);
+  const auto nc = problem.K_fc.cols(), n_loads = border.rows() - nc;
+  return problem.L_f.topRows(n).leftCols(n_loads) * border.bottomRows(n_loads) -
+         problem.K_fc.topRows(n) * border.topRows(nc);
 }
 
 Eigen::SparseMatrix<double> a_few(Eigen::Index n, Eigen::Index k) {
@@ -33,9 +34,9 @@ TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
     const auto K_ff = test::free_stiffness(plate.scene, plate.mesh, problem);
     const auto nc = problem.K_cc.rows();
     for (const int p : {1, 2, 5, 8}) {
-      const plate::PlateFactor K(problem, skeleton, p);
+      const plate::PlateFactor K(problem, skeleton, p, true);
       const int n = problem.unknowns.n_free[p];
-      const Eigen::MatrixXd border = Eigen::MatrixXd::Random(nc + problem.L_f.cols(), 3);
+      const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.unknowns.n_amounts(), 3);
       const auto beside = a_few(n, 3);
       const plate::PlateStates states(K, border, beside);
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(K_ff.block(0, 0, n, n));
@@ -51,9 +52,20 @@ TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
             << name << ", p = " << p << ", element " << element;
       }
       const Eigen::MatrixXd D = border.topRows(nc), Lambda = border.bottomRows(border.rows() - nc);
-      const Eigen::MatrixXd forces = problem.K_fc.topRows(n).transpose() * X + problem.K_cc * D - problem.L_c * Lambda;
+      const Eigen::MatrixXd forces = problem.K_fc.topRows(n).transpose() * X + problem.K_cc * D -
+                                     problem.L_c.leftCols(Lambda.rows()) * Lambda;
+      const Eigen::MatrixXd moments = -(problem.L_f.topRows(n).transpose() * X) - problem.L_c.transpose() * D;
       const double scale = problem.K_fc.norm() * X.norm() + problem.K_cc.norm() * D.norm();
-      EXPECT_LT((states.forces() - forces).norm(), 1e-11 * scale) << name << ", p = " << p;
+      const double scale_of_moments = problem.L_f.norm() * X.norm() + problem.L_c.norm() * D.norm();
+      const Eigen::MatrixXd found = states.forces();
+      ASSERT_EQ(found.rows(), problem.unknowns.n_border());
+      EXPECT_LT((found.topRows(nc) - forces).norm(), 1e-11 * scale) << name << ", p = " << p;
+      const auto first = problem.unknowns.n_loaded, h = problem.unknowns.n_friction;  // whose rows mean nothing
+      EXPECT_LE((found.bottomRows(moments.rows()) - moments).topRows(first).norm(), 1e-11 * scale_of_moments)
+          << name << ", p = " << p;
+      EXPECT_LE((found.bottomRows(moments.rows()) - moments).bottomRows(moments.rows() - first - h).norm(),
+                1e-11 * scale_of_moments)
+          << name << ", p = " << p;
       EXPECT_LT((states.work() - beside.transpose() * X).norm(), 1e-10 * beside.norm() * X.norm())
           << name << ", p = " << p;
     }
@@ -64,8 +76,8 @@ TEST(PlateStates, FunctionsCondensedGiveWhatTheyGiveOfCoefficients) {
   for (const auto& [name, json] : test::plate_scenes()) {
     const auto plate = test::make_plate(json);
     const auto& problem = plate.problem;
-    const plate::PlateFactor K(problem, plate::Skeleton(problem), 6);
-    const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.K_fc.cols() + problem.L_f.cols(), 3);
+    const plate::PlateFactor K(problem, plate::Skeleton(problem), 6, true);
+    const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.unknowns.n_amounts(), 3);
     const plate::PlateStates states(K, border, a_few(problem.unknowns.n_free[6], 3));
     for (int element = 0; element < plate.mesh.mesh.n_elements(); ++element) {
       const Eigen::MatrixXd C = states.coefficients(element), weights = Eigen::MatrixXd::Random(C.rows(), 2);

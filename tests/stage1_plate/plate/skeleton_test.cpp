@@ -15,12 +15,12 @@ TEST(Skeleton, HasARowForEachUnknownOnASkeleton) {
   const auto plate = test::make_plate(test::panel(3, 2));
   const plate::Skeleton skeleton(plate.problem);
   for (const int p : {1, 2, 8}) {
-    const auto rows = skeleton.rows(plate.problem, p);
+    const auto rows = skeleton.rows(plate.problem, p, plate.problem.unknowns.n_amounts());
     std::vector<int> found(rows.n_skeleton, 0);
     for (const int row : rows.of_unknown)
       if (row >= 0) ++found[row];
     EXPECT_EQ(found, std::vector<int>(found.size(), 1)) << p;
-    EXPECT_EQ(rows.n_border, 1 + 6 + 12) << "external, discs, friction cases";
+    EXPECT_EQ(rows.n_border, 1 + 6 + 12) << "external, discs, friction cases, no waves";
     // 12 corners and 17 sides of squares with a vertex in the middle of each, 8 rays to the rim of each hole, whose
     // own edges belong to one element; held: left along x, bottom along y, right along x
     const int vertices = 12 + 17 + 6 * 8, edges = 2 * 17 + 6 * 8;
@@ -33,7 +33,7 @@ TEST(Skeleton, KnowsItsSize) {
   const auto plate = test::make_plate(test::panel(4, 3));
   const plate::Skeleton skeleton(plate.problem);
   for (const int p : {1, 3, 6}) {
-    const auto rows = skeleton.rows(plate.problem, p);
+    const auto rows = skeleton.rows(plate.problem, p, plate.problem.unknowns.n_border());
     const auto size = skeleton.size(rows);
     auto A = skeleton.pattern(rows);
     EXPECT_EQ(size.entries, A.nonZeros());

@@ -153,7 +153,7 @@ TEST_P(FieldTest, StressAtRimNodesIsThePlainRimStress) {
         for (Index i = 0; i < p - 1; ++i) {
           const Index at_node = side.element * 64 + 4 + side.local_edge * (p - 1) + i;
           const Eigen::Vector2d n = field.points.col(at_node) - rim.center;
-          const stage2::RimPoint point{std::atan2(n.y(), n.x()), {{side, -1 + 2 * static_cast<double>(i + 1) / p, 0}}};
+          const test::RimPoint point{std::atan2(n.y(), n.x()), {{side, -1 + 2 * static_cast<double>(i + 1) / p, 0}}};
           const Eigen::Vector3d plain = test::plain_rim_stress(fields, point).col(0);
           const Eigen::Vector3d here = pfem::polar_stress(point.angle) * field.stress.col(at_node);
           EXPECT_LT((here - plain).norm(), 1e-11 * field.stress.cwiseAbs().maxCoeff());

@@ -78,7 +78,7 @@ TEST(JointModel, RefusesGapsInHolesThatTheirSpringsFill) {
     EXPECT_EQ(with(none).fasteners[0].holes[1].gap, 0);
 }
 
-TEST(JointModel, RimsOfContactAreThoseOfDiscsAndHaveAllShears) {
+TEST(JointModel, RimsOfContactAreThoseOfDiscs) {
   auto lap = test::two_fastener_lap();
   test::add_contact(lap.a, "3", 1);
   expect_refusal<FileError>(lap, {}, "a.h5:pressure/hole: holds \"3\", expected holes in disc/hole");
@@ -86,16 +86,6 @@ TEST(JointModel, RimsOfContactAreThoseOfDiscsAndHaveAllShears) {
   test::add_contact(lap.a, "1", 1);
   test::add_contact(lap.a, "1", 1);
   expect_refusal<FileError>(lap, {}, "a.h5:pressure/hole: \"1\" stands twice");
-  lap = test::two_fastener_lap();
-  lap.a.friction_hole = {"1", "1"};
-  lap.a.friction_bearing = {"t0", "t1"};  // of three
-  lap.a.friction_unit_force = lap.a.friction_resultant = Eigen::Vector2d::Zero();
-  lap.a.R_df = {Eigen::MatrixXd::Zero(2, 2)};
-  lap.a.R_ef = {Eigen::MatrixXd::Zero(1, 2)};
-  test::add_contact(lap.a, "1", 1);
-  expect_refusal<InputError>(lap, {{"fasteners", R"([{"id": "f", "between": ["a:1", "b:1"], "law": "lin",
-                                                      "friction": {"a": 0.1}}])"}},
-                             "a.h5:friction/bearing: has no shears of hole \"1\"");
 }
 
 TEST(JointModel, NamesAFileWhosePathIsTooLong) {
