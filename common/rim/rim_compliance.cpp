@@ -89,7 +89,7 @@ Eigen::Vector3d RimCompliance::along(double angle) const {
 Eigen::MatrixXd RimCompliance::displacements(const Harmonics& waves) const {
   const int highest = waves.highest, n = 2 * highest + 1;
   constexpr int wider = 2;  // turning to and from x and y makes waves of one order more, twice
-  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  Eigen::MatrixXd all = Eigen::MatrixXd::Zero(Eigen::Index{2} * n, Eigen::Index{2} * n);
   for (const bool is_shear : {false, true})
     for (int k = 3; k < n; ++k) {
       const auto [cosine, sine] = turned(wave(k, highest + wider));

@@ -49,7 +49,7 @@ MatrixXd corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
 template <typename Solve, typename Matrix>
 MatrixXd surely_corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
   constexpr double enough = 1e-10;
-  const MatrixXd x = corrected(solve, J, b);
+  MatrixXd x = corrected(solve, J, b);
   if ((b - J * x).norm() <= enough * b.norm()) return x;
   return MatrixXd(J).partialPivLu().solve(b);
 }

@@ -51,7 +51,7 @@ void add_ratios(const CondensedLevels& sheet, const CondensedLevels& exact, int 
                 Ratios& ratios) {
   const auto some = between(sheet, low, high);
   const auto degrees = Eigen::VectorXi::LinSpaced(high - low + 1, low, high);
-  for (const auto& [of, estimate] : matrices::relative_errors(some, degrees, MatrixXd(), fastest)) {
+  for (const auto& [of, estimate] : matrices::relative_errors(some, degrees, Eigen::VectorXd(), fastest)) {
     const auto matrix = matrices.at(of);
     const MatrixXd &limit = (exact.*matrix).back(), &last = (some.*matrix).back();
     const double error = (last - limit).norm(), doubt = (limit - (exact.*matrix).front()).norm();
