@@ -23,14 +23,14 @@ constexpr int p = 7;
 constexpr double force = 10000;
 
 /// A strip with a hole, its left edge an external that moves along x.
-std::string strip(const std::string& contact) {
+std::string strip(const std::string& contact, const std::string& waves = "") {
   return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "p": {},
     "materials": {{"al": {{"E": 72000, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [0, 40, 80, 100], "y": [0, 40], "thickness": 2}}}},
-    "holes": [{{"id": "1", "center": [60, 20], "radius": 5, "rings": 0, "spring": {{"disk": {{"E": 210000, "nu": 0.3}}{}}}}}],
+    "holes": [{{"id": "1", "center": [60, 20], "radius": 5, "rings": 0{}, "spring": {{"disk": {{"E": 210000, "nu": 0.3}}{}}}}}],
     "disc_directions": ["x", "y"], "supports": [{{"on": "left", "fix": ["y"]}}],
     "external": [{{"id": "P", "on": "left", "direction": "x", "kind": "rigid"}}]}})",
-                     p, contact);
+                     p, waves, contact);
 }
 
 /// The strip with springs all around, and pressures and shears at quadrature points of its rim.
@@ -164,31 +164,36 @@ class ContactReference : public testing::Test {
 };
 std::unique_ptr<Reference> ContactReference::reference_;
 
+/// All waves of the joint are those of the elements.
 formats::PlateMatrices with_harmonics(int n) {
-  return test::extract(strip(fmt::format(R"(, "compression_only": true, "harmonics": {})", n)), false).matrices;
+  return test::extract(strip(fmt::format(R"(, "compression_only": true, "harmonics": {})", n),
+                             fmt::format(R"(, "waves": {})", n)),
+                       false)
+      .matrices;
 }
 
-TEST_F(ContactReference, BAndCAreMomentsOfSolvedFields) {
+/// Each wave's distribution, pressures, then shears, times the weights of the points.
+MatrixXd moments(const Reference& reference, const rim::Harmonics& waves) {
+  MatrixXd all(reference.weights().size(), waves.size() + waves.n_shears());
+  all << reference.distributions(waves), reference.shears(waves);
+  return (reference.weights().asDiagonal() * all).transpose();
+}
+
+TEST_F(ContactReference, WavesAreThoseOfSolvedFields) {
   const auto a = with_harmonics(9);
-  const MatrixXd phi = reference_->distributions(a.contact[0].pressures);
-  const MatrixXd moments = phi.transpose() * reference_->weights().asDiagonal();
-  const MatrixXd B = moments * reference_->by_motion(), C = moments * reference_->by_pressure() * phi;
+  const rim::Harmonics& waves = a.waves.at(0).waves;
+  const Index n = waves.size(), n_t = waves.n_shears();
   EXPECT_NEAR(a.contact[0].area, reference_->weights().sum(), 1e-9);
-  EXPECT_LT((a.B_e[0] - B.leftCols(1)).norm(), 1e-10 * B.norm());
-  EXPECT_LT((a.B_d[0] - B.rightCols(2)).norm(), 1e-10 * B.norm());
-  EXPECT_LT((a.C[0] - C).norm(), 1e-10 * C.norm());
-}
-
-TEST_F(ContactReference, ShearsAreThoseOfSolvedFields) {
-  const auto a = with_harmonics(9);
-  const MatrixXd psi = reference_->shears(a.contact[0].pressures),
-                 phi = reference_->distributions(a.contact[0].pressures);
-  const VectorXd weights = reference_->weights();
-  const MatrixXd R = reference_->slip_by_motion().transpose() * weights.asDiagonal() * psi;
-  const MatrixXd R_p = -phi.transpose() * weights.asDiagonal() * reference_->by_shear() * psi;
-  EXPECT_LT((a.R_ef[0] - R.topRows(1)).norm(), 1e-10 * R.norm());
-  EXPECT_LT((a.R_df[0] - R.bottomRows(2)).norm(), 1e-10 * R.norm());
-  EXPECT_LT((a.R_p[0] - R_p).norm(), 1e-10 * R_p.norm());
+  const MatrixXd all = moments(*reference_, waves), normal = all.topRows(n), along = all.bottomRows(n_t);
+  const MatrixXd phi = reference_->distributions(waves), psi = reference_->shears(waves);
+  const MatrixXd B = normal * reference_->by_motion(), C = -normal * reference_->by_pressure() * phi;
+  const MatrixXd R = along * reference_->slip_by_motion(), R_p = -normal * reference_->by_shear() * psi;
+  const auto& W = a.W[0];
+  EXPECT_LT((W.topLeftCorner(n, 3) - B).norm(), 1e-10 * B.norm());
+  EXPECT_LT((W.block(0, 3, n, n) - C).norm(), 1e-10 * C.norm());
+  EXPECT_LT((W.block(n, 0, n_t, 3) - R).norm(), 1e-10 * R.norm());
+  EXPECT_LT((W.block(0, 3 + n, n, n_t) - R_p).norm(), 1e-10 * R_p.norm());
+  EXPECT_LT((W.block(n, 3, n_t, n) - R_p.transpose()).norm(), 1e-10 * R_p.norm());
 }
 
 /// The error of the displacement falls as the square of that of the pressure, with the shortest wave that is resolved;

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
 
-/// A plate's stresses at p = 8 around its first hole: a hoop stress of 1 at four points per unit of its disc.
+/// A plate's stresses at p = 8 around its first hole, which is open to waves: a hoop stress of 1 per unit of its disc.
 void add_stresses(formats::PlateMatrices& plate) {
   auto& a = plate.stresses;
   a.p = Eigen::VectorXi::Constant(1, 8);
@@ -20,14 +20,12 @@ void add_stresses(formats::PlateMatrices& plate) {
   a.rim_center = Eigen::MatrixXd::Zero(1, 2);
   a.rim_radius = a.rim_thickness = Eigen::VectorXd::Ones(1);
   a.bearing_area = a.rim_modulus = Eigen::MatrixXd::Constant(1, 2, 2);
-  a.rim_start.resize(2);
-  a.rim_start << 0, 4;
-  a.angle = Eigen::Vector4d(0, 90, 180, 270);
-  a.hoop_by_pressure = Eigen::Vector4d::Zero();
-  a.sigma_rr = a.sigma_tt = a.sigma_rt = {Eigen::MatrixXd::Zero(4, plate.n_cases())};
-  a.sigma_tt[0].col(plate.n_externals()).setOnes();
+  auto& rim = plate.waves.emplace_back(formats::WaveRim{plate.disc_hole[0], {2}, 1, 1, 0});
+  rim.compliance = Eigen::Vector3d(1, 1, 2).asDiagonal();
+  a.other_waves = {MatrixXd::Zero(rim.size(), plate.n_cases())};
+  a.other_waves[0](0, plate.n_externals()) = -1;
   a.gross_area = a.net_area = Eigen::VectorXd(0);
-  a.section_force = {Eigen::MatrixXd::Zero(0, plate.n_cases())};
+  a.section_force = {MatrixXd::Zero(0, plate.n_cases())};
   a.stiffness_error = Eigen::VectorXd::Zero(1);
 }
 

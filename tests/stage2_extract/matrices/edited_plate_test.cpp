@@ -128,15 +128,10 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
   const rim::Harmonics waves{1};
   refused(
       [&](auto& a) {  // without the matrices that go with it: names are checked first
-        a.hole_spring[0].contact = waves;
         a.contact.assign(2, {"a", waves, 1, 0.2, 1});
-        for (auto& level : a.cases) {
-          level.B = Eigen::MatrixXd::Zero(6, level.S.cols());
-          level.C = Eigen::MatrixXd::Zero(6, 6);
-          level.R_p = Eigen::MatrixXd::Zero(6, level.R.cols());
-          level.T_p = Eigen::MatrixXd::Zero(6, level.T.cols());
-        }
-        a.probe.pressure = a.probe.moment = a.probe.friction_moment = Eigen::VectorXd::Zero(6);
+        a.waves.assign(2, {"a", waves, 0.2, 1, 1});
+        for (auto& level : a.cases) level.W = Eigen::MatrixXd::Zero(12, a.n_cases());
+        a.probe.wave = a.probe.moment = a.probe.friction_moment = Eigen::VectorXd::Zero(12);
       },
       "pressure/hole: names a hole twice");
 }

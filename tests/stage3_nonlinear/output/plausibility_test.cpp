@@ -23,7 +23,6 @@ test::Lap described(int n, const Eigen::Vector2d& shift = {0, 0}) {
     a.bearing_area = Eigen::MatrixXd::Constant(n, 2, 2 * radius * t);
     a.rim_center.resize(n, 2);
     for (int i = 0; i < n; ++i) a.rim_center.row(i) = (origin + 20 * i * Eigen::Vector2d::UnitX()).transpose();
-    a.rim_start = Eigen::VectorXi::Zero(n + 1);
     return plate;
   };
   return {sheet(1, {{0, n, 1e4}}, {0, 0}), sheet(0, {{n - 1, test::ground, 1e4}}, shift)};
