@@ -52,7 +52,8 @@ void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eig
 void balance(const FreeTranslation& free, formats::PlateCases& level) {
   if (free.motion.isZero(0)) return;
   auto by_motion = level.W.leftCols(free.motion.size());
-  by_motion -= by_motion.lazyProduct(free.motion).eval() * (free.motion.transpose() / free.motion.squaredNorm());
+  by_motion -= (by_motion.lazyProduct(free.motion) - free.waves.head(by_motion.rows())) *
+               (free.motion.transpose() / free.motion.squaredNorm());
   for (int side = 0; side < 2; ++side) {
     balance(free.motion, Eigen::RowVectorXd::Zero(level.S.cols()), level.S);
     level.S.transposeInPlace();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
@@ -29,12 +30,18 @@ double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), least * largest(plate.held_stiffness));
 }
 
-/// Integral over a rim that errors of W by displacements are compared with: the largest, or a share of the rims' area
-/// where the plate follows its one disc.
-double scale_of_motion(const PlateSolution& plate, const PlateCases& level) {
+/// Integral over a rim that errors of the first `n_waves` rows of W by displacements are compared with: the largest, or a
+/// share of the rims' area where the plate follows its one disc.
+double scale_of_motion(const PlateSolution& plate, const PlateCases& level, Eigen::Index n_waves) {
   double area = 0;
-  for (const auto& rim : plate.waves) area = std::max(area, rim.area);
-  return std::max(largest(level.W.leftCols(level.S.rows())), least * area);
+  for (Eigen::Index i = 0; i < std::ssize(plate.waves) && plate.n_waves_before(i) < n_waves; ++i)
+    area = std::max(area, plate.waves[i].area);
+  return std::max(largest(level.W.topLeftCorner(n_waves, level.S.rows())), least * area);
+}
+
+/// What forces by unit friction cases and loaded waves are compared with.
+double scale_of_loads(const PlateSolution& plate, const PlateCases& level) {
+  return std::max(largest(level.R), scale_of_motion(plate, level, plate.n_loaded_waves()));
 }
 
 /// Forces that the probe's displacements need, by its own solution, against those by S.
@@ -60,8 +67,8 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
   Eigen::VectorXd loads(k + h);
   loads << probe.wave, probe.friction;
   add(probe.friction_force - by(level.R, probe.friction) - by(by_motion.topRows(k).transpose(), probe.wave),
-      std::max(largest(level.R), scale_of_motion(plate, level)));
-  add(probe.moment - by(by_motion, probe.displacement), scale_of_motion(plate, level));
+      scale_of_loads(plate, level));
+  add(probe.moment - by(by_motion, probe.displacement), scale_of_motion(plate, level, level.W.rows()));
   add(probe.friction_moment - by(by_load, loads), largest(by_load));
   if (level.T.size() > 0) {
     const double scale = std::max(largest(level.T), 1e-3);
@@ -108,9 +115,10 @@ std::optional<double> negative_compliance(const PlateSolution& plate, const Plat
 double residual_force(const PlateSolution& plate, const PlateCases& level, const FreeTranslation& free) {
   const auto& [S, R, T, C_t, W, N] = level;
   double worst = std::max(ratio(largest(S * free.motion), scale_of(plate, S)),
-                          ratio(largest(W.leftCols(S.rows()).lazyProduct(free.motion)), scale_of_motion(plate, level)));
+                          ratio(largest(W.leftCols(S.rows()).lazyProduct(free.motion) - free.waves.head(W.rows())),
+                                scale_of_motion(plate, level, W.rows())));
   const Eigen::RowVectorXd of_friction = free.motion.transpose().lazyProduct(R) + free.friction;
-  worst = std::max(worst, ratio(largest(of_friction), std::max(largest(R), scale_of_motion(plate, level))));
+  worst = std::max(worst, ratio(largest(of_friction), scale_of_loads(plate, level)));
   return std::max(worst, largest(free.motion.transpose() * T + free.traction));
 }
 
@@ -120,6 +128,19 @@ std::optional<double> equilibrium(const PlateSolution& plate, const formats::Pla
   for (const auto& free : free_translations(plate, a))
     worst = std::max(worst.value_or(0), residual_force(plate, level, free));
   return worst;
+}
+
+/// Integrals over the rims as the sheet moves along an axis with its discs: only those of open holes are not zero.
+Eigen::VectorXd waves_of_translation(const PlateSolution& plate, int axis) {
+  Eigen::VectorXd waves = Eigen::VectorXd::Zero(plate.n_waves());
+  Eigen::Index next = 0;
+  for (const auto& rim : plate.waves) {
+    const Eigen::Index first = std::exchange(next, next + rim.size());
+    if (std::ranges::find(plate.disc_hole, rim.hole) != plate.disc_hole.end()) continue;
+    waves.segment(first, rim.size()) << rim.waves.push(axis), rim.waves.drag(axis);
+    waves.segment(first, rim.size()) *= -rim.area;
+  }
+  return waves;
 }
 
 std::string shown(const std::optional<double>& value, const char* otherwise) {
@@ -146,7 +167,8 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
     result.push_back(
         {along, is_along(direction),
          (friction * a.friction_resultant.array() + (1 - friction) * a.friction_resultant_across.array()).transpose(),
-         (traction + (1 - traction) * a.traction_resultant_across.array()).transpose()});
+         (traction + (1 - traction) * a.traction_resultant_across.array()).transpose(),
+         waves_of_translation(plate, along == "x" ? 0 : 1)});
   }
   return result;
 }

@@ -20,6 +20,7 @@ struct FreeTranslation {
   Eigen::VectorXd motion;       ///< (nc) of externals and discs together
   Eigen::RowVectorXd friction;  ///< (h) resultant of each friction case, length^2
   Eigen::RowVectorXd traction;  ///< (q) resultant of a unit total force on each traction boundary
+  Eigen::VectorXd waves;        ///< (w) integrals over rims without a disc, along which the sheet moves, length^2
 };
 
 /// @param a Names of the cases, and the resultants of friction and tractions along and across their directions.

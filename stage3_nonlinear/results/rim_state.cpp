@@ -115,7 +115,8 @@ class PeakSearch {
     const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
     const bool near_kink =
         std::ranges::any_of(kinks, [&](double kink) { return std::abs(rim::wrapped(kink - peak.angle)) < 2 * step; });
-    if (const double curvature = before - 2 * peak.value + after; curvature < 0 && !near_kink) {
+    const bool is_top = peak.value >= std::max(before, after);  // and not where a jump begins or the model ends
+    if (const double curvature = before - 2 * peak.value + after; curvature < 0 && is_top && !near_kink) {
       const double shift = (before - after) / (2 * curvature);
       peak = {peak.value - curvature * shift * shift / 2, peak.angle + shift * step};
     }
@@ -223,7 +224,7 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
     state.filled = double(touched) > (1 - hardly) * double(around.pressure.size());
     if (state.filled) state.pull = std::max(0.0, -around.pressure.minCoeff());
   }
-  if (axes.size() == 1) state.across = -around.force(1 - axes[0], bearing_area[1 - axes[0]]);
+  if (axes.size() == 1) state.across = around.force(1 - axes[0], bearing_area[1 - axes[0]]);
   state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
 }
 
@@ -237,6 +238,7 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
   const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>());
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
+    state.peak_error = unknown;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
     std::vector<int> axes;
     for (int disc = 0; disc < count_of(discs.hole); ++disc) {

@@ -75,6 +75,8 @@ TEST_F(Run, PrintsATable) {
 TEST_F(Run, SaysThatASheetHasNoStiffness) {
   test::Lap lap{test::spring_plate(1, 0, {}), test::spring_plate(1, 0, {{0, test::ground, 1000}})};
   lap.a.traction_id = {"P"};
+  lap.a.traction_hole = {""};
+  lap.a.traction_unit_force = Eigen::VectorXd::Zero(1);
   lap.a.traction_direction = {"x"};
   lap.a.traction_bearing = {""};
   lap.a.T_d = {Eigen::MatrixXd::Constant(1, 1, -1)};

@@ -35,7 +35,6 @@ std::vector<PlateText> plate_scenes() {
               {"id": "half", "center": [1.6, 0], "radius": 0.25, "rings": 0, "waves": 6,
                "spring": {"modulus": 1e6, "compression_only": true}},
               {"id": "open", "center": [1.7, 1.3], "radius": 0.2, "waves": 4},
-              {"id": "none", "center": [1.7, 0.7], "radius": 0.05, "stresses": false},
               {"id": "sprung", "center": [0.5, 1.35], "radius": 0.15, "spring": {"modulus": 1e7, "arc": [-80, 30]}}],
     "supports": [{"on": "bottom", "fix": ["y"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},

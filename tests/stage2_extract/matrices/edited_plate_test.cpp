@@ -112,7 +112,15 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
   const auto pop = [](auto& a) {  // the last friction case
     a.friction_hole.pop_back();
     a.friction_bearing.pop_back();
-    for (auto& level : a.cases) level.R = level.R.leftCols(3).eval();
+    for (auto& level : a.cases) {
+      level.R = level.R.leftCols(3).eval();
+      const auto left = a.n_cases() - a.n_tractions();  // its own column stood behind them
+      for (auto* rows : {&level.W, &level.N}) {
+        Eigen::MatrixXd rest(rows->rows(), a.n_cases());
+        rest << rows->leftCols(left), rows->rightCols(a.n_tractions());
+        *rows = rest;
+      }
+    }
     a.probe.friction = a.probe.friction.head(3).eval();
   };
   refused(pop, "friction/hole: case 3 of 3 is missing, expected \"a:-y\"");
@@ -130,7 +138,10 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
       [&](auto& a) {  // without the matrices that go with it: names are checked first
         a.contact.assign(2, {"a", waves, 1, 0.2, 1});
         a.waves.assign(2, {"a", waves, 0.2, 1, 1});
-        for (auto& level : a.cases) level.W = Eigen::MatrixXd::Zero(12, a.n_cases());
+        for (auto& level : a.cases) {
+          level.W = Eigen::MatrixXd::Zero(12, a.n_cases());
+          level.N = Eigen::MatrixXd::Zero(level.N.rows(), a.n_cases());
+        }
         a.probe.wave = a.probe.moment = a.probe.friction_moment = Eigen::VectorXd::Zero(12);
       },
       "pressure/hole: names a hole twice");

@@ -96,7 +96,7 @@ TEST(RimWaves, InAWideSheetAreThoseOfTheClosedForm) {
   const auto a = test::extract(R"({"format": "plate", "version": 1, "analysis": "plane strain",
     "materials": {"m": {"E": 1e7, "nu": 0.3}},
     "geometry": {"grid": {"x": [-20, 20], "y": [-20, 20], "thickness": 0.1}},
-    "holes": [{"id": "h", "center": [0, 0], "radius": 1, "waves": 6,
+    "holes": [{"id": "h", "center": [0, 0], "radius": 1, "waves": 5,
                "spring": {"modulus": 5e6, "compression_only": true, "harmonics": 8}}],
     "supports": [{"on": "left", "fix": ["x", "y"]}]})")
                      .matrices;
@@ -111,7 +111,7 @@ TEST(RimWaves, InAWideSheetAreThoseOfTheClosedForm) {
       D.bottomRightCorner(k - n, k - n) - modulus * D_nt.transpose() * held * D_nt;
   for (Index i = 3; i < k; ++i)  // of order 2 and more
     if (i < n || i >= n + 3) {
-      const double bound = (i < n + 5 && i >= n) || i < 5 ? 2e-3 : 2e-4;  // order 2 comes back as (a / 2 e)^2
+      const double bound = (i < n + 5 && i >= n) || i < 5 ? 6e-3 : 1e-3;  // of order 2 the edges send back most
       EXPECT_NEAR(found(i, i) / expected(i, i), 1, bound) << i;
     }
 }

@@ -164,6 +164,8 @@ TEST(JointModel, RefusesNamesThatThePlatesDoNotHave) {
 TEST(JointModel, RefusesADisplacementOfATraction) {
   auto lap = test::two_fastener_lap();
   lap.a.traction_id = {"T"};
+  lap.a.traction_hole = {""};
+  lap.a.traction_unit_force = Eigen::VectorXd::Zero(1);
   lap.a.traction_direction = {"y"};
   lap.a.traction_bearing = {""};
   lap.a.T_d = {Eigen::MatrixXd::Zero(2, 1)};

@@ -34,6 +34,8 @@ test::Lap lap_with_traction() {
   test::add_friction(lap.a, random);
   test::add_friction(lap.b, random);
   lap.a.traction_id = {"T"};
+  lap.a.traction_hole = {""};
+  lap.a.traction_unit_force = Eigen::VectorXd::Zero(1);
   lap.a.traction_direction = {"x"};
   lap.a.traction_bearing = {""};
   lap.a.T_d = {Eigen::Vector3d(-0.5, -0.3, -0.1)};

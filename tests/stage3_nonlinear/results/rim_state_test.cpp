@@ -33,24 +33,33 @@ struct Plate {
   int level;
 };
 
-/// Means over the part of the rim that the model has of a function times the pressures.
-Eigen::VectorXd coefficients(const rim::Harmonics& waves, const Function& f) {
+/// Displacement of a disc that stands still against the sheet around an open hole whose hoop stress is `hoop`. With
+/// Kolosov's potential phi it is 4 Re phi', and the rim moves by 4 phi / E: a hoop stress cos k theta is that of
+/// z^(1-k) / (4 (1 - k)), or z^2 / 8 where k = 1.
+Eigen::VectorXd displacement(const rim::Harmonics& waves, const Function& hoop) {
+  const rim::Harmonics whole{waves.highest};
   constexpr int n = 3600;
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(waves.size());
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(whole.size());
   for (int i = 0; i < n; ++i) {
-    const double angle = waves.start + (i + 0.5) / n * waves.sweep;
-    result += f(angle) / n * waves.at(angle);
+    const double angle = (i + 0.5) / n * rim::full_turn;
+    f += hoop(angle) / n * whole.at(angle);
   }
-  return result;
+  Eigen::VectorXd normal = f, along = Eigen::VectorXd::Zero(f.size());
+  for (int k = 1; k <= whole.highest; ++k) {
+    const double part = k == 1 ? -2.0 : 1.0 - k;
+    normal.segment<2>(2 * k - 1) = f.segment<2>(2 * k - 1) / std::abs(part) * (k == 1 ? 1 : -1);
+    along.segment<2>(2 * k - 1) << f[2 * k] / part, -f[2 * k - 1] / part;
+  }
+  Eigen::VectorXd result(waves.size() + waves.n_shears());
+  result << waves.pressures_of_whole().transpose() * normal, waves.shears_of_whole().transpose() * along;
+  return -rim_radius / E * result;
 }
 
-/// A rim whose free sheet has the hoop stress `hoop`, by normal displacements alone, and is 1 % more at the degree
-/// below.
+/// A rim in a sheet whose hoop stress is `hoop`, 1 % more at the degree below.
 LoadedRim loaded(const rim::Harmonics& waves, const Function& hoop) {
   formats::WaveRim rim{"1", waves, rim_radius, 1, 0};
   rim.compliance = pfem::elasticity(pfem::isotropic(E, 0.3), 0, pfem::Analysis::plane_stress).inverse();
-  Eigen::VectorXd w = Eigen::VectorXd::Zero(rim.size());
-  w.head(waves.size()) = -rim_radius / E * coefficients(waves, hoop);
+  const Eigen::VectorXd w = displacement(waves, hoop);
   const Tractions none = [](double) -> Eigen::Vector2d { return {0, 0}; };
   return {rim, {{w, none}, {1.01 * w, none}}, false, {}};
 }
@@ -97,7 +106,7 @@ TEST(RimState, PeakBetweenPoints) {
         plate([&](double t) { return std::cos(t - top * degree) + 0.3 * std::cos(2 * (t - top * degree)); }), 0, 0);
     EXPECT_NEAR(s.peak_hoop, 1.3, 1e-8) << top;
     EXPECT_NEAR(std::remainder(s.peak_angle - top, 360), 0, 1e-3) << top;
-    EXPECT_GT(s.peak_error, 2 * 0.013 * (1 - 1e-6)) << "twice the change from the degree below";
+    EXPECT_GT(s.peak_error, 2 * 0.013 * (1 - 1e-4)) << "twice the change from the degree below";
     EXPECT_LT(s.peak_error, 2 * 0.013 * 1.01);
   }
 }
@@ -119,7 +128,7 @@ TEST(RimState, ErrorHasWhatTheWavesLeaveOut) {
   });
   model.rim->degrees[1] = model.rim->degrees[0];
   const double left_out = std::pow(2, -n / 2.0) / (std::sqrt(2) - 1), error = state(model, 0, 0).peak_error;
-  EXPECT_GT(error, left_out);
+  EXPECT_GT(error, 0.99 * left_out);
   EXPECT_LT(error, 3 * left_out);
 }
 

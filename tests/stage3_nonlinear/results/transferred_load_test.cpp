@@ -93,7 +93,11 @@ struct Rubbing {
 std::vector<std::vector<Rubbing>> rub(JointModel& joint, std::mt19937& random) {
   std::uniform_real_distribution<double> number(0, 1);
   std::vector<std::vector<Rubbing>> all;
-  for (auto& plate : joint.plates) plate.friction_unit_force = VectorXd::Ones(1);  // that has the case of all
+  for (auto& plate : joint.plates) {  // one case that is that of all
+    plate.friction_unit_force = VectorXd::Ones(1);
+    plate.friction_hole = {""};
+    plate.R = MatrixXd::Zero(plate.n_unknowns(), 1);
+  }
   for (auto& fastener : joint.fasteners) {
     auto& holes = all.emplace_back();
     fastener.law_includes_friction = number(random) < 0.5;
