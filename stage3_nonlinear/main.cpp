@@ -15,6 +15,7 @@ const fastjoint::program::Command command{
     .options = {
         {"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
         {"--all-stresses", "", "print the stresses around the holes at every increment, not at the last alone"},
+        {"--rim-stresses", "", "also write the stresses around all holes, one degree apart, at every increment"},
         {"--csv", "FILE", "also write one line per increment and shear plane"},
         {"--sensitivities", "",
          "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}}};

@@ -57,13 +57,15 @@ double matrices_need(const JointScene& scene) {
 }
 
 /// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments.
-void require_memory(const JointScene& scene, const JointModel& joint, bool with_csv, bool with_sensitivities) {
+void require_memory(const JointScene& scene, const JointModel& joint, bool with_csv, bool with_sensitivities,
+                    bool with_rim_stresses) {
   using program::bytes_text;
   const JointNumbers numbers = names_of_numbers(joint);  // their derivatives take as long as a run
   const double n = double(joint.n_planes());
   double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
-  constexpr double number = sizeof(double), of_rim = 17, of_stiffness = 24;
+  constexpr double number = sizeof(double), of_stiffness = 24;
+  const double of_rim = with_rim_stresses ? 17 + 3 * 360 : 17;
   double solving = 0, of_step = of_plane * n;
   for (const auto& plate : joint.plates) {
     const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
@@ -78,8 +80,9 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
       scene.file + ": this", read + solving + results,
       fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),
                   program::counted(n_steps, "increment"), bytes_text(results)),
-      fmt::format("fewer increments, or {}",
-                  with_sensitivities ? "no --sensitivities" : "matrices of stage2_extract --loads-only"));
+      fmt::format("fewer increments, or {}", with_sensitivities  ? "no --sensitivities"
+                                             : with_rim_stresses ? "no --rim-stresses"
+                                                                 : "matrices of stage2_extract --loads-only"));
 }
 
 }  // namespace
@@ -89,6 +92,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   const int p = arguments.integer("--p", 1, formats::highest_degree, 0);
   const std::string csv_file = arguments.text("--csv");
   const bool with_sensitivities = arguments.flag("--sensitivities");
+  const bool with_rim_stresses = arguments.flag("--rim-stresses");
   check_csv(arguments, csv_file);
   const auto document = input::parse(arguments.input, input::read_text_file(arguments.input));
   const JointScene scene = read_joint_scene(document);
@@ -103,7 +107,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (scene.solver.method == Method::exact_path && joint.n_moments() > 0)
     refuse(scene.file + ": /solver/method", "\"exact path\", but springs of holes push and do not pull",
            "another method, or holes without \"compression_only\"");
-  require_memory(scene, joint, !csv_file.empty(), with_sensitivities);
+  require_memory(scene, joint, !csv_file.empty(), with_sensitivities, with_rim_stresses);
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
   const PathOptions solving{scene.initial, scene.solver};
@@ -116,7 +120,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));
   warn(log, rim_warnings(joint, states));
-  auto result = joint_result(joint, equations, path, states);
+  auto result = joint_result(joint, equations, path, states, with_rim_stresses);
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   result.F_error = force_errors(joint, equations, path, states);
   if (with_sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);

@@ -38,6 +38,16 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
     file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
          each.is_error ? h5::infinite_too : h5::Allowed{});
   }
+  if (auto* around = file.part(group + "sigma_tt", a.stresses)) {
+    file(group + "start", around->start, {r + 1}, "1", "first point of each rim, and the number of points",
+         h5::integers(0, std::numeric_limits<int>::max()));
+    const Eigen::Index n = r > 0 ? around->start[r] : 0;
+    file(group + "angle", around->angle, {n}, "deg", "place of each point on its rim, counter-clockwise from x");
+    const std::string stress = unit_of(Dimension::stress, units);
+    file(group + "sigma_rr", around->rr, {steps, n}, stress, "radial stress of the sheet at each point");
+    file(group + "sigma_tt", around->tt, {steps, n}, stress, "hoop stress at each point");
+    file(group + "sigma_rt", around->rt, {steps, n}, stress, "shear stress at each point");
+  }
 }
 
 template <class File, class Plate>
@@ -58,55 +68,54 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   contact_datasets(file, a.contact, units, group);
   const Eigen::Index g = a.contact.size();
   if constexpr (File::reads) a.waves.resize(g);
-  file(group + "wave/order", Column{a.waves, [](auto& rim) -> auto& { return rim.waves.highest;
-}
-}  // namespace
-, {g}, "1",
+  const auto order_of = [](auto& rim) -> decltype(auto) { return (rim.waves.highest); };
+  file(group + "wave/order", Column{a.waves, order_of}, {g}, "1",
        "highest order of the waves of each rim of contact that are unit cases of the sheet",
        h5::integers(1, rim::most_harmonics));
-Eigen::Index k = 0, n_w = 0;
-for (Eigen::Index i = 0; i < g; ++i) {
-  if constexpr (File::reads) {
-    const int order = a.waves[i].waves.highest;
-    a.waves[i].hole = a.contact[i].hole;
-    a.waves[i].waves = a.contact[i].pressures;
-    a.waves[i].waves.highest = order;
+  Eigen::Index k = 0, n_w = 0;
+  for (Eigen::Index i = 0; i < g; ++i) {
+    if constexpr (File::reads) {
+      const int order = a.waves[i].waves.highest;
+      a.waves[i].hole = a.contact[i].hole;
+      a.waves[i].waves = a.contact[i].pressures;
+      a.waves[i].waves.highest = order;
+    }
+    k += a.waves[i].size();
+    n_w += a.contact[i].pressures.size();
   }
-  k += a.waves[i].size();
-  n_w += a.contact[i].pressures.size();
+  file(group + "wave/amount", a.amounts, {steps, k}, unit(units, -2, 1),
+       "amount of each of these waves, pressures then shears, rim after rim; of pressures what contact adds to that of "
+       "springs all around");
+  file(group + "contact/w", a.w, {steps, n_w}, length,
+       "mean over the rim of the disc's normal displacement against the sheet times each distribution of pressure, rim "
+       "after rim");
+  file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
+  file(group + "contact/no_load_peak", a.contacts.no_load_peak, {g}, unit(units, -2, 1),
+       "largest pressure on the rim at no load", h5::or_else(0));
+  file(group + "contact/no_load_least", a.contacts.no_load_least, {g}, unit(units, -2, 1),
+       "least pressure on the rim at no load", h5::or_else(0));
+  file(group + "contact/full_until", a.contacts.full_until, {g}, "1",
+       "load factor at which a rim with interference first loses full contact", h5::not_negative.or_else(h5::infinite));
+  file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
+  file(group + "contact/from", a.contacts.from, {steps, g}, "deg", "start of the widest arc on which they touch");
+  file(group + "contact/to", a.contacts.to, {steps, g}, "deg", "end of this arc, counter-clockwise from x");
+  file(group + "contact/peak_pressure", a.contacts.peak_pressure, {steps, g}, unit(units, -2, 1),
+       "largest pressure on the rim");
+  file(group + "contact/peak_angle", a.contacts.peak_angle, {steps, g}, "deg",
+       "place of this pressure, or of the least gap");
+  file(group + "contact/least_gap", a.contacts.least_gap, {steps, g}, length,
+       "least gap between disc and rim, 0 where they touch");
+  file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
+  const Eigen::Index h = a.friction_hole.size();
+  file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
+  file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
+  file(group + "traction/id", a.traction_id, {any}, "1",
+       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
+  file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side,
+       traction_sides());
+  file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
+  rim_datasets(file, group + "rim/", a.rims, steps, units);
 }
-file(group + "wave/amount", a.amounts, {steps, k}, unit(units, -2, 1),
-     "amount of each of these waves, pressures then shears, rim after rim; of pressures what contact adds to that of "
-     "springs all around");
-file(group + "contact/w", a.w, {steps, n_w}, length,
-     "mean over the rim of the disc's normal displacement against the sheet times each distribution of pressure, rim "
-     "after rim");
-file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
-file(group + "contact/no_load_peak", a.contacts.no_load_peak, {g}, unit(units, -2, 1),
-     "largest pressure on the rim at no load", h5::or_else(0));
-file(group + "contact/no_load_least", a.contacts.no_load_least, {g}, unit(units, -2, 1),
-     "least pressure on the rim at no load", h5::or_else(0));
-file(group + "contact/full_until", a.contacts.full_until, {g}, "1",
-     "load factor at which a rim with interference first loses full contact", h5::not_negative.or_else(h5::infinite));
-file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
-file(group + "contact/from", a.contacts.from, {steps, g}, "deg", "start of the widest arc on which they touch");
-file(group + "contact/to", a.contacts.to, {steps, g}, "deg", "end of this arc, counter-clockwise from x");
-file(group + "contact/peak_pressure", a.contacts.peak_pressure, {steps, g}, unit(units, -2, 1),
-     "largest pressure on the rim");
-file(group + "contact/peak_angle", a.contacts.peak_angle, {steps, g}, "deg",
-     "place of this pressure, or of the least gap");
-file(group + "contact/least_gap", a.contacts.least_gap, {steps, g}, length,
-     "least gap between disc and rim, 0 where they touch");
-file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
-const Eigen::Index h = a.friction_hole.size();
-file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
-file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
-file(group + "traction/id", a.traction_id, {any}, "1",
-     "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
-file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side, traction_sides());
-file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
-rim_datasets(file, group + "rim/", a.rims, steps, units);
-}  // namespace fastjoint::formats
 
 template <class File, class Sensitivity>
 void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen::Index n, const Units& units) {

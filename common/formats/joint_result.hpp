@@ -34,11 +34,19 @@ struct RimQuantity {
 /// All members, in the order of the columns.
 [[nodiscard]] std::span<const RimQuantity> rim_quantities();
 
+/// Stresses of the sheet at points around its holes, one row per increment.
+struct RimStresses {
+  Eigen::VectorXi start;       ///< (r + 1) first point of each rim, and k; a rim without a closed form has none
+  Eigen::VectorXd angle;       ///< (k) counter-clockwise from x, degrees
+  Eigen::MatrixXd rr, tt, rt;  ///< (steps, k) stress
+};
+
 /// The holes of a plate, open ones included, at every increment.
 struct RimHistory {
   std::vector<std::string> hole;               ///< (r); none if the plate's matrices hold no stresses at this degree
   Eigen::VectorXi sections;                    ///< (r) how many sections across x beside the hole the plate has
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
+  std::optional<RimStresses> stresses{};       ///< if they were asked for
 };
 
 /// Forces of fasteners on the m discs of a plate: resultants on its rims along the discs' directions, force.

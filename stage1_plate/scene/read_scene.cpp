@@ -81,9 +81,9 @@ double modulus_ratio(const Eigen::Matrix3d& elasticity) {
   return most / least;
 }
 
-/// Rings where the scene does not say how many: as many as leave each ring a moderate ratio of radii, which is smaller in
-/// sheets that are stiffer along one direction, whose fields change faster close to the rim; at least one in contact.
-/// None where no stresses are wanted.
+/// Rings where the scene does not say how many: as many as leave each ring a moderate ratio of radii, which is smaller
+/// in sheets that are stiffer along one direction, whose fields change faster close to the rim; at least one in
+/// contact. None where no stresses are wanted.
 void set_default_rings(const GridGeometry& grid, PlateScene& scene) {
   constexpr double widest = 3.2, widest_of_laminates = 2, alike = 2;
   constexpr int most = 6;

@@ -30,8 +30,8 @@ double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), least * largest(plate.held_stiffness));
 }
 
-/// Integral over a rim that errors of the first `n_waves` rows of W by displacements are compared with: the largest, or a
-/// share of the rims' area where the plate follows its one disc.
+/// Integral over a rim that errors of the first `n_waves` rows of W by displacements are compared with: the largest, or
+/// a share of the rims' area where the plate follows its one disc.
 double scale_of_motion(const PlateSolution& plate, const PlateCases& level, Eigen::Index n_waves) {
   double area = 0;
   for (Eigen::Index i = 0; i < std::ssize(plate.waves) && plate.n_waves_before(i) < n_waves; ++i)

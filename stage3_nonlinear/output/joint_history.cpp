@@ -16,7 +16,38 @@
 namespace fastjoint::stage3 {
 namespace {
 
-formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, Index at) {
+/// Stresses one degree apart around all holes of a plate at every increment.
+formats::RimStresses rim_stresses(const std::vector<std::string>& holes, const std::vector<JointState>& states,
+                                  Index at) {
+  const auto rims = [&](Index step) -> const auto& { return states[step].plates[at].loaded; };
+  formats::RimStresses a;
+  a.start = Eigen::VectorXi::Zero(std::ssize(holes) + 1);
+  if (states.empty()) return a;
+  std::vector<std::pair<Index, VectorXd>> sampled;  // index of a rim, and places on it, in the order of holes
+  for (Index i = 0; i < std::ssize(holes); ++i) {
+    a.start[i + 1] = a.start[i];
+    for (Index j = 0; j < std::ssize(rims(0)); ++j)
+      if (const auto& rim = rims(0)[j]; rim && rim->rim.hole == holes[i])
+        a.start[i + 1] += count_of(sampled.emplace_back(j, rim->places()).second);
+  }
+  const Index n = a.start[std::ssize(holes)];
+  a.angle.resize(n);
+  for (auto* table : {&a.rr, &a.tt, &a.rt}) table->resize(std::ssize(states), n);
+  for (Index step = 0; step < std::ssize(states); ++step) {
+    Index next = 0;
+    for (const auto& [rim, places] : sampled) {
+      const MatrixXd stresses = rims(step)[rim]->stresses(places);
+      a.angle.segment(next, places.size()) = places;
+      for (const auto& [table, column] : {std::pair(&a.rr, 0), std::pair(&a.tt, 1), std::pair(&a.rt, 2)})
+        table->row(step).segment(next, places.size()) = stresses.col(column).transpose();
+      next += places.size();
+    }
+  }
+  return a;
+}
+
+formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, Index at,
+                                    bool with_rim_stresses) {
   formats::PlateHistory history;
   history.name = plate.name;
   history.matrices_digest = plate.matrices_digest;
@@ -50,6 +81,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.traction = rows(&PlateState::traction, plate.traction_force.size());
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
   if (plate.stress_level) history.rims = rims_of(plate.stresses);
+  if (plate.stress_level && with_rim_stresses) history.rims.stresses = rim_stresses(history.rims.hole, states, at);
   for (const auto& state : states) {
     const auto& rims = state.plates[at].rims;
     history.rims.values.emplace_back(rims.begin(), rims.end());
@@ -101,7 +133,7 @@ std::string csv_heads(const JointModel& joint) {
 }  // namespace
 
 formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                                  const std::vector<JointState>& states) {
+                                  const std::vector<JointState>& states, bool with_rim_stresses) {
   const Index steps = path.steps.size(), n = joint.n_planes(), a = joint.n_directions();
   formats::JointResult result;
   result.p = joint.p;
@@ -141,7 +173,7 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
   for (Index d = 0; d < std::ssize(joint.axes); ++d) result.direction.emplace_back(joint.axis_name(d));
   auto contacts = contact_histories(joint, equations, path);
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    result.plates.push_back(plate_history(joint.plates[i], states, i));
+    result.plates.push_back(plate_history(joint.plates[i], states, i, with_rim_stresses));
     result.plates.back().contacts = std::move(contacts[i]);
   }
   return result;

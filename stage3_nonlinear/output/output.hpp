@@ -12,8 +12,10 @@
 namespace fastjoint::stage3 {
 
 /// The path as RESULT.h5 holds it, one state per step; the header is left to the caller.
+/// @param with_rim_stresses Also the stresses around all holes, one degree apart.
 [[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations,
-                                                const LoadPath& path, const std::vector<JointState>& states);
+                                                const LoadPath& path, const std::vector<JointState>& states,
+                                                bool with_rim_stresses);
 
 /// The derivatives of the bearing forces at every step of the path, as RESULT.h5 holds them.
 [[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,

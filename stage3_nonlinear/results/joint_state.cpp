@@ -157,8 +157,8 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
   }
   if (plate.stress_level) {
     const VectorXd amounts = unit_case_amounts(plate, state);
-    state.rims = rim_states(plate.stresses, *plate.stress_level, amounts, loaded_discs(plate, state),
-                            loaded_rims(plate, amounts, loads));
+    state.loaded = loaded_rims(plate, amounts, loads);
+    state.rims = rim_states(plate.stresses, *plate.stress_level, amounts, loaded_discs(plate, state), state.loaded);
   }
   worst_row = std::max(
       {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});

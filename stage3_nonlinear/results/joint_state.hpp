@@ -20,7 +20,9 @@ struct PlateState {
   VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
-  std::vector<RimState> rims = {};  ///< of every hole, if its matrices hold stresses at the joint's degree
+  // Of every hole, and of those with waves and a closed form, if its matrices hold stresses at the joint's degree:
+  std::vector<RimState> rims = {};
+  std::vector<std::optional<LoadedRim>> loaded = {};
   // Sums of the forces that act on the plate along x and y, force.
   Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
   Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction

@@ -178,6 +178,24 @@ VectorXd wave_amounts(const ContactLoad& load, const ShortWaves& rim, double mod
   return amounts;
 }
 
+VectorXd LoadedRim::places() const {
+  const auto& [highest, start, sweep] = rim.waves;
+  const Index steps = std::lround(sweep / rim::degree);
+  if (rim.waves.is_whole()) return VectorXd::LinSpaced(steps, 0, double(steps - 1));
+  return VectorXd::LinSpaced(steps + 1, start / rim::degree, (start + sweep) / rim::degree);
+}
+
+MatrixXd LoadedRim::stresses(const VectorXd& places) const {
+  const HoopStress hoop_stress = hoop(0, rim.waves);
+  MatrixXd result(places.size(), 3);
+  for (Index i = 0; i < places.size(); ++i) {
+    const double angle = places[i] * rim::degree;
+    const Eigen::Vector2d traction = degrees[0].tractions(angle);
+    result.row(i) << -traction.x(), hoop_stress.at(angle), -traction.y();
+  }
+  return result;
+}
+
 HoopStress LoadedRim::hoop(Index degree, const rim::Harmonics& shape) const {
   const RimWaves& waves = degrees[degree];
   VectorXd displacement(shape.size() + shape.n_shears());

@@ -27,6 +27,10 @@ struct LoadedRim {
   Tractions by_joints_waves{};
   std::vector<double> kinks_by_joints_waves{};
 
+  /// Places one degree apart around the rim, or from end to end of a part of one in equal steps of about that, degrees.
+  [[nodiscard]] VectorXd places() const;
+  /// Stresses of the sheet at places in degrees: sigma_rr, sigma_tt, sigma_rt, (n, 3).
+  [[nodiscard]] MatrixXd stresses(const VectorXd& places) const;
   /// Hoop stress by the displacements of one degree up to an order.
   [[nodiscard]] HoopStress hoop(Index degree, const rim::Harmonics& shape) const;
   /// The same of the joint's degree by other tractions.

@@ -136,8 +136,9 @@ class PeakSearch {
                                 [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= left_out; });
   }
 
-  /// Twice the change to the degree below, what the changes by the last two pairs of orders leave for all orders to come,
-  /// and in contact half the change of the peak by the waves that the joint leaves out (docs/theory.md, section 11.4).
+  /// Twice the change to the degree below, what the changes by the last two pairs of orders leave for all orders to
+  /// come, and in contact half the change of the peak by the waves that the joint leaves out (docs/theory.md,
+  /// section 11.4).
   [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak) const {
     if (rim_.degrees.size() < 2) return unknown;
     const rim::Harmonics& all = rim_.rim.waves;

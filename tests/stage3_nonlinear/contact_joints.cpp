@@ -63,8 +63,8 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
   PlateModel body;
   for (Index i = 0; i < kind.n_holes; ++i) {
     body.holes.push_back(fmt::format("{}", i + 1));
-    const auto& rim = body.contact.emplace_back(
-        formats::ContactRim{body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
+    const auto& rim =
+        body.contact.emplace_back(formats::ContactRim{body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
     const auto& carried =
         body.waves.emplace_back(formats::WaveRim{rim.hole, rim.pressures, rim.radius, rim.area, rim.modulus});
     body.short_waves.push_back(short_waves(rim, carried));

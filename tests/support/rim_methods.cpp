@@ -36,8 +36,7 @@ Eigen::MatrixXd plain_rim_stress(const stage2::Fields& fields, const RimPoint& p
   return mean;
 }
 
-Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::vector<RimPoint>& points,
-                                     int highest) {
+Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::vector<RimPoint>& points, int highest) {
   const auto& plate = fields.solver.plate();
   const auto& rim = plate.hole_rim[0];
   const Eigen::Index n = highest / 2 + 1;

@@ -18,13 +18,12 @@ namespace fastjoint::test {
 /// its displacement. Each is an integral of the displacement with a smooth weight, so that its error is the product of
 /// two energy-norm errors, as that of S is; shape (n_points, k).
 /// @param highest Highest harmonic, even.
-[[nodiscard]] Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields,
-                                                   const std::vector<RimPoint>& points, int highest);
+[[nodiscard]] Eigen::MatrixXd harmonic_hoop_strain(const stage2::Fields& fields, const std::vector<RimPoint>& points,
+                                                   int highest);
 
 /// The same from the polynomial of degree p in the angle that fits the hoop strains at the p Gauss points of every side
 /// of the quarter best, shape (n_points, k): patch recovery, Zienkiewicz & Zhu, Int. J. Numer. Meth. Engng 33,
 /// 1331 (1992), along the rim.
-[[nodiscard]] Eigen::MatrixXd patch_hoop_strain(const stage2::Fields& fields,
-                                                const std::vector<RimPoint>& points);
+[[nodiscard]] Eigen::MatrixXd patch_hoop_strain(const stage2::Fields& fields, const std::vector<RimPoint>& points);
 
 }  // namespace fastjoint::test

@@ -39,8 +39,9 @@ struct RimStresses {
 /// program has them in waves.
 ///
 /// sigma_rr and sigma_rt are the known tractions of springs, waves of contact, bearing load and friction; sigma_tt
-/// follows from them and the strain of the elements along the rim by the material's law, without a derivative across the
-/// rim. The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other ways.
+/// follows from them and the strain of the elements along the rim by the material's law, without a derivative across
+/// the rim. The mean of both sides counts where two meet. tests/bench/rim_stress.cpp compares this with three other
+/// ways.
 class RimStress {
  public:
   RimStress(const stage2::FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
@@ -54,7 +55,8 @@ class RimStress {
     Eigen::Matrix3Xd hoop;                   ///< what sigma_rr, that strain and sigma_rt give of sigma_tt at each
     Eigen::RowVectorXd share;                ///< of this side in the mean at each
   };
-  void add_side(const stage2::FieldSolver& solver, int hole, const pfem::Side& side, const std::vector<RimPoint>& points);
+  void add_side(const stage2::FieldSolver& solver, int hole, const pfem::Side& side,
+                const std::vector<RimPoint>& points);
   void add_tractions(const stage2::FieldSolver& solver, int hole, const std::vector<RimPoint>& points);
 
   std::vector<SidePoints> sides_;

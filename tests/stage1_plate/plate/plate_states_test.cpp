@@ -52,8 +52,8 @@ TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
             << name << ", p = " << p << ", element " << element;
       }
       const Eigen::MatrixXd D = border.topRows(nc), Lambda = border.bottomRows(border.rows() - nc);
-      const Eigen::MatrixXd forces = problem.K_fc.topRows(n).transpose() * X + problem.K_cc * D -
-                                     problem.L_c.leftCols(Lambda.rows()) * Lambda;
+      const Eigen::MatrixXd forces =
+          problem.K_fc.topRows(n).transpose() * X + problem.K_cc * D - problem.L_c.leftCols(Lambda.rows()) * Lambda;
       const Eigen::MatrixXd moments = -(problem.L_f.topRows(n).transpose() * X) - problem.L_c.transpose() * D;
       const double scale = problem.K_fc.norm() * X.norm() + problem.K_cc.norm() * D.norm();
       const double scale_of_moments = problem.L_f.norm() * X.norm() + problem.L_c.norm() * D.norm();

@@ -40,18 +40,17 @@ TEST(Unknowns, ColumnsOfTheBorderAreInTheirOrder) {
   const auto hole = [](const char* id, double x, const char* more) {
     return fmt::format(R"({{"id": "{}", "center": [{}, 0.5], "radius": 0.2, {}}})", id, x, more);
   };
-  const auto plate = test::make_plate(
-      fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x", "y"],
+  const auto plate = test::make_plate(fmt::format(
+      R"({{"format": "plate", "version": 1, "analysis": "plane stress", "disc_directions": ["x", "y"],
     "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [0, 1, 2, 3, 4, 5], "y": [0, 1], "thickness": 0.1}}}},
     "supports": [{{"on": "left", "fix": ["x"]}}],
     "external": [{{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}}],
     "holes": [{}, {}, {}, {}, {}]}})",
-                  hole("sprung", 0.5, R"("waves": 3, "spring": {"modulus": 1e6})"),
-                  hole("contact", 1.5, R"("waves": 4, "spring": {"modulus": 1e6, "compression_only": true})"),
-                  hole("open", 2.5, R"("waves": 5)"),
-                  hole("none", 3.5, R"("stresses": false, "spring": {"modulus": 1e6})"),
-                  hole("contact too", 4.5, R"("waves": 6, "spring": {"modulus": 1e6, "compression_only": true})")));
+      hole("sprung", 0.5, R"("waves": 3, "spring": {"modulus": 1e6})"),
+      hole("contact", 1.5, R"("waves": 4, "spring": {"modulus": 1e6, "compression_only": true})"),
+      hole("open", 2.5, R"("waves": 5)"), hole("none", 3.5, R"("stresses": false, "spring": {"modulus": 1e6})"),
+      hole("contact too", 4.5, R"("waves": 6, "spring": {"modulus": 1e6, "compression_only": true})")));
   const auto& unknowns = plate.problem.unknowns;
   constexpr int nc = 1 + 4 * 2, loaded = 2 * 9 + 2 * 13, friction = 2 * 4, others = 2 * 7 + 2 * 11;
   EXPECT_EQ(unknowns.n_controlled(), nc);
@@ -70,8 +69,8 @@ TEST(Unknowns, ColumnsOfTheBorderAreInTheirOrder) {
   for (int i = 0; i < 14; ++i) expected.push_back(first_other + i);
   for (int i = 0; i < 4; ++i) expected.push_back(nc + loaded + i);
   EXPECT_EQ(unknowns.border_of({0}), expected);
-  EXPECT_EQ(plate.problem.friction_hole, (std::vector<std::string>{"sprung", "sprung", "sprung", "sprung", "none", "none",
-                                                                   "none", "none"}));
+  EXPECT_EQ(plate.problem.friction_hole,
+            (std::vector<std::string>{"sprung", "sprung", "sprung", "sprung", "none", "none", "none", "none"}));
 }
 
 TEST(Unknowns, TwoMastersOfOneDisplacementAreRefused) {

@@ -88,9 +88,9 @@ Plate flat() {
 
 /// The state in which the second case acts once.
 RimState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::VectorXd& friction) {
-  const auto states =
-      rim_states(model.stresses, model.level, Eigen::Vector2d(2, 1),
-                 {std::vector<std::string>(model.axes.size(), model.holes[0]), model.axes, bearing, friction}, {model.rim});
+  const auto states = rim_states(
+      model.stresses, model.level, Eigen::Vector2d(2, 1),
+      {std::vector<std::string>(model.axes.size(), model.holes[0]), model.axes, bearing, friction}, {model.rim});
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
 }
@@ -224,7 +224,8 @@ TEST(RimState, SpringsOnTheWrongArcPull) {
   EXPECT_FALSE(state(pressed([](double t) { return std::max(std::cos(t), 0.0); }), 1, 0).pulls);
   const Plate wrong = pressed([](double t) { return -std::max(std::cos(t), 0.0); });
   EXPECT_TRUE(state(wrong, -1, 0).pulls);
-  const Plate around = pressed([](double t) { return -std::cos(t) - 3 * std::cos(2 * t); });  // beside a large bypass load
+  const Plate around =
+      pressed([](double t) { return -std::cos(t) - 3 * std::cos(2 * t); });  // beside a large bypass load
   EXPECT_FALSE(state(around, -1, 0).pulls);
   EXPECT_FALSE(state(around, 0, 0).pulls) << "nothing to push";
 }
@@ -243,7 +244,8 @@ TEST(RimState, ForceAcrossIsThatOfThePressure) {
 
 TEST(RimState, NothingIsKnownToHoldADiscAcrossOnALineOfSymmetryOrInThePlane) {
   const auto pressure = [](double t) { return std::sin(t); };
-  EXPECT_TRUE(std::isnan(state(pressed({highest, 0, rim::full_turn / 2}, pressure), 1, 0).across)) << "symmetry holds it";
+  EXPECT_TRUE(std::isnan(state(pressed({highest, 0, rim::full_turn / 2}, pressure), 1, 0).across))
+      << "symmetry holds it";
   Plate both = pressed(pressure);
   both.axes = {0, 1};
   EXPECT_TRUE(std::isnan(plane_state(both, {1, 0}, 0).across)) << "it moves";
