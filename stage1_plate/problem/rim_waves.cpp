@@ -12,8 +12,6 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Part of a wave of order 1 below which what comes back from elsewhere is left to the closed form.
-constexpr double left_out = 1e-4;
 constexpr int lowest_order = 4;
 /// Waves that an element of degree p follows along its side, per degree: a side with k waves needs p > pi k, and a
 /// little more.
@@ -118,7 +116,7 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     const double turn = rim::full_turn / shape.sweep;
     const int followed =
         std::max(lowest_order, static_cast<int>(waves_per_side * scene.p_high * count_of(plate.rims[i].sides) * turn));
-    const double wanted = fall < 1 ? 1 + std::log(left_out) / std::log(std::max(fall, 1e-9)) : followed;
+    const double wanted = fall < 1 ? 1 + std::log(scene.left_out_of_waves) / std::log(std::max(fall, 1e-9)) : followed;
     const int order =
         hole.waves > 0 ? hole.waves : std::clamp(static_cast<int>(std::ceil(wanted)), lowest_order, followed);
     shape.highest = std::min(shape.highest, order);

@@ -2,15 +2,21 @@
 #include "stage1_plate/run/accuracy.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/errors.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
+#include "stage1_plate/run/hoop_error.hpp"
 #include "stage1_plate/run/solve.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
+
+/// Most that waves may leave out (PlateScene::left_out_of_waves).
+constexpr double most_left_out = 1e-2;
 
 bool leaves_rings(const PlateScene& scene, const Hole& hole) {
   return std::holds_alternative<GridGeometry>(scene.geometry) && !hole.has_rings;
@@ -22,22 +28,29 @@ void raise_degree(Accuracy& model) {
   PlateProblem problem = number_unknowns(model.scene, plate);
   check_held(model.scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
-  if (problem.unknowns.n_controlled() == 0)
+  if (problem.unknowns.n_controlled() == 0 && std::isfinite(model.asked.matrices))
     throw InputError(
         fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
                     "missing; allowed: a scene with a disc or a rigid external",
                     model.scene.file));
   const int highest = model.scene.p_high;
+  const bool with_hoop = std::isfinite(model.asked.hoop);
+  const auto waves = rim_waves(model.scene, plate);
+  Eigen::MatrixXd below;
   matrices::CondensedLevels levels;
   for (int p = model.scene.p_low; p <= highest; ++p) {
     const auto alone = Eigen::VectorXi::Constant(1, p);
     require_memory(model.scene.file, p, memory_need(problem, skeleton, alone));
     if (p == model.scene.p_low) integrate(model.scene, plate, problem);
-    const plate::PlateFactor K(problem, skeleton, p, false);
+    const plate::PlateFactor K(problem, skeleton, p, with_hoop);
     auto cases = solve_degree(problem, K, p).cases;
     levels.S.push_back(std::move(cases.S));
     levels.R.push_back(std::move(cases.R));
     levels.C.push_back(std::move(cases.C_t));
+    if (with_hoop)
+      model.hoop_error =
+          hoop_error(waves, cases.W, below, problem.unknowns.n_controlled(), levels.C.back().cols());
+    below = std::move(cases.W);
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
     model.errors =
         matrices::relative_errors(levels, degrees, K.held_stiffness(), matrices::fastest_rate(model.scene.elasticity));
@@ -48,13 +61,15 @@ void raise_degree(Accuracy& model) {
 
 }  // namespace
 
-Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
+Accuracy meet_accuracy(const PlateScene& scene, const Wanted& wanted) {
   if (scene.p_low == scene.p_high)
     throw InputError(
-        fmt::format("--accuracy: degree {} alone does not show its error; allowed: a range of degrees", scene.p_low));
+        fmt::format("{}: degree {} alone does not show its error; allowed: a range of degrees",
+                    std::isfinite(wanted.matrices) ? "--accuracy" : "--peak-accuracy", scene.p_low));
   constexpr int most_rings = 4;
   constexpr double worth = 0.5;  // of the error before, that another ring must come below
-  Accuracy start{scene, accuracy, {}, false};
+  Accuracy start{scene, wanted, {}, 0, false};
+  if (std::isfinite(wanted.hoop)) start.scene.left_out_of_waves = std::clamp(0.1 * wanted.hoop, 1e-8, most_left_out);
   Accuracy best = start;
   for (int rings = 1; rings <= most_rings; ++rings) {
     Accuracy model = start;
@@ -64,7 +79,7 @@ Accuracy meet_accuracy(const PlateScene& scene, double accuracy) {
         model.free_rings = true;
       }
     raise_degree(model);
-    const bool helps = rings == 1 || model.is_reached() || model.error() < worth * best.error();
+    const bool helps = rings == 1 || model.is_reached() || model.excess() < worth * best.excess();
     if (helps) best = model;
     if (!helps || best.is_reached() || !best.free_rings) break;
   }
@@ -75,9 +90,18 @@ std::string to_text(const Accuracy& chosen) {
   int rings = 0;
   for (const auto& hole : chosen.scene.holes)
     if (leaves_rings(chosen.scene, hole)) rings = hole.rings;
-  return fmt::format("accuracy {:g}: {} space, p = {}{}: {}{}", chosen.asked, pfem::name_of(chosen.scene.space),
+  std::vector<std::string> asked, found;
+  if (std::isfinite(chosen.asked.matrices)) {
+    asked.push_back(fmt::format("{:g}", chosen.asked.matrices));
+    found.push_back(matrices::to_text(chosen.errors));
+  }
+  if (std::isfinite(chosen.asked.hoop)) {
+    asked.push_back(fmt::format("of hoop stresses {:g}", chosen.asked.hoop));
+    found.push_back(fmt::format("error of hoop stresses about {:.2e}", chosen.hoop_error));
+  }
+  return fmt::format("accuracy {}: {} space, p = {}{}: {}{}", fmt::join(asked, ", "), pfem::name_of(chosen.scene.space),
                      chosen.scene.p_high, chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(),
-                     matrices::to_text(chosen.errors), chosen.is_reached() ? "" : ", not reached");
+                     fmt::join(found, ", "), chosen.is_reached() ? "" : ", not reached");
 }
 
 }  // namespace fastjoint::stage1
