@@ -75,7 +75,7 @@ class WideSheet:
 
     def pin(self, force, modulus, gap):
         """Half-angle of contact in degrees, peak pressure and peak hoop stress of a pin that a force along x presses on springs."""
-        n_waves, n, n_fine = 64, 2048, 32768
+        n_waves, n, n_fine = 48, 1536, 16384
         w, D = self._long_waves(force, modulus, gap, n_waves, n)
         # Shorter waves follow from the pressure, by turns, damped by what springs that also pull would make of them.
         theta = rim_angles(n_fine)

@@ -77,9 +77,9 @@ def _lines(rng, low, high, border):
     size = np.max(high - low) / 2
     lines = list(border)
     if low[0] - border[0] > 3 * size and rng.random() < 0.7:
-        lines.append(np.min(low) - rng.uniform(0.3, 3) * size)
+        lines.append(np.min(low) - rng.uniform(0.3, 2.5) * size)
     if border[1] - np.max(high) > 3 * size and rng.random() < 0.7:
-        lines.append(np.max(high) + rng.uniform(0.3, 3) * size)
+        lines.append(np.max(high) + rng.uniform(0.3, 2.5) * size)
     lines += [(a + b) / 2 for a, b in zip(high, low[1:]) if b > a]  # holes beside each other
     return sorted(float(line) for line in lines)
 
