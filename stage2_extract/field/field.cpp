@@ -118,7 +118,7 @@ void check_field_options(const FieldRequest& request, bool wanted, const std::st
                          const std::string& timings) {
   if (!wanted && request.p != 0) throw InputError("--p: goes with --field only; matrices are of all degrees");
   const bool of_joint = wanted && names_a_file(request.spec);
-  if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 or --stresses only");
+  if (!of_joint && !request.plate.empty()) throw InputError("--plate: goes with --field RESULT.h5 only");
   if (!of_joint && request.increment != 0) throw InputError("--increment: goes with --field RESULT.h5 only");
   for (const auto& [option, path] : {std::pair("-o", output), std::pair("--timings", timings)})
     if (wanted) program::check_spare(option, path, request.spec, "the file of --field");

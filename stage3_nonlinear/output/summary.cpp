@@ -219,9 +219,9 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
     if (plate.stress_level) continue;
     if (plate.stresses.p.size() > 0 || !plate.plate_digest.empty())
       text += fmt::format(
-          "{} holds no stresses of {} at p = {}; stage2_extract PLATE.h5 --stresses RESULT.h5 "
-          "-o RESULT.h5 --plate {} finds them\n",
-          plate.file, plate.name, joint.p, plate.name);
+          "{} holds no stresses of {} at p = {}; stage2_extract without --loads-only writes those of the two highest "
+          "degrees of PLATE.h5\n",
+          plate.file, plate.name, joint.p);
     if (joint.n_directions() == 1)
       text += fmt::format("the force that holds the discs of {} across {} is not known without stresses\n", plate.name,
                           joint.axis_name(0));

@@ -210,15 +210,14 @@ TEST(FieldOptions, ThatNeedOthers) {
   };
   EXPECT_NO_THROW(check({})());
   EXPECT_THAT(check({"", "", 0, 8}), ThrowsMessage<InputError>(HasSubstr("--p: goes with --field only")));
-  EXPECT_THAT(check({"", "up"}),
-              ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 or --stresses only")));
+  EXPECT_THAT(check({"", "up"}), ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 only")));
   EXPECT_THAT(check({"", "", 2}), ThrowsMessage<InputError>(HasSubstr("--increment: goes with --field RESULT.h5")));
   for (const std::string spec : {"external:P", "nonsense"}) {
     EXPECT_THAT(
         [&] {
           stage2::check_field_options({spec, "up"}, true, "out.vtu", "");
         },
-        ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 or --stresses only")));
+        ThrowsMessage<InputError>(HasSubstr("--plate: goes with --field RESULT.h5 only")));
     EXPECT_THAT(
         [&] {
           stage2::check_field_options({spec, "", 1}, true, "out.vtu", "");

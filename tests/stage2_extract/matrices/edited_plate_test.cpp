@@ -144,7 +144,7 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
         }
         a.probe.wave = a.probe.moment = a.probe.friction_moment = Eigen::VectorXd::Zero(12);
       },
-      "pressure/hole: names a hole twice");
+      "pressure/hole: has \"a\" at 1, expected holes of hole/id, in its order");
 }
 
 TEST_F(EditedPlate, ElementsAndArcsOfTheMesh) {
