@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One sheet, solved by stage1_plate and stage2_extract (taken from PATH), and its stresses by superposition."""
+"""One sheet, solved by the programs (taken from PATH): its matrices, and the stresses around its holes under loads."""
 import json
 import subprocess
 import tempfile
@@ -9,49 +9,71 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from stress_field import Field
+
+
+def run(program, source, target, *options):
+    done = subprocess.run([program, source, "-o", target, "--quiet", *options], capture_output=True, text=True)
+    if done.returncode:
+        raise RuntimeError(done.stderr)
+
+
+def datasets(path):
+    """All of a file by their paths; text as strings."""
+    found = {}
+    with h5py.File(path) as f:
+        f.visititems(lambda path, item: found.update({path: item.asstr()[()] if item.dtype == object else item[()]})
+                     if isinstance(item, h5py.Dataset) else None)
+    return found
+
 
 class Sheet:
-    """A scene (a dict as in PLATE.json) from JSON to MATRICES.h5; `seconds` is what both programs took."""
+    """A scene (a dict as in PLATE.json) from JSON to MATRICES.h5, whose datasets are `sheet[PATH]`; `seconds` is what the
+    programs took.
 
-    def __init__(self, scene):
+    @param loads {external: force} of a joint in which the ground holds all discs of the sheet; with them the stresses
+                 around its holes are known.
+    @param field Cases with amounts, as of stage2_extract --field, of a field whose file then is the Field `field`.
+    """
+
+    def __init__(self, scene, loads=None, field=""):
         with tempfile.TemporaryDirectory() as name:
             folder = Path(name)
             (folder / "plate.json").write_text(json.dumps({"format": "plate", "version": 1, **scene}))
             start = time.perf_counter()
-            for program, source, target in (("stage1_plate", "plate.json", "plate.h5"),
-                                            ("stage2_extract", "plate.h5", "matrices.h5")):
-                run = subprocess.run([program, folder / source, "-o", folder / target, "--quiet"], capture_output=True,
-                                     text=True)
-                if run.returncode:
-                    raise RuntimeError(run.stderr)
+            run("stage1_plate", folder / "plate.json", folder / "plate.h5")
+            run("stage2_extract", folder / "plate.h5", folder / "matrices.h5")
+            self.data = datasets(folder / "matrices.h5")
+            if loads:
+                fasteners = [{"id": disc, "between": [f"sheet:{disc}", "ground"], "law": "rigid"}
+                             for disc in dict.fromkeys(self["disc/hole"])]
+                (folder / "joint.json").write_text(json.dumps({
+                    "format": "joint", "version": 1, "plates": {"sheet": "matrices.h5"}, "laws": {"rigid": {"type": "rigid"}},
+                    "fasteners": fasteners,
+                    "loads": [{"external": f"sheet:{id}", "force": force} for id, force in loads.items()]}))
+                run("stage3_nonlinear", folder / "joint.json", folder / "result.h5", "--rim-stresses")
+                self.result = datasets(folder / "result.h5")
+            if field:
+                run("stage2_extract", folder / "plate.h5", folder / "field.vtu", "--field", field)
+                self.field = Field(folder / "field.vtu")
             self.seconds = time.perf_counter() - start
-            with h5py.File(folder / "matrices.h5") as f:
-                self.data = {}
-                f.visititems(lambda path, item: self.data.update({path: item.asstr()[()] if item.dtype == object else
-                                                                  item[()]}) if isinstance(item, h5py.Dataset) else None)
 
     def __getitem__(self, path):
         return self.data[path]
 
-    def cases(self):
-        """Names of the unit cases in their order."""
-        a = self.data
-        return ([("external", i) for i in a["external/id"]]
-                + [("disc", *i) for i in zip(a["disc/hole"], a["disc/direction"])]
-                + [("friction", *i) for i in zip(a["friction/hole"], a["friction/bearing"])]
-                + [("traction", i) for i in a["traction/id"]])
+    def of_rim(self, name):
+        return self.result[f"plates/sheet/rim/{name}"]
 
-    def amounts(self, given):
-        """Amount of every unit case; `given` names those that are not zero."""
-        names = self.cases()
-        vector = np.zeros(len(names))
-        for name, value in given.items():
-            vector[names.index(name)] = value
-        return vector
+    def index(self, hole):
+        return list(self.of_rim("hole")).index(hole)
 
-    def rim(self, hole, amounts, level=-1):
-        """Angles in radians, sigma_rr, sigma_tt, sigma_rt around a hole at its degree stress/p[level]."""
-        i = list(self["rim/hole"]).index(hole)
-        points = slice(self["rim/start"][i], self["rim/start"][i + 1])
-        stresses = [self[f"rim/sigma_{kind}"][level, points] @ amounts for kind in ("rr", "tt", "rt")]
-        return np.radians(self["rim/angle"][points]), *stresses
+    def rim(self, hole):
+        """Angles in radians, one degree apart, sigma_rr, sigma_tt, sigma_rt around a hole under the loads."""
+        i = self.index(hole)
+        points = slice(self.of_rim("start")[i], self.of_rim("start")[i + 1])
+        stresses = [self.of_rim(f"sigma_{kind}")[-1, points] for kind in ("rr", "tt", "rt")]
+        return np.radians(self.of_rim("angle")[points]), *stresses
+
+    def peak(self, hole):
+        """Largest hoop stress around a hole under the loads."""
+        return self.of_rim("peak_hoop")[-1, self.index(hole)]

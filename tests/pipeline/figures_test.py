@@ -79,7 +79,8 @@ def check_contact(row, radial, hoop):
     assert np.array_equal(away, hoop[0]) and away.min() <= 5 and away.max() == 180, away
     assert np.isclose(-np.min(pressure), float(row["peak pressure"]), rtol=1e-3), (row, pressure)
     assert (pressure[away < end - 4] < -0.05).all() and np.abs(pressure[away > end + 4]).max() < 0.02, (row, radial)
-    assert np.isclose(np.max(hoop[1]), float(row["largest hoop stress"]), rtol=3e-3), (row, hoop)  # the top of a parabola at a kink
+    largest = float(row["largest hoop stress"])  # at a kink, between points one degree apart
+    assert 0.99 * largest <= np.max(hoop[1]) <= largest + 1e-4, (row, hoop)
 
 
 def check_nisida(folder):

