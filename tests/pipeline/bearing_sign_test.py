@@ -3,6 +3,7 @@
 on one path through both signs. Argument: folder of the programs."""
 import json
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -15,10 +16,11 @@ PROGRAMS = Path(sys.argv[1]).resolve()
 FACTORS = [0.5, 1, -0.25, -1, 0.5]
 
 
-def run(program, *arguments, status=0):
-    done = subprocess.run([PROGRAMS / program, *arguments, "--quiet"], capture_output=True, text=True)
+def run(program, *arguments, status=0, quiet=True):
+    """What the program says of doubts, or prints."""
+    done = subprocess.run([PROGRAMS / program, *arguments, *["--quiet"] * quiet], capture_output=True, text=True)
     assert done.returncode == status, done.stderr
-    return done.stderr
+    return done.stderr if quiet else done.stdout
 
 
 def matrices(name, mirrored, contact, directions):
@@ -44,7 +46,7 @@ def joint(name, law, Ly, Lx=0.0, increments=FACTORS, status=0, **more):
         "format": "joint", "version": 1, "plates": {"b": f"{name}.h5"}, "laws": {"l": law},
         "fasteners": [{"id": id, "between": [f"b:{id}", "ground"], "law": "l"} for id in "12"],
         "loads": [{"external": "b:Lx", "force": Lx}, {"external": "b:Ly", "force": Ly}], "increments": increments, **more}))
-    return run("stage3_nonlinear", "joint.json", "-o", f"{name}.result.h5", "--sensitivities", status=status)
+    return run("stage3_nonlinear", "joint.json", "-o", f"{name}.result.h5", "--sensitivities", "--rim-stresses", status=status)
 
 
 def read(name, *datasets):
@@ -83,11 +85,23 @@ def mirrored_path(contact):
         F, by_factor, by_force = read("sheet", "F", "sensitivity/load_factor", "sensitivity/force")
         close("slope by differences", factor * (F[2] - F[0]) / 2e-4, by_factor[1], 1e-5)
         close("the same by forces", by_force[1] @ [300, 800], factor * by_factor[1])
-    # Back in stage 2 each side is its own case.
     joint("sheet", law, 800, 300)
-    run("stage2_extract", "sheet.plate.h5", "--stresses", "sheet.result.h5", "-o", "stresses.h5")
-    with h5py.File("stresses.h5") as file:
-        close("peaks of stage 2", file["plates/b/rim/peak_hoop"][:], read("sheet", "plates/b/rim/peak_hoop")[0])
+    joint("image", law, -800, 300)
+    mirrored_stresses()
+
+
+def mirrored_stresses():
+    """Around holes, and back in stage 2, where each side is its own case."""
+    names = [f"plates/b/rim/{name}" for name in ("start", "angle", "sigma_rr", "sigma_tt", "sigma_rt")]
+    (start, angle, *stresses), (_, _, *image) = read("sheet", *names), read("image", *names)
+    mirrored = np.concatenate([first + (-np.arange(last - first) % (last - first)) for first, last in zip(start, start[1:])])
+    assert np.allclose((angle + angle[mirrored]) % 360, 0)
+    close("stresses around holes", np.stack(image)[:, :, mirrored] * np.reshape([1, 1, -1], (3, 1, 1)), np.stack(stresses))
+    for increment in (1, 3):
+        largest = [float(re.search(r"largest von Mises stress (\S+)", run("stage2_extract", f"{name}.plate.h5", "--field",
+                                   f"{name}.result.h5", "--increment", str(increment), "-o", "field.vtu", quiet=False))[1])
+                   for name in ("sheet", "image")]
+        close("largest stress of a field", largest[0], largest[1], 1e-5)
 
 
 def exact_path():
