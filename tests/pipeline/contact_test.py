@@ -51,7 +51,7 @@ def again(folder, plates, laws, fasteners, loads, **more):
     text = {"format": "joint", "version": 1, "plates": {name: f"{name}.h5" for name in plates}, "laws": laws,
             "fasteners": fasteners, "loads": loads, **more}
     (folder / "joint.json").write_text(json.dumps(text))
-    run(folder, "stage3_nonlinear", "joint.json", "-o", "result.h5")
+    run(folder, "stage3_nonlinear", "joint.json", "-o", "result.h5", "--rim-stresses")
     return h5py.File(folder / "result.h5")
 
 
@@ -208,9 +208,14 @@ def column_of_rivets(folder):
         near("  peak pressures", whole[1], [187.4, 155.1, 191.8], 2e-3)
         here = result["plates/lower/rim/peak_hoop"][0]
         near("  hoop stresses, of two independent formulas", here, [408.17, 287.13, 227.92], 2e-3)
-    run(folder, "stage2_extract", "lower.plate.h5", "--stresses", "result.h5", "--plate", "lower", "-o", "again.h5")
-    with h5py.File(folder / "again.h5") as result:
-        near("  hoop stresses by the state itself", result["plates/lower/rim/peak_hoop"][0], here, 1e-9)
+        rim, contact = result["plates/lower/rim"], result["plates/lower/contact"]
+        around = [np.split(rim[f"sigma_{kind}"][0], rim["start"][1:-1]) for kind in ("rr", "tt", "rt")]
+        near("  largest of the hoop stresses one degree apart", [hoop.max() for hoop in around[1]], here, 1e-2)
+        assert all(hoop.max() <= peak for hoop, peak in zip(around[1], here)), "ends of contact lie between points"
+        near("  largest of the pressures", [-radial.min() for radial in around[0]], contact["peak_pressure"][0], 1e-3)
+        assert all(radial.max() == 0 for radial in around[0]) and all((shear == 0).all() for shear in around[2])
+        touching = [(radial < 0).sum() for radial in around[0]]
+        assert np.abs(touching - contact["touching"][0]).max() <= 1, (touching, contact["touching"][0])
     for gap in (0, 0.02, 0.05):
         with solve(True, gap=gap) as few, solve(True, gap=gap, harmonics=64) as many:
             rims = few["plates/lower/rim"]
@@ -226,7 +231,7 @@ def column_of_rivets(folder):
     with solve(False) as result:
         near("  forces by springs all around", result["F_vector"][0, :, 0], [1146.75, 906.50, 1146.75], 1e-4)
         rim = result["plates/lower/rim"]
-        off = np.abs(rim["peak_hoop"][0] - [132.9, 87.4, 47.3])
+        off = np.abs(rim["peak_hoop"][0] - [132.8596, 87.4051, 47.2848])  # by "waves": 12 and three rings
         print(f"  hoop stresses off by {off}, error bars {rim['peak_error'][0]}")
         assert np.all(off <= rim["peak_error"][0])
 
