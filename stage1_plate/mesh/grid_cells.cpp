@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "common/count.hpp"
+#include "common/rim/angles.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -47,28 +48,51 @@ Interval locate(const PlateScene& scene, int index, const std::vector<double>& l
   return {static_cast<int>(above - lines.begin()) - 1, center, at_low, at_high};
 }
 
-/// The node at `center` that a hole wants on the sides across one axis of its cell.
+/// The nodes that a hole wants on the two sides across one axis of its cell.
 struct Wish {
-  double center, radius;
+  std::vector<double> low, high;
+  double radius;
 };
 
-/// One strip of cells; the wish of each cell's hole, nothing in a cell without a hole. A hole whose centre line is the
-/// border asks for nothing, but still ends a run of cells that pass nodes on.
+/// Nodes wanted on a side at a distance from the centre: one in line with it, if the hole is not cut there, and where
+/// the corner is seen from the centre under more than `widest` from that line, one half way between.
+/// @param from, to Ends of the side.
+std::vector<double> wanted_nodes(double distance, double center, double from, double to, bool with_center) {
+  constexpr double widest = 60 * rim::degree;
+  std::vector<double> nodes;
+  if (with_center) nodes.push_back(center);
+  for (const double corner : {from, to}) {
+    const double angle = std::atan2(std::abs(corner - center), distance);
+    if (distance > 0 && angle > widest)
+      nodes.push_back(center + std::copysign(distance * std::tan(angle / 2), corner - center));
+  }
+  std::ranges::sort(nodes);
+  return nodes;
+}
+
+/// One strip of cells; the wish of each cell's hole, nothing in a cell without a hole.
 struct StripCell {
-  bool has_hole = false;
   std::optional<Wish> wish;
 };
 
-/// Two centre lines this close (in radii of the smaller hole) share a node: thin sectors cost unknowns for nothing.
+/// Two nodes this close (in radii of the smaller hole) become one: thin sectors cost unknowns for nothing.
 constexpr double shared_node_distance = 0.5;
 
-std::vector<double> agreed(const std::optional<Wish>& first, const std::optional<Wish>& second) {
-  if (!first && !second) return {};
-  if (!first) return {second->center};
-  if (!second) return {first->center};
-  const auto [low, high] = std::minmax(first->center, second->center);
-  if (high - low < shared_node_distance * std::min(first->radius, second->radius)) return {(low + high) / 2};
-  return {low, high};
+/// Nodes of a run of sides between the holes before and behind it.
+std::vector<double> agreed(const std::optional<Wish>& before, const std::optional<Wish>& behind) {
+  std::vector<double> nodes = before ? before->high : std::vector<double>();
+  if (behind) nodes.insert(nodes.end(), behind->low.begin(), behind->low.end());
+  if (!before || !behind) return nodes;
+  std::ranges::sort(nodes);
+  const double same = shared_node_distance * std::min(before->radius, behind->radius);
+  for (std::size_t i = 0; i + 1 < nodes.size();)
+    if (nodes[i + 1] - nodes[i] < same) {
+      nodes[i] = (nodes[i] + nodes[i + 1]) / 2;
+      nodes.erase(nodes.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+    } else {
+      ++i;
+    }
+  return nodes;
 }
 
 /// Nodes on the sides between the cells of a strip: the same on all sides of a run of cells without a hole.
@@ -77,7 +101,7 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
   std::vector<std::vector<double>> nodes(n + 1);
   for (int begin = 0; begin <= n;) {
     int end = begin;  // last side of the run that begins at this side
-    while (end < n && !strip[end].has_hole) ++end;
+    while (end < n && !strip[end].wish) ++end;
     const auto before = begin > 0 ? strip[begin - 1].wish : std::nullopt;
     const auto after = end < n ? strip[end].wish : std::nullopt;
     std::fill(nodes.begin() + begin, nodes.begin() + end + 1, agreed(before, after));
@@ -114,9 +138,14 @@ CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const st
   std::vector<std::vector<StripCell>> rows(n_rows, std::vector<StripCell>(n_columns));
   for (const auto& cell : holes) {
     const double radius = scene.holes[cell.hole].radius;
-    columns[cell.column][cell.row].has_hole = rows[cell.row][cell.column].has_hole = true;
-    if (!cell.cuts[left] && !cell.cuts[right]) columns[cell.column][cell.row].wish = Wish{cell.center.x(), radius};
-    if (!cell.cuts[bottom] && !cell.cuts[top]) rows[cell.row][cell.column].wish = Wish{cell.center.y(), radius};
+    const double x = cell.center.x(), y = cell.center.y();
+    const double west = grid.x[cell.column], east = grid.x[cell.column + 1], south = grid.y[cell.row],
+                 north = grid.y[cell.row + 1];
+    const bool on_x = !cell.cuts[left] && !cell.cuts[right], on_y = !cell.cuts[bottom] && !cell.cuts[top];
+    columns[cell.column][cell.row].wish =
+        Wish{wanted_nodes(y - south, x, west, east, on_x), wanted_nodes(north - y, x, west, east, on_x), radius};
+    rows[cell.row][cell.column].wish =
+        Wish{wanted_nodes(x - west, y, south, north, on_y), wanted_nodes(east - x, y, south, north, on_y), radius};
   }
   for (const auto& strip : columns) horizontal_.push_back(strip_nodes(strip));
   for (const auto& strip : rows) vertical_.push_back(strip_nodes(strip));

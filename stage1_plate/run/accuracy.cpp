@@ -48,8 +48,7 @@ void raise_degree(Accuracy& model) {
     levels.R.push_back(std::move(cases.R));
     levels.C.push_back(std::move(cases.C_t));
     if (with_hoop)
-      model.hoop_error =
-          hoop_error(waves, cases.W, below, problem.unknowns.n_controlled(), levels.C.back().cols());
+      model.hoop_error = hoop_error(waves, cases.W, below, problem.unknowns.n_controlled(), levels.C.back().cols());
     below = std::move(cases.W);
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
     model.errors =
@@ -63,13 +62,12 @@ void raise_degree(Accuracy& model) {
 
 Accuracy meet_accuracy(const PlateScene& scene, const Wanted& wanted) {
   if (scene.p_low == scene.p_high)
-    throw InputError(
-        fmt::format("{}: degree {} alone does not show its error; allowed: a range of degrees",
-                    std::isfinite(wanted.matrices) ? "--accuracy" : "--peak-accuracy", scene.p_low));
+    throw InputError(fmt::format("{}: degree {} alone does not show its error; allowed: a range of degrees",
+                                 std::isfinite(wanted.matrices) ? "--accuracy" : "--peak-accuracy", scene.p_low));
   constexpr int most_rings = 4;
   constexpr double worth = 0.5;  // of the error before, that another ring must come below
   Accuracy start{scene, wanted, {}, 0, false};
-  if (std::isfinite(wanted.hoop)) start.scene.left_out_of_waves = std::clamp(0.1 * wanted.hoop, 1e-8, most_left_out);
+  if (std::isfinite(wanted.hoop)) start.scene.left_out_of_waves = std::clamp(0.03 * wanted.hoop, 1e-7, most_left_out);
   Accuracy best = start;
   for (int rings = 1; rings <= most_rings; ++rings) {
     Accuracy model = start;

@@ -99,8 +99,8 @@ struct PlateScene {
   std::vector<External> externals;
   pfem::Space space = pfem::Space::product;
   int p_low = 1, p_high = pfem::highest_p;
-  /// Part of a wave of order 1 below which what comes back to a hole from elsewhere is left to the closed form.
-  double left_out_of_waves = 1e-4;
+  /// Part of the strain along a rim below which short waves of what comes back to it from elsewhere are left out.
+  double left_out_of_waves = 1e-3;
 };
 
 /// Replaces the scene's degrees by the option's: "8" is that degree alone, "4..8" a range, "" leaves the scene's.

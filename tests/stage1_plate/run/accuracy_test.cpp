@@ -93,7 +93,8 @@ TEST(Accuracy, TakesAnotherRingWhereTheHighestDegreeDoesNotDo) {
 /// ring; S alone would be good for 1e-3.
 TEST(Accuracy, KeepsWhatTheSceneSays) {
   for (const double asked : {3e-3, 1e-3}) {
-    const auto chosen = stage1::meet_accuracy(scene(test::panel(1, 1, 0, R"(, "space": "trunk", "p": [2, 7])")), {asked});
+    const auto chosen =
+        stage1::meet_accuracy(scene(test::panel(1, 1, 0, R"(, "space": "trunk", "p": [2, 7])")), {asked});
     EXPECT_EQ(chosen.scene.space, pfem::Space::trunk);
     EXPECT_EQ(chosen.scene.holes[0].rings, 0);
     EXPECT_EQ(chosen.scene.p_low, 2);
@@ -156,9 +157,9 @@ TEST(Accuracy, IsThatOfFriction) {
 /// Of hoop stresses the error is that of the strains along the rims, against a finer mesh with the same waves; fewer
 /// waves do where less is asked for.
 TEST(Accuracy, IsThatOfHoopStresses) {
-  const auto open = scene(without_rings(
-      test::grid_scene({0, 1, 2}, {0, 1}, {{"1", 0.5, 0.5, 0.125}, {"2", 1.4, 0.6, 0.15, 0, false}},
-                       R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
+  const auto open =
+      scene(without_rings(test::grid_scene({0, 1, 2}, {0, 1}, {{"1", 0.5, 0.5, 0.125}, {"2", 1.4, 0.6, 0.15, 0, false}},
+                                           R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
     "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
                  {"id": "T", "on": "top", "direction": "x", "kind": "traction"}])")));
   int orders = 0, degrees = 0;
