@@ -85,11 +85,11 @@ double modulus_ratio(const Eigen::Matrix3d& elasticity) {
 /// in sheets that are stiffer along one direction, whose fields change faster close to the rim; at least one in
 /// contact. None where no stresses are wanted.
 void set_default_rings(const GridGeometry& grid, PlateScene& scene) {
-  constexpr double widest = 3.2, widest_of_laminates = 2, alike = 2;
+  constexpr double widest = 3.2, narrowest = 1.6;
   constexpr int most = 6;
   double ratio = 1;
   for (const auto& elasticity : scene.elasticity) ratio = std::max(ratio, modulus_ratio(elasticity));
-  const double step = std::log(ratio < alike ? widest : widest_of_laminates);
+  const double step = std::log(std::max(widest / std::pow(ratio, 0.25), narrowest));
   for (Hole& hole : scene.holes) {
     if (hole.has_rings) continue;
     const bool in_contact = hole.spring && hole.spring->compression_only;
