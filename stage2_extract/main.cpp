@@ -13,6 +13,7 @@
 #include "common/program/program.hpp"
 #include "stage2_extract/extract.hpp"
 #include "stage2_extract/field/field.hpp"
+#include "stage2_extract/field/joint_sheet.hpp"
 
 namespace {
 
@@ -121,6 +122,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
     return write_matrices(arguments, std::move(plate), timings);
   }
   timings.phase("integrate");
+  stage2::take_all_waves(plate);
   stage2::FieldSolver solver(plate, arguments.input);
   require_memory(arguments.input, field_need(solver, size));
   write_field(arguments, solver, request, timings);

@@ -78,7 +78,7 @@ struct PlateHistory {
   Eigen::MatrixXd D;             ///< (steps, m) disc displacements, length
   Eigen::MatrixXd De;            ///< (steps, e) displacements of the rigid externals, length
   Eigen::MatrixXd Pe;            ///< (steps, e) forces on them, force
-  std::vector<WaveRim> waves{};  ///< (g) waves of the rims of contact that are unit cases
+  std::vector<WaveRim> waves{};  ///< (g) waves of the rims of contact
   Eigen::MatrixXd amounts{};     ///< (steps, k) amount of each of these waves, stress
   Eigen::MatrixXd w{};  ///< (steps, sum of sizes) of the disc's normal displacement against the sheet each wave, length
   ContactHistory contacts{};

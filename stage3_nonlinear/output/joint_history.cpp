@@ -74,8 +74,13 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.D = of_discs(&PlateState::D);
   history.De = rows(&PlateState::De, plate.n_externals());
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
-  for (Index i = 0; i < std::ssize(plate.contact); ++i) history.waves.push_back(plate.waves[i]);
-  history.amounts = rows(&PlateState::waves, plate.n_loaded_waves);
+  Index n_added = 0;
+  for (Index i = 0; i < std::ssize(plate.contact); ++i) {
+    history.waves.push_back(plate.waves[i]);
+    history.waves.back().waves = plate.contact[i].pressures;
+    n_added += history.waves.back().size();
+  }
+  history.amounts = rows(&PlateState::added, n_added);
   history.w = rows(&PlateState::moments, plate.n_unknowns() - plate.first_moment());
   history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
   history.traction = rows(&PlateState::traction, plate.traction_force.size());

@@ -137,6 +137,7 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
                    .Pe = factor * plate.external_force,
                    .moments = u.tail(k),
                    .waves = {},
+                   .added = {},
                    .Lambda = VectorXd::Zero(plate.R.cols()),
                    .traction = factor * plate.traction_rate(factor),
                    .bearing = none,
@@ -149,11 +150,16 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
   add_shears(joint, at, asked, shear, state);
   const auto loads = contact_loads(joint, at, state.moments, state.Lambda.tail(plate.R.cols() - n_cosines));
   state.waves.resize(plate.n_loaded_waves);
-  Index next = 0;
+  state.added.resize(k + plate.R.cols() - n_cosines);
+  Index next = 0, next_added = 0;
   for (Index i = 0; i < std::ssize(loads); ++i) {
     const ShortWaves& rim = plate.short_waves[i];
-    state.waves.segment(next, rim.n_carried()) = wave_amounts(loads[i], rim, plate.contact[i].modulus);
+    const double modulus = plate.contact[i].modulus;
+    state.waves.segment(next, rim.n_carried()) = wave_amounts(loads[i], rim, modulus);
     next += rim.n_carried();
+    state.added.segment(next_added, rim.n + rim.n_shears) << loads[i].pressure - modulus * loads[i].moments,
+        loads[i].shear;
+    next_added += rim.n + rim.n_shears;
   }
   if (plate.stress_level) {
     const VectorXd amounts = unit_case_amounts(plate, state);

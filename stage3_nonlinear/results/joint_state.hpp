@@ -17,6 +17,7 @@ struct PlateState {
   VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
   VectorXd moments;            ///< (k) of the rims of contact, length
   VectorXd waves;              ///< amount of each loaded wave of its file, stress
+  VectorXd added;              ///< the same of all waves of contact, as their pressures and shears are, stress
   VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
