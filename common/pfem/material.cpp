@@ -4,9 +4,6 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <cmath>
-#include <complex>
-
-#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::pfem {
 namespace {
@@ -47,20 +44,6 @@ Eigen::Matrix3d polar_stress(double theta) {
       s * s, c * c, -2 * c * s,  //
       -c * s, c * s, c * c - s * s;
   return T;
-}
-
-double hoop_by_pressure(const Eigen::Matrix3d& compliance, double theta) {
-  const Eigen::Matrix3d to_global = polar_stress(-theta);
-  const Eigen::Matrix3d s = to_global.transpose() * compliance * to_global;  // axes r, t
-  Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
-  companion.diagonal(-1).setOnes();
-  companion.row(0) << 2 * s(1, 2), -(2 * s(0, 1) + s(2, 2)), 2 * s(0, 2), -s(0, 0);
-  companion.row(0) /= s(1, 1);
-  const Eigen::VectorXcd roots = matrices::eigenvalues(companion);
-  std::complex<double> product = -1;
-  for (const auto& root : roots)
-    if (root.imag() > 0) product *= root;
-  return product.real();
 }
 
 }  // namespace fastjoint::pfem

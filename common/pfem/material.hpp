@@ -28,10 +28,4 @@ struct OrthotropicConstants {
 /// counter-clockwise from x, shape (3, 3). Its inverse is that at -theta.
 [[nodiscard]] Eigen::Matrix3d polar_stress(double theta);
 
-/// Hoop stress over radial stress of short waves of pressure on a hole's rim: Re(-mu_1 mu_2), mu the roots with
-/// positive imaginary part of Lekhnitskii's equation for a half plane along the rim there; 1 of an isotropic sheet.
-/// Lekhnitskii, Anisotropic Plates, 1968, sections 2 and 3.
-/// @param compliance Strains (x, y, xy) by stresses, (3, 3). @param theta Place, radians counter-clockwise from x.
-[[nodiscard]] double hoop_by_pressure(const Eigen::Matrix3d& compliance, double theta);
-
 }  // namespace fastjoint::pfem

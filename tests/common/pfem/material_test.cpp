@@ -5,8 +5,6 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <complex>
-#include <numbers>
 
 namespace fastjoint::pfem {
 namespace {
@@ -52,32 +50,6 @@ TEST(Material, StabilityKnowsItsLimits) {
   EXPECT_TRUE(is_stable(isotropic(1, 0.4999), Analysis::plane_strain));
   EXPECT_TRUE(is_stable({4, 1, 1, 1.99, 0, 0, 1}, Analysis::plane_stress));  // nu12^2 < E1/E2 = 4
   EXPECT_FALSE(is_stable({4, 1, 1, 2.01, 0, 0, 1}, Analysis::plane_stress));
-}
-
-TEST(Material, HoopByPressureOfAnIsotropicSheetIsOne) {
-  for (const auto analysis : {Analysis::plane_stress, Analysis::plane_strain}) {
-    const Eigen::Matrix3d compliance = elasticity(isotropic(200, 0.3), 0, analysis).inverse();
-    for (double theta = 0; theta < 6; theta += 0.7) EXPECT_NEAR(hoop_by_pressure(compliance, theta), 1, 1e-12);
-  }
-}
-
-/// Roots of a ply's own axes are i beta, beta^2 the roots of beta^4 / E1 - (1/G12 - 2 nu12 / E1) beta^2 + 1/E2; turned
-/// by an angle they are (mu cos - sin) / (cos + mu sin), Lekhnitskii 1968, section 3. Along its axes the share is
-/// sqrt(E_t / E_r).
-TEST(Material, HoopByPressureOfAPlyHasTheTurnedRoots) {
-  const double b = (1 / ply.G12 - 2 * ply.nu12 / ply.E1) * ply.E1, root = std::sqrt(b * b - 4 * ply.E1 / ply.E2);
-  const double turn = 0.4;
-  const Eigen::Matrix3d compliance = elasticity(ply, turn, Analysis::plane_stress).inverse();
-  EXPECT_NEAR(hoop_by_pressure(compliance, turn), std::sqrt(ply.E2 / ply.E1), 1e-12);
-  for (double theta = 0; theta < 3.2; theta += 0.3) {
-    std::complex<double> expected = -1;
-    for (const double square : {(b + root) / 2, (b - root) / 2}) {
-      const std::complex<double> mu(0, std::sqrt(square));
-      const double along = theta + std::numbers::pi / 2 - turn;  // of the rim
-      expected *= (mu * std::cos(along) - std::sin(along)) / (std::cos(along) + mu * std::sin(along));
-    }
-    EXPECT_NEAR(hoop_by_pressure(compliance, theta), expected.real(), 1e-11);
-  }
 }
 
 }  // namespace
