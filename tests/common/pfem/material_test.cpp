@@ -5,6 +5,7 @@
 
 #include <Eigen/LU>
 #include <cmath>
+#include <numbers>
 
 namespace fastjoint::pfem {
 namespace {
