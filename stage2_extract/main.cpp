@@ -89,16 +89,22 @@ void require_memory(const std::string& file, double need) {
   program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes");
 }
 
-/// Bytes of what is made of the plate: condensed matrices, about as large as the plate's file.
+/// Bytes of reading a plate, whose fields are filled beside the file's image, and of matrices with loads only.
+double reading_need(double file_size) {
+  constexpr double copies = 1.9;
+  return copies * file_size;
+}
+
+/// Bytes of all matrices of a plate, about as large as its file and turned to the order of theirs as they are written.
 double extraction_need(double file_size) {
-  constexpr double copies = 3, gaps = 1.15;  // what the allocator cannot use between them
-  return gaps * copies * file_size;
+  constexpr double copies = 2.15;
+  return copies * file_size;
 }
 
 /// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file, which has
-/// twice as many and is put together of its parts.
+/// ten of up to 16 letters, and its index, and is put together of its parts.
 double field_need(const stage2::FieldSolver& solver, double file_size) {
-  constexpr double numbers = 7 * sizeof(double), text = 2 * 14 * 22;
+  constexpr double numbers = 7 * sizeof(double), text = 2 * (10 * 16 + 12);
   const int p = solver.numbering().p;
   const double n_nodes = solver.plate().mesh.n_elements() * (p + 1) * (p + 1);
   return file_size + solver.factor_bytes(p) + n_nodes * (numbers + text);
@@ -107,18 +113,17 @@ double field_need(const stage2::FieldSolver& solver, double file_size) {
 void run(const program::Arguments& arguments, program::Timings& timings) {
   timings.phase("read");
   const auto request = field_request(arguments);
-  constexpr double of_reading = 3;  // the file's image, and its fields as they are filled
   const auto size_of = [](const std::string& file) {
     std::error_code none;
     const auto bytes = std::filesystem::file_size(file, none);
     return none ? 0 : double(bytes);
   };
   const double size = size_of(arguments.input);
-  require_memory(arguments.input, of_reading * size);
+  require_memory(arguments.input, reading_need(size));
   auto plate = formats::read_plate_solution(arguments.input);
   for (Eigen::Index i = 0; i < plate.p.size(); ++i) timings.set_unknowns(plate.p[i], plate.ndof[i]);
   if (!arguments.flag("--field")) {
-    require_memory(arguments.input, extraction_need(size));
+    if (!arguments.flag("--loads-only")) require_memory(arguments.input, extraction_need(size));
     return write_matrices(arguments, std::move(plate), timings);
   }
   timings.phase("integrate");

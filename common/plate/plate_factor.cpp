@@ -111,13 +111,15 @@ FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, 
   const double elements = count_of(plate.elements.congruent.first) * square(2.0 * double(function.rows()));
   double condensed = 0;
   for (const auto& each : plate.elements.classes)
-    condensed += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()));
+    condensed += square(2.0 * double((function.col(each.first).array() < plate.numbering.n_functions[p]).count()) +
+                        double(plate.unknowns.border_of(plate.elements.holes[each.first]).size()));
   auto rows = skeleton.rows(plate, p, plate.unknowns.n_border());
-  const double entries = skeleton.size(rows).entries;
+  const auto bordered = skeleton.size(rows);
   std::fill(rows.first.end() - rows.n_border - 1, rows.first.end(), rows.n_skeleton);
   const auto size = skeleton.size(rows);
   return {number * elements, number * condensed,
-          entry * (entries + size.entries) + number * (size.factor + size.largest_front)};
+          entry * (bordered.entries + size.entries) + number * (size.factor + size.largest_front),
+          number * bordered.elimination};
 }
 
 PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool with_other_waves)
@@ -195,6 +197,7 @@ Eigen::MatrixXd PlateFactor::condensed(const Functions& functions) const {
   Eigen::SparseMatrix<double> coupling(n + count_of(functions), rows_.n_skeleton), direct(count_of(functions), n);
   coupling.setFromTriplets(on_skeleton.begin(), on_skeleton.end());
   direct.setFromTriplets(on_border.begin(), on_border.end());
+  std::vector<Eigen::Triplet<double>>().swap(on_skeleton);  // as large as the coupling, and elimination takes memory
   Eigen::MatrixXd forces(coupling.rows(), n_amounts);
   forces << Eigen::MatrixXd(border_.leftCols(n_amounts)), Eigen::MatrixXd(direct.leftCols(n_amounts));
   forces -= factor_->products(coupling, n_amounts).transpose();

@@ -35,9 +35,10 @@ struct CondensedElement {
 
 /// Bytes that a factor takes, known before anything is integrated.
 struct FactorBytes {
-  double elements;   ///< matrices of the congruence classes at the highest degree, which all factors share
-  double condensed;  ///< condensed ones at the factor's degree
-  double factor;     ///< the skeleton's stiffness and its factor
+  double elements;     ///< matrices of the congruence classes at the highest degree, which all factors share
+  double condensed;    ///< condensed ones at the factor's degree
+  double factor;       ///< the skeleton's stiffness and its factor
+  double elimination;  ///< of the border's rows, while it lasts (PlateFactor::condensed)
 
   [[nodiscard]] double total() const { return elements + condensed + factor; }
 };

@@ -128,16 +128,29 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
   std::vector<Blocks> joined(higher_.begin(), higher_.begin() + n_blocks);
   for (auto& blocks : joined) std::erase_if(blocks, [&](int block) { return block >= n_blocks; });
   const std::vector<Blocks> direct = joined;
-  Size size{0, 0, 0};
+  Size size{0, 0, 0, 0};
   const auto n_rows = [&](int block) -> double { return rows.first[block + 1] - rows.first[block]; };
   const auto n_rows_of = [&](const Blocks& blocks) {
     double n = 0;
     for (const int block : blocks) n += n_rows(block);
     return n;
   };
+  const int first_border = count_of(function_);
+  std::vector<double> passed(joined.size(), 0);  // to each block: what is left of rows of the border
+  double held = 0;
+  const auto eliminate_border = [&](int a, double own, double below) {
+    double of_border = 0;
+    for (auto block = joined[a].rbegin(); block != joined[a].rend() && *block >= first_border; ++block)
+      of_border += n_rows(*block);
+    const double left = (below - of_border) * of_border;
+    size.elimination = std::max(size.elimination, held + own * of_border + 2 * left);
+    held += left - passed[a];
+    if (left > 0) passed[joined[a].front()] += left;
+  };
   bool is_dense = false;
   for (int a = 0; a < count_of(joined); ++a) {
     const double own = n_rows(a), below = n_rows_of(joined[a]);
+    if (a < first_border) eliminate_border(a, own, below);
     size.entries += own * (own + 1) / 2 + own * n_rows_of(direct[a]);
     if (is_dense) continue;
     size.factor += own * own + own * below;

@@ -27,9 +27,10 @@ class Skeleton {
   /// @param plate    That of the constructor, or one with the same unknowns.
   /// @param n_border Number of columns of the border that count, the first ones.
   [[nodiscard]] Rows rows(const PlateStiffness& plate, int p, int n_border) const;
-  /// Entries of the bordered skeleton stiffness, of its factor and of the factor's largest front.
+  /// Entries of the bordered skeleton stiffness, of its factor, of the factor's largest front, and the most that
+  /// forward elimination of the border's rows holds at once (linalg::Cholesky::products).
   struct Size {
-    double entries, factor, largest_front;
+    double entries, factor, largest_front, elimination;
   };
   [[nodiscard]] Size size(const Rows& rows) const;
   /// Pattern of the bordered skeleton stiffness, its lower triangle, all values zero.

@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Draws the stresses around hole a5 of the lower sheet for three choices of spring and directions:
-choices.py AS_IT_IS FILLED HELD -o PICTURE.png, each a folder with lower.matrices.h5 and joint.h5.
+choices.py AS_IT_IS.h5 FILLED.h5 HELD.h5 -o PICTURE.png, each a RESULT.h5 of stage3_nonlinear --rim-stresses.
 """
 import sys
-from pathlib import Path
 
 import h5py
 import matplotlib
-import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
@@ -16,25 +14,25 @@ HOLE = "a5"
 LABELS = ("contact, discs move along x and y", "springs all around that also pull", "contact, discs move along x alone")
 
 
-def rim(folder):
-    """Angles in degrees, radial and hoop stress at the last increment around the hole, and its highest peak."""
-    with h5py.File(Path(folder, "lower.matrices.h5")) as matrices, h5py.File(Path(folder, "joint.h5")) as joint:
-        plate = joint["plates/lower"]
-        amounts = ("De", "D", "pressure/added", "Lambda", "traction/force")
-        state = np.concatenate([plate[name][-1] for name in amounts if name in plate])
-        i = list(matrices["rim/hole"].asstr()).index(HOLE)
-        points = slice(*matrices["rim/start"][i:i + 2])
-        angle = (matrices["rim/angle"][points] + 180) % 360 - 180
+def rim(path):
+    """Angles in degrees, radial and hoop stress at the last increment around the hole."""
+    with h5py.File(path) as joint:
+        around = joint["plates/lower/rim"]
+        if "start" not in around:
+            sys.exit(f"choices.py: error: {path}: has no stresses around holes; make it with stage3_nonlinear --rim-stresses")
+        i = list(around["hole"].asstr()).index(HOLE)
+        points = slice(*around["start"][i:i + 2])
+        angle = (around["angle"][points] + 180) % 360 - 180
         order = angle.argsort()
-        return (angle[order], *((matrices[f"rim/{name}"][-1, points] @ state)[order] for name in ("sigma_rr", "sigma_tt")))
+        return angle[order], *(around[f"sigma_{kind}"][-1, points][order] for kind in ("rr", "tt"))
 
 
 def main(*words):
-    *folders, option, output = words
+    *results, option, output = words
     assert option == "-o"
     figure, axes = plt.subplots(1, 2, figsize=(11, 4.2), layout="constrained")
-    for folder, label, style in zip(folders, LABELS, ("C0-", "C3--", "C2-.")):
-        angle, radial, hoop = rim(folder)
+    for path, label, style in zip(results, LABELS, ("C0-", "C3--", "C2-.")):
+        angle, radial, hoop = rim(path)
         for axis, stress in zip(axes, (radial, hoop)):
             axis.plot(angle, stress, style, label=label)
     for axis, title in zip(axes, ("radial stress: a rivet can only push (below 0)", "hoop stress: its peak starts a crack")):

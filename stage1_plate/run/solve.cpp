@@ -144,7 +144,7 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   PlateProblem problem = number_unknowns(scene, plate);
   check_held(scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
-  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene));
+  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), count_of(plate.sections));
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);
@@ -166,22 +166,24 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
   return text;
 }
 
-MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p) {
+MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton, const Eigen::VectorXi& p,
+                       int n_sections) {
   const auto n_at_once = std::min<Eigen::Index>(linalg::threads(), p.size());
   plate::FactorBytes need{};
   for (const int degree : p.tail(n_at_once)) {
     const auto of_degree = plate::factor_bytes(problem, skeleton, degree);
-    need = {of_degree.elements, need.condensed + of_degree.condensed, need.factor + of_degree.factor};
+    need = {of_degree.elements, need.condensed + of_degree.condensed, need.factor + of_degree.factor,
+            need.elimination + of_degree.elimination};
   }
-  const double nc = problem.unknowns.n_amounts(), all = problem.unknowns.n_border();
+  const double nc = problem.unknowns.n_amounts(), all = problem.unknowns.n_border() + n_sections;
   const double q = double(problem.T_c.cols());
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
-  // A step's results stand beside those of the step before: two copies of the fields, three of S and R.
+  // A step's results stand beside those of the step before: two copies of the fields, three of what is condensed.
   const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * all * nc);
   const double degrees = count_of(p), full = std::min<double>(degrees, formats::n_stress_degrees);
   const double file = 2 * nc * (full * all + (degrees - full) * nc);
   constexpr double number = sizeof(double), libraries = 20e6;
-  return {need.elements + need.condensed, need.factor, number * fields, number * file, libraries};
+  return {need.elements + need.condensed, need.factor, need.elimination + number * fields, number * file, libraries};
 }
 
 void require_memory(const std::string& file, int p, const MemoryNeed& need) {

@@ -15,8 +15,8 @@ namespace fastjoint::stage1 {
 struct MemoryNeed {
   double elements;  ///< matrices of the classes of elements
   double factor;    ///< the skeleton's stiffness and its factor
-  double fields;    ///< fields of tractions and of the probe, and the rows of S and R while they are made
-  double file;      ///< S and R of all degrees as they are turned to the order of the file, when the factors are gone
+  double fields;    ///< fields of tractions and of the probe, and the rows of S, R and W while they are made
+  double file;  ///< S, R and W of all degrees as they are turned to the order of the file, when the factors are gone
   double program;
 
   [[nodiscard]] double total() const {
@@ -24,9 +24,11 @@ struct MemoryNeed {
     return gaps * (elements + std::max(factor + fields, file)) + program;
   }
 };
-/// @param problem Result of number_unknowns. @param p Degrees to be solved, ascending.
+/// @param problem    Result of number_unknowns.
+/// @param p          Degrees to be solved, ascending.
+/// @param n_sections Whose forces are found too.
 [[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton,
-                                     const Eigen::VectorXi& p);
+                                     const Eigen::VectorXi& p, int n_sections = 0);
 
 /// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
 void require_memory(const std::string& file, int p, const MemoryNeed& need);

@@ -11,8 +11,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 STAGE1, STAGE2, STAGE3 = "stage1_plate", "stage2_extract", "stage3_nonlinear"
-PLATE_PHASES, EXTRACT_PHASES, JOINT_PHASES = (["read", "mesh", "integrate", "solve", "write"],
-                                              ["read", "integrate", "extract", "write"], ["read", "solve", "write"])
+PLATE_PHASES, EXTRACT_PHASES, FIELD_PHASES, JOINT_PHASES = (
+    ["read", "mesh", "integrate", "solve", "write"], ["read", "extract", "write"], ["read", "integrate", "extract", "write"],
+    ["read", "solve", "write"])
 # program, input, output, more words, phases, degrees with a number of unknowns
 RUNS = [
     (STAGE1, "upper.json", "upper.h5", ["--p", "3..8"], PLATE_PHASES, "345678"),
@@ -20,7 +21,7 @@ RUNS = [
     (STAGE1, "lower.json", "lower.h5", ["--p", "8", "--threads", "2"], PLATE_PHASES, "8"),
     (STAGE2, "upper.h5", "upper.matrices.h5", [], EXTRACT_PHASES, "345678"),
     (STAGE2, "lower.h5", "lower.matrices.h5", [], EXTRACT_PHASES, "8"),
-    (STAGE2, "upper.h5", "upper.vtu", ["--field", "external:P=0.01"], EXTRACT_PHASES, "345678"),
+    (STAGE2, "upper.h5", "upper.vtu", ["--field", "external:P=0.01"], FIELD_PHASES, "345678"),
     (STAGE3, "joint.json", "joint.h5", ["--csv", "joint.csv"], JOINT_PHASES, ""),
 ]
 
