@@ -65,7 +65,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
   double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
   constexpr double number = sizeof(double), of_stiffness = 24;
-  const double of_rim = with_rim_stresses ? 17 + 3 * 360 : 17;
+  constexpr double of_rim = 17, of_rim_stresses = 3 * 360;
   double solving = 0, of_step = of_plane * n;
   for (const auto& plate : joint.plates) {
     const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
@@ -75,7 +75,10 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
   const double read = matrices_need(scene);
   const Index n_steps = std::max<Index>(std::ssize(scene.load_factors), 1);  // how many events is not known yet
   constexpr double copies = 2.5;                                             // in the states and in the tables
-  const double results = copies * number * of_step * double(n_steps);
+  double rims = 0;  // with a closed form at most: their stresses are in the tables alone
+  for (const auto& plate : joint.plates)
+    if (with_rim_stresses && plate.stress_level) rims += double(plate.stresses.rim_hole.size());
+  const double results = number * (copies * of_step + of_rim_stresses * rims) * double(n_steps);
   program::require_memory(
       scene.file + ": this", read + solving + results,
       fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),

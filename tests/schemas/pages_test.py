@@ -173,7 +173,7 @@ def main():
             problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)
         (folder / "joint.json").write_text(json.dumps(JOINT))
         result = folder / "joint.h5"
-        must(programs.joint(folder / "joint.json", result, "--sensitivities"))
+        must(programs.joint(folder / "joint.json", result, "--sensitivities", "--rim-stresses"))
         problems += check(result_page, result, labels)
         os.chdir(folder)
         for page, path, reader_name in zip(pages, (solution, matrices, result), ("PLATE.h5", "MATRICES.h5", "RESULT.h5")):
