@@ -51,7 +51,7 @@ double matrices_need(const JointScene& scene) {
   double bytes = 20e6;  // of the program
   for (const auto& plate : scene.plates) {
     std::error_code none;
-    if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 1.25 * double(size);
+    if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 2 * double(size);
   }
   return bytes;
 }
@@ -64,21 +64,21 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
   const double n = double(joint.n_planes());
   double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
-  constexpr double number = sizeof(double), of_stiffness = 24;
-  constexpr double of_rim = 17, of_rim_stresses = 3 * 360;
-  double solving = 0, of_step = of_plane * n;
+  constexpr double number = sizeof(double), of_stiffness = 24, of_rim = 17, of_plate = 60;
+  constexpr double of_points = 3 * 360,
+                   of_loaded_rim = 600;  // stresses, and the waves and tractions that they follow from
+  double solving = 0, of_step = of_plane * n, around_rims = 0;
   for (const auto& plate : joint.plates) {
     const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
     solving += of_stiffness * number * unknowns * (unknowns + (numbers.friction.empty() ? 0 : cases / 2));
-    of_step += unknowns + cases + of_rim * (plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0);
+    const double n_rims = plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0;
+    of_step += of_plate + unknowns + cases + of_rim * n_rims;
+    if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;
   }
   const double read = matrices_need(scene);
   const Index n_steps = std::max<Index>(std::ssize(scene.load_factors), 1);  // how many events is not known yet
   constexpr double copies = 2.5;                                             // in the states and in the tables
-  double rims = 0;  // with a closed form at most: their stresses are in the tables alone
-  for (const auto& plate : joint.plates)
-    if (with_rim_stresses && plate.stress_level) rims += double(plate.stresses.rim_hole.size());
-  const double results = number * (copies * of_step + of_rim_stresses * rims) * double(n_steps);
+  const double results = number * (copies * of_step + around_rims) * double(n_steps);
   program::require_memory(
       scene.file + ": this", read + solving + results,
       fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),
@@ -119,7 +119,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
       scene.load_factors.empty() ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
   path.interference = follow_interference(equations, solving);
   program::report_share(1);
-  const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, path);
+  const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, with_rim_stresses, path);
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));
   warn(log, rim_warnings(joint, states));

@@ -230,7 +230,7 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
 }
 
 std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system, double tolerance,
-                                        LoadPath& path) {
+                                        bool keep_loaded_rims, LoadPath& path) {
   const double allowed = std::max(1e-8, 10 * tolerance);
   std::vector<JointState> states;
   for (Index i = 0; i < std::ssize(path.steps); ++i) {
@@ -244,6 +244,8 @@ std::vector<JointState> balanced_states(const JointModel& joint, const Condensed
       path.steps.erase(path.steps.begin() + i, path.steps.end());
       break;
     }
+    if (!keep_loaded_rims)
+      for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
     states.push_back(std::move(state));
   }
   return states;

@@ -47,8 +47,9 @@ struct JointState {
 
 /// The states of all steps. A path ends where its forces do not balance to 1e-8 of the largest or to what the solver's
 /// tolerance leaves, since rounding errors would count as load.
+/// @param keep_loaded_rims Also PlateState::loaded, which takes memory.
 [[nodiscard]] std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system,
-                                                      double tolerance, LoadPath& path);
+                                                      double tolerance, bool keep_loaded_rims, LoadPath& path);
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 

@@ -40,8 +40,8 @@ def check_hole(matrices, plate, i, step):
     away = np.abs((angle - jump + 180) % 360 - 180) > 7.5
     peak = plate["rim/peak_hoop"][step, i]
     assert np.isclose(hoop[away].max(), peak, rtol=1e-3)
-    at = np.abs((angle - plate["rim/peak_angle"][step, i] + 180) % 360 - 180).argmin()
-    assert np.isclose(hoop[at], peak, rtol=1e-3), "it is where RESULT.h5 says"
+    near = np.abs((angle - plate["rim/peak_angle"][step, i] + 180) % 360 - 180) < 1
+    assert np.isclose(hoop[near].max(), peak, rtol=1e-3), "beside the place that RESULT.h5 says, which may be a kink"
 
     hole = matrices["rim/hole"].asstr()[i]
     beside = {side: n for n, (name, side) in enumerate(zip(matrices["section/hole"].asstr(), matrices["section/side"].asstr()))
