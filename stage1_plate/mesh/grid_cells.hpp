@@ -28,8 +28,8 @@ struct HoleCell {
 ///
 /// The cell of a hole wants a node where the hole's centre line meets each of its sides, so that its fan has two
 /// sectors in every quarter, and another where such a sector is wider than 60 degrees, as beside a near edge: elements
-/// of wide sectors follow few waves. Any other node on its outline it takes as one more ray. A cell without a hole is cut by
-/// straight lines: it passes a node on to its opposite side, and so on up to the next hole or the border.
+/// of wide sectors follow few waves. Any other node on its outline it takes as one more ray. A cell without a hole is
+/// cut by straight lines: it passes a node on to its opposite side, and so on up to the next hole or the border.
 class CellLines {
  public:
   CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes);

@@ -31,9 +31,9 @@ struct Accuracy {
 };
 
 /// Takes the cheapest model that reaches relative errors by its own estimates, or else the best that there is: no more
-/// orders of waves than the error of hoop stresses asks for, product space, one ring around every hole, the degree rising from the scene's lowest; where its highest
-/// does not do, another ring, as long as rings help. What the scene itself says of `space` and of a hole's `rings`
-/// stays.
+/// orders of waves than the error of hoop stresses asks for, product space, one ring around every hole, the degree
+/// rising from the scene's lowest; where its highest does not do, another ring, as long as rings help. What the scene
+/// itself says of `space` and of a hole's `rings` stays.
 ///
 /// The order follows what models cost at about equal error, here 1e-5, in ms with the fields for stresses, of panels of
 /// 3 x 3 and 10 x 10 holes (one thread of a busy machine): product space, one ring, p = 4: 18 and 1300; two rings, p =
@@ -44,7 +44,8 @@ struct Accuracy {
 [[nodiscard]] Accuracy meet_accuracy(const PlateScene& scene, const Wanted& wanted);
 
 /// One line: "accuracy 0.0001: product space, p = 4, rings 1: error of S about 6.10e-05, of R about 4.20e-05", and of
-/// hoop stresses "accuracy of hoop stresses 0.001: product space, p = 5, rings 1: error of hoop stresses about 4.2e-04".
+/// hoop stresses "accuracy of hoop stresses 0.001: product space, p = 5, rings 1: error of hoop stresses
+/// about 4.2e-04".
 [[nodiscard]] std::string to_text(const Accuracy& chosen);
 
 }  // namespace fastjoint::stage1

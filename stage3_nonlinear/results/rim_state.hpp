@@ -39,9 +39,9 @@ struct LoadedDiscs {
 ///
 /// The error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points within 7.5
 /// degrees of a jump of friction are no candidates for the peak if the jump is more than 1 % of the bearing stress
-/// (11.5). The bypass load is the section force along x on the side of the hole that bears; its error is its change from
-/// the degree below, but no less than the square root of the relative error of S times the largest force on the plate
-/// (11.6).
+/// (11.5). The bypass load is the section force along x on the side of the hole that bears; its error is its change
+/// from the degree below, but no less than the square root of the relative error of S times the largest force on the
+/// plate (11.6).
 /// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
 /// @param amounts  Of the unit cases, (n_cases).
 /// @param rims     Those with waves and a closed form; other holes have no peak: 0 with an infinite error.
