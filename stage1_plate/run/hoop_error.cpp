@@ -16,9 +16,9 @@ MatrixXd strain(const rim::Harmonics& shape, const MatrixXd& rows) {
   const MatrixXd w = shape.pressures_of_whole() * rows.topRows(shape.size());
   const MatrixXd v = shape.shears_of_whole() * rows.bottomRows(shape.n_shears());
   MatrixXd waves = -w;
-  for (int k = 1; k <= shape.highest; ++k) {
-    waves.row(2 * k - 1) -= k * v.row(2 * k);
-    waves.row(2 * k) += k * v.row(2 * k - 1);
+  for (Index k = 1; k <= shape.highest; ++k) {
+    waves.row(2 * k - 1) -= double(k) * v.row(2 * k);
+    waves.row(2 * k) += double(k) * v.row(2 * k - 1);
   }
   return waves;
 }
@@ -34,8 +34,8 @@ double left_out(double last, double before) {
 double rim_error(int highest, const MatrixXd& waves, const MatrixXd& below) {
   const double size = waves.norm();
   if (size == 0) return 0;
-  const auto pair = [&](int last) {  // of orders
-    const Index rows = std::min(4, 2 * last);
+  const auto pair = [&](Index last) {  // of orders
+    const Index rows = std::min<Index>(4, 2 * last);
     return last > 0 ? waves.middleRows(2 * last + 1 - rows, rows).norm() : 0;
   };
   return (2 * (waves - below).norm() + left_out(pair(highest), pair(highest - 2))) / size;
