@@ -59,7 +59,7 @@ class Scene:
             return path
         scene = json.loads(json.dumps(self.sheets[name])) | {"space": setting.space}
         for hole in scene["holes"]:
-            hole["rings"] = setting.rings
+            hole |= {"rings": setting.rings, "stresses": False}
         path.write_text(json.dumps(scene))
         if setting.cut > 1:
             self.cut(scene, path, setting.cut)

@@ -11,6 +11,7 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "stage3_nonlinear/model/contact_rims.hpp"
+#include "stage3_nonlinear/model/spring_waves.hpp"
 #include "stage3_nonlinear/scene/joint_scene.hpp"
 
 namespace fastjoint::stage3 {
@@ -55,10 +56,11 @@ struct PlateModel {
   std::vector<int> unsupported_axes;                         ///< along which no support of stage 1 takes a force
   PlateDegrees degrees;                                      ///< whose sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) the file's; infinite where it does not know it or p is not its highest
-  formats::PlateStresses stresses;           ///< as the file has them
-  std::optional<int> stress_level;           ///< those of the joint's degree, if there are any
-  std::vector<formats::WaveRim> waves{};     ///< rims with waves of the elements: those of contact, then others
-  std::vector<ShortWaves> short_waves{};     ///< (g) waves beyond those, in closed form
+  formats::PlateStresses stresses;        ///< as the file has them
+  std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
+  std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
+  std::vector<ShortWaves> short_waves{};  ///< (g) waves beyond those, in closed form
+  std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses
   std::vector<MatrixXd> wave_rows{};         ///< PlateCases::W of all rims at the joint's degree and the one before
   Index file_unit_cases = 0;                 ///< of the file, the columns of wave_rows
   Index n_loaded_waves = 0;                  ///< of which this many are waves of contact

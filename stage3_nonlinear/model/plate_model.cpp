@@ -277,6 +277,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.stresses = std::move(a.stresses);
   if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) {
     plate.stress_level = at;
+    plate.spring_waves = spring_waves(plate.waves);
     for (Index before = 0; before <= at; ++before) {
       const auto& others = plate.stresses.other_waves[at - before];
       MatrixXd& rows = plate.wave_rows.emplace_back(a.n_waves(), a.n_cases());

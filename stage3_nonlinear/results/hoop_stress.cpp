@@ -13,7 +13,7 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 using namespace std::complex_literals;
-constexpr double step = rim::full_turn / HoopStress::n_points, first_angle = step / 2;  // jumps lie on round angles
+constexpr double step = rim::full_turn / TractionWaves::n_points, first_angle = step / 2;  // jumps lie on round angles
 
 /// Waves m = 0..n/2-1 of two real functions by their values at the points, (2, n / 2).
 Eigen::Matrix2Xcd waves_of(const Eigen::VectorXcd& values) {
@@ -73,46 +73,54 @@ Eigen::Matrix2Xcd cartesian(const Eigen::VectorXcd& normal, const Eigen::VectorX
 
 }  // namespace
 
-HoopStress::HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& waves,
-                       const Eigen::VectorXd& displacement, Tractions tractions)
-    : sheet_(sheet),
-      waves_(waves),
-      tractions_(std::move(tractions)),
-      first_short_(waves.highest),
-      u_(cartesian(complex_waves(-waves.pressures_of_whole() * displacement.head(waves.size())),
-                   complex_waves(-waves.shears_of_whole() * displacement.tail(waves.n_shears())))),
-      angles_(Eigen::VectorXd::LinSpaced(n_points, first_angle, first_angle + (n_points - 1) * step)),
-      values_(n_points) {
-  Eigen::Matrix2Xd traction(2, n_points);
-  for (int i = 0; i < n_points; ++i) traction.col(i) = traction_at(angles_[i]);
-  T_ = waves_of(traction.row(0).cast<Complex>() + 1i * traction.row(1).cast<Complex>());
-  const Eigen::Matrix2Xcd short_waves = sums(T_, first_short_);
-  for (int i = 0; i < n_points; ++i)
-    values_[i] = hoop(angles_[i], strain(angles_[i], short_waves.col(i), traction.col(i)), traction.col(i));
+TractionWaves::TractionWaves(const rim::Harmonics& rim, Tractions tractions)
+    : rim_(rim), tractions_(std::move(tractions)), values_(2, n_points) {
+  for (int i = 0; i < n_points; ++i) values_.col(i) = at(first_angle + i * step);
+  waves_ = waves_of(values_.row(0).cast<Complex>() + 1i * values_.row(1).cast<Complex>());
 }
 
-Eigen::Vector2d HoopStress::traction_at(double angle) const {
-  double inside = rim::wrapped(angle, waves_.start), sign = 1;
-  if (!waves_.is_whole()) {
-    const double past = inside - waves_.start;
-    const int part = static_cast<int>(past / waves_.sweep);
-    const double rest = past - part * waves_.sweep;
+Eigen::VectorXd TractionWaves::angles() {
+  return Eigen::VectorXd::LinSpaced(n_points, first_angle, first_angle + (n_points - 1) * step);
+}
+
+Eigen::Vector2d TractionWaves::at(double angle) const {
+  double inside = rim::wrapped(angle, rim_.start), sign = 1;
+  if (!rim_.is_whole()) {
+    const double past = inside - rim_.start;
+    const int part = static_cast<int>(past / rim_.sweep);
+    const double rest = past - part * rim_.sweep;
     if (part % 2 == 1) sign = -1;
-    inside = waves_.start + (sign > 0 ? rest : waves_.sweep - rest);
+    inside = rim_.start + (sign > 0 ? rest : rim_.sweep - rest);
   }
   const Eigen::Vector2d on_rim = tractions_(inside);
   const double p = on_rim.x(), t = sign * on_rim.y(), c = std::cos(angle), s = std::sin(angle);
   return {p * c - t * s, p * s + t * c};
 }
 
+HoopStress::HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& waves,
+                       const Eigen::VectorXd& displacement, std::shared_ptr<const TractionWaves> tractions)
+    : sheet_(sheet),
+      tractions_(std::move(tractions)),
+      first_short_(waves.highest),
+      u_(cartesian(complex_waves(-waves.pressures_of_whole() * displacement.head(waves.size())),
+                   complex_waves(-waves.shears_of_whole() * displacement.tail(waves.n_shears())))),
+      angles_(TractionWaves::angles()),
+      values_(angles_.size()) {
+  const Eigen::Matrix2Xd& traction = tractions_->values();
+  const Eigen::Matrix2Xcd short_waves = sums(tractions_->waves(), first_short_);
+  for (Index i = 0; i < values_.size(); ++i)
+    values_[i] = hoop(angles_[i], strain(angles_[i], short_waves.col(i), traction.col(i)), traction.col(i));
+}
+
 double HoopStress::strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const {
   // What the tractions are at this place is known; only the other part of their short waves needs the sum.
   const Complex turn = std::polar(1.0, -angle);
-  Eigen::Vector2d rest = traction - T_.col(0).real();
+  const Eigen::Matrix2Xcd& T = tractions_->waves();
+  Eigen::Vector2d rest = traction - T.col(0).real();
   Eigen::Vector2cd slope = Eigen::Vector2cd::Zero();
   Complex at = turn;
   for (int m = 1; m < first_short_; ++m, at *= turn) {
-    rest -= 2 * (T_.col(m) * at).real();
+    rest -= 2 * (T.col(m) * at).real();
     slope -= double(m) * 1.0i * at * u_.col(m);
   }
   Eigen::Vector2cd exact;
@@ -132,8 +140,9 @@ double HoopStress::at(double angle) const {
   Eigen::Vector2cd short_waves = Eigen::Vector2cd::Zero();
   const Complex turn = std::polar(1.0, -angle);
   Complex at = std::polar(1.0, -angle * first_short_);
-  for (Index m = first_short_; m < T_.cols(); ++m, at *= turn) short_waves += T_.col(m) * at;
-  const Eigen::Vector2d traction = traction_at(angle);
+  const Eigen::Matrix2Xcd& T = tractions_->waves();
+  for (Index m = first_short_; m < T.cols(); ++m, at *= turn) short_waves += T.col(m) * at;
+  const Eigen::Vector2d traction = tractions_->at(angle);
   return hoop(angle, strain(angle, short_waves, traction), traction);
 }
 

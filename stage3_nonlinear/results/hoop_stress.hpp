@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "common/rim/harmonics.hpp"
@@ -12,6 +13,31 @@ namespace fastjoint::stage3 {
 
 /// Pressure and shear on the sheet at an angle of the rim that the model has, stress.
 using Tractions = std::function<Eigen::Vector2d(double angle)>;
+
+/// Tractions on a rim at points in equal steps around the whole circle, and their waves.
+class TractionWaves {
+ public:
+  /// @param rim       A whole rim, or a part that repeats.
+  /// @param tractions On the sheet; asked for angles on the part of the rim that the model has.
+  TractionWaves(const rim::Harmonics& rim, Tractions tractions);
+
+  /// Tractions along x and y at any angle of the whole circle, stress.
+  [[nodiscard]] Eigen::Vector2d at(double angle) const;
+  /// The same at the points, (2, n_points).
+  [[nodiscard]] const Eigen::Matrix2Xd& values() const { return values_; }
+  /// Waves m = 0.. of these, (2, n_points / 2).
+  [[nodiscard]] const Eigen::Matrix2Xcd& waves() const { return waves_; }
+  /// Angles of the points, radians.
+  [[nodiscard]] static Eigen::VectorXd angles();
+
+  static constexpr int n_points = 1024;
+
+ private:
+  rim::Harmonics rim_;
+  Tractions tractions_;
+  Eigen::Matrix2Xd values_;
+  Eigen::Matrix2Xcd waves_;
+};
 
 /// Hoop stress around a rim as a function of the angle, from the displacements of the rim in long waves and from its
 /// known tractions (docs/theory.md, section 11).
@@ -24,21 +50,16 @@ class HoopStress {
   /// @param waves        A whole rim, or a part that repeats.
   /// @param displacement Normal, then tangential displacement of the disc against the sheet, or of the sheet against
   ///                     any rigid body with the opposite sign, (size + n_shears), length.
-  /// @param tractions    On the sheet; asked for angles on the part of the rim that the model has.
   HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& waves, const Eigen::VectorXd& displacement,
-             Tractions tractions);
+             std::shared_ptr<const TractionWaves> tractions);
 
   /// Hoop stress at an angle, radians.
   [[nodiscard]] double at(double angle) const;
-  /// Angles in equal steps around the whole circle, radians, and the hoop stress there, (n_points).
+  /// Angles of the points of TractionWaves, radians, and the hoop stress there.
   [[nodiscard]] const Eigen::VectorXd& angles() const { return angles_; }
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
 
-  static constexpr int n_points = 1024;
-
  private:
-  /// Tractions along x and y at any angle of the whole circle.
-  [[nodiscard]] Eigen::Vector2d traction_at(double angle) const;
   /// Hoop stress of a strain along the rim.
   [[nodiscard]] double hoop(double angle, double strain, const Eigen::Vector2d& traction) const;
   /// Strain along the rim.
@@ -46,11 +67,9 @@ class HoopStress {
   [[nodiscard]] double strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const;
 
   rim::RimCompliance sheet_;
-  rim::Harmonics waves_;
-  Tractions tractions_;
+  std::shared_ptr<const TractionWaves> tractions_;
   int first_short_;      ///< lowest order along x and y that follows from the tractions
   Eigen::Matrix2Xcd u_;  ///< (2, first_short) waves m = 0.. of the displacements along x and y, length
-  Eigen::Matrix2Xcd T_;  ///< (2, n_points / 2) waves m = 0.. of the tractions, stress
   Eigen::VectorXd angles_, values_;
 };
 

@@ -14,14 +14,6 @@ namespace {
 
 double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-/// Direction of a bearing side, "+x", "-x", "+y" or "-y", radians.
-double direction_of(const std::string& side) {
-  return (side[1] == 'x' ? 0 : rim::full_turn / 4) + (side[0] == '+' ? 0 : rim::full_turn / 2);
-}
-
-/// Cosine distribution on the half of a rim around a direction.
-double cosine_bearing(double angle, double direction) { return std::max(std::cos(angle - direction), 0.0); }
-
 /// A cosine pressure or a cosine friction on half of the rim, of an amount.
 struct HalfLoad {
   double direction, amount;
@@ -34,8 +26,7 @@ struct KnownLoads {
   [[nodiscard]] Eigen::Vector2d at(double angle) const {
     Eigen::Vector2d result{0, 0};
     for (const auto& [direction, amount] : pressures) result.x() += amount * cosine_bearing(angle, direction);
-    for (const auto& [direction, amount] : frictions)  // drags the sheet along its direction
-      result.y() -= amount * cosine_bearing(angle, direction) * sign_of(std::sin(angle - direction));
+    for (const auto& [direction, amount] : frictions) result.y() += amount * cosine_friction(angle, direction);
     return result;
   }
 };
@@ -55,56 +46,22 @@ KnownLoads known_loads(const PlateModel& plate, const std::string& hole, const V
   return loads;
 }
 
-bool is_isotropic(const Eigen::Matrix3d& a) {
-  constexpr double same = 1e-9;
-  const double scale = a(0, 0);
-  return std::abs(a(1, 1) - a(0, 0)) < same * scale && std::abs(a(0, 2)) < same * scale &&
-         std::abs(a(1, 2)) < same * scale && std::abs(a(2, 2) - 2 * (a(0, 0) - a(0, 1))) < same * scale;
-}
-
-/// Short waves of the disc's normal displacement against the sheet at a rim whose springs push and pull on given arcs,
-/// behind the long ones, (size of `full`): w_s = -(D p)_s with p = K w on the arcs, and what friction does.
-VectorXd with_short_waves(const formats::WaveRim& rim, const rim::Harmonics& full, const VectorXd& long_w,
-                          const KnownLoads& known) {
-  const Index n_long = long_w.size(), n = full.size(), s = n - n_long;
-  const MatrixXd D = rim::RimCompliance(rim.compliance, rim.radius).displacements(full);
-  MatrixXd sprung = MatrixXd::Zero(n, n);  // K times the mean over the rim of products, where springs act
-  for (const auto& arc : rim.acts)
-    for (const int turns : {-1, 0, 1}) {
-      const double from = std::max(arc.from + turns * rim::full_turn, full.start);
-      const double to = std::min(arc.to + turns * rim::full_turn, full.start + full.sweep);
-      if (from < to) sprung += full.products(from, to);
-    }
-  sprung *= rim.modulus / full.sweep;
-  VectorXd shear = VectorXd::Zero(full.n_shears());
-  constexpr int points = 2048;
-  for (int i = 0; i < points && !known.frictions.empty(); ++i) {
-    const double angle = full.start + (i + 0.5) / points * full.sweep;
-    shear += known.at(angle).y() / points * full.shears_at(angle);
-  }
-  const MatrixXd D_s = D.bottomRows(D.rows() - n_long).topRows(s);
-  const MatrixXd by_w = D_s.leftCols(n) * sprung;
-  const MatrixXd A = MatrixXd::Identity(s, s) + by_w.rightCols(s);
-  VectorXd w(n);
-  w << long_w, -A.partialPivLu().solve(by_w.leftCols(n_long) * long_w + D_s.rightCols(full.n_shears()) * shear);
-  return w;
-}
-
-/// Tractions on a rim that is not in contact: the pressure of its springs, and what is known.
-Tractions springs_and(const formats::WaveRim& rim, const VectorXd& long_w, const KnownLoads& known) {
-  if (rim.modulus == 0) return [known](double angle) { return known.at(angle); };
-  constexpr int highest = 48;
-  const bool all_around = std::ranges::any_of(rim.acts, [&](const auto& arc) {
-    return arc.to - arc.from >= rim.waves.sweep - 1e-9 && rim::covers({arc}, rim.waves.start);
-  });
-  rim::Harmonics full = rim.waves;
+/// Tractions on a rim that is not in contact: the pressure of its springs, if it has any, and what is known.
+Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, const VectorXd& long_w,
+                      const KnownLoads& known) {
+  if (!springs) return [known](double angle) { return known.at(angle); };
+  rim::Harmonics shape = rim.waves;
   VectorXd w = long_w;
-  if (!(all_around && known.frictions.empty() && is_isotropic(rim.compliance)) && full.highest < highest) {
-    full.highest = highest;
-    w = with_short_waves(rim, full, long_w, known);
+  if (!springs->only_friction || !known.frictions.empty()) {
+    shape = springs->full;
+    VectorXd by_quarter = VectorXd::Zero(springs->by_friction.cols());
+    for (const auto& [direction, amount] : known.frictions)
+      by_quarter[std::lround(direction / (rim::full_turn / 4))] += amount;
+    w.resize(shape.size());
+    w << long_w, springs->by_long * long_w + springs->by_friction * by_quarter;
   }
   return [=, modulus = rim.modulus, acts = rim.acts](double angle) -> Eigen::Vector2d {
-    const double pressure = rim::covers(acts, angle) ? modulus * full.at(angle).dot(w) : 0;
+    const double pressure = rim::covers(acts, angle) ? modulus * shape.at(angle).dot(w) : 0;
     return known.at(angle) + Eigen::Vector2d(pressure, 0);
   };
 }
@@ -186,7 +143,7 @@ VectorXd LoadedRim::places() const {
 }
 
 MatrixXd LoadedRim::stresses(const VectorXd& places) const {
-  const HoopStress hoop_stress = hoop(0, rim.waves);
+  const HoopStress hoop_stress = hoop(0, rim.waves, traction_waves(degrees[0].tractions));
   MatrixXd result(places.size(), 3);
   for (Index i = 0; i < places.size(); ++i) {
     const double angle = places[i] * rim::degree;
@@ -196,15 +153,16 @@ MatrixXd LoadedRim::stresses(const VectorXd& places) const {
   return result;
 }
 
-HoopStress LoadedRim::hoop(Index degree, const rim::Harmonics& shape) const {
+HoopStress LoadedRim::hoop(Index degree, const rim::Harmonics& shape,
+                           std::shared_ptr<const TractionWaves> tractions) const {
   const RimWaves& waves = degrees[degree];
   VectorXd displacement(shape.size() + shape.n_shears());
   displacement << waves.displacement.head(shape.size()), waves.displacement.segment(rim.waves.size(), shape.n_shears());
-  return {rim::RimCompliance(rim.compliance, rim.radius), shape, displacement, waves.tractions};
+  return {rim::RimCompliance(rim.compliance, rim.radius), shape, displacement, std::move(tractions)};
 }
 
-HoopStress LoadedRim::hoop(const Tractions& tractions) const {
-  return {rim::RimCompliance(rim.compliance, rim.radius), rim.waves, degrees[0].displacement, tractions};
+std::shared_ptr<const TractionWaves> LoadedRim::traction_waves(const Tractions& tractions) const {
+  return std::make_shared<const TractionWaves>(rim.waves, tractions);
 }
 
 std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& amounts,
@@ -222,8 +180,9 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     for (const auto& rows : plate.wave_rows) {
       VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
       if (in_contact) correct(contacts[i], plate.short_waves[i], rim.modulus, displacement);
-      const Tractions tractions = in_contact ? of_contact(rim.modulus, contacts[i].gap, contacts[i].wider)
-                                             : springs_and(rim, displacement.head(rim.waves.size()), known);
+      const Tractions tractions =
+          in_contact ? of_contact(rim.modulus, contacts[i].gap, contacts[i].wider)
+                     : springs_and(rim, plate.spring_waves[i].get(), displacement.head(rim.waves.size()), known);
       loaded->degrees.push_back({std::move(displacement), tractions});
     }
     if (in_contact) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -31,10 +32,10 @@ struct LoadedRim {
   [[nodiscard]] VectorXd places() const;
   /// Stresses of the sheet at places in degrees: sigma_rr, sigma_tt, sigma_rt, (n, 3).
   [[nodiscard]] MatrixXd stresses(const VectorXd& places) const;
+  [[nodiscard]] std::shared_ptr<const TractionWaves> traction_waves(const Tractions& tractions) const;
   /// Hoop stress by the displacements of one degree up to an order.
-  [[nodiscard]] HoopStress hoop(Index degree, const rim::Harmonics& shape) const;
-  /// The same of the joint's degree by other tractions.
-  [[nodiscard]] HoopStress hoop(const Tractions& tractions) const;
+  [[nodiscard]] HoopStress hoop(Index degree, const rim::Harmonics& shape,
+                                std::shared_ptr<const TractionWaves> tractions) const;
 };
 
 /// What the rims of contact of a plate bear, each from the moments of its displacement.

@@ -89,12 +89,13 @@ class PeakSearch {
 
   /// Sets the peak, its place and its error; nothing if jumps leave no place for one.
   void find(RimState& state) const {
-    const HoopStress hoop = rim_.hoop(0, rim_.rim.waves);
+    const auto tractions = rim_.traction_waves(rim_.degrees[0].tractions);
+    const HoopStress hoop = rim_.hoop(0, rim_.rim.waves, tractions);
     const auto peak = top(hoop, rim_.kinks);
     if (!peak) return;
     state.peak_hoop = peak->value;
     state.peak_angle = turn(peak->angle / rim::degree);
-    state.peak_error = error(hoop, *peak);
+    state.peak_error = error(hoop, *peak, tractions);
   }
 
  private:
@@ -139,22 +140,25 @@ class PeakSearch {
   /// Twice the change to the degree below, what the changes by the last two pairs of orders leave for all orders to
   /// come, and in contact half the change of the peak by the waves that the joint leaves out (docs/theory.md,
   /// section 11.4).
-  [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak) const {
+  [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak,
+                             const std::shared_ptr<const TractionWaves>& tractions) const {
     if (rim_.degrees.size() < 2) return unknown;
     const rim::Harmonics& all = rim_.rim.waves;
     const auto up_to = [&](int fewer) {
       rim::Harmonics shape = all;
       shape.highest = std::max(all.highest - fewer, 1);
-      return rim_.hoop(0, shape);
+      return rim_.hoop(0, shape, tractions);
     };
     const HoopStress less = up_to(2), least = up_to(4);
-    const double by_degree = change(hoop, rim_.hoop(1, all), peak.angle);
+    const double by_degree =
+        change(hoop, rim_.hoop(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
     const double last = change(hoop, less, peak.angle), before = change(less, least, peak.angle);
     constexpr double fastest = 0.1, slowest = 0.8;  // fall of the changes from one pair of orders to the next
     const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
     double by_waves = 0;
     if (rim_.in_contact)
-      if (const auto other = top(rim_.hoop(rim_.by_joints_waves), rim_.kinks_by_joints_waves))
+      if (const auto other =
+              top(rim_.hoop(0, all, rim_.traction_waves(rim_.by_joints_waves)), rim_.kinks_by_joints_waves))
         by_waves = std::abs(other->value - peak.value);
     return 2 * by_degree + last * fall / (1 - fall) + 0.5 * by_waves;
   }

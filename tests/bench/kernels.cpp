@@ -8,6 +8,7 @@
 #include "common/pfem/shape_functions.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "common/rim/rim.hpp"
+#include "stage2_extract/extract.hpp"
 #include "tests/support/files.hpp"
 #include "tests/support/meshes.hpp"
 #include "tests/support/plates.hpp"
@@ -72,16 +73,12 @@ void factorise(State& state) {
 }
 BENCHMARK(factorise)->Arg(3)->Arg(10)->Unit(benchmark::kMillisecond);
 
-/// The fields of all unit displacements of panel(3, 3) at p = 8.
-void solve(State& state) {
-  const auto plate = test::make_plate(test::panel(3, 3));
-  const plate::PlateFactor K(plate.problem, plate::Skeleton(plate.problem), 8, false);
-  const auto nc = plate.problem.K_cc.cols();
-  const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(plate.problem.unknowns.n_amounts(), nc);
-  const Eigen::SparseMatrix<double> none(plate.problem.K_fc.rows(), nc);
-  for (auto _ : state) DoNotOptimize(plate::PlateStates(K, unit, none));
+/// The matrices of panel(3, 3) at p = 8 with the blocks of waves, and their checks.
+void extract(State& state) {
+  const auto plate = test::solve(test::make_plate(test::panel(3, 3)));
+  for (auto _ : state) DoNotOptimize(stage2::extract(plate, "", true));
 }
-BENCHMARK(solve)->Unit(benchmark::kMillisecond);
+BENCHMARK(extract)->Unit(benchmark::kMillisecond);
 
 /// Matrices of panel(3, 3) at all degrees, stresses among them.
 const formats::PlateMatrices& matrices() {

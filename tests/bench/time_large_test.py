@@ -29,17 +29,14 @@ def kept(page, script):
     return (ROOT / page).read_text().split(f"<!-- {script} -->\n")[1].split("<!-- /")[0]
 
 
-def check_large(bin_folder, folder):
+def check_large(folder):
     script, readme = "scripts/time_large", folder / "README.md"
     readme.write_text(f"<!-- {script} -->\n<!-- /{script} -->\n")
-    printed = run(script, "--quick", "--repeat", 1, "--before", bin_folder, "--readme", readme)
+    printed = run(script, "--quick", "--repeat", 1, "--readme", readme)
     assert readme.read_text() == f"<!-- {script} -->\n{printed}<!-- /{script} -->\n"
     found = rows(printed)
-    assert [row["job"] for row in found][4:8] == [f"9 fasteners, {law}, stage 3" for law in ("linear", "power", "bilinear")] + [
-        "stresses at 9 rims in ten increments"], printed
-    for row in found:
-        ratio = float(row["seconds before"]) / float(row["seconds"])
-        assert abs(float(row["times as long"]) / ratio - 1) < 0.1, printed  # two digits
+    assert [row["job"] for row in found][5:8] == [f"9 fasteners, {law}, stage 3" for law in ("linear", "power", "bilinear")], printed
+    assert all(float(row["seconds"]) > 0 for row in found), printed
     assert list(rows(kept("docs/performance.md", script))[0]) == list(found[0]), "docs/performance.md has other columns"
     assert "argument --repeat" in run(script, "--repeat", 0, status=2)
 
@@ -49,7 +46,7 @@ def check_chart(folder):
     readme.write_text(f"<!-- {block} -->\n<!-- /{block} -->\n")
     printed = run("scripts/time_large", "--quick", "--repeat", 1, "--chart", chart, "--readme", readme)
     assert readme.read_text() == f"<!-- {block} -->\n{printed}<!-- /{block} -->\n"
-    for what in ("loads at p = 7 and 8", "stresses of ten increments"):
+    for what in ("loads only", "with stresses"):
         costs = re.search(rf"Milliseconds per hole, {what} \(holes\): ([\d.e+]+) \(4\), ([\d.e+]+) \(9\)\.", printed)
         assert costs and all(float(cost) > 0 for cost in costs.groups()), printed
         assert f"Milliseconds per hole, {what} (holes): " in kept("docs/performance.md", block), "docs/performance.md"
@@ -69,7 +66,7 @@ def main(bin_folder):
     bin_folder = Path(bin_folder).resolve()
     os.environ["PATH"] = f"{bin_folder}{os.pathsep}{os.environ['PATH']}"
     with tempfile.TemporaryDirectory() as folder:
-        check_large(bin_folder, Path(folder))
+        check_large(Path(folder))
         check_chart(Path(folder))
     check_solvers()
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/formats/plate_matrices.hpp"
+
+namespace fastjoint::stage3 {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// Direction of a bearing side, "+x", "-x", "+y" or "-y", radians.
+[[nodiscard]] double direction_of(const std::string& side);
+
+/// Cosine pressure, of peak 1, at an angle on the half of a rim around a direction.
+[[nodiscard]] double cosine_bearing(double angle, double direction);
+/// The shear on the sheet of friction by it, which drags the sheet along the direction.
+[[nodiscard]] double cosine_friction(double angle, double direction);
+
+/// Short waves of the disc's normal displacement against the sheet at a rim whose springs push and pull on given arcs,
+/// in closed form: w_s = -(D p)_s with p = K w on the arcs, and what friction does (docs/theory.md, section 6.3).
+struct SpringWaves {
+  rim::Harmonics full;   ///< the long waves and behind them the short ones
+  MatrixXd by_long;      ///< (n_short, n_long) by the long waves, dimensionless
+  MatrixXd by_friction;  ///< (n_short, 4) by the peak of cosine friction along each quarter turn, length / stress
+  bool only_friction;    ///< by_long is zero: springs all around a hole in an isotropic sheet couple no waves
+};
+
+/// Of each rim, the same for equal ones; none of rims without springs or closed form.
+[[nodiscard]] std::vector<std::shared_ptr<const SpringWaves>> spring_waves(const std::vector<formats::WaveRim>& rims);
+
+}  // namespace fastjoint::stage3
