@@ -18,7 +18,9 @@ const fastjoint::program::Command command{
         {"--rim-stresses", "", "also write the stresses around all holes, one degree apart, at every increment"},
         {"--csv", "FILE", "also write one line per increment and shear plane"},
         {"--sensitivities", "",
-         "also write how the forces change with every load, clearance, number of a law, coefficient of friction"}}};
+         "also write how the forces, and at the last increment the peaks, change with every load, clearance, gap, "
+         "number of a\n"
+         "law and coefficient of friction"}}};
 
 }  // namespace
 

@@ -126,7 +126,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   auto result = joint_result(joint, equations, path, states, with_rim_stresses);
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   result.F_error = force_errors(joint, equations, path, states);
-  if (with_sensitivities) result.sensitivity = sensitivity_history(joint, equations, path);
+  if (with_sensitivities) result.sensitivity = sensitivity_history(joint, equations, path, states);
   timings.phase("write");
   formats::write(arguments.output, result);
   if (!csv_file.empty()) h5::write_whole_file(csv_file, csv(joint, result));

@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 9;
+constexpr int minor = 10;
 
 using V = RimValues;
 using enum Dimension;
@@ -144,6 +144,24 @@ void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen:
     if (!file.has(group + "gap_hole")) return;  // before version 1.6
   names("gap_hole", a.gap_hole, any, "plate:hole, each with springs that push but do not pull");
   tables("gap", a.gap, std::ssize(a.gap_hole), stiffness, "dF by the radial gap of each");
+  if constexpr (File::reads)
+    if (!file.has(group + "peak/hole")) return;  // before version 1.10
+  names("peak/hole", a.peak.hole, any, "plate:hole whose peak hoop stress is differentiated at the last increment");
+  const Eigen::Index r = std::ssize(a.peak.hole);
+  const std::string stress = unit(units, -2, 1), gradient = unit(units, -3, 1);
+  file(group + "peak/load_factor", a.peak.load_factor, {r}, stress, "dpeak by the load factor", h5::infinite_too);
+  const auto slopes = [&](const char* name, auto& value, Eigen::Index columns, const std::string& unit,
+                          const char* meaning) {
+    file(group + name, value, {r, columns}, unit, meaning, h5::infinite_too);
+  };
+  slopes("peak/clearance", a.peak.clearance, n, gradient, "dpeak by the clearance of each shear plane");
+  slopes("peak/law", a.peak.law, l, "law_unit/length^2", "dpeak by each number of the laws");
+  slopes("peak/mu", a.peak.mu, std::ssize(a.mu_hole), stress, "dpeak by the coefficient of friction of each hole");
+  slopes("peak/force", a.peak.force, std::ssize(a.force_external), unit(units, -2, 0),
+         "dpeak by the force on each at load factor 1");
+  slopes("peak/displacement", a.peak.displacement, std::ssize(a.displacement_external), gradient,
+         "dpeak by the displacement of each at load factor 1");
+  slopes("peak/gap", a.peak.gap, std::ssize(a.gap_hole), gradient, "dpeak by the radial gap of each");
 }
 
 template <class File, class Result>

@@ -89,6 +89,14 @@ struct PlateHistory {
   std::string matrices_digest{}, plate_digest{};  ///< of its MATRICES.h5, and of its PLATE.h5; empty if unknown
 };
 
+/// Derivatives of the peak hoop stresses of r holes by the numbers of a SensitivityHistory, at one increment, stress
+/// per unit of the number.
+struct PeakSlopes {
+  std::vector<std::string> hole;                                 ///< (r) "plate:hole"
+  Eigen::VectorXd load_factor;                                   ///< (r)
+  Eigen::MatrixXd clearance, law, mu, force, displacement, gap;  ///< (r, n), (r, l), (r, f), (r, u), (r, v), (r, g)
+};
+
 /// Derivatives of the bearing forces F by what the input gives, one matrix of n rows per increment; infinite where the
 /// joint has none.
 struct SensitivityHistory {
@@ -104,6 +112,7 @@ struct SensitivityHistory {
   std::vector<Eigen::MatrixXd> displacement;                ///< (steps) (n, v) by it at load factor 1, force / length
   std::vector<std::string> gap_hole{};                      ///< (g) "plate:hole", each with springs that only push
   std::vector<Eigen::MatrixXd> gap{};                       ///< (steps) (n, g) by its gap, force / length
+  PeakSlopes peak{};                                        ///< at the last increment
 };
 
 /// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.

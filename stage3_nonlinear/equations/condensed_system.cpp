@@ -210,6 +210,14 @@ Rows assemble(const JointModel& joint) {
   return rows;
 }
 
+/// Stiffness of the stiffest plate at each free unknown, (columns of Z).
+VectorXd own_stiffness(const Rows& rows) {
+  VectorXd own = VectorXd::Zero(rows.Z.cols());
+  for (Index j = 0; j < rows.Z.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator at(rows.Z, j); at; ++at) own[j] = std::max(own[j], rows.own[at.row()]);
+  return own;
+}
+
 [[noreturn]] void fail_as_mechanism(const JointModel& joint, const MatrixXd& motions) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   std::vector<std::string> names;
@@ -270,13 +278,16 @@ double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A)
   return lu.rcond() * std::min(1.0, A.cwiseAbs().colwise().sum().maxCoeff());
 }
 
+MatrixXd displacements_under(const JointModel& joint, const MatrixXd& loads) {
+  const Rows rows = assemble(joint);
+  const RigidJoint rigid(rows.Z.transpose() * MatrixXd(rows.S * rows.Z), own_stiffness(rows));
+  return rows.Z * rigid.restore(rigid.half_solve(rows.Z.transpose() * loads));
+}
+
 CondensedSystem condense(const JointModel& joint) {
   const Rows rows = assemble(joint);
   const MatrixXd SZ = rows.S * rows.Z, SY = rows.S * rows.Y;
-  VectorXd own = VectorXd::Zero(rows.Z.cols());
-  for (Index j = 0; j < rows.Z.outerSize(); ++j)
-    for (SparseMatrix::InnerIterator at(rows.Z, j); at; ++at) own[j] = std::max(own[j], rows.own[at.row()]);
-  const RigidJoint rigid(rows.Z.transpose() * SZ, own);
+  const RigidJoint rigid(rows.Z.transpose() * SZ, own_stiffness(rows));
   if (!rigid.is_held()) fail_as_mechanism(joint, rows.Z * rigid.free_motions());
   const auto moved = [&](const MatrixXd& forces) -> MatrixXd {
     return rows.Z * rigid.restore(rigid.half_solve(rows.Z.transpose() * forces));

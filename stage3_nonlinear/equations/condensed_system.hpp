@@ -71,6 +71,10 @@ struct CondensedSystem {
 /// meets.
 [[nodiscard]] double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A);
 
+/// Displacements of all unknowns under loads on them while the shear planes do not move and given displacements are 0,
+/// (N, loads), length. The joint must be held (condense).
+[[nodiscard]] MatrixXd displacements_under(const JointModel& joint, const MatrixXd& loads);
+
 /// @throws NumericalError naming the plates that can move if nothing holds them.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint);
 

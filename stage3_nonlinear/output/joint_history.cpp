@@ -6,12 +6,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/count.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/contact_history.hpp"
 #include "stage3_nonlinear/results/load_stiffness.hpp"
-#include "stage3_nonlinear/results/sensitivity.hpp"
+#include "stage3_nonlinear/results/peak_sensitivity.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -92,6 +93,23 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
     history.rims.values.emplace_back(rims.begin(), rims.end());
   }
   return history;
+}
+
+formats::PeakSlopes peak_slopes(const JointModel& joint, const JointEquations& equations, const JointNumbers& numbers,
+                                const PathStep& step, const JointState& state) {
+  const PeakSensitivity all = peak_sensitivity(joint, equations, numbers, step, state);
+  Index column = 1;
+  const auto next = [&](Index count) -> MatrixXd {
+    return all.slopes.middleCols(std::exchange(column, column + count), count);
+  };
+  return {.hole = all.hole,
+          .load_factor = all.slopes.col(0),
+          .clearance = next(joint.n_planes()),
+          .law = next(std::ssize(numbers.law)),
+          .mu = next(std::ssize(numbers.friction) + std::ssize(numbers.shears)),
+          .force = next(std::ssize(numbers.force)),
+          .displacement = next(std::ssize(numbers.displacement)),
+          .gap = next(std::ssize(numbers.gap))};
 }
 
 /// A field with a comma, a quote or a line break stands in quotes.
@@ -185,7 +203,7 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
 }
 
 formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
-                                                const LoadPath& path) {
+                                                const LoadPath& path, const std::vector<JointState>& states) {
   const JointNumbers numbers = joint_numbers(joint, equations.system);
   formats::SensitivityHistory history;
   for (const auto& hole : numbers.friction) history.mu_hole.push_back(hole.name);
@@ -209,6 +227,7 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
     history.displacement.push_back(std::move(each.displacement));
     history.gap.push_back(std::move(each.gap));
   }
+  if (!states.empty()) history.peak = peak_slopes(joint, equations, numbers, path.steps.back(), states.back());
   return history;
 }
 

@@ -17,9 +17,12 @@ namespace fastjoint::stage3 {
                                                 const LoadPath& path, const std::vector<JointState>& states,
                                                 bool with_rim_stresses);
 
-/// The derivatives of the bearing forces at every step of the path, as RESULT.h5 holds them.
+/// The derivatives of the bearing forces at every step of the path, and of the peaks at the last, as RESULT.h5 holds
+/// them.
+/// @param states One per step.
 [[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
-                                                              const LoadPath& path);
+                                                              const LoadPath& path,
+                                                              const std::vector<JointState>& states);
 
 /// One line per increment and shear plane under a line of names; all digits, RFC 4180. What a plate's matrices do not
 /// tell, stresses and bypass loads, is left empty.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "stage3_nonlinear/equations/rim_friction.hpp"
@@ -85,22 +86,12 @@ void add_shears(const JointModel& joint, Index at, VectorXd& asked, VectorXd& sh
   }
 }
 
-/// Loads of the rims of contact of a plate, by the moments of their displacements.
-/// @param shears Amounts of all shears of the plate's rims, stress.
-std::vector<ContactLoad> contact_loads(const JointModel& joint, Index at, const VectorXd& moments,
-                                       const VectorXd& shears) {
-  const PlateModel& plate = joint.plates[at];
-  std::vector<ContactLoad> loads;
-  Index row = 0, shear = 0;
-  for (const auto& rim : plate.contact) {
-    const Index k = rim.pressures.size(), s = rim.pressures.n_shears();
-    const RimContact contact(rim.pressures, rim.modulus * rim.area, joint.gap(at, rim.hole), joint.mu(at, rim.hole));
-    const VectorXd m = moments.segment(row, k);
-    loads.push_back(contact_load(contact, plate.short_waves[loads.size()], rim.area, m, shears.segment(shear, s)));
-    row += k;
-    shear += s;
-  }
-  return loads;
+/// The rims of contact of a plate.
+std::vector<RimContact> rims_of_contact(const JointModel& joint, Index at) {
+  std::vector<RimContact> rims;
+  for (const auto& rim : joint.plates[at].contact)
+    rims.emplace_back(rim.pressures, rim.modulus * rim.area, joint.gap(at, rim.hole), joint.mu(at, rim.hole));
+  return rims;
 }
 
 /// Amounts of the unit cases of a plate's file.
@@ -129,7 +120,7 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F, double factor,
                        const Bearing& bearing, VectorXd& shear, double& worst_row) {
   const PlateModel& plate = joint.plates[at];
-  const Index m = plate.n_discs(), k = rim_F.size(), n_cosines = std::ssize(plate.friction_hole);
+  const Index m = plate.n_discs(), k = rim_F.size();
   const VectorXd none = VectorXd::Zero(m);
   VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_rate(factor));
   PlateState state{.D = u.head(m),
@@ -148,24 +139,10 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
         add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
   const VectorXd on_discs = state.bearing;  // in holes of contact with their friction
   add_shears(joint, at, asked, shear, state);
-  const auto loads = contact_loads(joint, at, state.moments, state.Lambda.tail(plate.R.cols() - n_cosines));
-  state.waves.resize(plate.n_loaded_waves);
-  state.added.resize(k + plate.R.cols() - n_cosines);
-  Index next = 0, next_added = 0;
-  for (Index i = 0; i < std::ssize(loads); ++i) {
-    const ShortWaves& rim = plate.short_waves[i];
-    const double modulus = plate.contact[i].modulus;
-    state.waves.segment(next, rim.n_carried()) = wave_amounts(loads[i], rim, modulus);
-    next += rim.n_carried();
-    state.added.segment(next_added, rim.n + rim.n_shears) << loads[i].pressure - modulus * loads[i].moments,
-        loads[i].shear;
-    next_added += rim.n + rim.n_shears;
-  }
-  if (plate.stress_level) {
-    const VectorXd amounts = unit_case_amounts(plate, state);
-    state.loaded = loaded_rims(plate, amounts, loads);
-    state.rims = rim_states(plate.stresses, *plate.stress_level, amounts, loaded_discs(plate, state), state.loaded);
-  }
+  load_rims(plate, rims_of_contact(joint, at), state);
+  if (plate.stress_level)
+    state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_amounts(plate, state),
+                            loaded_discs(plate, state), state.loaded);
   worst_row = std::max(
       {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
@@ -199,6 +176,27 @@ double worst_fastener(const JointModel& joint, const std::vector<PlateState>& pl
 }
 
 }  // namespace
+
+void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state) {
+  const Index h = std::ssize(plate.friction_hole), n_shears = plate.R.cols() - h;
+  state.waves.resize(plate.n_loaded_waves);
+  state.added.resize(state.moments.size() + n_shears);
+  std::vector<ContactLoad> loads;
+  Index row = 0, shear = h, next = 0, next_added = 0;
+  for (Index i = 0; i < std::ssize(rims); ++i) {
+    const auto& [pressures, modulus, area] =
+        std::tie(plate.contact[i].pressures, plate.contact[i].modulus, plate.contact[i].area);
+    const ShortWaves& waves = plate.short_waves[i];
+    const Index k = pressures.size(), s = pressures.n_shears();
+    loads.push_back(contact_load(rims[i], waves, area, state.moments.segment(row, k), state.Lambda.segment(shear, s)));
+    row += k, shear += s;
+    state.waves.segment(next, waves.n_carried()) = wave_amounts(loads[i], waves, modulus);
+    next += waves.n_carried();
+    state.added.segment(next_added, k + s) << loads[i].pressure - modulus * loads[i].moments, loads[i].shear;
+    next_added += k + s;
+  }
+  if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_amounts(plate, state), loads);
+}
 
 JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
   const VectorXd D = system.displacements(step.all_F(), step.all_delta(), step.load_factor, step.shear);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "stage3_nonlinear/equations/condensed_system.hpp"
@@ -44,6 +45,11 @@ struct JointState {
   /// is none.
   std::optional<double> plates_out_of_balance;
 };
+
+/// Sets what the loads on a plate make of its rims, `waves`, `added` and `loaded`, by its displacements, moments,
+/// Lambda and tractions.
+/// @param rims Those of contact.
+void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state);
 
 /// The states of all steps. A path ends where its forces do not balance to 1e-8 of the largest or to what the solver's
 /// tolerance leaves, since rounding errors would count as load.

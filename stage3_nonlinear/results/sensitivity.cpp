@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 #include "common/matrices/stiffness_error.hpp"
 #include "stage3_nonlinear/equations/rim_friction.hpp"
@@ -36,42 +35,14 @@ std::pair<MatrixXd, MatrixXd> law_changes(const JointEquations& equations, const
   return {F, delta};
 }
 
-/// dG / dmu of a hole for a row of its fastener and the side that bears there, over the unknowns of the row's plate.
-VectorXd change_of_row(const JointModel& joint, const FrictionRow& row, Side side, Index by) {
-  const FastenerModel& fastener = joint.fasteners[row.fastener];
-  const HoleModel& hole = fastener.holes[row.hole];
-  const FrictionLoad& friction = hole.friction[row.direction][side];
-  const double mu = fastener.holes[by].mu, transferred = friction.bearing + friction.resultant;
-  double relative = row.hole == by ? -friction.resultant / transferred / mu : 0;  // d ln bearing / d mu
-  if (!fastener.law_includes_friction)
-    relative += part_of_mean_share(fastener, by, row.hole, row.direction, side) / transferred / mu;
-  VectorXd change = VectorXd::Zero(joint.plates[hole.plate].n_unknowns());
-  change.head(friction.load.size()) = (relative + (row.hole == by ? 1 / mu : 0)) * friction.load;
-  change[hole.disc + row.direction] -= (side == plus_side ? 1 : -1) * relative * friction.bearing;
-  return change;
-}
-
-/// Adds the derivatives of H by the friction of a hole, by reciprocity: dH = D_delta^T dG (docs/theory.md,
-/// section 7.1).
-void add_rows(const JointModel& joint, const CondensedSystem& system, FrictionHole& by) {
-  for (Index i = 0; i < std::ssize(system.friction); ++i) {
-    const FrictionRow& row = system.friction[i];
-    if (row.fastener != by.fastener) continue;
-    const Index plate = joint.fasteners[by.fastener].holes[row.hole].plate;
-    const auto D = system.D_delta.middleRows(joint.offset(plate), joint.plates[plate].n_unknowns());
-    const auto dH = [&](Side side) -> VectorXd { return D.transpose() * change_of_row(joint, row, side, by.hole); };
-    by.rows.push_back({i, dH(plus_side), dH(minus_side)});
-  }
-}
-
 /// Changes of the residual by each mu, (n a, f).
 MatrixXd friction_changes(const CondensedSystem& system, const std::vector<FrictionHole>& holes, const VectorXd& F) {
   MatrixXd changes = MatrixXd::Zero(F.size(), std::ssize(holes));
   if (system.friction.empty()) return changes;  // OpenBLAS complains on stderr about a matrix without rows
   const VectorXd b = system.E * F;
   for (Index i = 0; i < changes.cols(); ++i)
-    for (const auto& [row, plus, minus] : holes[i].rows)
-      changes.col(i) += std::abs(b[row]) * (b[row] < 0 ? minus : plus);
+    for (const auto& row : holes[i].rows)
+      changes.col(i) += std::abs(b[row.at]) * (b[row.at] < 0 ? row.minus : row.plus);
   return changes;
 }
 
@@ -129,38 +100,20 @@ MatrixXd residual_changes(const JointEquations& equations, const JointNumbers& n
   return all;
 }
 
-/// Adds the work of each load on the displacements D_delta, which by reciprocity is its q, without another solve
-/// (docs/theory.md, section 7.1).
-void add_unit_loads(const JointModel& joint, const CondensedSystem& system, JointNumbers& numbers) {
-  const Index n = system.q.size();
-  numbers.q_force = numbers.q_force_reversed = MatrixXd(n, std::ssize(numbers.force));
-  numbers.q_displacement.resize(n, std::ssize(numbers.displacement));
-  Index force = 0, displacement = 0;
-  for (Index p = 0; p < std::ssize(joint.plates); ++p) {
-    const PlateModel& plate = joint.plates[p];
-    const MatrixXd D = system.D_delta.middleRows(joint.offset(p), plate.n_unknowns());
-    const auto q = [&](const VectorXd& load) {
-      return without_rounding(D.transpose() * load, load.cwiseAbs().maxCoeff());
-    };
-    for (Index i = 0; i < plate.n_externals(); ++i) {
-      const Index unknown = plate.n_discs() + i;
-      if (plate.external_displacement[i]) {
-        numbers.q_displacement.col(displacement++) = q(-plate.S.col(unknown));
-        continue;
-      }
-      numbers.q_force.col(force) = q(VectorXd::Unit(plate.n_unknowns(), unknown));
-      numbers.q_force_reversed.col(force) = numbers.q_force.col(force);
-      ++force;
-    }
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i) {
-      if (plate.is_other_side(i)) continue;
-      for (const auto& [to, factor] : {std::pair(&numbers.q_force, 1), std::pair(&numbers.q_force_reversed, -1)}) {
-        const Index acting = !plate.acts(i, factor) && plate.is_other_side(i + 1) ? i + 1 : i;
-        to->col(force) = q(-plate.T.col(acting));
-      }
-      ++force;
-    }
+/// Slopes of a solution by all numbers, with what these do at fixed c.
+/// @param all_delta If not null, also of delta, (r, columns).
+Slopes all_slopes(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step, const VectorXd& c,
+                  ContactState state, MatrixXd* all_delta) {
+  const auto [F, delta] = law_changes(equations, numbers, state, c);
+  const MatrixXd residual = residual_changes(equations, numbers, state, F, delta, step.load_factor);
+  if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
+  Slopes slopes = implicit_slopes(equations, state, residual);
+  slopes.F.middleCols(1, F.cols()) += F;
+  if (all_delta) {
+    *all_delta = state.times(slopes.c.transpose(), state.ddelta).transpose();
+    all_delta->middleCols(1, F.cols()) += delta;
   }
+  return slopes;
 }
 
 bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
@@ -242,49 +195,18 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
 
 }  // namespace
 
-JointNumbers names_of_numbers(const JointModel& joint) {
-  JointNumbers numbers;
-  for (const auto& plate : joint.plates) {
-    for (Index i = 0; i < plate.n_externals(); ++i)
-      (plate.external_displacement[i] ? numbers.displacement : numbers.force)
-          .push_back(plate.name + ":" + plate.externals[i]);
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      if (!plate.is_other_side(i)) numbers.force.push_back(plate.name + ":" + plate.tractions[i]);
-  }
-  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
-    for (Index at = 0; at < std::ssize(joint.fasteners[i].holes); ++at)
-      if (const HoleModel& hole = joint.fasteners[i].holes[at]; hole.mu > 0 && !hole.friction.empty())
-        numbers.friction.push_back({joint.name(hole), i, at, {}});
-  numbers.gap = joint.rims();
-  for (Index i = 0; i < std::ssize(joint.plates); ++i)
-    for (const auto& rim : joint.plates[i].contact)
-      if (joint.mu(i, rim.hole) != 0) numbers.shears.push_back(joint.plates[i].name + ":" + rim.hole);
-  std::map<std::string, Index> first;
-  for (const auto& plane : joint.planes) {
-    const auto [at, is_new] = first.try_emplace(plane.law_name, std::ssize(numbers.law));
-    numbers.first_of_law.push_back(at->second);
-    if (!is_new) continue;
-    for (const auto& parameter : plane.law->parameters()) numbers.law.emplace_back(plane.law_name, parameter);
-  }
-  return numbers;
-}
-
-JointNumbers joint_numbers(const JointModel& joint, const CondensedSystem& system) {
-  JointNumbers numbers = names_of_numbers(joint);
-  add_unit_loads(joint, system, numbers);
-  for (FrictionHole& hole : numbers.friction) add_rows(joint, system, hole);
-  return numbers;
+StateSlopes state_slopes(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
+  const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+  const ContactState state = contact_state(equations, c);
+  MatrixXd delta;
+  const Slopes slopes = all_slopes(equations, numbers, step, c, state, &delta);
+  return {slopes.F, delta, slopes.no_column};
 }
 
 Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
   const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
-  ContactState state = contact_state(equations, c);
-  const auto [F, delta] = law_changes(equations, numbers, state, c);
-  const MatrixXd residual = residual_changes(equations, numbers, state, F, delta, step.load_factor);
-  if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations, state, residual);
-  slopes.F.middleCols(1, F.cols()) += F;
-  const MatrixXd dF = of_amounts(slopes, state, c);
+  const ContactState state = contact_state(equations, c);
+  const MatrixXd dF = of_amounts(all_slopes(equations, numbers, step, c, state, nullptr), state, c);
   Index column = 0;
   const auto next = [&](Index count) -> MatrixXd {
     column += count;

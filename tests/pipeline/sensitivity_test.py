@@ -25,26 +25,33 @@ def run(*words):
 
 
 def solve(scene):
-    """F at every increment."""
+    """F at every increment, and the peaks of all holes at the last."""
     Path("changed.json").write_text(json.dumps(scene))
     run("stage3_nonlinear", "changed.json", "-o", "changed.h5")
     with h5py.File("changed.h5") as f:
         assert "sensitivity" not in f, "only if asked for"
-        return f["F"][:]
+        return f["F"][:], peaks(f)
+
+
+def peaks(file):
+    """Largest hoop stress of each "plate:hole" at the last increment."""
+    return {f"{name}:{hole}": peak for name, plate in file["plates"].items()
+            for hole, peak in zip(plate["rim/hole"].asstr(), plate["rim/peak_hoop"][-1])}
 
 
 def difference(scene, change, step):
-    """Central difference of F by a number that change(scene, h) adds h to."""
-    F = []
+    """Central differences of F, and of the peaks in the order of their names, by a number that change(scene, h) adds h to."""
+    found = []
     for h in (step, -step):
         changed = copy.deepcopy(scene)
         change(changed, h)
-        F.append(solve(changed))
-    return (F[0] - F[1]) / (2 * step)
+        F, peak = solve(changed)
+        found.append((F, np.array([peak[name] for name in sorted(peak)])))
+    return tuple((plus - minus) / (2 * step) for plus, minus in zip(*found))
 
 
 def expect(by, scene, change, value):
-    by_difference = difference(scene, change, STEP * value)
+    by_difference, _ = difference(scene, change, STEP * value)
     assert np.abs(by - by_difference).max() < 1e-6 * np.abs(by_difference).max(), (by, by_difference)
 
 
@@ -53,7 +60,10 @@ def sensitivities(scene):
     run("stage3_nonlinear", "joint.json", "-o", "joint.h5", "--sensitivities")
     with h5py.File("joint.h5") as f:
         group = f["sensitivity"]
-        return {name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[:] for name, item in group.items()}
+        found = {}
+        group.visititems(lambda name, item: found.update({name: item.asstr()[:] if h5py.check_string_dtype(item.dtype) else item[:]})
+                         if isinstance(item, h5py.Dataset) else None)
+        return found | {"peaks": peaks(f)}
 
 
 def check_lap_joint():
@@ -141,7 +151,7 @@ def check_bars(scene, names):
         bars = dict(draw_loads.changes(result, plane))
         assert set(bars) == names, bars
         for name, bar in bars.items():
-            slope = difference(scene, lambda changed, h: scale(changed, name, 1 + h), STEP)[-1, plane] / result.F[-1, plane]
+            slope = difference(scene, lambda changed, h: scale(changed, name, 1 + h), STEP)[0][-1, plane] / result.F[-1, plane]
             assert abs(bar - slope) < 1e-6 * max(map(abs, bars.values())), (plane, name, bar, slope)
     return result
 
@@ -185,10 +195,72 @@ def check_linear_chains():
         expect(by["law"][:, :, i], scene, add_stiffness, k)
 
 
+def expect_peaks(by, scene, change, value):
+    """Derivatives of all peaks by a number of about `value`."""
+    _, differences = difference(scene, change, STEP * value)
+    assert sorted(by) == sorted(by) and len(by) == len(differences)
+    found = np.array([by[name] for name in sorted(by)])
+    assert np.abs(found - differences).max() < 1e-4 * np.abs(differences).max(), (found, differences)
+
+
+def check_peaks():
+    """Of both kinds of springs, with a law, gaps or clearances and friction; loaded at an edge and in a hole."""
+    rows = [(f"{kind} {directions}", kind, directions) for kind in ("all around", "contact") for directions in (["x"], ["x", "y"])]
+    for name, kind, directions in rows:
+        for sheet in ("upper", "lower"):
+            plate = json.loads((ROOT / f"tests/pipeline/scenes/lap_joint/{sheet}.json").read_text())
+            plate["disc_directions"] = directions
+            for hole in plate["holes"]:
+                hole["spring"] |= {"compression_only": True} if kind == "contact" else {}
+            if sheet == "lower":
+                plate["external"] = [{"id": "Q", "on": "right", "direction": "x", "kind": "traction"}]
+            Path(f"{sheet}.json").write_text(json.dumps(plate))
+            run("stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5", "--p", "5..6")
+            run("stage2_extract", f"{sheet}.h5", "-o", f"{sheet}.matrices.h5")
+        scene = json.loads((ROOT / "tests/pipeline/scenes/lap_joint/joint.json").read_text())
+        scene |= {"solver": {"tolerance": 1e-13}, "increments": 2}
+        scene["loads"].append({"external": "lower:Q", "force": 900})
+        for i, fastener in enumerate(scene["fasteners"]):
+            fastener["friction"] = {"upper": 0.1 + 0.02 * i, "lower": 0.15}
+            fastener.pop("clearance", None)
+            fastener |= {"gap": 0.01 + 0.002 * i} if kind == "contact" else {"clearance": 0.01 if i == 1 else 0}
+        by = sensitivities(scene)
+        assert list(by["peak/hole"]) == list(by["peaks"]), name
+
+        def named(table, column):
+            return dict(zip(by["peak/hole"], by[f"peak/{table}"][:, column]))
+
+        def add(*keys):
+            def change(changed, h):
+                for key in keys[:-1]:
+                    changed = changed[key]
+                changed[keys[-1]] += h
+            return change
+
+        for i, (external, load, force) in enumerate((("upper:P", 0, 4000), ("lower:Q", 1, 900))):
+            at = list(by["force_external"]).index(external)
+            expect_peaks(named("force", at), scene, add("loads", load, "force"), force)
+        for i, (number, value) in enumerate((("A", 9000), ("n", 0.8))):
+            expect_peaks(named("law", i), scene, add("laws", "rivet", number), value)
+        for hole in ("upper:a", "lower:c"):
+            at = list(by["mu_hole"]).index(hole)
+            plate, fastener = hole.split(":")[0], "abcd".index(hole[-1])
+            expect_peaks(named("mu", at), scene, add("fasteners", fastener, "friction", plate), 0.15)
+        if kind == "contact":
+            both = {hole: by["peak/gap"][i, [list(by["gap_hole"]).index(f"{sheet}:b") for sheet in ("upper", "lower")]].sum()
+                    for i, hole in enumerate(by["peak/hole"])}
+            expect_peaks(both, scene, add("fasteners", 1, "gap"), 0.012)
+        else:
+            expect_peaks(named("clearance", 1), scene, add("fasteners", 1, "clearance"), 0.01)
+        total = 4000 * by["peak/force"][:, list(by["force_external"]).index("upper:P")] + \
+            900 * by["peak/force"][:, list(by["force_external"]).index("lower:Q")]
+        assert np.allclose(by["peak/load_factor"], total, rtol=1e-4, atol=1e-6 * np.abs(total).max()), name
+
+
 def main(bin_folder):
     os.environ["PATH"] = str(Path(bin_folder).resolve()) + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as work:
-        for check in (check_lap_joint, check_bars_of_a_stack, check_linear_chains):
+        for check in (check_lap_joint, check_bars_of_a_stack, check_linear_chains, check_peaks):
             folder = Path(work) / check.__name__
             folder.mkdir()
             os.chdir(folder)

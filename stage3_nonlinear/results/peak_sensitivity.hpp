@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "stage3_nonlinear/results/sensitivity.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Derivatives of hoop stresses by the numbers of the input.
+struct PeakSensitivity {
+  std::vector<std::string> hole;  ///< (r) "plate:hole" of each hole with a peak
+  MatrixXd slopes;                ///< (r, JointNumbers::n_derivatives) stress per unit of the number
+};
+
+/// Of the hoop stress at the place of each hole's peak in one state, which is the derivative of the peak itself where
+/// it is a smooth maximum. Forces and displacements change by their exact slopes and by what a number does to them
+/// directly; the hoop stress, which is linear in them but for contact, by its difference over a change of the state by
+/// 1e-6. Infinite where the forces have no derivative.
+[[nodiscard]] PeakSensitivity peak_sensitivity(const JointModel& joint, const JointEquations& equations,
+                                               const JointNumbers& numbers, const PathStep& step,
+                                               const JointState& state);
+
+}  // namespace fastjoint::stage3
