@@ -10,6 +10,7 @@ import json
 import subprocess
 import sys
 import tempfile
+from itertools import islice
 from pathlib import Path
 
 import h5py
@@ -312,9 +313,35 @@ def error_bars(folder):
     near("  part of the peaks over 2 times their bar", np.mean(ratios > 2), 0, 0.003, absolute=True)
 
 
+def truths(folder):
+    """Truths of random joints with one pin, against Newton's method on all unknowns of the same mesh, whose stresses at points are as exact
+    as its elements are small."""
+    seeds = (seed for seed in range(300) if is_one_pin(*random_joint(seed)[1:]))
+    for seed in islice(seeds, 6):
+        _, fine, joint = random_joint(seed)
+        cut = cut_mesh(folder, PROGRAMS, fine, 3, 28)
+        matrices(folder, cut)
+        found = state(folder, **joint)
+        for hole in cut["holes"]:
+            hole |= {"stresses": False}
+            hole.get("spring", {}).pop("compression_only", None), hole.get("spring", {}).pop("harmonics", None), hole.pop("waves")
+        (folder / "newton.json").write_text(json.dumps(cut))
+        pin, at = joint["fasteners"][0], [hole["id"] for hole in cut["holes"]].index(joint["fasteners"][0]["id"])
+        numbers = map(str, (pin["gap"], joint["laws"]["law"]["k"], joint["loads"][0]["force"]))
+        printed = subprocess.run([PROGRAMS / "contact_newton", "newton.json", *numbers], cwd=folder, check=True, capture_output=True, text=True)
+        exact = json.loads(printed.stdout)
+        near(f"truth of joint {seed}, by Newton's method: hoop stress", found["hoop"][at], exact["hoop"], 1e-3)
+        near("  peak pressure", found["pressure"][0], exact["pressure"], 1e-3)
+
+
+def is_one_pin(scene, joint):
+    springs = [hole["spring"] for hole in scene["holes"] if "spring" in hole]
+    return len(springs) == 1 and springs[0]["compression_only"] and len(joint["loads"]) == 1
+
+
 with tempfile.TemporaryDirectory() as name:
     for check in (isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
-                  rate_in_waves, error_bars):
+                  rate_in_waves, error_bars, *([truths] if SWEEP else [])):
         check(Path(name))
 if missed:
     sys.exit("MISSED: " + "; ".join(missed))
