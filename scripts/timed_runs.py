@@ -20,10 +20,11 @@ def work_folder():
     return tempfile.TemporaryDirectory(dir=MEMORY if os.path.isdir(MEMORY) else None)
 
 
-def run(*words):
-    """Of a program that must succeed: what it prints."""
+def run(*words, folder=None):
+    """Of a program that must succeed, run in a folder: what it prints."""
     try:
-        result = subprocess.run([str(word) for word in words], env=ONE_THREAD, capture_output=True, text=True)
+        result = subprocess.run([str(word) for word in words], env=ONE_THREAD, cwd=folder, capture_output=True,
+                                text=True)
     except FileNotFoundError:
         sys.exit(f"{Path(sys.argv[0]).name}: error: {words[0]} is not on PATH; after "
                  "cmake --build --preset release --target all benchmarks: PATH=$PWD/build/release/bin:$PATH")

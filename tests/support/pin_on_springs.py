@@ -73,9 +73,9 @@ class WideSheet:
         theta = rim_angles(n)
         return self.under(np.cos(theta)[:, None], np.zeros((n, 1)))[2][:, 0] + np.sin(theta)**2
 
-    def pin(self, force, modulus, gap):
+    def pin(self, force, modulus, gap, n_waves=48):
         """Half-angle of contact in degrees, peak pressure and peak hoop stress of a pin that a force along x presses on springs."""
-        n_waves, n, n_fine = 48, 1536, 16384
+        n, n_fine = 32 * n_waves, 16384
         w, D = self._long_waves(force, modulus, gap, n_waves, n)
         # Shorter waves follow from the pressure, by turns, damped by what springs that also pull would make of them.
         theta = rim_angles(n_fine)
