@@ -75,6 +75,14 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
     of_step += of_plate + unknowns + cases + of_rim * n_rims;
     if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;
   }
+  if (with_sensitivities) {  // loads of friction, and displacements by each number
+    const bool has_peaks =
+        std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
+    constexpr double of_friction = 4, of_peaks = 4;
+    solving +=
+        number * double(joint.n_unknowns()) *
+        (of_friction * double(numbers.friction.size()) + (has_peaks ? of_peaks * double(numbers.n_derivatives()) : 0));
+  }
   const double read = matrices_need(scene);
   const Index n_steps = std::max<Index>(std::ssize(scene.load_factors), 1);  // how many events is not known yet
   constexpr double copies = 2.5;                                             // in the states and in the tables

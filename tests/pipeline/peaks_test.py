@@ -114,7 +114,7 @@ def laminate_pins(folder):
             solve = pin_in_a_wide_sheet(folder, laminate(*moduli, angle), 5 * moduli[0], WIDER)
             exact = WideSheet(compliance(*moduli, angle))
             for gap in (0, 0.5):
-                half_angle, peak, stress = exact.pin(1000, 5 * moduli[0], gap * 1000 / moduli[0])
+                half_angle, peak, stress = exact.pin(1000, 5 * moduli[0], gap * 1000 / moduli[0], n_waves=96)
                 found = solve(gap * 1000 / moduli[0])
                 near(f"pin in a laminate, {name}, {angle} degrees, E g t/P = {gap}: hoop stress", found["hoop"][0], stress, 0.02, found["bar"][0])
                 near("  peak pressure", found["pressure"][0], peak, 0.02)
@@ -325,13 +325,16 @@ def truths(folder):
         for hole in cut["holes"]:
             hole |= {"stresses": False}
             hole.get("spring", {}).pop("compression_only", None), hole.get("spring", {}).pop("harmonics", None), hole.pop("waves")
-        (folder / "newton.json").write_text(json.dumps(cut))
         pin, at = joint["fasteners"][0], [hole["id"] for hole in cut["holes"]].index(joint["fasteners"][0]["id"])
-        numbers = map(str, (pin["gap"], joint["laws"]["law"]["k"], joint["loads"][0]["force"]))
-        printed = subprocess.run([PROGRAMS / "contact_newton", "newton.json", *numbers], cwd=folder, check=True, capture_output=True, text=True)
-        exact = json.loads(printed.stdout)
-        near(f"truth of joint {seed}, by Newton's method: hoop stress", found["hoop"][at], exact["hoop"], 1e-3)
-        near("  peak pressure", found["pressure"][0], exact["pressure"], 1e-3)
+        numbers = [str(number) for number in (pin["gap"], joint["laws"]["law"]["k"], joint["loads"][0]["force"])]
+        exact = []
+        for p in (7, 8):
+            (folder / "newton.json").write_text(json.dumps({**cut, "p": p}))
+            printed = subprocess.run([PROGRAMS / "contact_newton", "newton.json", *numbers], cwd=folder, check=True, capture_output=True, text=True)
+            exact.append(json.loads(printed.stdout))
+        share = max(5e-4, abs(exact[1]["hoop"] / exact[0]["hoop"] - 1))  # stresses at points change by this from p = 7 to 8
+        near(f"truth of joint {seed}, by Newton's method: hoop stress", found["hoop"][at], exact[1]["hoop"], share)
+        near("  peak pressure", found["pressure"][0], exact[1]["pressure"], 1e-4)
 
 
 def is_one_pin(scene, joint):
