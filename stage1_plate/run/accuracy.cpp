@@ -36,6 +36,11 @@ void raise_degree(Accuracy& model) {
   const int highest = model.scene.p_high;
   const bool with_hoop = std::isfinite(model.asked.hoop);
   const auto waves = rim_waves(model.scene, plate);
+  if (with_hoop && std::ranges::none_of(waves, [](const auto& rim) { return rim.has_value(); }))
+    throw InputError(
+        fmt::format("{}: --peak-accuracy is the error of hoop stresses around holes, and no hole has any; allowed: a "
+                    "scene with a hole that is not linked and has no \"stresses\": false",
+                    model.scene.file));
   Eigen::MatrixXd below;
   matrices::CondensedLevels levels;
   for (int p = model.scene.p_low; p <= highest; ++p) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "common/count.hpp"
 #include "common/rim/angles.hpp"
@@ -14,8 +15,10 @@ namespace {
 
 /// A hole with a peak.
 struct PeakHole {
-  Index plate, rim;  ///< rim among PlateModel::waves
-  double angle;      ///< of the peak, radians
+  Index plate, rim;                   ///< rim among PlateModel::waves
+  double angle;                       ///< of the peak, radians
+  bool is_loaded;                     ///< else any place may become the peak
+  std::optional<std::size_t> kink{};  ///< LoadedRim::kinks that it is on
 };
 
 std::vector<PeakHole> holes_with_peaks(const JointModel& joint, const JointState& state) {
@@ -24,22 +27,22 @@ std::vector<PeakHole> holes_with_peaks(const JointModel& joint, const JointState
     const PlateModel& plate = joint.plates[i];
     for (Index at = 0; at < std::ssize(state.plates[i].rims); ++at)
       for (Index rim = 0; rim < std::ssize(plate.waves); ++rim)
-        if (plate.waves[rim].hole == plate.stresses.rim_hole[at] && plate.waves[rim].has_closed_form())
-          holes.push_back({i, rim, state.plates[i].rims[at].peak_angle * rim::degree});
+        if (plate.waves[rim].hole == plate.stresses.rim_hole[at] && plate.waves[rim].has_closed_form()) {
+          const RimState& its = state.plates[i].rims[at];
+          holes.push_back({i, rim, its.peak_angle * rim::degree, its.peak_hoop != 0});
+        }
   }
   return holes;
 }
 
 /// Hoop stress at the place of a peak as the peak is found there: on a kink, which the place then moves with, or on the
 /// parabola through the nearest three of HoopStress::values.
-double at_place(const HoopStress& hoop, double angle, const std::vector<double>& kinks) {
-  constexpr double near = 1e-4;  // more than a small change moves a kink by
-  for (const double kink : kinks)
-    if (std::abs(rim::wrapped(kink - angle)) < near) return hoop.at(kink);
+double at_place(const HoopStress& hoop, const PeakHole& peak, const std::vector<double>& kinks) {
   const auto& values = hoop.values();
+  if (peak.kink && *peak.kink < kinks.size()) return hoop.at(kinks[*peak.kink]);
   const Index n = values.size();
   const double step = rim::full_turn / double(n);
-  const double past = rim::wrapped(angle, hoop.angles()[0]) - hoop.angles()[0];
+  const double past = rim::wrapped(peak.angle, hoop.angles()[0]) - hoop.angles()[0];
   const Index middle = std::lround(past / step);
   const double x = past / step - double(middle);
   const double before = values[(middle + n - 1) % n], at = values[middle % n], after = values[(middle + 1) % n];
@@ -62,25 +65,51 @@ class NearbyStates {
         first_shear_(first_mu_ + std::ssize(numbers.friction)),
         first_force_(first_shear_ + std::ssize(numbers.shears)),
         first_gap_(numbers.n_derivatives() - std::ssize(numbers.gap)),
-        direct_(direct_displacements()) {}
+        direct_(direct_displacements()) {
+    constexpr double rounding = 1e-9;
+    const auto plates = plates_after(0, 0);
+    for (auto& hole : holes_) {
+      const auto& kinks = plates[hole.plate].loaded[hole.rim]->kinks;
+      for (std::size_t i = 0; i < kinks.size(); ++i)
+        if (std::abs(rim::wrapped(kinks[i] - hole.angle)) < rounding) hole.kink = i;
+    }
+  }
 
   [[nodiscard]] const std::vector<Index>& none() const { return slopes_.none; }
 
-  /// Change of a number that changes the state by about a part of it; 0 if it does nothing.
+  /// Change of a number that changes the state by about a part of it, of displacements at least of a millionth of a
+  /// radius; 0 if it does nothing.
   [[nodiscard]] double change_for(Index column, double part) const {
-    const auto share = [&](const VectorXd& change, const VectorXd& all) {
-      const double largest = all.lpNorm<Eigen::Infinity>();
+    const auto share = [](const VectorXd& change, const VectorXd& all, double least) {
+      const double largest = std::max(all.lpNorm<Eigen::Infinity>(), least);
       return largest > 0 ? change.lpNorm<Eigen::Infinity>() / largest : 0;
     };
+    constexpr double small = 1e-6;
+    const double length = small * joint_.plates[holes_[0].plate].waves[holes_[0].rim].radius;
     const VectorXd F = step_.all_F(), delta = step_.all_delta();
     const VectorXd U = equations_.system.displacements(F, delta, step_.load_factor, step_.shear);
-    const double does = std::max(
-        {share(slopes_.F.col(column), F), share(slopes_.delta.col(column), delta), share(direct_.col(column), U)});
+    VectorXd direct = direct_.col(column);
+    if (column == 0) direct += equations_.system.D_load_at(step_.load_factor);
+    const double does = std::max({share(slopes_.F.col(column), F, 0), share(slopes_.delta.col(column), delta, length),
+                                  share(direct, U, length)});
     return does > 0 ? part / does : 0;
   }
 
   /// Hoop stresses after a change of a number, (holes).
   [[nodiscard]] VectorXd hoop_stresses(Index column, double change) const {
+    const auto plates = plates_after(column, change);
+    VectorXd result(std::ssize(holes_));
+    for (Index i = 0; i < result.size(); ++i) {
+      const auto& rim = plates[holes_[i].plate].loaded[holes_[i].rim];
+      const HoopStress hoop = rim->hoop(0, rim->rim.waves, rim->traction_waves(rim->degrees[0].tractions));
+      result[i] = at_place(hoop, holes_[i], rim->kinks);
+    }
+    return result;
+  }
+
+ private:
+  /// The plates after a change of a number: their loads and rims.
+  [[nodiscard]] std::vector<PlateState> plates_after(Index column, double change) const {
     const VectorXd F = step_.all_F() + change * slopes_.F.col(column);
     const VectorXd delta = step_.all_delta() + change * slopes_.delta.col(column);
     const double factor = step_.load_factor + (column == 0 ? change : 0);
@@ -106,16 +135,9 @@ class NearbyStates {
       first_rim += std::ssize(plate.contact);
       plates.push_back(std::move(state));
     }
-    VectorXd result(std::ssize(holes_));
-    for (Index i = 0; i < result.size(); ++i) {
-      const auto& rim = plates[holes_[i].plate].loaded[holes_[i].rim];
-      const HoopStress hoop = rim->hoop(0, rim->rim.waves, rim->traction_waves(rim->degrees[0].tractions));
-      result[i] = at_place(hoop, holes_[i].angle, rim->kinks);
-    }
-    return result;
+    return plates;
   }
 
- private:
   /// Displacements by each number at a fixed load factor, and fixed forces and displacements of the planes, (N,
   /// columns).
   [[nodiscard]] MatrixXd direct_displacements() const {
@@ -216,8 +238,8 @@ PeakSensitivity peak_sensitivity(const JointModel& joint, const JointEquations& 
                                  const PathStep& step, const JointState& state) {
   const auto holes = holes_with_peaks(joint, state);
   PeakSensitivity result{{}, MatrixXd::Zero(std::ssize(holes), numbers.n_derivatives())};
-  for (const auto& [plate, rim, angle] : holes)
-    result.hole.push_back(joint.plates[plate].name + ":" + joint.plates[plate].waves[rim].hole);
+  for (const auto& hole : holes)
+    result.hole.push_back(joint.plates[hole.plate].name + ":" + joint.plates[hole.plate].waves[hole.rim].hole);
   if (holes.empty()) return result;
   const NearbyStates nearby(joint, equations, numbers, step, holes);
   const VectorXd here = nearby.hoop_stresses(0, 0);
@@ -225,8 +247,10 @@ PeakSensitivity peak_sensitivity(const JointModel& joint, const JointEquations& 
   for (Index column = 0; column < result.slopes.cols(); ++column)
     if (const double change = nearby.change_for(column, part); change > 0)
       result.slopes.col(column) = (nearby.hoop_stresses(column, change) - here) / change;
-  for (const Index column : nearby.none())
-    result.slopes.col(column).setConstant(std::numeric_limits<double>::infinity());
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  for (const Index column : nearby.none()) result.slopes.col(column).setConstant(infinite);
+  for (Index i = 0; i < std::ssize(holes); ++i)
+    if (!holes[i].is_loaded) result.slopes.row(i).setConstant(infinite);
   return result;
 }
 

@@ -252,6 +252,8 @@ def check_peaks():
             expect_peaks(both, scene, add("fasteners", 1, "gap"), 0.012)
         else:
             expect_peaks(named("clearance", 1), scene, add("fasteners", 1, "clearance"), 0.01)
+        unloaded = sensitivities(scene | {"increments": [0.0]})
+        assert np.all(np.isinf(unloaded["peak/load_factor"])), unloaded["peak/load_factor"]
         total = 4000 * by["peak/force"][:, list(by["force_external"]).index("upper:P")] + \
             900 * by["peak/force"][:, list(by["force_external"]).index("lower:Q")]
         assert np.allclose(by["peak/load_factor"], total, rtol=1e-4, atol=1e-6 * np.abs(total).max()), name

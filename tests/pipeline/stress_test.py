@@ -108,6 +108,24 @@ def check_default(folder):
     assert np.isclose(float(column[1]), forces[-1], rtol=1e-4), (column, forces)
 
 
+def check_without_peaks(folder):
+    """Holes that want no stresses have no peaks, and nothing is said of those."""
+    plate = json.loads((folder / "upper.json").read_text())
+    for hole in plate["holes"]:
+        hole["stresses"] = False
+    (folder / "silent.json").write_text(json.dumps(plate))
+    joint = json.loads((folder / "joint.json").read_text())
+    joint["plates"]["upper"] = "silent.matrices.h5"
+    (folder / "silent.joint.json").write_text(json.dumps(joint))
+    subprocess.run(["stage1_plate", "silent.json", "-o", "silent.h5", "--quiet"], check=True, cwd=folder)
+    subprocess.run(["stage2_extract", "silent.h5", "-o", "silent.matrices.h5", "--quiet"], check=True, cwd=folder)
+    run = subprocess.run(["stage3_nonlinear", "silent.joint.json", "-o", "silent.result.h5"], cwd=folder, check=True, capture_output=True, text=True)
+    assert "kt-below-one" not in run.stderr, run.stderr
+    with h5py.File(folder / "silent.result.h5") as result:
+        rim = result["plates/upper/rim"]
+        assert np.all(rim["peak_hoop"][:] == 0) and np.all(np.isinf(rim["peak_error"][:]))
+
+
 def check_filled(folder):
     """The highest peaks that the limits and the example tell of, by the command that they name."""
     folder = copy_example("lap_joint", folder)
@@ -196,6 +214,7 @@ def main(bin_folder):
                         check_pressure(matrices, state, step)
             check_csv(folder / "joint.csv", result)
         check_default(folder)
+        check_without_peaks(folder)
         check_filled(name)
         check_free(folder)
         check_warning(folder)

@@ -154,6 +154,14 @@ TEST(Accuracy, IsThatOfFriction) {
   }
 }
 
+TEST(Accuracy, OfHoopStressesNeedsAHoleThatHasThem) {
+  const auto none = scene(without_rings(test::grid_scene({0, 1, 2}, {0, 1}, {},
+                                                         R"(, "supports": [{"on": "left", "fix": ["x", "y"]}],
+    "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])")));
+  EXPECT_THAT(test::message_of([&] { return stage1::meet_accuracy(none, {.hoop = 1e-3}); }),
+              HasSubstr("no hole has any"));
+}
+
 /// Of hoop stresses the error is that of the strains along the rims, against a finer mesh with the same waves; fewer
 /// waves do where less is asked for.
 TEST(Accuracy, IsThatOfHoopStresses) {
