@@ -55,8 +55,10 @@ TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
       const Eigen::MatrixXd forces =
           problem.K_fc.topRows(n).transpose() * X + problem.K_cc * D - problem.L_c.leftCols(Lambda.rows()) * Lambda;
       const Eigen::MatrixXd moments = -(problem.L_f.topRows(n).transpose() * X) - problem.L_c.transpose() * D;
-      const double scale = problem.K_fc.norm() * X.norm() + problem.K_cc.norm() * D.norm();
-      const double scale_of_moments = problem.L_f.norm() * X.norm() + problem.L_c.norm() * D.norm();
+      // Eigen asserts that a sparse matrix whose norm is taken has rows and columns.
+      const auto norm = [](const Eigen::SparseMatrix<double>& A) { return A.nonZeros() > 0 ? A.norm() : 0; };
+      const double scale = norm(problem.K_fc) * X.norm() + problem.K_cc.norm() * D.norm();
+      const double scale_of_moments = norm(problem.L_f) * X.norm() + problem.L_c.norm() * D.norm();
       const Eigen::MatrixXd found = states.forces();
       ASSERT_EQ(found.rows(), problem.unknowns.n_border());
       EXPECT_LT((found.topRows(nc) - forces).norm(), 1e-11 * scale) << name << ", p = " << p;
