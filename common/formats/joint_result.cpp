@@ -155,7 +155,7 @@ void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen:
     file(group + name, value, {r, columns}, unit, meaning, h5::infinite_too);
   };
   slopes("peak/clearance", a.peak.clearance, n, gradient, "dpeak by the clearance of each shear plane");
-  slopes("peak/law", a.peak.law, l, "law_unit/length^2", "dpeak by each number of the laws");
+  slopes("peak/law", a.peak.law, l, "law_unit/" + unit(units, 1, 0) + "^2", "dpeak by each number of the laws");
   slopes("peak/mu", a.peak.mu, std::ssize(a.mu_hole), stress, "dpeak by the coefficient of friction of each hole");
   slopes("peak/force", a.peak.force, std::ssize(a.force_external), unit(units, -2, 0),
          "dpeak by the force on each at load factor 1");

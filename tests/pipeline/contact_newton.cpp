@@ -63,20 +63,19 @@ RimPoints points_of(test::Plate& plate, const rim::Rim& rim, int p) {
   return points;
 }
 
-/// Derivative by the angle of a function that is a polynomial of degree p on each side.
-VectorXd slope(const RimPoints& points, const VectorXd& values, int p) {
-  VectorXd result(values.size());
-  for (const auto& [first, n] : points.sides) {
-    VectorXd x(n);
-    for (Index i = 0; i < n; ++i) x[i] = rim::wrapped(points.angle[first + i] - points.angle[first]);
-    const double scale = x.cwiseAbs().maxCoeff(), middle = (x.minCoeff() + x.maxCoeff()) / 2;
-    x = 2 * (x.array() - middle) / scale;
-    MatrixXd powers(n, p + 1), slopes = MatrixXd::Zero(n, p + 1);
-    for (int k = 0; k <= p; ++k) powers.col(k) = x.array().pow(k);
-    for (int k = 1; k <= p; ++k) slopes.col(k) = k * powers.col(k - 1) * 2 / scale;
-    result.segment(first, n) = slopes * powers.colPivHouseholderQr().solve(values.segment(first, n));
-  }
-  return result;
+/// Values at `x`, and the derivative by x, of the polynomial of degree p through values at other points.
+std::pair<VectorXd, VectorXd> interpolated(const VectorXd& at, const VectorXd& values, const VectorXd& x, int p) {
+  const double scale = (at.maxCoeff() - at.minCoeff()) / 2, middle = (at.maxCoeff() + at.minCoeff()) / 2;
+  const auto powers = [&](const VectorXd& places) {
+    MatrixXd all(places.size(), p + 1);
+    for (int k = 0; k <= p; ++k) all.col(k) = ((places.array() - middle) / scale).pow(k);
+    return all;
+  };
+  const VectorXd coefficients = powers(at).colPivHouseholderQr().solve(values);
+  const MatrixXd there = powers(x);
+  VectorXd slope = VectorXd::Zero(x.size());
+  for (int k = 1; k <= p; ++k) slope += k / scale * coefficients[k] * there.col(k - 1);
+  return {there * coefficients, slope};
 }
 
 struct Peaks {
@@ -110,24 +109,39 @@ Peaks solve(const std::string& text, double gap, double stiffness, double force)
   VectorXd held = VectorXd::Zero(c), load = VectorXd::Zero(c);
   held.tail(2).setConstant(stiffness);
   load[0] = force;
-  VectorXd x = VectorXd::Zero(n + c);  // w at the points, displacements
-  constexpr int most = 100;
-  for (int step = 0; step < most; ++step) {
-    const VectorXd w = x.head(n), u = x.tail(c);
-    const auto touches = (w.array() > gap).eval();
-    const VectorXd pressure = K * touches.select(w.array() - gap, 0), added = pressure - K * w;
+  const auto residual = [&](const VectorXd& x) {
+    const VectorXd w = x.head(n), u = x.tail(c), added = K * (w.array() - gap).cwiseMax(0).matrix() - K * w;
     VectorXd r(n + c);
     r << w + radial_by_p * added - motion * u,
         (S * u + motion.transpose() * points.weight.cwiseProduct(added) + held.cwiseProduct(u) - load) / K;
-    if (r.lpNorm<Eigen::Infinity>() < 1e-12) {
+    return r;
+  };
+  VectorXd x = VectorXd::Zero(n + c);  // w at the points, displacements
+  constexpr int most = 100;
+  for (int step = 0; step < most; ++step) {
+    const VectorXd w = x.head(n), u = x.tail(c), r = residual(x);
+    const auto touches = (w.array() > gap).eval();
+    const VectorXd pressure = K * touches.select(w.array() - gap, 0), added = pressure - K * w;
+    constexpr double rounding = 1e-9;
+    if (r.lpNorm<Eigen::Infinity>() < rounding * x.lpNorm<Eigen::Infinity>()) {
       const VectorXd u_n = radial * u + radial_by_p * added, u_t = along * u + along_by_p * added;
-      const VectorXd strain = (slope(points, u_t, p) + u_n) / rim.radius;
       const rim::RimCompliance sheet(plate.scene.elasticity[plate.mesh.mesh.material[rim.sides[0].element]].inverse(),
                                      rim.radius);
       Peaks peaks{-HUGE_VAL, pressure.maxCoeff()};
-      for (Index q = 0; q < n; ++q) {
-        const Eigen::Vector3d by = sheet.along(points.angle[q]);
-        peaks.hoop = std::max(peaks.hoop, (strain[q] + by[0] * pressure[q]) / by[1]);
+      for (const auto& [first, count] : points.sides) {  // between the points too, where the end of contact may lie
+        VectorXd at(count);
+        for (Index i = 0; i < count; ++i) at[i] = rim::wrapped(points.angle[first + i] - points.angle[first]);
+        constexpr int dense = 2000;
+        const VectorXd places = VectorXd::LinSpaced(dense, at.minCoeff(), at.maxCoeff());
+        const auto [normal_there, normal_slope] = interpolated(at, u_n.segment(first, count), places, p);
+        const auto [along_there, along_slope] = interpolated(at, u_t.segment(first, count), places, p);
+        for (Index i = 0; i < dense; ++i) {
+          const double angle = points.angle[first] + places[i];
+          const double depth = u[c - 2] * std::cos(angle) + u[c - 1] * std::sin(angle) - normal_there[i] - gap;
+          const Eigen::Vector3d by = sheet.along(angle);
+          const double strain = (along_slope[i] + normal_there[i]) / rim.radius;
+          peaks.hoop = std::max(peaks.hoop, (strain + by[0] * K * std::max(depth, 0.0)) / by[1]);
+        }
       }
       return peaks;
     }
@@ -135,7 +149,11 @@ Peaks solve(const std::string& text, double gap, double stiffness, double force)
     MatrixXd J(n + c, n + c);
     J << MatrixXd::Identity(n, n) + radial_by_p * fall.asDiagonal(), -motion,
         motion.transpose() * points.weight.cwiseProduct(fall).asDiagonal() / K, (S + MatrixXd(held.asDiagonal())) / K;
-    x -= J.partialPivLu().solve(r);
+    const VectorXd full = J.partialPivLu().solve(r);
+    double part = 1;  // halved while the residual does not fall, where points come to touch and cease to by turns
+    constexpr double least = 1e-3;
+    while (part > least && residual(x - part * full).norm() > r.norm()) part /= 2;
+    x -= part * full;
   }
   throw std::runtime_error("Newton's method did not end");
 }
