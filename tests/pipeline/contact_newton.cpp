@@ -149,11 +149,8 @@ Peaks solve(const std::string& text, double gap, double stiffness, double force)
     MatrixXd J(n + c, n + c);
     J << MatrixXd::Identity(n, n) + radial_by_p * fall.asDiagonal(), -motion,
         motion.transpose() * points.weight.cwiseProduct(fall).asDiagonal() / K, (S + MatrixXd(held.asDiagonal())) / K;
-    const VectorXd full = J.partialPivLu().solve(r);
-    double part = 1;  // halved while the residual does not fall, where points come to touch and cease to by turns
-    constexpr double least = 1e-3;
-    while (part > least && residual(x - part * full).norm() > r.norm()) part /= 2;
-    x -= part * full;
+    constexpr int whole_steps = 30;  // then half ones, where points come to touch and cease to by turns
+    x -= (step < whole_steps ? 1 : 0.5) * J.partialPivLu().solve(r);
   }
   throw std::runtime_error("Newton's method did not end");
 }

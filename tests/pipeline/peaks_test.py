@@ -327,14 +327,11 @@ def truths(folder):
             hole.get("spring", {}).pop("compression_only", None), hole.get("spring", {}).pop("harmonics", None), hole.pop("waves")
         pin, at = joint["fasteners"][0], [hole["id"] for hole in cut["holes"]].index(joint["fasteners"][0]["id"])
         numbers = [str(number) for number in (pin["gap"], joint["laws"]["law"]["k"], joint["loads"][0]["force"])]
-        exact = []
-        for p in (7, 8):
-            (folder / "newton.json").write_text(json.dumps({**cut, "p": p}))
-            printed = subprocess.run([PROGRAMS / "contact_newton", "newton.json", *numbers], cwd=folder, check=True, capture_output=True, text=True)
-            exact.append(json.loads(printed.stdout))
-        share = max(5e-4, abs(exact[1]["hoop"] / exact[0]["hoop"] - 1))  # stresses at points change by this from p = 7 to 8
-        near(f"truth of joint {seed}, by Newton's method: hoop stress", found["hoop"][at], exact[1]["hoop"], share)
-        near("  peak pressure", found["pressure"][0], exact[1]["pressure"], 1e-4)
+        (folder / "newton.json").write_text(json.dumps(cut))
+        printed = subprocess.run([PROGRAMS / "contact_newton", "newton.json", *numbers], cwd=folder, check=True, capture_output=True, text=True)
+        exact = json.loads(printed.stdout)
+        near(f"truth of joint {seed}, by Newton's method: hoop stress", found["hoop"][at], exact["hoop"], 2e-3)
+        near("  peak pressure", found["pressure"][0], exact["pressure"], 1e-4)
 
 
 def is_one_pin(scene, joint):
