@@ -31,7 +31,7 @@ struct SpringWaves {
   bool only_friction;    ///< by_long is zero: springs all around a hole in an isotropic sheet couple no waves
 };
 
-/// Of each rim, the same for equal ones; none of rims without springs or closed form.
+/// The short waves of each rim; equal rims share them, and a rim without springs or closed form has none.
 [[nodiscard]] std::vector<std::shared_ptr<const SpringWaves>> spring_waves(const std::vector<formats::WaveRim>& rims);
 
 }  // namespace fastjoint::stage3

@@ -19,7 +19,8 @@ struct FrictionHole {
     Index plate;                      ///< of the row's hole
     std::array<Index, 2> case_index;  ///< of the plate, by side
     VectorXd plus, minus;             ///< (r) dH+ / dmu, dH- / dmu, dimensionless
-    // By side: dG / dmu, force on the plate's unknowns, dimensionless, and d FrictionLoad::peak / dmu, 1 / length^2.
+    // The next two have an entry for each side: dG / dmu, force on the plate's unknowns, dimensionless, and the
+    // derivative of FrictionLoad::peak by mu, 1 / length^2.
     std::array<VectorXd, 2> load;
     std::array<double, 2> peak;
   };
@@ -35,10 +36,10 @@ struct UnitLoad {
   std::optional<Index> traction;   ///< that carries it
   std::optional<Index> displaced;  ///< unknown that it moves
 };
-/// Of all forces that externals may carry, whether they do or not, in the order of the plates, at positive or negative
-/// load factors.
+/// The unit loads of all forces that externals may carry, whether they do or not, in the order of the plates, at
+/// positive or negative load factors.
 [[nodiscard]] std::vector<UnitLoad> unit_forces(const JointModel& joint, double load_factor);
-/// Of all given displacements.
+/// The unit loads of all given displacements.
 [[nodiscard]] std::vector<UnitLoad> unit_displacements(const JointModel& joint);
 
 /// Numbers of the input that bearing forces are differentiated by, besides the load factor and every plane's clearance.

@@ -77,21 +77,18 @@ class NearbyStates {
 
   [[nodiscard]] const std::vector<Index>& none() const { return slopes_.none; }
 
-  /// Change of a number that changes the state by about a part of it, of displacements at least of a millionth of a
-  /// radius; 0 if it does nothing.
+  /// Change of a number that changes the state by about a part of it; 0 if it does nothing.
   [[nodiscard]] double change_for(Index column, double part) const {
-    const auto share = [](const VectorXd& change, const VectorXd& all, double least) {
-      const double largest = std::max(all.lpNorm<Eigen::Infinity>(), least);
+    const auto share = [](const VectorXd& change, const VectorXd& all) {
+      const double largest = all.lpNorm<Eigen::Infinity>();
       return largest > 0 ? change.lpNorm<Eigen::Infinity>() / largest : 0;
     };
-    constexpr double small = 1e-6;
-    const double length = small * joint_.plates[holes_[0].plate].waves[holes_[0].rim].radius;
     const VectorXd F = step_.all_F(), delta = step_.all_delta();
     const VectorXd U = equations_.system.displacements(F, delta, step_.load_factor, step_.shear);
     VectorXd direct = direct_.col(column);
     if (column == 0) direct += equations_.system.D_load_at(step_.load_factor);
-    const double does = std::max({share(slopes_.F.col(column), F, 0), share(slopes_.delta.col(column), delta, length),
-                                  share(direct, U, length)});
+    const double does =
+        std::max({share(slopes_.F.col(column), F), share(slopes_.delta.col(column), delta), share(direct, U)});
     return does > 0 ? part / does : 0;
   }
 
