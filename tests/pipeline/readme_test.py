@@ -117,12 +117,13 @@ def check_lap_joint(programs, results):
 
 
 def check_what_if(results, folder):
-    """Its command, its script and what that prints."""
+    """Its command, its scripts, of which each goes on where the one before ended, and what they print."""
     command = re.search(r"`(stage3_nonlinear [^`]*--sensitivities)`", results)[1]
-    script, printed = re.search(r"```python\n(.*?)```\n\n```\n(.*?)```", results, re.S).groups()
+    scripts, printed = zip(*re.findall(r"```python\n(.*?)```\n\n```\n(.*?)```", results, re.S))
+    assert len(scripts) == 2, scripts
     subprocess.run(command.split(), check=True, cwd=folder, capture_output=True)
-    result = subprocess.run([sys.executable, "-c", script], check=True, cwd=folder, capture_output=True, text=True)
-    assert result.stdout == printed, result.stdout
+    result = subprocess.run([sys.executable, "-c", "".join(scripts)], check=True, cwd=folder, capture_output=True, text=True)
+    assert result.stdout == "".join(printed), result.stdout
 
 
 def rows_below(text, head):
