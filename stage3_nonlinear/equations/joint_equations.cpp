@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -134,9 +135,14 @@ VectorXd JointEquations::rim_stiffness() const {
   return stiffness;
 }
 
-double JointEquations::interference() const {
+bool JointEquations::has_interference() const {
+  return std::ranges::any_of(rims, [](const RimContact& rim) { return rim.gap() < 0; });
+}
+
+double JointEquations::force_of_gaps() const {
   double force = 0;
-  for (const auto& rim : rims) force = std::max(force, -rim.stiffness() * rim.gap());
+  for (const auto& contact : contacts) force = std::max(force, contact.stiffness * contact.law->gap(contact.clearance));
+  for (const auto& rim : rims) force = std::max(force, rim.stiffness() * std::abs(rim.gap()));
   return force;
 }
 

@@ -35,8 +35,10 @@ struct JointEquations {
   [[nodiscard]] std::vector<Index> rim_sizes() const;
   /// Stiffness of the rims' unknowns, (r - n a), force / length.
   [[nodiscard]] VectorXd rim_stiffness() const;
-  /// Force of the greatest interference alone, all around its rim, force; 0 without any.
-  [[nodiscard]] double interference() const;
+  /// True if a disc is larger than the rim of contact around it.
+  [[nodiscard]] bool has_interference() const;
+  /// Force that the greatest gap, clearance or interference would take of the springs or plates beside it, force.
+  [[nodiscard]] double force_of_gaps() const;
 };
 
 /// Condenses the plates and gives each plane, as its reference stiffness, a little more than the sum of the amounts in

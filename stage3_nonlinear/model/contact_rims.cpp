@@ -138,7 +138,7 @@ RimMatrices rim_matrices(const formats::PlateMatrices& a, Index level) {
   all.C(at.short_p, at.long_p) = (Y * G.transpose()).transpose();
   all.C(at.short_p, at.short_p) = diagonal_of(rims, &ShortWaves::C, n_short, n_short) - GK * Y * G.transpose();
   all.R(Eigen::all, at.long_s) = R;
-  all.R(Eigen::all, at.short_s) = B.transpose() * (rows.area_of_pressure.cwiseProduct(rows.modulus)).asDiagonal() * E;
+  all.R(Eigen::all, at.short_s) = -(B.transpose() * rows.area_of_pressure.cwiseProduct(rows.modulus).asDiagonal() * E);
   all.R_p(at.long_p, at.long_s) = R_p;
   all.R_p(at.long_p, at.short_s) = -Y * E;
   all.R_p(at.short_p, at.long_s) = -GK * R_p - diagonal_of(rims, &ShortWaves::G_t, n_short, n_long_s);

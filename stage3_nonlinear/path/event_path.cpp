@@ -279,7 +279,7 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
 
 std::optional<Interference> follow_interference(const JointEquations& equations, const PathOptions& options) {
   Walk walk(equations, options);
-  if (equations.interference() == 0 || !walk.reach(0)) return std::nullopt;
+  if (!equations.has_interference() || !walk.reach(0)) return std::nullopt;
   const ContactCorners corners(equations, true);
   Interference result{walk.step().moments, VectorXd(std::ssize(equations.rims))};
   walk.reach(first_load_factor);

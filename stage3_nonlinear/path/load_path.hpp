@@ -78,12 +78,13 @@ struct PathStep {
   double load_factor;
   VectorXd F, delta;  ///< (n a) force, length
   int iterations;     ///< of all tries; on an exact path its pieces from no load on
-  double residual;    ///< largest, relative to the largest |q| at this load factor
+  double residual;    ///< largest, over `scale`
   TangentCheck check;
   bool exact = false;                     ///< on an exact path
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
   VectorXd shear = {};                    ///< (s) forces of the shears of rims of contact with friction, force
   std::vector<ContactEvent> events = {};  ///< what happens exactly here, or to rims since the increment before
+  double scale = 0;                       ///< against which residuals count (force_scale), force
 
   /// Forces and displacements of all rows of the condensed system, (r).
   [[nodiscard]] VectorXd all_F() const { return behind(F, rim_F); }

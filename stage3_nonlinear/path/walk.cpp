@@ -10,8 +10,9 @@
 
 namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
+  constexpr double of_gaps = 1e-4;  // rounding of their displacements stays far below a solver's tolerance of it
   const double scale = std::max(std::abs(load_factor) * equations.system.q_at(load_factor).lpNorm<Eigen::Infinity>(),
-                                equations.interference());
+                                of_gaps * equations.force_of_gaps());
   return scale > 0 ? scale : 1;
 }
 
@@ -24,8 +25,7 @@ Walk::Walk(const JointEquations& equations, const PathOptions& options, std::vec
       exact_(std::move(exact)),
       here_{0, VectorXd::Zero(equations.n_unknowns())} {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  for (const Contact& contact : equations.contacts)
-    rounding_ = std::max(rounding_, rounding * contact.stiffness * contact.law->gap(contact.clearance));
+  rounding_ = rounding * equations.force_of_gaps();
 }
 
 bool Walk::is_small(double residual) const {
@@ -55,16 +55,18 @@ PathStep Walk::step() const {
   // On a corner of its law the side counts on which a fastener bears more.
   const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
   const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
+  const double scale = force_scale(equations_, here_.load_factor);
   return {.load_factor = here_.load_factor,
           .F = state.F.head(planes),
           .delta = state.delta.head(planes),
           .iterations = iterations_,
-          .residual = r.lpNorm<Eigen::Infinity>() / force_scale(equations_, here_.load_factor),
+          .residual = r.lpNorm<Eigen::Infinity>() / scale,
           .check = check_tangent(equations_, contact_state(equations_, beyond)),
           .exact = here_.exact,
           .rim_F = state.F.tail(rims),
           .moments = state.delta.tail(rims),
-          .shear = state.shear};
+          .shear = state.shear,
+          .scale = scale};
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) const {
@@ -114,7 +116,7 @@ bool Walk::solve_from_here(double target) { return take_known(target) || solve_f
 bool Walk::take_known(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
   scale_ = force_scale(equations_, target);
-  if (target == 0 && equations_.interference() == 0) {  // the joint as it was built is in equilibrium, exactly
+  if (target == 0 && !equations_.has_interference()) {  // the joint as it was built is in equilibrium, exactly
     here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
     return true;
   }
@@ -179,8 +181,14 @@ bool Walk::take(const Root& root, double target) {
   if (!converged(root)) return false;
   VectorXd c = scale_ * root.x;
   const Index planes = equations_.n_plane_rows();
-  // Loose fasteners carry nothing.
-  if (!equations_.rims.empty()) c.head(planes) = without_rounding(c.head(planes), scale_);
+  if (!equations_.rims.empty()) {   // loose fasteners carry nothing
+    constexpr double little = 1e3;  // times without_rounding's, as far as the joint then still balances
+    VectorXd loose = c;
+    loose.head(planes) = without_rounding(c.head(planes), little * scale_);
+    const auto state = contact_state(equations_, loose);
+    const VectorXd r = equations_.system.residual(state.F, state.delta, target, state.shear);
+    if (is_small(r.lpNorm<Eigen::Infinity>())) c = loose;
+  }
   if (const auto spent = contact_state(equations_, c).spent) {
     if (std::isinf(worst_residual_)) {
       worst_row_ = *spent * equations_.n_directions();

@@ -73,7 +73,9 @@ class Walk {
   VectorXd best_;  ///< contact coordinates of the best try
 };
 
-/// Largest |q| at a load factor, or that of interference if it is larger, force; 1 if nothing reaches the fasteners.
+/// Force against which residuals count: the largest |q| at a load factor, of given displacements too, but no less than
+/// a small part of what gaps would take, whose rounding does not vanish with the load; 1 if nothing reaches the
+/// fasteners.
 [[nodiscard]] double force_scale(const JointEquations& equations, double load_factor);
 
 }  // namespace fastjoint::stage3

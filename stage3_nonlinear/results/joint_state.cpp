@@ -205,7 +205,7 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   const Bearing bearing = bearing_forces(joint, step.F);
   state.transferred_first = transferred(joint, step.F, bearing, 0);
   state.transferred_second = transferred(joint, step.F, bearing, 1);
-  state.largest_force = step.all_F().lpNorm<Eigen::Infinity>();
+  state.largest_force = std::max(step.F.lpNorm<Eigen::Infinity>(), step.scale);
   Index first_moment = 0;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];

@@ -37,7 +37,7 @@ struct JointState {
   /// Force that each plane transfers, friction included, by that of its first and of its second hole, by amount where
   /// the discs have two directions, (n), force; a fastener in balance transfers one and the same.
   VectorXd transferred_first, transferred_second;
-  double largest_force = 0;  ///< of externals, tractions and fasteners
+  double largest_force = 0;  ///< of externals, tractions and fasteners, and PathStep::scale
   // Over the largest force:
   double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
   double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of one without ground give it

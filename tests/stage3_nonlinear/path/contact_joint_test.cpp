@@ -7,6 +7,7 @@
 
 #include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
 
 namespace fastjoint::stage3 {
@@ -65,10 +66,36 @@ TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
     const double scale = force_scale(equations, 1);
     EXPECT_LT((path.steps[0].F - path.steps[3].F).norm(), 1e-8 * scale) << "joint " << i;
     EXPECT_LT((path.steps[0].rim_F - path.steps[3].rim_F).norm(), 1e-7 * scale) << "joint " << i;
-    if (equations.interference() == 0) {
+    if (!equations.has_interference()) {
       EXPECT_LT(path.steps[4].F.norm(), 1e-9 * scale) << "joint " << i;
     }
   }
+}
+
+/// A load that vanishes beside what gaps would take, or a displacement that takes less than them, balances as any
+/// other: fasteners that do not touch carry nothing, exactly.
+TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
+  int loose = 0;
+  for (int i = 0; i < 120; ++i) {
+    ContactKind its = kind(i);
+    its.gaps = decades(random_, 0.1, 100), its.mu = i % 4 == 0 ? 0.3 : 0;
+    JointModel joint = random_contact_joint(random_, its);
+    if (i % 2 == 0)
+      for (auto& fastener : joint.fasteners)
+        for (auto& hole : fastener.holes) hole.gap = std::abs(hole.gap);
+    const JointEquations equations = make_equations(joint);
+    LoadPath path = follow(equations, {1e-6, 0.3, 1, 1.2e-16, -1, 1e-3}, {});
+    ASSERT_FALSE(path.failure) << "joint " << i;
+    const auto states = balanced_states(joint, equations.system, 1e-10, false, path);
+    ASSERT_FALSE(path.failure) << "joint " << i << ": " << path.failure->unbalanced << " "
+                               << path.failure->out_of_balance;
+    for (const auto& step : path.steps) {
+      if (!step.rim_F.isZero(0)) continue;
+      EXPECT_TRUE(step.F.isZero(0)) << "joint " << i << " at " << step.load_factor << ": " << step.F.transpose();
+      ++loose;
+    }
+  }
+  EXPECT_GT(loose, 20);
 }
 
 /// Friction leaves no convex function. Joints are still solved, whatever the coefficient, and hardly one has other
