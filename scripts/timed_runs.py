@@ -10,7 +10,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-ONE_THREAD = os.environ | {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+ONE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 
 MEMORY = "/dev/shm"  # where it is: fsync to a disk takes longer than a small sheet
 
@@ -23,7 +23,7 @@ def work_folder():
 def run(*words, folder=None):
     """Of a program that must succeed, run in a folder: what it prints."""
     try:
-        result = subprocess.run([str(word) for word in words], env=ONE_THREAD, cwd=folder, capture_output=True,
+        result = subprocess.run([str(word) for word in words], env=os.environ | ONE_THREAD, cwd=folder, capture_output=True,
                                 text=True)
     except FileNotFoundError:
         sys.exit(f"{Path(sys.argv[0]).name}: error: {words[0]} is not on PATH; after "

@@ -10,8 +10,8 @@ namespace fastjoint::matrices {
 /// Estimated absolute error of the last of condensed stiffness matrices of rising degree, shape (nc, nc), >= 0,
 /// infinite if there is but one (docs/theory.md, section 5.1).
 ///
-/// The error of what is smooth is overestimated, 3.6 times by the median, 50 times at most without rings around the
-/// holes, up to 80 times with some, and what is singular (ends of clamped edges, of steps in thickness) is not
+/// The error of what is smooth is overestimated, 5 times by the median, 50 times at most without rings around the
+/// holes, up to 110 times with some, and what is singular (ends of clamped edges, of steps in thickness) is not
 /// underestimated by more than 1.5 times, nor are slender cells, in 20967 cases
 /// (tests/stage2_extract/matrices/effectivity_test.cpp and error_sweep_test.cpp). Exception: springs that end inside a
 /// side of an element, up to twice: their differences fall as p^-(2 lambda + 1).
@@ -39,9 +39,9 @@ struct RelativeError {
 
 /// Errors at the highest degree of those of S, R and C_t that the plate has (docs/theory.md, section 5), of an S that
 /// is zero over the norm of K_cc. Where friction's own field is rough, R converges more slowly than S (an annulus of
-/// two layers: 1.9e-5, S 5e-7). True errors of R are up to 3.4 times as large, in 1 of 100 cases more than 1.5 times,
-/// mostly in the trunk space, in slender laminates and at p = 4; those of C_t up to twice, in 1 of 1000 more than 1.5
-/// times.
+/// two layers: 1.9e-5, S 5e-7). True errors of R are up to 3.7 times as large, in 1 of 100 cases more than 1.5 times,
+/// mostly in the trunk space, in slender laminates and at p = 3 and 4; those of C_t up to twice, in 1 of 1000 more than
+/// 1.5 times (error_sweep_test.cpp).
 [[nodiscard]] std::vector<RelativeError> relative_errors(const CondensedLevels& levels, const Eigen::VectorXi& p,
                                                          const Eigen::VectorXd& held_stiffness, double fastest);
 [[nodiscard]] double largest(const std::vector<RelativeError>& errors);

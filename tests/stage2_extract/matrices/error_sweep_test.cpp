@@ -159,7 +159,8 @@ void check(const std::string& name, Ratios found, const std::map<std::string, Li
   }
 }
 
-constexpr Limits of_S = {1.5, 0, 4.6}, of_C = {1.6, 0.005, 4.7}, of_R = {2, 0.005, 4.1};
+/// What is smooth converges sooner than the estimate believes (relative_errors), the more so the better the mesh.
+constexpr Limits of_S = {1.5, 0, 5.2}, of_C = {1.6, 0.005, 5.4}, of_R = {2.5, 0.01, 4.4};
 
 TEST(Errors, OfTwoRandomSheets) {
   constexpr Limits of_few = {1.5, 0, 10};
@@ -178,9 +179,9 @@ TEST(ErrorSweep, SlenderSheets) {
   check("slender sheets", ratios(slender_sheets(24, false)), {{"S", of_S}, {"C_t", of_C}, {"R", of_R}});
 }
 
-/// R of laminates, whose friction fields are the roughest, is where the estimate is worst.
+/// R of laminates, whose friction fields are the roughest, is where the estimate is worst, at p = 3 in the trunk space.
 TEST(ErrorSweep, SlenderLaminatesOffTheirAxes) {
-  check("slender laminates", ratios(slender_sheets(12, true)), {{"S", of_S}, {"C_t", of_C}, {"R", {2.5, 0.025, 4.1}}});
+  check("slender laminates", ratios(slender_sheets(12, true)), {{"S", of_S}, {"C_t", of_C}, {"R", {3.8, 0.01, 4.1}}});
 }
 
 }  // namespace
