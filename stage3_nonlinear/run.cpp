@@ -125,7 +125,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   program::report_share(0);
   LoadPath path =
       scene.load_factors.empty() ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
-  path.interference = follow_interference(equations, solving);
+  path.interference = follow_interference(equations, solving, path);
   program::report_share(1);
   const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, with_rim_stresses, path);
   warn(log, warnings(joint, equations, path));

@@ -119,6 +119,14 @@ Index JointEquations::n_plane_rows() const {
   return n;
 }
 
+Index JointEquations::entry_of(Index row) const {
+  Index end = n_plane_rows();
+  if (row < end) return row / n_directions();
+  Index rim = 0;
+  while (row >= (end += rims[rim].size())) ++rim;
+  return n_planes() + rim;
+}
+
 std::vector<Index> JointEquations::rim_sizes() const {
   std::vector<Index> sizes;
   for (const auto& rim : rims) sizes.push_back(rim.size());

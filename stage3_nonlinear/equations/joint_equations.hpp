@@ -31,6 +31,8 @@ struct JointEquations {
   [[nodiscard]] Index n_plane_rows() const;
   /// Number r of unknowns.
   [[nodiscard]] Index n_unknowns() const { return system.q.size(); }
+  /// Plane of an unknown, or number of planes plus rim of contact.
+  [[nodiscard]] Index entry_of(Index row) const;
   /// Numbers of moments of the rims, rim after rim.
   [[nodiscard]] std::vector<Index> rim_sizes() const;
   /// Stiffness of the rims' unknowns, (r - n a), force / length.

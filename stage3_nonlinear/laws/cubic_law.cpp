@@ -17,10 +17,14 @@ struct Cubic {
   std::array<double, 3> a;
 
   static Cubic through(const std::array<double, 3>& x, const std::array<double, 3>& F) {
-    // F / x is a parabola: Newton's divided differences give its coefficients.
-    const double g01 = (F[1] / x[1] - F[0] / x[0]) / (x[1] - x[0]);
-    const double g12 = (F[2] / x[2] - F[1] / x[1]) / (x[2] - x[1]);
-    const double g012 = (g12 - g01) / (x[2] - x[0]);
+    // F / x is a parabola: Newton's divided differences give its coefficients. What they are by rounding alone would
+    // decide whether a straight line rises.
+    const std::array<double, 3> g = {F[0] / x[0], F[1] / x[1], F[2] / x[2]};
+    const double rounding = 4 * std::numeric_limits<double>::epsilon() * *std::max_element(g.begin(), g.end());
+    const auto change = [&](int i) { return std::abs(g[i + 1] - g[i]) > rounding ? g[i + 1] - g[i] : 0; };
+    const double g01 = change(0) / (x[1] - x[0]), g12 = change(1) / (x[2] - x[1]);
+    const double doubt = rounding / std::abs(x[1] - x[0]) + rounding / std::abs(x[2] - x[1]);
+    const double g012 = std::abs(g12 - g01) > doubt ? (g12 - g01) / (x[2] - x[0]) : 0;
     return {{F[0] / x[0] - g01 * x[0] + g012 * x[0] * x[1], g01 - g012 * (x[0] + x[1]), g012}};
   }
 

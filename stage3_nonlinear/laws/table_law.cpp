@@ -62,8 +62,8 @@ class TableLaw final : public Law {
   [[nodiscard]] double last_delta(double clearance) const override { return clearance + x_.back(); }
 
   [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
+    if (c < k * clearance) return {{0, 0}};
     const Branch on = at(c, k, clearance);
-    if (on.delta <= clearance) return {{0, 0}};
     return {{-k * on.dF, on.dF}};  // of the curve moved along delta, at constant F + k delta
   }
 

@@ -203,11 +203,12 @@ std::string interference_lines(const JointModel& joint, const LoadPath& path, co
     for (Index i = 0; i < std::ssize(plate.contact); ++i) {
       const auto& a = plate.contacts;
       if (!path.interference || a.gap[i] >= 0) continue;
-      text += fmt::format("interference at {}:{}: pressure {:.6g} to {:.6g} {} at no load, {}\n", plate.name,
-                          plate.contact[i].hole, a.no_load_least[i], a.no_load_peak[i], unit(joint.units, -2, 1),
-                          std::isfinite(a.full_until[i])
-                              ? fmt::format("full contact is lost at load factor {:.6g}", a.full_until[i])
-                              : "full contact is kept");
+      text +=
+          fmt::format("interference at {}:{}: pressure {:.6g} to {:.6g} {} at no load, {}\n", plate.name,
+                      plate.contact[i].hole, a.no_load_least[i], a.no_load_peak[i], unit(joint.units, -2, 1),
+                      std::isfinite(a.full_until[i])
+                          ? fmt::format("full contact is lost at load factor {:.6g}", a.full_until[i])
+                          : fmt::format("full contact is kept up to load factor {:.6g}", path.interference->followed));
     }
   return text;
 }

@@ -156,23 +156,65 @@ void warn_of_locking(const LoadPath& path, std::vector<program::Warning>& result
         {"self-locking", fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking))});
 }
 
+/// Largest of the vectors of a plane so far, and whether the next falls short of it or turns from it.
+class Largest {
+ public:
+  explicit Largest(Index n_directions) : most_(VectorXd::Zero(n_directions)) {}
+
+  [[nodiscard]] double amount() const { return most_.norm(); }
+  /// @param little Amounts that do not count.
+  [[nodiscard]] bool falls_short(const VectorXd& next, double little = 0) {
+    constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
+    const double before = most_.norm(), now = next.norm();
+    const bool falls = before > little && (now < less * before || most_.dot(next) < turned * now * before);
+    if (now > before) most_ = next;
+    return falls;
+  }
+
+ private:
+  VectorXd most_;
+};
+
+/// Names the first increment at which the force of a fastener with friction falls or turns.
+void warn_of_turning_friction(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                              std::vector<program::Warning>& result) {
+  constexpr double rounding = 1e-9;
+  const Index a = equations.n_directions();
+  std::vector<Largest> most(equations.n_planes(), Largest(a));
+  for (const PathStep& step : path.steps) {
+    std::vector<Index> turned;
+    for (Index j = 0; j < std::ssize(most); ++j) {
+      const auto holes = joint.holes(joint.planes[j]);
+      const bool rubs = std::ranges::any_of(holes, [](const HoleModel& hole) { return hole.mu > 0; });
+      if (rubs && most[j].falls_short(step.F.segment(j * a, a), rounding * step.scale)) turned.push_back(j);
+    }
+    if (turned.empty()) continue;
+    result.push_back(
+        {"friction-turns",
+         fmt::format("{} unloads {}, where friction goes on as if it slipped in the sense of the force: real friction "
+                     "first sticks and then turns, so that forces from this increment on differ from theirs",
+                     increment_text(path, step), names(joint, turned))});
+    return;
+  }
+}
+
 /// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                        std::vector<program::Warning>& result) {
-  constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
   const ContactCorners corners(equations);
-  MatrixXd most = MatrixXd::Zero(equations.n_directions(), equations.n_planes());
+  const Index a = equations.n_directions();
+  std::vector<Largest> most(equations.n_planes(), Largest(a));
   for (const PathStep& step : path.steps) {
     const VectorXd all = coordinates(equations, step.all_F(), step.all_delta());
     std::vector<Index> unloaded;
-    for (Index j = 0; j < most.cols(); ++j) {
-      const VectorXd c = all.segment(j * most.rows(), most.rows());
-      const double before = most.col(j).norm();
-      const bool falls = c.norm() < less * before || most.col(j).dot(c) < turned * c.norm() * before;
-      if (c.norm() > before) most.col(j) = c;
+    for (Index j = 0; j < std::ssize(most); ++j) {
+      const double before = most[j].amount();
+      const bool falls = most[j].falls_short(all.segment(j * a, a));
       const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
       const Contact& contact = equations.contacts[j];
-      const bool curved = !contact.law->corners(contact.stiffness, contact.clearance);
+      const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
+      const bool curved =
+          !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(all, k * gap);
       if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);
     }
     if (unloaded.empty()) continue;
@@ -218,6 +260,7 @@ std::vector<program::Warning> warnings(const JointModel& joint, const JointEquat
   warn_of_other_solutions(joint, equations, path, result);
   warn_of_locking(path, result);
   warn_of_unloading(joint, equations, path, result);
+  warn_of_turning_friction(joint, equations, path, result);
   warn_of_sticking(joint, equations, path, result);
   for (auto& each : result) each.text.insert(0, joint.file + ": ");
   return result;
@@ -257,13 +300,17 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");
+  const Index rim = failure.entry - joint.n_planes();
+  const std::string place =
+      rim < 0 ? joint.name(joint.planes[failure.entry]) : fmt::format("the rim of hole \"{}\"", joint.rims()[rim]);
   return fmt::format(
       "{}: {} did not converge from the last increment, in half steps ({} times halved), or from any first guess; load "
-      "factor {:.6g} was reached; {} {}. {} {}Check the law and the clearance of that fastener, take smaller "
+      "factor {:.6g} was reached; {} {}. {} {}Check the law, the gap and the clearance of the fastener there, take "
+      "smaller "
       "increments, allow more than {} or, if the residual is close to it, a larger tolerance than {:.0e}; and see that "
       "each plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of them "
       "are open, and one-sided fasteners cannot pull it",
-      scene.file, increment, max_halvings, failure.reached, at, joint.name(joint.planes[failure.plane]), kept, locking,
+      scene.file, increment, max_halvings, failure.reached, at, place, kept, locking,
       program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance);
 }
 

@@ -46,19 +46,20 @@ struct FoundEvents {
   std::optional<double> failed;    ///< a load factor that could not be reached; the events are those before it
 };
 
-/// Search of the load factors between first_load_factor and 1 for events, by states that a walk solves.
+/// Search of the load factors from first_load_factor on for events, by states that a walk solves.
 class Search {
  public:
   Search(const JointEquations& equations, const ContactCorners& corners, Walk& walk)
       : equations_(equations), corners_(corners), walk_(walk) {}
 
-  FoundEvents run() {
+  /// @param last Load factor at which the search ends.
+  FoundEvents run(double last = 1) {
     constexpr int intervals = 8;
     const auto first = solved(first_load_factor);
     if (!first) return std::move(found_);
     Sample here = *first;
     for (int i = 1; i <= intervals; ++i) {
-      const auto next = solved(double(i) / intervals);
+      const auto next = solved(last * double(i) / intervals);
       if (!next || !between(here, *next, 0)) break;
       walk_.put({next->load, next->c}, 0);
       here = *next;
@@ -154,7 +155,11 @@ class Search {
     }
     const Index n_directions = plane < equations_.n_planes() ? equations_.n_directions() : 0;
     if (n_directions == 1) c[plane] = corner;  // exactly: then nothing bears yet
-    if (n_directions > 1) c.segment(plane * n_directions, n_directions) *= corner / corners_.position(c, plane);
+    // An amount is rounded: beyond the corner, where the fastener bears more, and not before it.
+    if (n_directions > 1) {
+      constexpr double beyond = 1 + 4 * std::numeric_limits<double>::epsilon();
+      c.segment(plane * n_directions, n_directions) *= beyond * corner / corners_.position(c, plane);
+    }
     return EventPlace{{load, std::move(c)}, iterations};
   }
 
@@ -277,15 +282,20 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   return path;
 }
 
-std::optional<Interference> follow_interference(const JointEquations& equations, const PathOptions& options) {
+std::optional<Interference> follow_interference(const JointEquations& equations, const PathOptions& options,
+                                                const LoadPath& path) {
   Walk walk(equations, options);
   if (!equations.has_interference() || !walk.reach(0)) return std::nullopt;
   const ContactCorners corners(equations, true);
-  Interference result{walk.step().moments, VectorXd(std::ssize(equations.rims))};
+  double last = 0;
+  for (const auto& step : path.steps) last = std::max(last, step.load_factor);
+  Interference result{walk.step().moments, VectorXd(std::ssize(equations.rims)), last};
+  result.lost.setConstant(std::numeric_limits<double>::infinity());
+  if (last <= first_load_factor) return result;
   walk.reach(first_load_factor);
   const VectorXi parted = corners.passed(walk.here().c);
-  const auto found = Search(equations, corners, walk).run();
-  result.lost.setConstant(std::numeric_limits<double>::infinity());
+  const auto found = Search(equations, corners, walk).run(last);
+  if (found.failed) result.followed = found.events.empty() ? 0 : found.events.back().place.load_factor;
   for (auto event = found.events.rbegin(); event != found.events.rend(); ++event)
     for (const auto& each : event->events)
       if (!each.back) result.lost[(each.plane - equations.n_planes()) / 2] = event->place.load_factor;

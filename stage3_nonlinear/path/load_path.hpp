@@ -103,7 +103,7 @@ struct PathFailure {
   Index increment;     ///< 0-based
   double load_factor;  ///< that was asked for
   double reached;      ///< largest part of it that converged
-  Index plane;         ///< with the worst residual in the best try
+  Index entry;         ///< with the worst residual in the best try: a plane, or behind the n planes a rim of contact
   double residual;     ///< there, relative to the load asked for; infinite if each try left it spent
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
   std::vector<Index> level;
@@ -123,9 +123,10 @@ struct PathLeft {
 /// Rims of contact of a joint in which some have interference.
 struct Interference {
   VectorXd moments;  ///< (r - n a) at no load, length
-  /// Load factor up to 1 at which each rim with interference first loses full contact, 0 of one that has none below
-  /// first_load_factor, infinite if it is not lost as far as the joint can be followed, and of other rims, (g).
+  /// Load factor at which each rim with interference first loses full contact, 0 of one that has none below
+  /// first_load_factor, infinite if it is not lost up to `followed`, and of other rims, (g).
   VectorXd lost;
+  double followed;  ///< largest load factor of the path's increments, or as far as the joint could be followed
 };
 
 struct LoadPath {
@@ -163,9 +164,9 @@ inline constexpr double first_load_factor = 1e-6;
 /// in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);
 
-/// Follows a joint with interference at no load, and to load factor 1 for the events at which full contact is lost, as
-/// follow_events finds them. Empty without interference, and if no load cannot be solved.
+/// Follows a joint with interference at no load, and to the largest load factor of its path for the events at which
+/// full contact is lost, as follow_events finds them. Empty without interference, and if no load cannot be solved.
 [[nodiscard]] std::optional<Interference> follow_interference(const JointEquations& equations,
-                                                              const PathOptions& options);
+                                                              const PathOptions& options, const LoadPath& path);
 
 }  // namespace fastjoint::stage3

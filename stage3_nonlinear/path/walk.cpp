@@ -71,7 +71,7 @@ PathStep Walk::step() const {
 
 PathFailure Walk::failure(Index increment, double load_factor) const {
   return {increment,           load_factor,
-          here_.load_factor,   worst_row_ / equations_.n_directions(),
+          here_.load_factor,   equations_.entry_of(worst_row_),
           worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
           locking(load_factor)};
 }
@@ -204,8 +204,7 @@ bool Walk::take(const Root& root, double target) {
 void Walk::note_failure(const Root& root) {
   if (converged(root)) return;  // past all that a law carries
   Index at = 0;
-  root.residual.head(equations_.n_plane_rows()).cwiseAbs().maxCoeff(&at);
-  const double worst = root.residual.cwiseAbs().maxCoeff();
+  const double worst = root.residual.cwiseAbs().maxCoeff(&at);
   if (!(worst < worst_residual_)) return;
   worst_residual_ = worst;
   worst_row_ = at;

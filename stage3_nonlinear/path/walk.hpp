@@ -69,8 +69,8 @@ class Walk {
   int iterations_ = 0;
   std::optional<PathLeft> left_;
   double worst_residual_ = 0;  ///< of the best try
-  Index worst_row_ = 0;
-  VectorXd best_;  ///< contact coordinates of the best try
+  Index worst_row_ = 0;        ///< of all unknowns
+  VectorXd best_;              ///< contact coordinates of the best try
 };
 
 /// Force against which residuals count: the largest |q| at a load factor, of given displacements too, but no less than

@@ -101,7 +101,8 @@ JointNumbers names_of_numbers(const JointModel& joint) {
   }
   for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
     for (Index at = 0; at < std::ssize(joint.fasteners[i].holes); ++at)
-      if (const HoleModel& hole = joint.fasteners[i].holes[at]; hole.mu > 0 && !hole.friction.empty())
+      if (const HoleModel& hole = joint.fasteners[i].holes[at];
+          hole.mu > 0 && !joint.plates[hole.plate].is_in_contact(joint.plates[hole.plate].hole_of(hole.disc)))
         numbers.friction.push_back({joint.name(hole), i, at, {}});
   numbers.gap = joint.rims();
   for (Index i = 0; i < std::ssize(joint.plates); ++i)

@@ -117,10 +117,11 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 /// @param rim_F     (k) forces of these.
 /// @param shear     Forces of the shears of this plate's rims and of those behind it; cut to the latter.
 /// @param worst_row Raised to what the plate's worst row is out of balance, force.
-PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F, double factor,
-                       const Bearing& bearing, VectorXd& shear, double& worst_row) {
+PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F,
+                       const PathStep& step, const Bearing& bearing, VectorXd& shear, double& worst_row) {
   const PlateModel& plate = joint.plates[at];
   const Index m = plate.n_discs(), k = rim_F.size();
+  const double factor = step.load_factor;
   const VectorXd none = VectorXd::Zero(m);
   VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_rate(factor));
   PlateState state{.D = u.head(m),
@@ -142,7 +143,7 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
   load_rims(plate, rims_of_contact(joint, at), state);
   if (plate.stress_level)
     state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_amounts(plate, state),
-                            loaded_discs(plate, state), state.loaded);
+                            loaded_discs(plate, state), step.scale, state.loaded);
   worst_row = std::max(
       {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
@@ -211,8 +212,8 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
     const Index k = plate.n_unknowns() - plate.first_moment();
-    const PlateState& its = state.plates.emplace_back(plate_state(
-        joint, i, u, step.rim_F.segment(first_moment, k), step.load_factor, bearing, shear, state.out_of_balance));
+    const PlateState& its = state.plates.emplace_back(
+        plate_state(joint, i, u, step.rim_F.segment(first_moment, k), step, bearing, shear, state.out_of_balance));
     first_moment += k;
     // Matrices do not tell: a sheet that supports hold without statical indeterminacy moves without force as well.
     for (const int axis : plate.unsupported_axes)

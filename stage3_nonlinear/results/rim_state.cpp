@@ -207,6 +207,8 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
+  // Discs pressed in make stresses whose resultants are errors alone.
+  if (forces.cols() > 1 && std::abs(force[loaded]) < state.bypass_error) return;
   state.in_tension = force[loaded] > 0;
   state.gross_concentration = state.peak_hoop * a.gross_area[loaded] / std::abs(force[loaded]);
   state.net_concentration = state.peak_hoop * a.net_area[loaded] / std::abs(force[loaded]);
@@ -236,11 +238,13 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
 }  // namespace
 
 std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& amounts,
-                                 const LoadedDiscs& discs, const std::vector<std::optional<LoadedRim>>& rims) {
+                                 const LoadedDiscs& discs, double least,
+                                 const std::vector<std::optional<LoadedRim>>& rims) {
   std::vector<RimState> states;
   Eigen::MatrixXd forces(a.section_force[level].rows(), level > 0 ? 2 : 1);
   for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * amounts;
-  const double largest = std::max(forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>());
+  const double largest =
+      std::max({forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), least});
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
     state.peak_error = unknown;

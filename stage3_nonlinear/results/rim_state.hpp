@@ -37,16 +37,18 @@ struct LoadedDiscs {
 
 /// States of all holes of a plate.
 ///
-/// The error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points within 7.5
-/// degrees of a jump of friction are no candidates for the peak if the jump is more than 1 % of the bearing stress
-/// (11.5). The bypass load is the section force along x on the side of the hole that bears; its error is its change
-/// from the degree below, but no less than the square root of the relative error of S times the largest force on the
-/// plate (11.6).
+/// A concentration is 0 where the force of its section is not known: within rounding, or within the error of the bypass
+/// load. The error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points
+/// within 7.5 degrees of a jump of friction are no candidates for the peak if the jump is more than 1 % of the bearing
+/// stress (11.5). The bypass load is the section force along x on the side of the hole that bears; its error is its
+/// change from the degree below, but no less than the square root of the relative error of S times the largest force on
+/// the plate (11.6).
 /// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
 /// @param amounts  Of the unit cases, (n_cases).
+/// @param least    Forces are rounding beside this one at least: that against which the joint balances.
 /// @param rims     Those with waves and a closed form; other holes have no peak: 0 with an infinite error.
 [[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& amounts,
-                                               const LoadedDiscs& discs,
+                                               const LoadedDiscs& discs, double least,
                                                const std::vector<std::optional<LoadedRim>>& rims);
 
 /// Number of sections across x that the plate has beside a hole.

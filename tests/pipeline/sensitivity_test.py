@@ -203,6 +203,24 @@ def expect_peaks(by, scene, change, value):
     assert np.abs(found - differences).max() < 1e-4 * np.abs(differences).max(), (found, differences)
 
 
+def check_holes_of_both_kinds():
+    """A fastener through one hole whose springs only push and one whose springs pull too: each has one coefficient, which acts."""
+    for sheet in ("upper", "lower"):
+        plate = json.loads((ROOT / f"tests/pipeline/scenes/lap_joint/{sheet}.json").read_text())
+        for hole in plate["holes"]:
+            hole["spring"] |= {"compression_only": True} if sheet == "upper" else {}
+        Path(f"{sheet}.json").write_text(json.dumps(plate))
+        run("stage1_plate", f"{sheet}.json", "-o", f"{sheet}.h5", "--p", 4)
+        run("stage2_extract", f"{sheet}.h5", "-o", f"{sheet}.matrices.h5", "--loads-only")
+    scene = json.loads((ROOT / "tests/pipeline/scenes/lap_joint/joint.json").read_text())
+    for fastener in scene["fasteners"]:
+        fastener["friction"] = 0.15
+        fastener.pop("clearance", None)
+    by = sensitivities(scene)
+    assert sorted(by["mu_hole"]) == sorted(f"{sheet}:{hole}" for sheet in ("upper", "lower") for hole in "abcd"), by["mu_hole"]
+    assert np.abs(by["mu"]).max(axis=(0, 1)).min() > 0, by["mu"]
+
+
 def check_peaks():
     """Of both kinds of springs, with a law, gaps or clearances and friction; loaded at an edge and in a hole."""
     rows = [(f"{kind} {directions}", kind, directions) for kind in ("all around", "contact") for directions in (["x"], ["x", "y"])]
@@ -262,7 +280,7 @@ def check_peaks():
 def main(bin_folder):
     os.environ["PATH"] = str(Path(bin_folder).resolve()) + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as work:
-        for check in (check_lap_joint, check_bars_of_a_stack, check_linear_chains, check_peaks):
+        for check in (check_lap_joint, check_bars_of_a_stack, check_linear_chains, check_holes_of_both_kinds, check_peaks):
             folder = Path(work) / check.__name__
             folder.mkdir()
             os.chdir(folder)

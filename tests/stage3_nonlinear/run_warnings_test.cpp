@@ -2,6 +2,8 @@
 // What a run says if it does not converge, or if its results are to be doubted.
 #include <fmt/format.h>
 
+#include <array>
+
 #include "common/errors.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "tests/stage3_nonlinear/run_fixture.hpp"
@@ -14,6 +16,7 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::Not;
 using testing::StartsWith;
 using testing::ThrowsMessage;
@@ -54,17 +57,17 @@ TEST_F(Run, WritesAnEmptyHistoryIfNothingConverged) {
          {"fasteners", R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"},
                            {"id": "f2", "between": ["a:2", "b:2"], "law": "lin", "clearance": 0.02}])"},
          {"solver", R"({"max_iterations": 1, "tolerance": 1e-14})"}});
-  EXPECT_THAT([&] { run(); },
-              ThrowsMessage<NumericalError>(AllOf(HasSubstr("increment 1 of 1"),
-                                                  HasSubstr("Check the law and the clearance of that fastener, take "
-                                                            "smaller increments, allow more than 1 "
-                                                            "iteration or, if the residual is close to "
-                                                            "it, a larger tolerance than 1e-14; and see "
-                                                            "that each plate is held in the sense of "
-                                                            "its load: one that only fasteners hold has "
-                                                            "no stiffness while all of them are open, "
-                                                            "and one-sided fasteners cannot pull it"),
-                                                  HasSubstr("holds the 0 increments before"))));
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(AllOf(
+                                  HasSubstr("increment 1 of 1"),
+                                  HasSubstr("Check the law, the gap and the clearance of the fastener there, take "
+                                            "smaller increments, allow more than 1 "
+                                            "iteration or, if the residual is close to "
+                                            "it, a larger tolerance than 1e-14; and see "
+                                            "that each plate is held in the sense of "
+                                            "its load: one that only fasteners hold has "
+                                            "no stiffness while all of them are open, "
+                                            "and one-sided fasteners cannot pull it"),
+                                  HasSubstr("holds the 0 increments before"))));
   EXPECT_FALSE(result().complete);
   EXPECT_EQ(result().load_factor.size(), 0);
   EXPECT_EQ(result().F.cols(), 2);
@@ -183,6 +186,38 @@ INSTANTIATE_TEST_SUITE_P(Each, UnloadingOf,
                                                    R"({"type": "power", "A": 900, "n": 1, "delta0": 0.1})",
                                                    "[1, 0, -1]", ""}),
                          [](const auto& test) { return test.param.name; });
+
+/// A path of two increments with the forces and displacements of two fasteners, each the same.
+LoadPath path_of(std::array<double, 2> F, std::array<double, 2> delta) {
+  LoadPath path;
+  for (const int i : {0, 1})
+    path.steps.push_back({.load_factor = 1 - 0.5 * i,
+                          .F = Eigen::Vector2d::Constant(F[i]),
+                          .delta = Eigen::Vector2d::Constant(delta[i]),
+                          .iterations = 1,
+                          .residual = 0,
+                          .check = {}});
+  return path;
+}
+
+TEST(Warnings, SayNothingOfUnloadingWithinAGap) {
+  const JointModel joint = test::joint_of(test::two_fastener_lap(), test::power_law(900, 0.7, 0.1));
+  const JointEquations equations = make_equations(joint);
+  EXPECT_THAT(warnings(joint, equations, path_of({0, 0}, {0.05, 0.02})), IsEmpty());
+  EXPECT_THAT(warnings(joint, equations, path_of({90, 0}, {0.14, 0.02})),
+              ElementsAre(test::is_warning("permanent-set", "increment 2 (load factor 0.5) unloads ")));
+}
+
+TEST(Warnings, TellThatFrictionDoesNotTurn) {
+  JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
+  const JointEquations equations = make_equations(joint);
+  EXPECT_THAT(warnings(joint, equations, path_of({50, 40}, {0.05, 0.04})), IsEmpty());
+  joint.fasteners[1].holes[0].mu = 0.2;
+  EXPECT_THAT(warnings(joint, equations, path_of({40, 50}, {0.04, 0.05})), IsEmpty());
+  EXPECT_THAT(
+      warnings(joint, equations, path_of({50, 40}, {0.05, 0.04})),
+      ElementsAre(test::is_warning("friction-turns", "increment 2 (load factor 0.5) unloads fastener \"2\", ")));
+}
 
 TEST(Warnings, TellOfASolutionPastTheLargestLoad) {
   const JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1));

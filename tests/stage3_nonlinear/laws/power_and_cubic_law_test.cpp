@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
+#include <random>
 
 #include "tests/stage3_nonlinear/scenes.hpp"
 #include "tests/support/warning.hpp"
@@ -82,6 +84,20 @@ TEST(CubicLaw, DoesNotHoldAgainBeyondItsLastPoint) {
   EXPECT_TRUE(law->at(k * 0.6, k, 0).spent);
   // Where its own points show that it rises again, it does.
   EXPECT_FALSE(test::cubic_law({1, 2, 3}, {10, 2, 10})->at(k * 5, k, 0).spent);
+}
+
+/// Rounding of points on a line does not make it fall.
+TEST(CubicLaw, RisesThroughPointsOnALine) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> exponent(-6, 6), share(0.05, 0.95);
+  for (int i = 0; i < 2000; ++i) {
+    const double k = std::pow(10, exponent(random)), last = std::pow(10, exponent(random));
+    const std::array<double, 3> delta = {last * share(random), last * share(random), last};
+    const auto law = test::cubic_law(delta, {k * delta[0], k * delta[1], k * delta[2]});
+    EXPECT_TRUE(law->rises()) << k << " " << delta[0] << " " << delta[1] << " " << delta[2];
+    EXPECT_THAT(law->doubts(), IsEmpty());
+    EXPECT_NEAR(law->at(k * last, k, 0).F, k * last / 2, 1e-12 * k * last);
+  }
 }
 
 TEST(CubicLaw, WarnsWhereItTurnsDown) {

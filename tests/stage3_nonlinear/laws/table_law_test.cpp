@@ -103,6 +103,8 @@ TEST(TableLaw, HasDerivatives) {
     const Branch wider = law->at(c, k, 0.01 + 1e-7), tighter = law->at(c, k, 0.01 - 1e-7);
     EXPECT_NEAR((wider.F - tighter.F) / 2e-7, law->slopes(c, k, 0.01)[0].F, 1e-2) << c;
   }
+  const double contact = k * 0.01;  // at which the side counts that bears
+  EXPECT_NEAR(law->slopes(contact, k, 0.01)[0].F, law->slopes(contact + h, k, 0.01)[0].F, 1e-2);
 }
 
 using Point = std::array<double, 2>;

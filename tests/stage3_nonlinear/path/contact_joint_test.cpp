@@ -120,6 +120,16 @@ TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
   }
 }
 
+TEST_F(ContactJoint, UnknownsBelongToPlanesAndRims) {
+  const JointEquations equations = make_equations(random_contact_joint(random_, {3, 2, false, 1}));
+  Index row = 0;
+  for (Index plane = 0; plane < 3; ++plane)
+    for (Index d = 0; d < 2; ++d) EXPECT_EQ(equations.entry_of(row++), plane);
+  for (Index rim = 0; rim < 6; ++rim)
+    for (Index i = 0; i < equations.rims[rim].size(); ++i) EXPECT_EQ(equations.entry_of(row++), 3 + rim);
+  EXPECT_EQ(row, equations.n_unknowns());
+}
+
 TEST_F(ContactJoint, TheTangentKnowsFriction) {
   constexpr double step = 1e-7;
   for (int i = 0; i < 60; ++i) {

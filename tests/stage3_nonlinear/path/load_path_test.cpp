@@ -181,7 +181,7 @@ TEST(LoadPath, StopsAfterHalvingsAndKeepsWhatConverged) {
   EXPECT_EQ(path.failure->load_factor, 3.5);
   EXPECT_GE(path.failure->reached, 3.025 - 0.5 / 64) << "halved six times";
   EXPECT_LE(path.failure->reached, 3.025);
-  EXPECT_EQ(path.failure->plane, 0);
+  EXPECT_EQ(path.failure->entry, 0);
   EXPECT_GT(path.failure->residual, 1e-10);
 }
 
@@ -206,7 +206,7 @@ TEST(LoadPath, SpentFastenersAreNoSolution) {
   const LoadPath path = follow(make_equations(test::joint_of(lap, law)), {1, 20}, {});
   ASSERT_TRUE(path.failure);
   EXPECT_EQ(path.steps.size(), 1U);
-  EXPECT_EQ(path.failure->plane, 0);
+  EXPECT_EQ(path.failure->entry, 0);
 }
 
 TEST(LoadPath, SmallStepsReachWhatOneStepWithFewIterationsDoesNot) {

@@ -90,7 +90,7 @@ Plate flat() {
 RimState state(const Plate& model, const Eigen::VectorXd& bearing, const Eigen::VectorXd& friction) {
   const auto states = rim_states(
       model.stresses, model.level, Eigen::Vector2d(2, 1),
-      {std::vector<std::string>(model.axes.size(), model.holes[0]), model.axes, bearing, friction}, {model.rim});
+      {std::vector<std::string>(model.axes.size(), model.holes[0]), model.axes, bearing, friction}, 0, {model.rim});
   EXPECT_EQ(states.size(), 1U);
   return states.at(0);
 }
