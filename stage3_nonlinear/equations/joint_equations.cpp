@@ -147,9 +147,14 @@ bool JointEquations::has_interference() const {
   return std::ranges::any_of(rims, [](const RimContact& rim) { return rim.gap() < 0; });
 }
 
-double JointEquations::force_of_gaps() const {
+double JointEquations::force_of_clearances() const {
   double force = 0;
   for (const auto& contact : contacts) force = std::max(force, contact.stiffness * contact.law->gap(contact.clearance));
+  return force;
+}
+
+double JointEquations::force_of_gaps() const {
+  double force = 0;
   for (const auto& rim : rims) force = std::max(force, rim.stiffness() * std::abs(rim.gap()));
   return force;
 }

@@ -39,7 +39,9 @@ struct JointEquations {
   [[nodiscard]] VectorXd rim_stiffness() const;
   /// True if a disc is larger than the rim of contact around it.
   [[nodiscard]] bool has_interference() const;
-  /// Force that the greatest gap, clearance or interference would take of the springs or plates beside it, force.
+  /// Force that the greatest clearance would take of the plates beside it, and the greatest gap or interference of the
+  /// springs of its rim, force.
+  [[nodiscard]] double force_of_clearances() const;
   [[nodiscard]] double force_of_gaps() const;
 };
 

@@ -25,7 +25,7 @@ Walk::Walk(const JointEquations& equations, const PathOptions& options, std::vec
       exact_(std::move(exact)),
       here_{0, VectorXd::Zero(equations.n_unknowns())} {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  rounding_ = rounding * equations.force_of_gaps();
+  rounding_ = rounding * std::max(equations.force_of_clearances(), equations.force_of_gaps());
 }
 
 bool Walk::is_small(double residual) const {
@@ -55,7 +55,7 @@ PathStep Walk::step() const {
   // On a corner of its law the side counts on which a fastener bears more.
   const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
   const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
-  const double scale = force_scale(equations_, here_.load_factor);
+  const double scale = std::max(force_scale(equations_, here_.load_factor), rounding_ / options_.solver.tolerance);
   return {.load_factor = here_.load_factor,
           .F = state.F.head(planes),
           .delta = state.delta.head(planes),
@@ -108,6 +108,8 @@ bool Walk::guess(double target, int halvings_left) {
   if (take_known(target) || solve_from_guesses(target)) return true;
   if (halvings_left == 0) return false;
   const double middle = 0.5 * (here_.load_factor + target);
+  if (gives_way())  // how far the joint holds is all that is left to tell
+    return follow(middle, halvings_left - 1) && follow(target, halvings_left - 1);
   return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
 }
 
@@ -138,18 +140,26 @@ bool Walk::solve_from_guesses(double target) {
   starts.insert(here_.load_factor != 0 ? starts.begin() : starts.end(), here_.c);
   if (may_snap_)  // far out, where nothing else has led to any of several solutions
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
-  return solve_from(starts, target) || solve_by_turns(target);
+  return solve_from(starts, target) || (!gives_way() && solve_by_turns(target));
+}
+
+bool Walk::gives_way() const {
+  constexpr double close = 1e-4;  // to the limit load, which may then be reached from elsewhere
+  return !may_snap_ && std::isfinite(worst_residual_) && worst_residual_ > close &&
+         !level_planes(equations_, best_).empty();
 }
 
 bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
   const auto problem = root_problem(equations_, target, scale_);
   const auto solved_by = [&](SolveFunction solver) {
-    return std::ranges::any_of(starts, [&](const VectorXd& start) {
+    for (const VectorXd& start : starts) {
       const Root root = run(problem, start, solver);
       if (take(root, target)) return true;
-      if (solver == newton_root) note_failure(root);  // it descends: where it ends is where the joint gives way
-      return false;
-    });
+      if (solver != newton_root) continue;
+      note_failure(root);  // it descends: where it ends is where the joint gives way, from wherever it starts
+      if (gives_way()) break;
+    }
+    return false;
   };
   return solved_by(solver_) || (solver_ != newton_root && solved_by(newton_root));
 }

@@ -57,6 +57,8 @@ class Walk {
   }
   bool take(const Root& root, double target);
   void note_failure(const Root& root);
+  /// True if the best try has ended where laws allow no more force and nothing else holds the joint.
+  [[nodiscard]] bool gives_way() const;
 
   const JointEquations& equations_;
   const PathOptions& options_;
@@ -74,7 +76,7 @@ class Walk {
 };
 
 /// Force against which residuals count: the largest |q| at a load factor, of given displacements too, but no less than
-/// a small part of what gaps would take, whose rounding does not vanish with the load; 1 if nothing reaches the
+/// a small part of what gaps of rims would take, whose rounding does not vanish with the load; 1 if nothing reaches the
 /// fasteners.
 [[nodiscard]] double force_scale(const JointEquations& equations, double load_factor);
 

@@ -80,11 +80,14 @@ class Bracket {
 /// to little, or as near as rounding lets it, or the residual is well below what it was; a whole step that brings it
 /// well below all before is taken as it is (docs/theory.md, section 8.4, shows that they may mix). None if there is no
 /// such place.
+/// @param unbounded Set where the function falls on and on: a convex function that still falls half as steeply so far
+/// out has no least value, and there is no root.
 std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, double before, double least_norm,
-                                  const Root& root) {
+                                  const Root& root, bool& unbounded) {
   constexpr int most_tries = 100;
   constexpr double little = 0.03;
   constexpr double well = 0.5;
+  constexpr double far_out = 1e8;  // of the step
   const double norm_here = root.residual.norm();
   Bracket bracket(before);
   std::optional<Root> best;
@@ -96,6 +99,7 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
     if (i == 0 && norm <= well * least_norm) return there;
     const double slope = problem.gradient(there.residual).dot(step);
     if (norm <= well * norm_here && bracket.falls_to(length, slope)) return there;
+    if ((unbounded = length > far_out && slope < 0.5 * before)) return std::nullopt;
     if (std::abs(slope) < best_slope && bracket.falls_to(length, slope)) {
       best = std::move(there);
       best_slope = std::abs(slope);
@@ -107,8 +111,9 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
 
 std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double least_norm, const Root& root) {
   const double slope = problem.gradient ? problem.gradient(root.residual).dot(step) : 0;
-  auto there = slope < 0 ? move_downhill(problem, step, slope, least_norm, root) : std::nullopt;
-  return there ? there : move_by_norm(problem, step, root);
+  bool unbounded = false;
+  auto there = slope < 0 ? move_downhill(problem, step, slope, least_norm, root, unbounded) : std::nullopt;
+  return there || unbounded ? there : move_by_norm(problem, step, root);
 }
 
 VectorXd newton_step(const RootProblem& problem, const Root& root) {
