@@ -64,6 +64,8 @@ class Law {
   [[nodiscard]] virtual double gap(double clearance) const { return clearance; }
   /// True if the force never falls: then the coordinate is c = F + k delta.
   [[nodiscard]] virtual bool rises() const { return true; }
+  /// Force that it never exceeds, if there is one.
+  [[nodiscard]] virtual double most_force() const { return std::numeric_limits<double>::infinity(); }
   /// Least dF/ddelta anywhere, force / length; 0 if the law rises.
   [[nodiscard]] virtual double least_slope() const { return 0; }
   /// Coordinates c > 0 of the corners, at which the slope jumps, ascending, if the law is linear between them.

@@ -59,6 +59,10 @@ class PiecewiseLinearLaw final : public Law {
     return curve_.last_slope > 0 ? c0 + (F - F0) * (1 + k / curve_.last_slope) : c0;
   }
 
+  [[nodiscard]] double most_force() const override {
+    return curve_.last_slope > 0 ? infinite : curve_.vertices.back().F;
+  }
+
   [[nodiscard]] double gap(double clearance) const override { return vertex(first_moved_, clearance).delta; }
 
   [[nodiscard]] std::optional<std::vector<double>> corners(double k, double clearance) const override {

@@ -59,6 +59,10 @@ class TableLaw final : public Law {
     return F + k * (clearance + x);
   }
 
+  [[nodiscard]] double most_force() const override {
+    return force_and_slope(x_.back())[1] > 0 ? std::numeric_limits<double>::infinity() : F_.back();
+  }
+
   [[nodiscard]] double last_delta(double clearance) const override { return clearance + x_.back(); }
 
   [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {

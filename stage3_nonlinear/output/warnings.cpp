@@ -293,10 +293,12 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
   if (!failure.level.empty())
     return fmt::format(
         "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} allow no more "
-        "force (a law that ends level holds its last one, a cubic that falls is past its peak); {} did not converge. "
+        "force (a law that ends level holds its last one, a cubic that falls is past its peak){}; {} did not converge. "
         "{} {}Take smaller loads or displacements, or more or stronger fasteners; what others carry once these have "
         "failed, a joint without these shows",
-        scene.file, failure.reached, names(joint, failure.level), increment, kept, locking);
+        scene.file, failure.reached, names(joint, failure.level),
+        failure.limit ? fmt::format(", and load factor {:.6g} is the most that can balance", *failure.limit) : "",
+        increment, kept, locking);
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
                              : std::string("every try ended past all that the law carries, at");

@@ -113,6 +113,7 @@ struct PathFailure {
   /// force.
   std::string unbalanced = {};
   double out_of_balance = 0, allowed = 0;
+  std::optional<double> limit = {};  ///< load factor beyond which surely nothing balances (limit_load), with its sign
 };
 
 /// The first load factor whose solution is not on the path from no load.

@@ -33,7 +33,9 @@ bool Walk::is_small(double residual) const {
 }
 
 bool Walk::reach(double target) {
+  constexpr Index quick = 400;  // rows of planes, of which the bound takes less time than a try
   iterations_ = 0;
+  if (equations_.n_plane_rows() <= quick) (void)limit(target);
   for (const auto& path : exact_)  // its end tells where to go on from
     if (path.sign * target > path.reach() && path.reach() > path.sign * here_.load_factor)
       solve_from_here(path.sign * path.reach());
@@ -69,7 +71,18 @@ PathStep Walk::step() const {
           .scale = scale};
 }
 
-PathFailure Walk::failure(Index increment, double load_factor) const {
+PathFailure Walk::failure(Index increment, double load_factor) {
+  if (is_known_too_much(load_factor)) {
+    const auto& [factor, planes] = *limit(load_factor);
+    PathFailure failure{increment,       load_factor, here_.load_factor,   planes.front(),
+                        worst_residual_, planes,      locking(load_factor)};
+    failure.limit = std::copysign(factor, load_factor);
+    return failure;
+  }
+  return {increment,           load_factor,
+          here_.load_factor,   limit(load_factor)->planes.front(),
+          worst_residual_,     limit(load_factor)->planes,
+          locking(load_factor)};
   return {increment,           load_factor,
           here_.load_factor,   equations_.entry_of(worst_row_),
           worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
@@ -85,7 +98,7 @@ std::optional<double> Walk::locking(double load_factor) const {
 /// Uses the last state only.
 bool Walk::follow(double target, int halvings_left) {
   const Place start = here_;
-  const bool whole = solve_from_here(target);
+  const bool whole = !is_known_too_much(target) && solve_from_here(target);
   if (whole && (target == 0 || here_.exact || !may_snap_)) return true;
   const Place there = here_;
   const double middle = 0.5 * (start.load_factor + target);
@@ -105,10 +118,10 @@ bool Walk::follow(double target, int halvings_left) {
 }
 
 bool Walk::guess(double target, int halvings_left) {
-  if (take_known(target) || solve_from_guesses(target)) return true;
+  if (!is_known_too_much(target) && (take_known(target) || solve_from_guesses(target))) return true;
   if (halvings_left == 0) return false;
   const double middle = 0.5 * (here_.load_factor + target);
-  if (gives_way())  // how far the joint holds is all that is left to tell
+  if (gives_way() || is_known_too_much(target))  // how far the joint holds is all that is left to tell
     return follow(middle, halvings_left - 1) && follow(target, halvings_left - 1);
   return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
 }
@@ -140,7 +153,18 @@ bool Walk::solve_from_guesses(double target) {
   starts.insert(here_.load_factor != 0 ? starts.begin() : starts.end(), here_.c);
   if (may_snap_)  // far out, where nothing else has led to any of several solutions
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
-  return solve_from(starts, target) || (!gives_way() && solve_by_turns(target));
+  return solve_from(starts, target) || (!gives_way() && !is_known_too_much(target) && solve_by_turns(target));
+}
+
+const std::optional<LimitLoad>& Walk::limit(double target) {
+  auto& known = limits_[target < 0 ? 0 : 1];
+  if (!known) known = limit_load(equations_, target);
+  return *known;
+}
+
+bool Walk::is_too_much(double target) {
+  constexpr double rounding = 1e-9;
+  return limit(target) && std::abs(target) > (1 + rounding) * limit(target)->factor;
 }
 
 bool Walk::gives_way() const {
@@ -157,7 +181,7 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
       if (take(root, target)) return true;
       if (solver != newton_root) continue;
       note_failure(root);  // it descends: where it ends is where the joint gives way, from wherever it starts
-      if (gives_way()) break;
+      if (gives_way() || is_too_much(target)) return false;
     }
     return false;
   };

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "stage3_nonlinear/equations/limit_load.hpp"
 #include "stage3_nonlinear/path/exact_path.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
@@ -32,7 +34,7 @@ class Walk {
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
 
   [[nodiscard]] PathStep step() const;
-  [[nodiscard]] PathFailure failure(Index increment, double load_factor) const;
+  [[nodiscard]] PathFailure failure(Index increment, double load_factor);
 
   /// The place where the path from no load was left, if it was.
   [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
@@ -57,6 +59,14 @@ class Walk {
   }
   bool take(const Root& root, double target);
   void note_failure(const Root& root);
+  /// Bound of the load factors of a sign, found when it is first asked for.
+  [[nodiscard]] const std::optional<LimitLoad>& limit(double target);
+  /// True if no solution exists at a load factor, as the bound proves.
+  [[nodiscard]] bool is_too_much(double target);
+  /// The same, but false before anything has failed, so that a joint that is solved takes no time for it.
+  [[nodiscard]] bool is_known_too_much(double target) {
+    return limits_[target < 0 ? 0 : 1].has_value() && is_too_much(target);
+  }
   /// True if the best try has ended where laws allow no more force and nothing else holds the joint.
   [[nodiscard]] bool gives_way() const;
 
@@ -70,9 +80,10 @@ class Walk {
   Place here_;
   int iterations_ = 0;
   std::optional<PathLeft> left_;
-  double worst_residual_ = 0;  ///< of the best try
-  Index worst_row_ = 0;        ///< of all unknowns
-  VectorXd best_;              ///< contact coordinates of the best try
+  double worst_residual_ = 0;                                      ///< of the best try
+  Index worst_row_ = 0;                                            ///< of all unknowns
+  VectorXd best_;                                                  ///< contact coordinates of the best try
+  std::array<std::optional<std::optional<LimitLoad>>, 2> limits_;  ///< of negative and positive load factors, if asked
 };
 
 /// Force against which residuals count: the largest |q| at a load factor, of given displacements too, but no less than

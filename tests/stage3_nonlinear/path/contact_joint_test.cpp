@@ -9,6 +9,7 @@
 #include "stage3_nonlinear/path/walk.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -117,6 +118,27 @@ TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
       different += root.converged && !((F - path.steps[0].all_F()).lpNorm<Eigen::Infinity>() < 1e-8 * scale);
     }
     EXPECT_LE(different, mu < 0.5 ? 0 : 1) << mu;
+  }
+}
+
+/// Laws that end level: a hundredth of a percent below the bound there is a solution, above it there is none.
+TEST_F(ContactJoint, HaveTheLimitLoadThatRigidMotionsTell) {
+  for (int i = 0; i < 60; ++i) {
+    ContactKind its = kind(i);
+    its.floating = true, its.gaps = 0.01, its.mu = i % 5 == 0 ? 0.2 : 0;
+    JointModel joint = random_contact_joint(random_, its);
+    for (auto& plane : joint.planes)
+      plane.law = test::bilinear_law(decades(random_, 100, 10000), decades(random_, 0.1, 10), 0);
+    const JointEquations equations = make_equations(joint);
+    const auto limit = limit_load(equations, 1);
+    ASSERT_TRUE(limit) << "joint " << i;
+    EXPECT_FALSE(follow(equations, {0.9999 * limit->factor}, {}).failure) << "joint " << i;
+    const LoadPath path = follow(equations, {0.5 * limit->factor, 1.0001 * limit->factor}, {});
+    ASSERT_TRUE(path.failure) << "joint " << i;
+    EXPECT_EQ(path.steps.size(), 1U);
+    EXPECT_EQ(path.failure->limit, limit->factor);
+    EXPECT_EQ(path.failure->level, limit->planes);
+    EXPECT_GT(path.failure->reached, 0.98 * limit->factor);
   }
 }
 
