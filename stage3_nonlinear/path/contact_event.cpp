@@ -88,9 +88,12 @@ double ContactCorners::nearness(const VectorXd& c, double at) {
   return of_corner * at + of_largest * c.cwiseAbs().maxCoeff();
 }
 
+double ContactCorners::pressed(Index entry) const {
+  constexpr double little = 1e-6;  // of the gap
+  return little * rim_of(entry).stiffness() * std::max(rim_of(entry).gap(), 0.0);
+}
+
 VectorXi ContactCorners::passed(const VectorXd& c) const {
-  // A loose bolt lies anywhere: it touches where it presses, by more than the little force that a solution leaves.
-  constexpr double pressed = 1e-6;  // of the gap
   VectorXi result = VectorXi::Zero(std::ssize(corners_));
   for (Index j = 0; j < result.size(); ++j) {
     const auto& own = of(j);
@@ -99,8 +102,7 @@ VectorXi ContactCorners::passed(const VectorXd& c) const {
     const bool mirrored = x < 0 && !is_one_sided(j);
     const double position = mirrored ? -x : x;
     const int reached = int(std::count_if(own.begin(), own.end(), [&](const Corner& corner) {
-      if (corner.kind == CornerKind::touch)
-        return x >= pressed * rim_of(j).stiffness() * std::max(rim_of(j).gap(), 0.0);
+      if (corner.kind == CornerKind::touch) return x >= pressed(j);
       return position >= corner.at - nearness(c, corner.at);
     }));
     result[j] = mirrored ? -reached : reached;

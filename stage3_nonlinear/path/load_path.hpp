@@ -45,6 +45,9 @@ class ContactCorners {
   [[nodiscard]] double position(const VectorXd& c, Index plane) const;
   /// Derivative of position by c, (r).
   [[nodiscard]] VectorXd slope(const VectorXd& c, Index plane) const;
+  /// Position from which on a rim touches, force: a loose bolt lies anywhere, and touches where it presses by more than
+  /// the little force that a solution leaves.
+  [[nodiscard]] double pressed(Index entry) const;
   /// Number of corners that each plane and each entry of a rim has passed, negative on the negative side, (n + 2 g).
   [[nodiscard]] Eigen::VectorXi passed(const VectorXd& c) const;
   /// Events on the way from one vector of passed() to another.

@@ -80,10 +80,6 @@ PathFailure Walk::failure(Index increment, double load_factor) {
     return failure;
   }
   return {increment,           load_factor,
-          here_.load_factor,   limit(load_factor)->planes.front(),
-          worst_residual_,     limit(load_factor)->planes,
-          locking(load_factor)};
-  return {increment,           load_factor,
           here_.load_factor,   equations_.entry_of(worst_row_),
           worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
           locking(load_factor)};
