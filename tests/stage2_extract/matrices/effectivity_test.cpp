@@ -146,7 +146,8 @@ void expect_effectivity_of_laminates(unsigned n_seeds) {
         const auto S = stiffnesses(with(laminate(sheet.json(rings, "")), space));
         for (int p = 3; p <= 8; ++p) {
           const double ratio = effectivity(S, p, exact, fastest);
-          EXPECT_GT(ratio, rings == 0 ? 0.02 : 0.0125) << seed << ", " << pfem::name_of(space) << ", rings " << rings << ", p = " << p;
+          EXPECT_GT(ratio, rings == 0 ? 0.02 : 0.0125)
+              << seed << ", " << pfem::name_of(space) << ", rings " << rings << ", p = " << p;
           EXPECT_LT(ratio, most) << seed << ", " << pfem::name_of(space) << ", rings " << rings << ", p = " << p;
         }
       }
