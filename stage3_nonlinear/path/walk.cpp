@@ -147,9 +147,20 @@ bool Walk::take_known(double target) {
 bool Walk::solve_from_guesses(double target) {
   auto starts = first_guesses(equations_, options_.initial, target);
   starts.insert(here_.load_factor != 0 ? starts.begin() : starts.end(), here_.c);
+  if (const auto place = loose_without_friction(starts.front(), target)) starts.insert(starts.begin(), *place);
   if (may_snap_)  // far out, where nothing else has led to any of several solutions
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
   return solve_from(starts, target) || (!gives_way() && !is_known_too_much(target) && solve_by_turns(target));
+}
+
+std::optional<VectorXd> Walk::loose_without_friction(const VectorXd& start, double target) {
+  const bool loose = std::ranges::all_of(equations_.rims, [](const RimContact& rim) { return rim.gap() > 0; });
+  if (equations_.rims.empty() || !loose || !equations_.system.has_friction() || equations_.metric.size() == 0)
+    return std::nullopt;
+  const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
+  const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);
+  if (!root.converged) return std::nullopt;
+  return scale_ * root.x;
 }
 
 const std::optional<LimitLoad>& Walk::limit(double target) {

@@ -52,6 +52,8 @@ class Walk {
   bool take_known(double target);
   bool solve_from_guesses(double target);
   bool solve_from(const std::vector<VectorXd>& starts, double target);
+  /// Solution without friction of a joint whose rims all have gaps, from where friction takes few steps.
+  std::optional<VectorXd> loose_without_friction(const VectorXd& start, double target);
   bool solve_by_turns(double target);
   Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver);
   [[nodiscard]] bool converged(const Root& root) const {

@@ -121,6 +121,23 @@ TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
   }
 }
 
+/// Friction takes few steps more, also where everything is loose at first.
+TEST_F(ContactJoint, OfLooseFastenersTakeFewStepsWithFriction) {
+  int most = 0;
+  for (int i = 0; i < 100; ++i) {
+    ContactKind its = kind(i);
+    its.mu = 0.2;
+    JointModel joint = random_contact_joint(random_, its);
+    for (auto& fastener : joint.fasteners)
+      for (auto& hole : fastener.holes) hole.gap = std::abs(hole.gap);
+    const LoadPath path = follow(make_equations(joint), {1}, {{}, {.method = Method::damped_newton}});
+    ASSERT_FALSE(path.failure) << "joint " << i;
+    most = std::max(most, path.steps[0].iterations);
+  }
+  EXPECT_LE(most, 40);
+  RecordProperty("most", most);
+}
+
 /// Laws that end level: a hundredth of a percent below the bound there is a solution, above it there is none.
 TEST_F(ContactJoint, HaveTheLimitLoadThatRigidMotionsTell) {
   for (int i = 0; i < 60; ++i) {
