@@ -79,17 +79,6 @@ ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd&
   return state;
 }
 
-VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, const VectorXd& delta) {
-  const Index a = F.size() / contacts.size();
-  VectorXd c(F.size());
-  for (Index j = 0; j < std::ssize(c) / a; ++j) {
-    const Contact& contact = contacts[j];
-    c.segment(j * a, a) = contact.stiffness * delta.segment(j * a, a);
-    if (contact.law->rises()) c.segment(j * a, a) += F.segment(j * a, a);
-  }
-  return c;
-}
-
 VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F) {
   const Index a = F.size() / contacts.size();
   VectorXd c(F.size());

@@ -60,9 +60,6 @@ struct ContactState {
 /// @param c Contact coordinates, shape (n a), force.
 [[nodiscard]] ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c);
 
-/// Contact coordinates of a solution, (n a), exact whatever the law.
-[[nodiscard]] VectorXd coordinates(const std::vector<Contact>& contacts, const VectorXd& F, const VectorXd& delta);
-
 /// Coordinates at which the bearing forces are F, or about that; where a fastener cannot carry F it is left open.
 ///
 /// @param F Shape (n a), force.

@@ -178,14 +178,6 @@ ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
   return state;
 }
 
-VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const VectorXd& delta) {
-  const Index n = equations.n_plane_rows();
-  VectorXd c(F.size());
-  c << coordinates(equations.contacts, F.head(n), delta.head(n)),
-      equations.rim_stiffness().cwiseProduct(delta.tail(F.size() - n));
-  return c;
-}
-
 MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) {
   const Index n = equations.n_plane_rows(), k = residuals.rows() - n;
   MatrixXd g(residuals.rows(), residuals.cols());

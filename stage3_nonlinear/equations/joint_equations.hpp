@@ -56,9 +56,6 @@ struct JointEquations {
 /// @param c Contact coordinates, shape (r), force.
 [[nodiscard]] ContactState contact_state(const JointEquations& equations, const VectorXd& c);
 
-/// Contact coordinates of a solution, (r), exact whatever the law.
-[[nodiscard]] VectorXd coordinates(const JointEquations& equations, const VectorXd& F, const VectorXd& delta);
-
 /// Gradients at the residuals, (r, columns), of the convex function that `metric` makes.
 [[nodiscard]] MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals);
 

@@ -205,16 +205,15 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
   const Index a = equations.n_directions();
   std::vector<Largest> most(equations.n_planes(), Largest(a));
   for (const PathStep& step : path.steps) {
-    const VectorXd all = coordinates(equations, step.all_F(), step.all_delta());
     std::vector<Index> unloaded;
     for (Index j = 0; j < std::ssize(most); ++j) {
       const double before = most[j].amount();
-      const bool falls = most[j].falls_short(all.segment(j * a, a));
+      const bool falls = most[j].falls_short(step.c.segment(j * a, a));
       const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
       const Contact& contact = equations.contacts[j];
       const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
       const bool curved =
-          !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(all, k * gap);
+          !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(step.c, k * gap);
       if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);
     }
     if (unloaded.empty()) continue;

@@ -87,8 +87,9 @@ struct PathStep {
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
   VectorXd shear = {};                    ///< (s) forces of the shears of rims of contact with friction, force
   std::vector<ContactEvent> events = {};  ///< what happens exactly here, or to rims since the increment before
-  double scale =
-      0;  ///< against which residuals count: force_scale, or rounding of clearances over the tolerance, force
+  VectorXd c = {};                        ///< (r) contact coordinates, force
+  /// Against which residuals count: force_scale, or rounding of clearances over the tolerance, force.
+  double scale = 0;
 
   /// Forces and displacements of all rows of the condensed system, (r).
   [[nodiscard]] VectorXd all_F() const { return behind(F, rim_F); }

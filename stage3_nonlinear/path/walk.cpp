@@ -68,6 +68,7 @@ PathStep Walk::step() const {
           .rim_F = state.F.tail(rims),
           .moments = state.delta.tail(rims),
           .shear = state.shear,
+          .c = here_.c,
           .scale = scale};
 }
 

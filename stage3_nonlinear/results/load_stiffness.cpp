@@ -39,7 +39,7 @@ void add_shears(const JointModel& joint, const CondensedSystem& system, const Ve
 std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const JointEquations& equations,
                                              const PathStep& step) {
   const CondensedSystem& system = equations.system;
-  ContactState state = contact_state(equations, coordinates(equations, step.all_F(), step.all_delta()));
+  ContactState state = contact_state(equations, step.c);
   if (system.has_friction() && state.F.isZero(0)) bear(equations, state);
   const Slopes slopes = implicit_slopes(equations, state, -system.q_at(step.load_factor));
   const bool gives_way = step.check.at_limit_load() || !slopes.no_column.empty();

@@ -175,7 +175,7 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
 /// @param dS Results of stiffness_changes.
 VectorXd errors(const JointModel& joint, const JointEquations& equations, const std::vector<MatrixXd>& dS,
                 const PathStep& step, const JointState& solution) {
-  const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+  const VectorXd& c = step.c;
   ContactState state = contact_state(equations, c);
   if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
   Slopes slopes = implicit_slopes(equations, state);
@@ -196,7 +196,7 @@ VectorXd errors(const JointModel& joint, const JointEquations& equations, const 
 }  // namespace
 
 StateSlopes state_slopes(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
-  const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+  const VectorXd& c = step.c;
   const ContactState state = contact_state(equations, c);
   MatrixXd delta;
   const Slopes slopes = all_slopes(equations, numbers, step, c, state, &delta);
@@ -204,7 +204,7 @@ StateSlopes state_slopes(const JointEquations& equations, const JointNumbers& nu
 }
 
 Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
-  const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+  const VectorXd& c = step.c;
   const ContactState state = contact_state(equations, c);
   const MatrixXd dF = of_amounts(all_slopes(equations, numbers, step, c, state, nullptr), state, c);
   Index column = 0;

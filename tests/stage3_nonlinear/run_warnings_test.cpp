@@ -188,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(Each, UnloadingOf,
                          [](const auto& test) { return test.param.name; });
 
 /// A path of two increments with the forces and displacements of two fasteners, each the same.
-LoadPath path_of(std::array<double, 2> F, std::array<double, 2> delta) {
+LoadPath path_of(const JointEquations& equations, std::array<double, 2> F, std::array<double, 2> delta) {
   LoadPath path;
   for (const int i : {0, 1})
     path.steps.push_back({.load_factor = 1 - 0.5 * i,
@@ -196,26 +196,27 @@ LoadPath path_of(std::array<double, 2> F, std::array<double, 2> delta) {
                           .delta = Eigen::Vector2d::Constant(delta[i]),
                           .iterations = 1,
                           .residual = 0,
-                          .check = {}});
+                          .check = {},
+                          .c = Eigen::Vector2d::Constant(F[i] + equations.contacts[0].stiffness * delta[i])});
   return path;
 }
 
 TEST(Warnings, SayNothingOfUnloadingWithinAGap) {
   const JointModel joint = test::joint_of(test::two_fastener_lap(), test::power_law(900, 0.7, 0.1));
   const JointEquations equations = make_equations(joint);
-  EXPECT_THAT(warnings(joint, equations, path_of({0, 0}, {0.05, 0.02})), IsEmpty());
-  EXPECT_THAT(warnings(joint, equations, path_of({90, 0}, {0.14, 0.02})),
+  EXPECT_THAT(warnings(joint, equations, path_of(equations, {0, 0}, {0.05, 0.02})), IsEmpty());
+  EXPECT_THAT(warnings(joint, equations, path_of(equations, {90, 0}, {0.14, 0.02})),
               ElementsAre(test::is_warning("permanent-set", "increment 2 (load factor 0.5) unloads ")));
 }
 
 TEST(Warnings, TellThatFrictionDoesNotTurn) {
   JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
   const JointEquations equations = make_equations(joint);
-  EXPECT_THAT(warnings(joint, equations, path_of({50, 40}, {0.05, 0.04})), IsEmpty());
+  EXPECT_THAT(warnings(joint, equations, path_of(equations, {50, 40}, {0.05, 0.04})), IsEmpty());
   joint.fasteners[1].holes[0].mu = 0.2;
-  EXPECT_THAT(warnings(joint, equations, path_of({40, 50}, {0.04, 0.05})), IsEmpty());
+  EXPECT_THAT(warnings(joint, equations, path_of(equations, {40, 50}, {0.04, 0.05})), IsEmpty());
   EXPECT_THAT(
-      warnings(joint, equations, path_of({50, 40}, {0.05, 0.04})),
+      warnings(joint, equations, path_of(equations, {50, 40}, {0.05, 0.04})),
       ElementsAre(test::is_warning("friction-turns", "increment 2 (load factor 0.5) unloads fastener \"2\", ")));
 }
 
@@ -226,7 +227,8 @@ TEST(Warnings, TellOfASolutionPastTheLargestLoad) {
                 .delta = Eigen::Vector2d::Zero(),
                 .iterations = 1,
                 .residual = 0,
-                .check = {}};
+                .check = {},
+                .c = Eigen::Vector2d::Zero()};
   step.check.unstable = 2;
   LoadPath path;
   path.steps = {step, step};

@@ -25,7 +25,7 @@ TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
     Walk walk(equations, tight);
     double begin = first_load_factor;
     for (const auto& step : path.steps) {
-      const VectorXd c = coordinates(equations, step.all_F(), step.all_delta());
+      const VectorXd& c = step.c;
       for (const auto& event : step.events) {
         if (event.kind != CornerKind::touch && event.kind != CornerKind::part) continue;
         ++events;
@@ -68,7 +68,7 @@ TEST_F(ContactJoint, TellWhatTheirRimsHaveDoneByAnIncrement) {
   std::size_t events = 0;
   for (const auto& step : path.steps) {
     for (const auto& event : step.events) passed[event.plane] += event.back ? -1 : 1;
-    EXPECT_EQ(passed, corners.passed(coordinates(equations, step.all_F(), step.all_delta())));
+    EXPECT_EQ(passed, corners.passed(step.c));
     events += step.events.size();
   }
   EXPECT_GE(events, 3U);

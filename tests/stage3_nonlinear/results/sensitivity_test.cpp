@@ -46,6 +46,12 @@ class TwoFastenerLap : public testing::Test {
     return model;
   }
   static constexpr double contact = g / (1 / K + f) / P;  ///< load factor
+  /// The state there, on the corner to the last bit.
+  static PathStep at_contact(const JointEquations& equations) {
+    PathStep at{contact, Vector2d(contact * P, 0), Vector2d(contact * P / K, g), 0, 0, {}};
+    at.c = at.F + Vector2d(equations.contacts[0].stiffness, equations.contacts[1].stiffness).cwiseProduct(at.delta);
+    return at;
+  }
 };
 
 TEST_F(TwoFastenerLap, HasItsClosedForm) {
@@ -72,7 +78,7 @@ TEST_F(TwoFastenerLap, AtFirstContactIsOfTheSideThatBears) {
   const JointModel model = joint();
   const JointEquations equations = make_equations(model);
   const JointNumbers numbers = joint_numbers(model, equations.system);
-  const PathStep at{contact, Vector2d(contact * P, 0), Vector2d(contact * P / K, g), 0, 0, {}};
+  const PathStep at = at_contact(equations);
   const double k = equations.contacts[1].stiffness;
   ASSERT_EQ(contact_state(equations.contacts, Vector2d(k, k * g)).F[1], 0);
   const Sensitivity by = sensitivity(equations, numbers, at);
@@ -89,7 +95,7 @@ TEST_F(TwoFastenerLap, SaysTheSameWithPowerAndCubicLawsAtFirstContact) {
     model.planes[1].law = law;
     model.planes[1].law_name = "other";
     const JointEquations equations = make_equations(model);
-    const PathStep at{contact, Vector2d(contact * P, 0), Vector2d(contact * P / K, g), 0, 0, {}};
+    const PathStep at = at_contact(equations);
     const Sensitivity by = sensitivity(equations, joint_numbers(model, equations.system), at);
     EXPECT_NEAR(by.clearance(1, 1) * (1 / K + 2 * f + flexibility), -1, 1e-12);
     EXPECT_NEAR(by.load_factor[1] * (1 / K + 2 * f + flexibility), P * (1 / K + f), 1e-9);
@@ -275,8 +281,9 @@ TEST(Sensitivity, AtALimitPointIsInfinite) {
   equations.system.S_ud = MatrixXd::Constant(1, 1, -on.dF);
   ASSERT_LT(on.dF, 0);
   for (const auto& parameter : equations.contacts[0].law->parameters()) numbers.law.emplace_back("law", parameter);
-  const Sensitivity by =
-      sensitivity(equations, numbers, {1, VectorXd::Constant(1, on.F), VectorXd::Constant(1, 3), 0, 0, {}});
+  PathStep at{1, VectorXd::Constant(1, on.F), VectorXd::Constant(1, 3), 0, 0, {}};
+  at.c = at.delta;
+  const Sensitivity by = sensitivity(equations, numbers, at);
   EXPECT_THAT(by.load_factor, ElementsAre(infinity));
   EXPECT_EQ(by.law(0, 0), infinity);
 }
