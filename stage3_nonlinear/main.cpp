@@ -20,7 +20,8 @@ const fastjoint::program::Command command{
         {"--sensitivities", "",
          "also write how the forces, and at the last increment the peaks, change with every load, clearance, gap, "
          "number of a\n"
-         "law and coefficient of friction"}}};
+         "law and coefficient of friction"},
+        {"--verbose", "", "say on stderr what each iteration of each try does"}}};
 
 }  // namespace
 

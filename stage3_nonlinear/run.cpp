@@ -121,7 +121,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   require_memory(scene, joint, !csv_file.empty(), with_sensitivities, with_rim_stresses);
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);
-  const PathOptions solving{scene.initial, scene.solver};
+  const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
   program::report_share(0);
   LoadPath path =
       scene.load_factors.empty() ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -146,6 +147,7 @@ struct LoadPath {
 struct PathOptions {
   InitialScene initial;
   SolverScene solver;
+  std::ostream* log = nullptr;  ///< gets a line for each iteration of each try
 };
 
 /// Follows the load factors, each increment from the last. If all fasteners are linear between corners, their exact

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/path/walk.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ostream>
 #include <utility>
 
 #include "common/program/progress.hpp"
@@ -127,6 +130,7 @@ bool Walk::solve_from_here(double target) { return take_known(target) || solve_f
 
 bool Walk::take_known(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
+  target_ = target;
   scale_ = force_scale(equations_, target);
   if (target == 0 && !equations_.has_interference()) {  // the joint as it was built is in equilibrium, exactly
     here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
@@ -214,9 +218,28 @@ bool Walk::solve_by_turns(double target) {
 }
 
 Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction solver) {
-  Root root = solver(problem, start / scale_, {options_.solver.tolerance, options_.solver.max_iterations});
+  RootOptions options{options_.solver.tolerance, options_.solver.max_iterations};
+  std::optional<Root> before;
+  if (options_.log) options.report = [&](const Root& root) { log_iteration(root, before); };
+  Root root = solver(problem, start / scale_, options);
   iterations_ += root.iterations;
+  if (options_.log) *options_.log << fmt::format("    {}\n", text_of(root.ending));
   return root;
+}
+
+void Walk::log_iteration(const Root& root, std::optional<Root>& before) const {
+  const double residual = root.residual.lpNorm<Eigen::Infinity>();
+  if (!before) {
+    *options_.log << fmt::format("  try at load factor {:.9g}: residual {:.1e} of {:.4g}\n", target_, residual, scale_);
+  } else {
+    const ContactCorners corners(equations_);
+    const auto changes =
+        (corners.passed(scale_ * root.x).array() != corners.passed(scale_ * before->x).array()).count();
+    const VectorXd step = root.x - before->x;
+    *options_.log << fmt::format("    {:3}: residual {:.1e}, step {:.1e}, corners passed by {}\n", root.iterations,
+                                 residual, step.lpNorm<Eigen::Infinity>(), changes);
+  }
+  before = root;
 }
 
 bool Walk::take(const Root& root, double target) {
@@ -224,12 +247,13 @@ bool Walk::take(const Root& root, double target) {
   VectorXd c = scale_ * root.x;
   const Index planes = equations_.n_plane_rows();
   if (!equations_.rims.empty()) {   // loose fasteners carry nothing
-    constexpr double little = 1e3;  // times without_rounding's, as far as the joint then still balances
+    constexpr double little = 1e3;  // times without_rounding's, as far as the joint then still balances, but for
+    constexpr double more = 10;     // a few times the tolerance
     VectorXd loose = c;
     loose.head(planes) = without_rounding(c.head(planes), little * scale_);
     const auto state = contact_state(equations_, loose);
     const VectorXd r = equations_.system.residual(state.F, state.delta, target, state.shear);
-    if (is_small(r.lpNorm<Eigen::Infinity>())) c = loose;
+    if (is_small(r.lpNorm<Eigen::Infinity>() / more)) c = loose;
   }
   if (const auto spent = contact_state(equations_, c).spent) {
     if (std::isinf(worst_residual_)) {

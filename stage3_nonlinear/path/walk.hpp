@@ -56,6 +56,8 @@ class Walk {
   std::optional<VectorXd> loose_without_friction(const VectorXd& start, double target);
   bool solve_by_turns(double target);
   Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver);
+  /// One line of PathOptions::log, with what has changed since the iterate before, which becomes this one.
+  void log_iteration(const Root& root, std::optional<Root>& before) const;
   [[nodiscard]] bool converged(const Root& root) const {
     return root.converged || is_small(scale_ * root.residual.lpNorm<Eigen::Infinity>());
   }
@@ -77,6 +79,7 @@ class Walk {
   SolveFunction solver_;
   double rounding_ = 0;  ///< residual that rounding of wide gaps leaves, force
   double scale_ = 1;     ///< of the load factor that is tried, force
+  double target_ = 0;    ///< load factor that is tried
   bool may_snap_;        ///< the solution may be one of several
   std::vector<ExactPath> exact_;
   Place here_;

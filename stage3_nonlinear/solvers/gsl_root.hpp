@@ -78,19 +78,26 @@ Root solve(const RootProblem& problem, const Eigen::VectorXd& start, const RootO
   if (!solver) throw std::bad_alloc();
   const gsl_vector_const_view x0 = gsl_vector_const_view_array(start.data(), n);
   Root root{start, infinite};
-  for (int status = family.set(solver.get(), &x0.vector); status == GSL_SUCCESS;
-       status = Family::iterate(solver.get())) {
+  root.ending = Ending::no_progress;
+  int status = family.set(solver.get(), &x0.vector);
+  for (; status == GSL_SUCCESS; status = Family::iterate(solver.get())) {
     root.x = view(solver->x);
     root.residual = view(solver->f);
     if (!root.residual.allFinite()) {  // at the start, where GSL does not ask
       root.residual = infinite;
+      root.ending = Ending::not_finite;
       break;
     }
+    if (options.report) options.report(root);
     root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance;
-    if (root.converged || root.iterations == options.max_iterations) break;
+    if (root.converged || root.iterations == options.max_iterations) {
+      root.ending = root.converged ? Ending::converged : Ending::most_iterations;
+      break;
+    }
     ++root.iterations;
   }
   if (payload.thrown) std::rethrow_exception(payload.thrown);
+  if (status == GSL_EBADFUNC) root.ending = Ending::not_finite;
   return root;
 }
 

@@ -50,8 +50,10 @@ class Bracket {
     const Sample here{length, slope};
     Sample& end = behind ? high_ : low_;
     const Sample before = std::exchange(end, here);
+    constexpr double furthest = 9;  // times the last step out, also where the slope has not risen at all
     if (!(high_.length > 0))
-      return length + (length - before.length) * std::clamp(slope / (before.slope - slope), 1.0, 9.0);
+      return length + (length - before.length) *
+                          (slope > before.slope ? std::clamp(slope / (before.slope - slope), 1.0, furthest) : furthest);
     const bool again = behind == was_behind_ && before.length > 0;
     was_behind_ = behind;
     repeated_ = again ? repeated_ + 1 : 0;
@@ -109,9 +111,9 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
   return best;
 }
 
-std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double least_norm, const Root& root) {
+std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double least_norm, const Root& root,
+                         bool& unbounded) {
   const double slope = problem.gradient ? problem.gradient(root.residual).dot(step) : 0;
-  bool unbounded = false;
   auto there = slope < 0 ? move_downhill(problem, step, slope, least_norm, root, unbounded) : std::nullopt;
   return there || unbounded ? there : move_by_norm(problem, step, root);
 }
@@ -123,22 +125,49 @@ VectorXd newton_step(const RootProblem& problem, const Root& root) {
 
 }  // namespace
 
+const char* text_of(Ending ending) {
+  switch (ending) {
+    case Ending::converged:
+      return "converged";
+    case Ending::no_progress:
+      return "no step leads on";
+    case Ending::unbounded:
+      return "no solution: the joint gives way on and on";
+    case Ending::not_finite:
+      return "a value is not finite";
+    case Ending::most_iterations:
+      break;
+  }
+  return "as many iterations as are allowed";
+}
+
 Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
   Root root{start, problem.residual(start)};
   if (!root.residual.allFinite()) {
     root.residual.setConstant(std::numeric_limits<double>::infinity());
+    root.ending = Ending::not_finite;
     return root;
   }
+  const auto report = [&] {
+    if (options.report) options.report(root);
+  };
+  report();
   double least_norm = std::numeric_limits<double>::infinity();
   while (!(root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) &&
          root.iterations < options.max_iterations) {
     ++root.iterations;
     least_norm = std::min(least_norm, root.residual.norm());
     const VectorXd step = newton_step(problem, root);
-    auto there = step.allFinite() ? move(problem, step, least_norm, root) : std::nullopt;
-    if (!there) break;
+    bool unbounded = false;
+    auto there = step.allFinite() ? move(problem, step, least_norm, root, unbounded) : std::nullopt;
+    if (!there) {
+      root.ending = !step.allFinite() ? Ending::not_finite : unbounded ? Ending::unbounded : Ending::no_progress;
+      break;
+    }
     root = *std::move(there);
+    report();
   }
+  if (root.converged) root.ending = Ending::converged;
   return root;
 }
 

@@ -23,16 +23,29 @@ struct RootProblem {
   std::function<VectorXd(const VectorXd&, const VectorXd&)> solve{};
 };
 
-struct RootOptions {
-  double tolerance;  ///< on the largest |residual|
-  int max_iterations;
+/// Why a solver ended.
+enum class Ending {
+  converged,
+  most_iterations,
+  no_progress,  ///< no step leads on: GSL's method says so, or no shorter step lowers the residual
+  unbounded,    ///< the convex function falls on and on: there is no root
+  not_finite    ///< a value or a step is not finite
 };
+/// "converged", "no step leads on", ...
+[[nodiscard]] const char* text_of(Ending ending);
 
 /// Place where a solver ended; not to converge is a result, not an error.
 struct Root {
   VectorXd x, residual;  ///< (n); the residual is infinite if the functions have no value at the start
   bool converged = false;
   int iterations = 0;
+  Ending ending = Ending::most_iterations;
+};
+
+struct RootOptions {
+  double tolerance;  ///< on the largest |residual|
+  int max_iterations;
+  std::function<void(const Root&)> report = {};  ///< is told the start and every iterate
 };
 
 /// A way to solve n equations from a start, shape (n), n >= 1.

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <optional>
+#include <sstream>
+#include <string>
 
 #include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
@@ -77,7 +79,7 @@ TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
 /// other: fasteners that do not touch carry nothing, exactly.
 TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
   int loose = 0;
-  for (int i = 0; i < 120; ++i) {
+  for (int i = 0; i < 80; ++i) {
     ContactKind its = kind(i);
     its.gaps = decades(random_, 0.1, 100), its.mu = i % 4 == 0 ? 0.3 : 0;
     JointModel joint = random_contact_joint(random_, its);
@@ -119,6 +121,23 @@ TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
     }
     EXPECT_LE(different, mu < 0.5 ? 0 : 1) << mu;
   }
+}
+
+TEST_F(ContactJoint, TellWhatEachIterationDoes) {
+  std::ostringstream log;
+  const JointEquations equations = make_equations(random_contact_joint(random_, {3, 2, false, 1}));
+  const LoadPath path = follow(equations, {0.5, 1}, {{}, {.method = Method::damped_newton}, &log});
+  ASSERT_EQ(path.steps.size(), 2U);
+  const std::string text = log.str();
+  const auto count = [&](const std::string& what) {
+    std::size_t n = 0;
+    for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
+    return n;
+  };
+  EXPECT_EQ(count("  try at load factor 0.5: residual "), 1U) << text;
+  EXPECT_EQ(count("  try at load factor 1: residual "), 1U);
+  EXPECT_EQ(count(", corners passed by "), std::size_t(path.steps[0].iterations + path.steps[1].iterations));
+  EXPECT_EQ(count("    converged\n"), 2U);
 }
 
 /// Friction takes few steps more, also where everything is loose at first.

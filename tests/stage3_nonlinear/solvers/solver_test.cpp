@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-constexpr RootOptions options{.tolerance = 1e-12, .max_iterations = 200};
+const RootOptions options{.tolerance = 1e-12, .max_iterations = 200};
 
 /// Rosenbrock's valley as two equations, root (1, 1).
 const RootProblem rosenbrock{
@@ -44,6 +44,7 @@ TEST_P(Solves, IsDoneAtTheRoot) {
 TEST_P(Solves, StopsAtTheCap) {
   const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), {.tolerance = 1e-12, .max_iterations = 1});
   EXPECT_FALSE(root.converged);
+  EXPECT_EQ(root.ending, Ending::most_iterations);
   EXPECT_EQ(root.iterations, 1);
   EXPECT_TRUE(root.residual.allFinite());
 }
@@ -64,6 +65,29 @@ TEST_P(Solves, StopsWhereTheFunctionHasNoValue) {
   const Root root = GetParam().solve(nan, VectorXd::Constant(1, 3), options);
   EXPECT_FALSE(root.converged);
   EXPECT_EQ(root.residual[0], std::numeric_limits<double>::infinity());
+  EXPECT_EQ(root.ending, Ending::not_finite);
+}
+
+TEST_P(Solves, ReportsEveryIterate) {
+  std::vector<Root> told;
+  RootOptions reporting = options;
+  reporting.report = [&](const Root& at) { told.push_back(at); };
+  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), reporting);
+  EXPECT_EQ(root.ending, Ending::converged);
+  ASSERT_EQ(std::ssize(told), root.iterations + 1);
+  EXPECT_EQ(told.front().x, Vector2d(-1.2, 1));
+  EXPECT_EQ(told.back().x, root.x);
+}
+
+/// The derivative of 0.1 exp(-x) - x, which falls on and on.
+TEST(Newton, SaysThatAConvexFunctionHasNoLeastValue) {
+  const auto slope = [](double x) { return 0.1 * std::exp(-x); };
+  const RootProblem falls{[&](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, -1 - slope(x[0])); },
+                          [&](const VectorXd& x) -> Eigen::MatrixXd { return VectorXd::Constant(1, slope(x[0])); },
+                          [](const VectorXd& r) { return r; }};
+  const Root root = newton_root(falls, VectorXd::Constant(1, 0), options);
+  EXPECT_FALSE(root.converged);
+  EXPECT_EQ(root.ending, Ending::unbounded);
 }
 
 TEST_P(Solves, LetsExceptionsOut) {
