@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -159,8 +160,15 @@ std::vector<Index> level_planes(const JointEquations& equations, const VectorXd&
   ContactState state = contact_state(equations, c);
   std::vector<Index> level;
   for (Index j = 0; j < equations.n_planes(); ++j) {
-    const bool open = state.F.segment(j * equations.n_directions(), equations.n_directions()).isZero(0);
-    if (state.spent != j && (open || state.dF.along[j] > nearly_level)) continue;
+    const Index a = equations.n_directions();
+    const bool open = state.F.segment(j * a, a).isZero(0);
+    const Contact& contact = equations.contacts[j];
+    const double amount = c.segment(j * a, a).norm();
+    // A law that rises again behind a level piece, as after a slip, is no limit.
+    const bool rises_again = std::ranges::any_of(std::array{1.5, 3.0, 10.0, 100.0}, [&](double further) {
+      return contact.law->at(further * amount, contact.stiffness, contact.clearance).dF > nearly_level;
+    });
+    if (state.spent != j && (open || state.dF.along[j] > nearly_level || rises_again)) continue;
     level.push_back(j);
     state.dF.along[j] = std::min(state.dF.along[j], 0.0);
   }

@@ -155,7 +155,7 @@ bool Walk::solve_from_guesses(double target) {
   if (const auto place = loose_without_friction(starts.front(), target)) starts.insert(starts.begin(), *place);
   if (may_snap_)  // far out, where nothing else has led to any of several solutions
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
-  return solve_from(starts, target) || (!gives_way() && !is_known_too_much(target) && solve_by_turns(target));
+  return solve_from(starts, target) || (!is_known_too_much(target) && solve_by_turns(target));
 }
 
 std::optional<VectorXd> Walk::loose_without_friction(const VectorXd& start, double target) {
@@ -192,8 +192,9 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
       const Root root = run(problem, start, solver);
       if (take(root, target)) return true;
       if (solver != newton_root) continue;
-      note_failure(root);  // it descends: where it ends is where the joint gives way, from wherever it starts
-      if (gives_way() || is_too_much(target)) return false;
+      note_failure(root);  // it descends: where it ends is where the joint gives way
+      // Without friction it ends there from wherever it starts.
+      if (is_too_much(target) || (!equations_.system.has_friction() && gives_way())) return false;
     }
     return false;
   };
