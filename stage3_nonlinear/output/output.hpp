@@ -62,6 +62,18 @@ namespace fastjoint::stage3 {
 [[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
                                           const std::string& output);
 
+/// "increment 2 (load factor 0.5)"
+[[nodiscard]] std::string increment_text(const LoadPath& path, const PathStep& step);
+/// Names of shear planes, parted by commas.
+[[nodiscard]] std::string names(const JointModel& joint, const std::vector<Index>& planes);
+
+/// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
+void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                       std::vector<program::Warning>& result);
+/// Names the first increment at which the force of a fastener with friction falls or turns.
+void warn_of_turning_friction(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                              std::vector<program::Warning>& result);
+
 /// The sentence of a warning and the size of its doubt, > 0.
 using Doubt = std::pair<double, std::string>;
 

@@ -15,11 +15,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// "increment 2 (load factor 0.5)"
-std::string increment_text(const LoadPath& path, const PathStep& step) {
-  return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
-}
-
 /// First step of which a statement is true, or null.
 template <class Is>
 const PathStep* first_step(const LoadPath& path, Is is) {
@@ -44,12 +39,6 @@ void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::
                                       joint.name(plane), delta(*step), increment_text(path, *step), last));
   }
   add_worst(result, "beyond-last-point", beyond);
-}
-
-std::string names(const JointModel& joint, const std::vector<Index>& planes) {
-  std::vector<std::string> result;
-  for (const Index j : planes) result.push_back(joint.name(joint.planes[j]));
-  return fmt::format("{}", fmt::join(result, ", "));
 }
 
 /// Motion of each plate by its discs: "plate \"b\" by up to 1 along x".
@@ -156,76 +145,6 @@ void warn_of_locking(const LoadPath& path, std::vector<program::Warning>& result
         {"self-locking", fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking))});
 }
 
-/// Largest of the vectors of a plane so far, and whether the next falls short of it or turns from it.
-class Largest {
- public:
-  explicit Largest(Index n_directions) : most_(VectorXd::Zero(n_directions)) {}
-
-  [[nodiscard]] double amount() const { return most_.norm(); }
-  /// @param little Amounts that do not count.
-  [[nodiscard]] bool falls_short(const VectorXd& next, double little = 0) {
-    constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
-    const double before = most_.norm(), now = next.norm();
-    const bool falls = before > little && (now < less * before || most_.dot(next) < turned * now * before);
-    if (now > before) most_ = next;
-    return falls;
-  }
-
- private:
-  VectorXd most_;
-};
-
-/// Names the first increment at which the force of a fastener with friction falls or turns.
-void warn_of_turning_friction(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                              std::vector<program::Warning>& result) {
-  constexpr double rounding = 1e-9;
-  const Index a = equations.n_directions();
-  std::vector<Largest> most(equations.n_planes(), Largest(a));
-  for (const PathStep& step : path.steps) {
-    std::vector<Index> turned;
-    for (Index j = 0; j < std::ssize(most); ++j) {
-      const auto holes = joint.holes(joint.planes[j]);
-      const bool rubs = std::ranges::any_of(holes, [](const HoleModel& hole) { return hole.mu > 0; });
-      if (rubs && most[j].falls_short(step.F.segment(j * a, a), rounding * step.scale)) turned.push_back(j);
-    }
-    if (turned.empty()) continue;
-    result.push_back(
-        {"friction-turns",
-         fmt::format("{} unloads {}, where friction goes on as if it slipped in the sense of the force: real friction "
-                     "first sticks and then turns, so that forces from this increment on differ from theirs",
-                     increment_text(path, step), names(joint, turned))});
-    return;
-  }
-}
-
-/// Names the first increment at which planes are unloaded that have slipped, yielded or been on a curved law.
-void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                       std::vector<program::Warning>& result) {
-  const ContactCorners corners(equations);
-  const Index a = equations.n_directions();
-  std::vector<Largest> most(equations.n_planes(), Largest(a));
-  for (const PathStep& step : path.steps) {
-    std::vector<Index> unloaded;
-    for (Index j = 0; j < std::ssize(most); ++j) {
-      const double before = most[j].amount();
-      const bool falls = most[j].falls_short(step.c.segment(j * a, a));
-      const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
-      const Contact& contact = equations.contacts[j];
-      const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
-      const bool curved =
-          !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(step.c, k * gap);
-      if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);
-    }
-    if (unloaded.empty()) continue;
-    result.push_back(
-        {"permanent-set",
-         fmt::format("{} unloads {} along its loading curve: laws have no memory, but real fasteners keep a permanent "
-                     "set, so that forces from this increment on differ from theirs",
-                     increment_text(path, step), names(joint, unloaded))});
-    return;
-  }
-}
-
 /// Names the rims of contact that interference holds, at the first increment of each.
 void warn_of_sticking(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                       std::vector<program::Warning>& result) {
@@ -249,6 +168,16 @@ void warn_of_sticking(const JointModel& joint, const JointEquations& equations, 
 }
 
 }  // namespace
+
+std::string increment_text(const LoadPath& path, const PathStep& step) {
+  return fmt::format("increment {} (load factor {:.6g})", &step - path.steps.data() + 1, step.load_factor);
+}
+
+std::string names(const JointModel& joint, const std::vector<Index>& planes) {
+  std::vector<std::string> result;
+  for (const Index j : planes) result.push_back(joint.name(joint.planes[j]));
+  return fmt::format("{}", fmt::join(result, ", "));
+}
 
 std::vector<program::Warning> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
   std::vector<program::Warning> result;

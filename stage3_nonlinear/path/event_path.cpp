@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <optional>
 #include <utility>
 
 #include "common/program/progress.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/path/touch_search.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 
 namespace fastjoint::stage3 {
@@ -21,13 +20,6 @@ constexpr double together = 1e-9;           // events whose load factors differ 
 constexpr double touching_together = 1e-6;  // those of rims, which touch by more than a millionth of their gap
 constexpr int most_halvings_in_doubt = 4;
 constexpr int most_halvings_for_certain = 30;
-
-/// Solved state; what its planes have passed is so just behind it if it begins an interval.
-struct Sample {
-  double load;
-  VectorXd c;
-  VectorXi passed;
-};
 
 /// Place at which something happens.
 struct EventPlace {
@@ -53,7 +45,7 @@ struct FoundEvents {
 class Search {
  public:
   Search(const JointEquations& equations, const ContactCorners& corners, Walk& walk)
-      : equations_(equations), corners_(corners), walk_(walk) {}
+      : equations_(equations), corners_(corners), walk_(walk), touches_(equations, corners) {}
 
   /// @param last Load factor at which the search ends.
   FoundEvents run(double last = 1) {
@@ -80,7 +72,8 @@ class Search {
 
   /// Finds what happens between two states; false if a state between cannot be solved.
   bool between(const Sample& a, const Sample& b, int depth) {
-    if (b.load - a.load <= (only_rims_touch(a, b) ? touching_together : together)) return note_unresolved(a, b);
+    if (b.load - a.load <= (touches_.make_the_difference(a, b) ? touching_together : together))
+      return note_unresolved(a, b);
     if (a.passed == b.passed) {
       const bool doubtful = depth < most_halvings_in_doubt && points_beyond_a_corner(a, b);
       return !doubtful || halve(a, b, depth);
@@ -96,58 +89,11 @@ class Search {
   }
 
   bool halve(const Sample& a, const Sample& b, int depth) {
-    const double load = touching_between(a, b).value_or(0.5 * (a.load + b.load));
+    const double load = touches_.place_between(a, b).value_or(0.5 * (a.load + b.load));
     const Sample& nearer = load - a.load < b.load - load ? a : b;
     walk_.put({nearer.load, nearer.c}, 0);
     const auto middle = solved(load);
     return middle && between(a, *middle, depth + 1) && between(*middle, b, depth + 1);
-  }
-
-  [[nodiscard]] bool is_touch(Index entry) const {
-    return !corners_.of(entry).empty() && corners_.of(entry).front().kind == CornerKind::touch;
-  }
-
-  /// True if two states differ, and by rims alone that touch in one of them.
-  [[nodiscard]] bool only_rims_touch(const Sample& a, const Sample& b) const {
-    for (Index j = 0; j < std::ssize(a.passed); ++j)
-      if (a.passed[j] != b.passed[j] && !is_touch(j)) return false;
-    return a.passed != b.passed;
-  }
-
-  /// Load factor between two states by which the first of the rims that touch in one of them alone ceases to, and a
-  /// little more, so that either state comes much closer: by the rate at which it is pressed in where it touches. A
-  /// bolt that does not touch lies anywhere and tells nothing.
-  [[nodiscard]] std::optional<double> touching_between(const Sample& a, const Sample& b) {
-    if (!only_rims_touch(a, b)) return std::nullopt;
-    constexpr double further = 0.02, at_ends = 1e-3;
-    std::optional<double> first;
-    std::array<std::optional<VectorXd>, 2> rates;
-    for (Index j = 0; j < std::ssize(a.passed); ++j) {
-      if (a.passed[j] == b.passed[j]) continue;
-      const bool opens = a.passed[j] > b.passed[j];
-      const Sample &pressed = opens ? a : b, &loose = opens ? b : a;
-      auto& rate_there = rates[opens ? 0 : 1];
-      if (!rate_there) rate_there = this->rate(pressed);
-      const VectorXd& rate = *rate_there;
-      if (!rate.allFinite()) return std::nullopt;
-      const double depth = corners_.position(pressed.c, j) - corners_.pressed(j);
-      const double by = load_from_touch(j, pressed.load, depth / corners_.slope(pressed.c, j).dot(rate));
-      const double share = (1 + further) * -by / (loose.load - pressed.load);  // of the way to the loose state
-      if (!(share > 0 && share < 1 - at_ends)) return std::nullopt;
-      const double load = pressed.load + std::max(share, at_ends) * (loose.load - pressed.load);
-      if (!first || load < *first) first = load;
-    }
-    return first;
-  }
-
-  /// Load from the touch of a rim: depths grow as a power of it, whose exponent two places tell.
-  /// @param ratio Of the depth to its rate by the load factor: the load from the touch over the exponent.
-  double load_from_touch(Index rim, double load, double ratio) {
-    constexpr double usual = 0.9, least = 0.3, most = 1.5;
-    const auto [place, before] = std::exchange(last_touching_[rim], {load, ratio});
-    const double found = (load - place) / (ratio - before);
-    const bool known = before != 0 && std::isfinite(found);
-    return ratio * (known ? std::clamp(found, least, most) : usual);
   }
 
   /// Too close to be told apart: what differs happens at the end.
@@ -251,17 +197,11 @@ class Search {
     return passed;
   }
 
-  /// dc / d load factor.
-  [[nodiscard]] VectorXd rate(const Sample& at) const {
-    const double unit = force_scale(equations_, at.load);
-    return root_problem(equations_, at.load, unit).solve(at.c / unit, equations_.system.q_at(at.load));
-  }
-
   /// Tells whether a plane may pass a corner and come back between two states that have passed the same corners: by the
   /// cubic through its coordinates and their rates at both.
   [[nodiscard]] bool points_beyond_a_corner(const Sample& a, const Sample& b) const {
     const double length = b.load - a.load;
-    const VectorXd rate_a = length * rate(a), rate_b = length * rate(b);
+    const VectorXd rate_a = length * rate(equations_, a), rate_b = length * rate(equations_, b);
     if (!rate_a.allFinite() || !rate_b.allFinite()) return false;
     for (const double t : {0.1, 0.25, 0.5, 0.75, 0.9}) {
       const double s = 1 - t;
@@ -284,7 +224,7 @@ class Search {
   const ContactCorners& corners_;
   Walk& walk_;
   FoundEvents found_;
-  std::map<Index, std::pair<double, double>> last_touching_;  ///< of each rim: load factor, and load_from_touch's ratio
+  TouchSearch touches_;
 };
 
 /// Events between the middles of neighbouring pieces, short ones left out: corners within rounding are one event.
