@@ -245,6 +245,22 @@ TEST(Events, ClearanceOfDiscsWithTwoDirectionsIsACircle) {
   }
 }
 
+/// The amount of a vector is rounded, but at its event a fastener is on the side of its corner on which it bears more.
+TEST(Events, OfDiscsWithTwoDirectionsAreOnTheSideThatBears) {
+  std::mt19937 random(31);
+  std::uniform_real_distribution<double> number(0.1, 1);
+  for (int i = 0; i < 100; ++i) {
+    CondensedSystem system;
+    system.q = 100 * Eigen::Vector2d(number(random), number(random));
+    system.S_ud = 1000 * Eigen::Vector2d(number(random), number(random)).asDiagonal();
+    const JointEquations equations = make_equations(system, {{test::linear_law(3000), 0.05 * number(random)}});
+    const LoadPath path = follow_events(equations, tight);
+    if (path.steps.size() < 2) continue;
+    const double k = equations.contacts[0].stiffness;
+    EXPECT_NEAR(contact_state(equations, path.steps[0].c).dF.along[0], 3000 / (3000 + k), 1e-12) << i;
+  }
+}
+
 TEST(Events, GivenLoadFactorsThatHitOneSaySo) {
   const auto joint = strands(test::linear_law(3000), {0.02, 0.01, 0.02});
   const JointEquations equations = make_equations(joint);
