@@ -101,7 +101,8 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
     if (i == 0 && norm <= well * least_norm) return there;
     const double slope = problem.gradient(there.residual).dot(step);
     if (norm <= well * norm_here && bracket.falls_to(length, slope)) return there;
-    if ((unbounded = length > far_out && slope < 0.5 * before)) return std::nullopt;
+    unbounded = length > far_out && slope < 0.5 * before;
+    if (unbounded) return std::nullopt;
     if (std::abs(slope) < best_slope && bracket.falls_to(length, slope)) {
       best = std::move(there);
       best_slope = std::abs(slope);

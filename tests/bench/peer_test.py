@@ -58,18 +58,27 @@ def rim_by_peer(bin_folder, nx, ny, p, rings, solver):
 
 
 def rim_by_ours(bin_folder, nx, ny, p, rings):
-    """The same from MATRICES.h5, where friction cases stand behind the displacements."""
+    """The same by a joint whose rivets are rigid and held by the ground: its external alone moves, by 1, shape (1, 72)."""
     with tempfile.TemporaryDirectory() as folder:
-        scene, plate, matrices = (Path(folder) / name for name in ("plate.json", "plate.h5", "matrices.h5"))
+        scene, plate, matrices, joint, result = (Path(folder) / name for name in
+                                                 ("plate.json", "plate.h5", "matrices.h5", "joint.json", "result.h5"))
         words = [nx, ny, "--rings", rings, "--p", f"{p}..{p}", "--space", "product"]
-        panel = subprocess.run([ROOT / "scripts/make_panel", *map(str, words)], capture_output=True, check=True)
-        scene.write_bytes(panel.stdout)
+        panel = json.loads(subprocess.run([ROOT / "scripts/make_panel", *map(str, words)], capture_output=True, check=True).stdout)
+        for hole in panel["holes"]:
+            hole["waves"] = 16  # so that none is missing at all
+        scene.write_text(json.dumps(panel))
         subprocess.run([f"{bin_folder}/stage1_plate", scene, "-o", plate, "--quiet"], check=True)
         subprocess.run([f"{bin_folder}/stage2_extract", plate, "-o", matrices, "--quiet"], check=True)
-        with h5py.File(matrices) as f:
-            first_rim = slice(*f["rim/start"][:2])
-            assert np.allclose(f["rim/angle"][first_rim], np.arange(0, 360, 5), rtol=0, atol=1e-10)
-            return f["rim/sigma_tt"][-1][first_rim, :1 + nx * ny].T
+        fasteners = [{"id": hole["id"], "between": [f"panel:{hole['id']}", "ground"], "law": "rigid"} for hole in panel["holes"]]
+        joint.write_text(json.dumps({
+            "format": "joint", "version": 1, "plates": {"panel": "matrices.h5"}, "laws": {"rigid": {"type": "rigid"}}, "fasteners": fasteners,
+            "loads": [{"external": f"panel:{panel['external'][0]['id']}", "displacement": 1}]}))
+        subprocess.run([f"{bin_folder}/stage3_nonlinear", joint, "-o", result, "--rim-stresses", "--quiet"], check=True, capture_output=True)
+        with h5py.File(result) as f:
+            rim = f["plates/panel/rim"]
+            every_fifth = slice(*rim["start"][:2], 5)
+            assert np.allclose(rim["angle"][every_fifth], np.arange(0, 360, 5), rtol=0, atol=1e-10)
+            return rim["sigma_tt"][-1, every_fifth][None, :]
 
 
 def difference(one, other):
@@ -89,7 +98,7 @@ def check_stresses_converge(bin_folder):
     """To ours, which take the strain along the rim and known tractions, while the peer's also take derivatives across
     it. Measured: 5.3e-3 at p = 4 and 3.6e-6 at p = 8."""
     ours = rim_by_ours(bin_folder, 3, 1, 8, 2)
-    coarse, fine = (difference(rim_by_peer(bin_folder, 3, 1, p, 2, "condensed"), ours) for p in (4, 8))
+    coarse, fine = (difference(rim_by_peer(bin_folder, 3, 1, p, 2, "condensed")[:1], ours) for p in (4, 8))
     assert fine < 5e-6 and fine < 2e-3 * coarse, (coarse, fine)
 
 
