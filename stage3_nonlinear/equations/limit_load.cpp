@@ -30,7 +30,7 @@ std::optional<LimitLoad> limit_load(const JointEquations& equations, double sign
   const VectorXd work = motions.transpose() * equations.system.q_at(sign).head(n * a);
   constexpr double nothing = 1e-12;
   if (motions.cols() == 0 || work.norm() <= nothing * equations.system.q_at(sign).norm()) return std::nullopt;
-  // Of the motions on which the unit load does unit work, that on which the laws do least: by least squares whose
+  // The laws do least work on one of the motions on which the unit load does unit work. Least squares find it, whose
   // weights follow the amounts of the turn before.
   constexpr int turns = 40;
   constexpr double least_amount = 1e-9;  // of the largest

@@ -247,9 +247,9 @@ bool Walk::take(const Root& root, double target) {
   if (!converged(root)) return false;
   VectorXd c = scale_ * root.x;
   const Index planes = equations_.n_plane_rows();
-  if (!equations_.rims.empty()) {   // loose fasteners carry nothing
-    constexpr double little = 1e3;  // times without_rounding's, as far as the joint then still balances, but for
-    constexpr double more = 10;     // a few times the tolerance
+  if (!equations_.rims.empty()) {   // loose fasteners carry nothing, as far as the joint then still balances
+    constexpr double little = 1e3;  // times what without_rounding leaves out
+    constexpr double more = 10;     // times what a solution may be out of balance
     VectorXd loose = c;
     loose.head(planes) = without_rounding(c.head(planes), little * scale_);
     const auto state = contact_state(equations_, loose);

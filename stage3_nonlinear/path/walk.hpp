@@ -67,7 +67,8 @@ class Walk {
   [[nodiscard]] const std::optional<LimitLoad>& limit(double target);
   /// True if no solution exists at a load factor, as the bound proves.
   [[nodiscard]] bool is_too_much(double target);
-  /// The same, but false before anything has failed, so that a joint that is solved takes no time for it.
+  /// The same, but false as long as nobody has asked for the bound, so that a large joint that is solved takes no time
+  /// for it.
   [[nodiscard]] bool is_known_too_much(double target) {
     return limits_[target < 0 ? 0 : 1].has_value() && is_too_much(target);
   }

@@ -31,7 +31,7 @@ formats::PlateMatrices infinite_sheet(int carried) {
   const MatrixXd D_nn = D.topLeftCorner(n, n), D_nt = D.topRightCorner(n, n), D_tt = D.bottomRightCorner(n, n);
   MatrixXd b(n, 2), b_t(n, 2);
   for (const int axis : {0, 1}) b.col(axis) = all.push(axis), b_t.col(axis) = all.drag(axis);
-  // With p = K w + q of springs that push and pull: w = b u - D_nn p - D_nt tau, v = b_t u - D_tn p - D_tt tau.
+  // Springs that push and pull make p = K w + q, and w = b u - D_nn p - D_nt tau, v = b_t u - D_tn p - D_tt tau.
   const MatrixXd held = (MatrixXd::Identity(n, n) + K * D_nn).inverse();
   MatrixXd by_motion(2 * n, 2), by_load(2 * n, 2 * n);
   by_motion << held * b, b_t - K * D_nt.transpose() * held * b;
