@@ -112,12 +112,6 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
                           "matrices of fewer holes, or of stage2_extract --loads-only");
   const JointModel joint = load_joint(scene, p);
-  if (scene.solver.method == Method::exact_path && joint.n_directions() > 1)
-    refuse(scene.file + ": /solver/method", "\"exact path\", but the discs move along x and y",
-           "another method, or plates whose discs have one direction");
-  if (scene.solver.method == Method::exact_path && joint.n_moments() > 0)
-    refuse(scene.file + ": /solver/method", "\"exact path\", but springs of holes push and do not pull",
-           "another method, or holes without \"compression_only\"");
   require_memory(scene, joint, !csv_file.empty(), with_sensitivities, with_rim_stresses);
   timings.phase("solve");
   const JointEquations equations = make_equations(joint);

@@ -174,8 +174,7 @@ void datasets(File& file, Result& a) {
   file("load_factor", a.load_factor, {any}, "1", "share of the loads that acts at this increment");
   const Eigen::Index steps = a.load_factor.size();
   file("converged", a.converged, {steps}, "1", "1 where the increment converged");
-  file("iterations", a.iterations, {steps}, "1",
-       "iterations of the nonlinear solver, failed tries included; on an exact path its pieces from no load on");
+  file("iterations", a.iterations, {steps}, "1", "iterations of the nonlinear solver, failed tries included");
   file("residual", a.residual, {steps}, "1",
        "largest residual, relative to the largest force that rigid fasteners carry");
   file("event", a.event, {steps}, "1",

@@ -118,12 +118,12 @@ struct SensitivityHistory {
 /// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
-  int p = 0;                    ///< degree of the matrices
-  bool complete = false;        ///< every increment asked for converged
-  Eigen::VectorXd load_factor;  ///< (steps)
-  Eigen::VectorXi converged;    ///< (steps) 1
-  Eigen::VectorXi iterations;   ///< (steps) of the nonlinear solver, failed tries included; of an exact path its pieces
-  Eigen::VectorXd residual;     ///< (steps) largest, relative to the largest force
+  int p = 0;                       ///< degree of the matrices
+  bool complete = false;           ///< every increment asked for converged
+  Eigen::VectorXd load_factor;     ///< (steps)
+  Eigen::VectorXi converged;       ///< (steps) 1
+  Eigen::VectorXi iterations;      ///< (steps) of the nonlinear solver, failed tries included
+  Eigen::VectorXd residual;        ///< (steps) largest, relative to the largest force
   std::vector<std::string> event;  ///< (steps) what fasteners do exactly there, and rims of contact by then
   // The n shear planes have one entry each: one plane for each neighbouring pair of a fastener's plates, fastener after
   // fastener.

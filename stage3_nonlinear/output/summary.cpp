@@ -36,18 +36,10 @@ double rounded(double force, double largest) {
 }
 
 /// Name of what solved the increments.
-std::string method(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
-  const Index exact = std::ranges::count(path.steps, true, &PathStep::exact);
+const std::string& method(const JointScene& scene, const JointModel& joint) {
   const Method chosen =
       iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions() + joint.n_moments());
-  const std::string& iterative = method_names[static_cast<std::size_t>(chosen) - 1];
-  if (exact == 0) return iterative;
-  return exact == path.n_increments ? "exact path" : "exact path, " + iterative;
-}
-
-std::string effort(const PathStep& step) {
-  using program::counted;
-  return step.exact ? counted(step.iterations, "piece") + " without iterations" : counted(step.iterations, "iteration");
+  return method_names[static_cast<std::size_t>(chosen) - 1];
 }
 
 /// Estimated error of a plate's S over its largest entry; none if the file has no estimate, p is not its highest
@@ -57,11 +49,11 @@ std::optional<double> relative_error(const PlateModel& plate) {
   return plate.S_error.cwiseAbs().maxCoeff() / plate.S.cwiseAbs().maxCoeff();
 }
 
-std::string title(const JointScene& scene, const JointModel& joint, const LoadPath& path) {
+std::string title(const JointScene& scene, const JointModel& joint) {
   std::string text =
       fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
                   program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
-                  joint.p, method(scene, joint, path));
+                  joint.p, method(scene, joint));
   for (const auto& [name, law] : scene.laws)
     if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
   for (const auto& plate : joint.plates)
@@ -243,11 +235,12 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
 std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
                     const std::vector<JointState>& states, const formats::JointResult& result, bool all_stresses) {
   const std::size_t width = name_width(joint);
-  std::string text = title(scene, joint, path);
+  std::string text = title(scene, joint);
   for (Index i = 0; i < std::ssize(states); ++i) {
     const PathStep& step = path.steps[i];
-    text += fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
-                        path.n_increments, step.load_factor, effort(step), step.residual);
+    text +=
+        fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
+                    path.n_increments, step.load_factor, program::counted(step.iterations, "iteration"), step.residual);
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
     text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
   }

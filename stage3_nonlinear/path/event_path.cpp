@@ -79,7 +79,7 @@ class Search {
       return !doubtful || halve(a, b, depth);
     }
     if (const auto first = first_crossing(a, b)) {
-      const auto& [load, c, exact] = first->place;
+      const auto& [load, c] = first->place;
       if (!between(a, {load, c, a.passed}, depth + 1)) return false;
       const Sample behind{load, c, passed_behind(a, b, c)};
       add(found_.events, first->place, first->iterations, corners_.between(a.passed, behind.passed));
@@ -161,27 +161,38 @@ class Search {
     return EventPlace{{load, std::move(c)}, iterations};
   }
 
-  /// First crossing of those between two states, if nothing else has happened before.
+  /// First crossing of those between two states, if it is found to be the first: planes are tried in the order in which
+  /// straight lines between the states meet their corners.
   [[nodiscard]] std::optional<EventPlace> first_crossing(const Sample& a, const Sample& b) const {
-    std::vector<EventPlace> all;
+    std::vector<std::pair<double, Index>> planes;  // share of the way to the corner, and the plane
     for (Index j = 0; j < std::ssize(a.passed); ++j) {
       if (a.passed[j] == b.passed[j]) continue;
+      const double from = corners_.position(a.c, j), to = corners_.position(b.c, j);
+      planes.emplace_back(from == to ? 0.5 : (next_corner(j, a.passed[j], b.passed[j]) - from) / (to - from), j);
+    }
+    std::ranges::sort(planes);
+    constexpr std::size_t most_tries = 3;
+    for (std::size_t i = 0; i < std::min(most_tries, planes.size()); ++i) {
+      const Index j = planes[i].second;
       const double corner = next_corner(j, a.passed[j], b.passed[j]);
-      const auto found = crossing(a, b, j, corner);
+      auto found = crossing(a, b, j, corner);
       const double at_start = is_on(a.c, j, corner) ? together : -together;
       if (!found || found->place.load_factor < a.load + at_start || found->place.load_factor > b.load + together)
-        return std::nullopt;
-      all.push_back(*found);
+        continue;
+      if (is_first(a, b, found->place.c)) return found;
     }
-    const auto first = std::ranges::min_element(all, {}, [](const EventPlace& e) { return e.place.load_factor; });
-    if (first == all.end() || contact_state(equations_, first->place.c).spent) return std::nullopt;
-    const VectorXd& c = first->place.c;
+    return std::nullopt;
+  }
+
+  /// Tells whether on the way to a crossing no plane has passed a corner but those that are on it there.
+  [[nodiscard]] bool is_first(const Sample& a, const Sample& b, const VectorXd& c) const {
+    if (contact_state(equations_, c).spent) return false;
     const VectorXi here = corners_.passed(c);
     for (Index j = 0; j < std::ssize(here); ++j) {
       const bool passes = a.passed[j] != b.passed[j] && is_on(c, j, next_corner(j, a.passed[j], b.passed[j]));
-      if (here[j] != a.passed[j] && !passes) return std::nullopt;
+      if (here[j] != a.passed[j] && !passes) return false;
     }
-    return *first;
+    return true;
   }
 
   [[nodiscard]] bool is_on(const VectorXd& c, Index plane, double corner) const {
@@ -227,35 +238,14 @@ class Search {
   TouchSearch touches_;
 };
 
-/// Events between the middles of neighbouring pieces, short ones left out: corners within rounding are one event.
-std::vector<EventPlace> events_of(const ExactPath& path, const ContactCorners& corners) {
-  constexpr double shortest = 1e-10;
-  std::vector<EventPlace> events;
-  std::optional<VectorXi> before;
-  double load = 0;
-  for (const auto& piece : path.pieces) {
-    if (piece.end - piece.begin <= shortest * path.reach()) continue;
-    const VectorXi here = corners.passed(path.at(0.5 * (piece.begin + piece.end)));
-    if (before && here != *before)
-      add(events, {load, path.at(load), true}, int(path.piece_of(load)) + 1, corners.between(*before, here), 0);
-    before = here;
-    load = piece.end;
-  }
-  return events;
-}
-
 }  // namespace
 
 LoadPath follow_events(const JointEquations& equations, const PathOptions& options) {
   constexpr double at_end = 1 - 1e-10;
   LoadPath path{.steps = {}, .failure = {}};
-  std::vector<ExactPath> exact;
-  if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) exact.push_back(exact_path(equations, 1));
-  Walk walk(equations, options, exact);
+  Walk walk(equations, options);
   const ContactCorners corners(equations);
-  const bool whole = !exact.empty() && exact[0].reach() >= 1;
-  const auto [events, failed] =
-      whole ? FoundEvents{events_of(exact[0], corners), {}} : Search(equations, corners, walk).run();
+  const auto [events, failed] = Search(equations, corners, walk).run();
   if (failed) path.failure = walk.failure(events.size(), *failed);
   for (const auto& event : events) {
     walk.put(event.place, event.iterations);

@@ -81,10 +81,9 @@ inline constexpr int max_halvings = 6;
 struct PathStep {
   double load_factor;
   VectorXd F, delta;  ///< (n a) force, length
-  int iterations;     ///< of all tries; on an exact path its pieces from no load on
+  int iterations;     ///< of all tries
   double residual;    ///< largest, over `scale`
   TangentCheck check;
-  bool exact = false;                     ///< on an exact path
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
   VectorXd shear = {};                    ///< (s) forces of the shears of rims of contact with friction, force
   std::vector<ContactEvent> events = {};  ///< what happens exactly here, or to rims since the increment before
@@ -150,9 +149,8 @@ struct PathOptions {
   std::ostream* log = nullptr;  ///< gets a line for each iteration of each try
 };
 
-/// Follows the load factors, each increment from the last. If all fasteners are linear between corners, their exact
-/// path as far as it goes, unless the options are against it. Else the chosen solver in the contact coordinates from
-/// the last state, then damped Newton, then both in half steps. A load factor that cannot be reached so is tried from
+/// Follows the load factors, each increment from the last: the chosen solver in the contact coordinates from the last
+/// state, then damped Newton, then both in half steps. A load factor that cannot be reached so is tried from
 /// the first guesses: by the same solvers, with friction also by damped Newton in turns, each under the friction of the
 /// turn before, and at last in half steps.
 ///
@@ -167,9 +165,8 @@ inline constexpr double first_load_factor = 1e-6;
 /// Follows the joint to load factor 1 with an increment at every load factor in (0, 1] at which a fastener passes a
 /// corner of its law (ContactCorners), and one at 1.
 ///
-/// These are the corners of an exact path. On any other path the load factor becomes an unknown of Newton's method
-/// while the fastener stays on its corner, between solved states whose interval is halved where the order of events is
-/// in doubt (docs/theory.md, section 8.7).
+/// The load factor becomes an unknown of Newton's method while the fastener stays on its corner, between solved states
+/// whose interval is halved where the order of events is in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);
 
 /// Follows a joint with interference at no load, and to the largest load factor of its path for the events at which

@@ -19,13 +19,12 @@ double force_scale(const JointEquations& equations, double load_factor) {
   return scale > 0 ? scale : 1;
 }
 
-Walk::Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact)
+Walk::Walk(const JointEquations& equations, const PathOptions& options)
     : equations_(equations),
       options_(options),
       solver_(iterative_method(options.solver.method, equations.n_unknowns()) == Method::damped_newton ? newton_root
                                                                                                        : hybridsj_root),
       may_snap_(!planes_that_may_snap(equations).empty()),
-      exact_(std::move(exact)),
       here_{0, VectorXd::Zero(equations.n_unknowns())} {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   rounding_ = rounding * std::max(equations.force_of_clearances(), equations.force_of_gaps());
@@ -39,9 +38,10 @@ bool Walk::reach(double target) {
   constexpr Index quick = 400;  // rows of planes, of which the bound takes less time than a try
   iterations_ = 0;
   if (equations_.n_plane_rows() <= quick) (void)limit(target);
-  for (const auto& path : exact_)  // its end tells where to go on from
-    if (path.sign * target > path.reach() && path.reach() > path.sign * here_.load_factor)
-      solve_from_here(path.sign * path.reach());
+  if (is_known_too_much(target)) {  // how far the joint holds is all that is left to tell
+    constexpr double just_below = 1 - 1e-9;
+    if (solve_from_here(std::copysign(just_below * limit(target)->factor, target))) return false;
+  }
   const Place before = here_;
   const bool started = may_snap_ || here_.load_factor != 0;
   if (started && follow(target, max_halvings)) return true;
@@ -67,7 +67,6 @@ PathStep Walk::step() const {
           .iterations = iterations_,
           .residual = r.lpNorm<Eigen::Infinity>() / scale,
           .check = check_tangent(equations_, contact_state(equations_, beyond)),
-          .exact = here_.exact,
           .rim_F = state.F.tail(rims),
           .moments = state.delta.tail(rims),
           .shear = state.shear,
@@ -99,7 +98,7 @@ std::optional<double> Walk::locking(double load_factor) const {
 bool Walk::follow(double target, int halvings_left) {
   const Place start = here_;
   const bool whole = !is_known_too_much(target) && solve_from_here(target);
-  if (whole && (target == 0 || here_.exact || !may_snap_)) return true;
+  if (whole && (target == 0 || !may_snap_)) return true;
   const Place there = here_;
   const double middle = 0.5 * (start.load_factor + target);
   if (whole) {
@@ -118,7 +117,7 @@ bool Walk::follow(double target, int halvings_left) {
 }
 
 bool Walk::guess(double target, int halvings_left) {
-  if (!is_known_too_much(target) && (take_known(target) || solve_from_guesses(target))) return true;
+  if (!is_known_too_much(target) && (begin(target) || solve_from_guesses(target))) return true;
   if (halvings_left == 0) return false;
   const double middle = 0.5 * (here_.load_factor + target);
   if (gives_way() || is_known_too_much(target))  // how far the joint holds is all that is left to tell
@@ -126,27 +125,15 @@ bool Walk::guess(double target, int halvings_left) {
   return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
 }
 
-bool Walk::solve_from_here(double target) { return take_known(target) || solve_from({here_.c}, target); }
+bool Walk::solve_from_here(double target) { return begin(target) || solve_from({here_.c}, target); }
 
-bool Walk::take_known(double target) {
+bool Walk::begin(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
   target_ = target;
   scale_ = force_scale(equations_, target);
-  if (target == 0 && !equations_.has_interference()) {  // the joint as it was built is in equilibrium, exactly
-    here_ = {0, VectorXd::Zero(equations_.n_unknowns()), !exact_.empty()};
-    return true;
-  }
-  for (const auto& path : exact_) {
-    if (path.sign * target < 0 || std::abs(target) > path.reach()) continue;
-    const VectorXd c = path.at(target);
-    const auto state = contact_state(equations_, c);
-    if (!is_small(equations_.system.residual(state.F, state.delta, target, state.shear).lpNorm<Eigen::Infinity>()))
-      return false;
-    iterations_ += int(path.piece_of(target)) + 1;
-    here_ = {target, c, true};
-    return true;
-  }
-  return false;
+  if (target != 0 || equations_.has_interference()) return false;
+  here_ = {0, VectorXd::Zero(equations_.n_unknowns())};  // the joint as it was built is in equilibrium, exactly
+  return true;
 }
 
 bool Walk::solve_from_guesses(double target) {
@@ -224,8 +211,17 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
   if (options_.log) options.report = [&](const Root& root) { log_iteration(root, before); };
   Root root = solver(problem, start / scale_, options);
   iterations_ += root.iterations;
+  if (solver == hybridsj_root && root.converged) end_by_newton(problem, root);
   if (options_.log) *options_.log << fmt::format("    {}\n", text_of(root.ending));
   return root;
+}
+
+void Walk::end_by_newton(const RootProblem& problem, Root& root) {
+  Root there = root;
+  there.x -= problem.solve(root.x, root.residual);
+  if (!there.x.allFinite()) return;
+  there.residual = problem.residual(there.x);
+  if (there.residual.lpNorm<Eigen::Infinity>() < root.residual.lpNorm<Eigen::Infinity>()) root = std::move(there);
 }
 
 void Walk::log_iteration(const Root& root, std::optional<Root>& before) const {
@@ -279,14 +275,8 @@ void Walk::note_failure(const Root& root) {
 }
 
 LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors, const PathOptions& options) {
-  std::vector<ExactPath> exact;
-  if (may_be_exact(options.solver.method) && is_piecewise_linear(equations)) {  // one for each sign, as far as it goes
-    const auto [least, most] = std::ranges::minmax(load_factors);
-    if (most > 0) exact.push_back(exact_path(equations, most));
-    if (least < 0) exact.push_back(exact_path(equations, least));
-  }
   LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
-  Walk walk(equations, options, std::move(exact));
+  Walk walk(equations, options);
   const ContactCorners corners(equations);
   for (Index i = 0; i < std::ssize(load_factors); ++i) {
     program::report_share(double(i) / double(load_factors.size()));

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "stage3_nonlinear/equations/limit_load.hpp"
-#include "stage3_nonlinear/path/exact_path.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
 
@@ -17,15 +16,13 @@ namespace fastjoint::stage3 {
 /// Place of a walk along the load factors.
 struct Place {
   double load_factor = 0;
-  VectorXd c;          ///< (n a) contact coordinates, force
-  bool exact = false;  ///< on an exact path
+  VectorXd c;  ///< (r) contact coordinates, force
 };
 
 /// Walk along the load factors: what has converged, and what it took.
 class Walk {
  public:
-  /// @param exact Paths to go by as far as they reach; where one ends, the solvers go on.
-  Walk(const JointEquations& equations, const PathOptions& options, std::vector<ExactPath> exact = {});
+  Walk(const JointEquations& equations, const PathOptions& options);
 
   /// Goes to a load factor, as load_path.hpp says; false if nothing led there.
   bool reach(double target);
@@ -48,14 +45,17 @@ class Walk {
   bool follow(double target, int halvings_left);
   bool guess(double target, int halvings_left);
   bool solve_from_here(double target);
-  /// Goes to no load, or along an exact path.
-  bool take_known(double target);
+  /// Sets the scale of a try, and goes to no load, whose solution is known.
+  bool begin(double target);
   bool solve_from_guesses(double target);
   bool solve_from(const std::vector<VectorXd>& starts, double target);
   /// Solution without friction of a joint whose rims all have gaps, from where friction takes few steps.
   std::optional<VectorXd> loose_without_friction(const VectorXd& start, double target);
   bool solve_by_turns(double target);
   Root run(const RootProblem& problem, const VectorXd& start, SolveFunction solver);
+  /// Takes one step of Newton's method where it lowers the residual: secants leave more than rounding also of a joint
+  /// that is linear between corners.
+  static void end_by_newton(const RootProblem& problem, Root& root);
   /// One line of PathOptions::log, with what has changed since the iterate before, which becomes this one.
   void log_iteration(const Root& root, std::optional<Root>& before) const;
   [[nodiscard]] bool converged(const Root& root) const {
@@ -82,7 +82,6 @@ class Walk {
   double scale_ = 1;     ///< of the load factor that is tried, force
   double target_ = 0;    ///< load factor that is tried
   bool may_snap_;        ///< the solution may be one of several
-  std::vector<ExactPath> exact_;
   Place here_;
   int iterations_ = 0;
   std::optional<PathLeft> left_;

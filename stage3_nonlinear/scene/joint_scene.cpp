@@ -199,23 +199,11 @@ InitialScene read_initial(const Value& value) {
   return {value.choice({"rigid", "equal"}) == "rigid" ? Guess::rigid : Guess::equal, std::nullopt};
 }
 
-/// The exact path needs laws that are linear between corners.
-void check_exact_path(const JointScene& scene, const Value& method) {
-  for (const auto& fastener : scene.fasteners)
-    for (const auto& name : fastener.law)
-      if (!scene.laws.at(name).law->corners(1, 0))
-        method.fail(
-            fmt::format("\"exact path\", but law \"{}\" of fastener \"{}\" is curved", name, fastener.id),
-            "another method, or rigid, linear, formula, bilinear and four stage laws and power laws with n = 1");
-}
-
-SolverScene read_solver(const Value& value, const JointScene& scene) {
+SolverScene read_solver(const Value& value) {
   value.only({"method", "tolerance", "max_iterations"});
   SolverScene solver;
-  if (const auto method = value.find("method")) {
+  if (const auto method = value.find("method"))
     solver.method = static_cast<Method>(index_of(method_names, method->choice(method_names)) + 1);
-    if (solver.method == Method::exact_path) check_exact_path(scene, *method);
-  }
   if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
   if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);
   return solver;
@@ -240,7 +228,7 @@ JointScene read_joint_scene(const input::Document& document) {
   for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(item, scene));
   if (const auto increments = root.find("increments")) scene.load_factors = read_increments(*increments);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
-  if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver, scene);
+  if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   return scene;
 }
 

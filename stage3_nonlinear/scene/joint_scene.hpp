@@ -68,14 +68,13 @@ struct InitialScene {
 };
 
 enum class Method {
-  fitting,  ///< unless the input says otherwise: the exact path where it applies, else iterative_method
+  fitting,  ///< unless the input says otherwise: by the number of unknowns (iterative_method)
   hybridsj,
   damped_newton,
-  exact_path,
 };
 
 /// Values of "method" in JOINT.json, in the order of Method from hybridsj on.
-inline const std::vector<std::string> method_names{"hybridsj", "damped newton", "exact path"};
+inline const std::vector<std::string> method_names{"hybridsj", "damped newton"};
 
 struct SolverScene {
   Method method = Method::fitting;
@@ -83,13 +82,8 @@ struct SolverScene {
   int max_iterations = 200;  ///< of one try
 };
 
-/// True if an exact path is taken where there is one.
-[[nodiscard]] inline bool may_be_exact(Method method) {
-  return method == Method::fitting || method == Method::exact_path;
-}
-
-/// What solves the increments that no exact path reaches: unless the input says which, hybridsj up to the number of
-/// unknowns beyond which damped Newton takes less time, since GSL factorises without blocks (docs/solvers.md).
+/// What solves the increments first: unless the input says which, hybridsj up to the number of unknowns beyond which
+/// damped Newton takes less time, since GSL factorises without blocks (docs/solvers.md).
 [[nodiscard]] inline Method iterative_method(Method method, std::ptrdiff_t n_unknowns) {
   constexpr std::ptrdiff_t most_for_hybridsj = 40;
   if (method == Method::hybridsj || method == Method::damped_newton) return method;

@@ -99,7 +99,7 @@ Trial try_as_shipped(const RandomJoint& joint, const stage3::RootOptions& option
   const stage3::PathOptions path_options{{},
                                          {.tolerance = options.tolerance, .max_iterations = options.max_iterations}};
   const double begin = now();
-  const auto path = test::follow_nonlinear(joint.equations, {1}, path_options);
+  const auto path = follow(joint.equations, {1}, path_options);
   const double seconds = now() - begin;
   if (path.failure) return {.seconds = seconds, .F = {}};
   const auto& step = path.steps[0];

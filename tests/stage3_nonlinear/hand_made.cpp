@@ -181,21 +181,6 @@ stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
   return joint;
 }
 
-stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations, const std::vector<double>& load_factors,
-                                  const stage3::PathOptions& options) {
-  stage3::LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
-  stage3::Walk walk(equations, options);
-  for (const double factor : load_factors) {
-    if (!walk.reach(factor)) {
-      path.failure = walk.failure(path.steps.size(), factor);
-      break;
-    }
-    path.steps.push_back(walk.step());
-  }
-  path.left = walk.left();
-  return path;
-}
-
 void add_contact(PlateMatrices& plate, const std::string& hole, double radius) {
   const rim::Harmonics waves{1};
   constexpr double modulus = 1, area = 1, compliance = 1e-3;

@@ -65,11 +65,6 @@ struct RandomJoint {
 /// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.
 [[nodiscard]] stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind);
 
-/// Follows the load factors by the nonlinear solvers even if an exact path would do.
-[[nodiscard]] stage3::LoadPath follow_nonlinear(const stage3::JointEquations& equations,
-                                                const std::vector<double>& load_factors,
-                                                const stage3::PathOptions& options);
-
 /// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).
 [[nodiscard]] Eigen::MatrixXd random_stiffness(std::mt19937& random, int n);
 

@@ -61,13 +61,6 @@ class PlaneRun : public testing::Test {
   program::Timings timings_;
 };
 
-TEST_F(PlaneRun, RefusesAnExactPath) {
-  write(xy, xy, {{"solver", R"({"method": "exact path"})"}});
-  expect_refusal(
-      "joint.json: /solver/method: \"exact path\", but the discs move along x and y; allowed: another method, "
-      "or plates whose discs have one direction");
-}
-
 TEST_F(PlaneRun, AlongYAloneIsAsAlongX) {
   write({"x"}, {"x"});
   const auto along_x = run();

@@ -2,8 +2,8 @@
 // Joints whose fasteners are rigid past their clearance, against closed forms and very stiff linear laws.
 #include <gtest/gtest.h>
 
-#include "stage3_nonlinear/path/exact_path.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "tests/stage3_nonlinear/exact_path.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
 
 namespace fastjoint::stage3 {
@@ -27,7 +27,7 @@ TEST(RigidLaw, IsTheLimitOfStiffLinearOnes) {
     EXPECT_LT((step.F - stiff.F).norm(), 1e-6 * stiff.F.norm()) << i;
     const Index a = joint.n_directions();
     for (Index j = 0; j < joint.n_planes(); j += 1 + i % 3) EXPECT_TRUE(step.delta.segment(j * a, a).isZero(0)) << i;
-    const auto path = test::follow_nonlinear(make_equations(joint), {1}, tight);
+    const auto path = follow(make_equations(joint), {1}, tight);
     ASSERT_FALSE(path.failure);
     EXPECT_LT((path.steps[0].F - step.F).norm(), 1e-10 * step.F.norm()) << i;
   }
@@ -43,17 +43,13 @@ TEST(RigidLaw, HasAClearance) {
     const ExactPath exact = exact_path(equations, sign);
     ASSERT_EQ(exact.pieces.size(), 2U);
     EXPECT_NEAR(100 * exact.pieces[0].end, g / f, 1e-11);
-    for (const bool nonlinear : {false, true}) {
-      const std::vector<double> factors{0.3 * sign, sign};
-      const LoadPath path =
-          nonlinear ? test::follow_nonlinear(equations, factors, tight) : follow(equations, factors, tight);
-      ASSERT_FALSE(path.failure);
-      EXPECT_EQ(path.steps[0].F[1], 0);
-      EXPECT_NEAR(path.steps[0].delta[1], sign * 30 * f, 1e-12);
-      EXPECT_NEAR(path.steps[1].F[1], sign * (100 - g / f) / 2, 1e-10);
-      EXPECT_EQ(path.steps[1].delta[0], 0);
-      EXPECT_NEAR(path.steps[1].delta[1], sign * g, 1e-15) << "not more than its clearance";
-    }
+    const LoadPath path = follow(equations, {0.3 * sign, sign}, tight);
+    ASSERT_FALSE(path.failure);
+    EXPECT_EQ(path.steps[0].F[1], 0);
+    EXPECT_NEAR(path.steps[0].delta[1], sign * 30 * f, 1e-12);
+    EXPECT_NEAR(path.steps[1].F[1], sign * (100 - g / f) / 2, 1e-10);
+    EXPECT_EQ(path.steps[1].delta[0], 0);
+    EXPECT_NEAR(path.steps[1].delta[1], sign * g, 1e-15) << "not more than its clearance";
   }
 }
 
@@ -65,16 +61,13 @@ TEST(RigidLaw, BearsOnOneSideOfTheGround) {
   joint.planes[0].one_sided = true;
   joint.planes[0].clearance = g;
   const JointEquations equations = make_equations(joint);
-  for (const bool exact : {true, false}) {
-    const LoadPath path =
-        exact ? follow(equations, {-1, 0.2, 1}, tight) : test::follow_nonlinear(equations, {-1, 0.2, 1}, tight);
-    ASSERT_FALSE(path.failure);
-    EXPECT_NEAR(path.steps[0].delta[0], -10 / s, 1e-13);
-    EXPECT_NEAR(path.steps[1].delta[0], 2 / s, 1e-13);
-    EXPECT_EQ(path.steps[0].F[0], 0);
-    EXPECT_EQ(path.steps[1].F[0], 0);
-    EXPECT_NEAR(path.steps[2].F[0], 10 - s * g, 1e-12);
-  }
+  const LoadPath path = follow(equations, {-1, 0.2, 1}, tight);
+  ASSERT_FALSE(path.failure);
+  EXPECT_NEAR(path.steps[0].delta[0], -10 / s, 1e-13);
+  EXPECT_NEAR(path.steps[1].delta[0], 2 / s, 1e-13);
+  EXPECT_EQ(path.steps[0].F[0], 0);
+  EXPECT_EQ(path.steps[1].F[0], 0);
+  EXPECT_NEAR(path.steps[2].F[0], 10 - s * g, 1e-12);
 }
 
 TEST(RigidLaw, HasACircleForAClearance) {

@@ -78,7 +78,7 @@ class LimitLoad : public Run {
 };
 
 TEST_F(LimitLoad, IsNamedWithItsFastenersAndHasNoErrorBar) {
-  for (const char* method : {"exact path", "hybridsj"}) {
+  for (const char* method : {"damped newton", "hybridsj"}) {
     load(60, "[0.5, 1]", method);
     log_.str("");
     run();
@@ -96,7 +96,7 @@ TEST_F(LimitLoad, IsNamedWithItsFastenersAndHasNoErrorBar) {
 }
 
 TEST_F(LimitLoad, EndsTheRunWithItsFastenersAndTheLoadThatWasReached) {
-  for (const char* method : {"exact path", "hybridsj"}) {
+  for (const char* method : {"damped newton", "hybridsj"}) {
     load(100, "[0.5, 1]", method);
     EXPECT_THAT([&] { run(); },
                 ThrowsMessage<NumericalError>(AllOf(HasSubstr("(load factor 1) did not converge"),
@@ -105,9 +105,7 @@ TEST_F(LimitLoad, EndsTheRunWithItsFastenersAndTheLoadThatWasReached) {
         << method;
     EXPECT_THAT(result().load_factor, ElementsAre(0.5));
   }
-  load(100, "[0.5, 1]", "exact path");
-  EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr(
-                                  "beyond load factor 0.6, the last that converged, the laws of fastener \"f1\"")));
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr("and load factor 0.6 is the most")));
 }
 
 TEST_F(LimitLoad, OfAPeakIsNamedToo) {

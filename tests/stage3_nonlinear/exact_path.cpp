@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/path/exact_path.hpp"
+#include "tests/stage3_nonlinear/exact_path.hpp"
 
+#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
@@ -9,8 +10,6 @@
 #include <limits>
 #include <optional>
 #include <set>
-
-#include "common/program/progress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -34,14 +33,12 @@ class Tracer {
         target_(std::abs(target)),
         path_{target < 0 ? -1.0 : 1.0, {}},
         c_(VectorXd::Zero(equations.n_unknowns())),
-        q_(path_.sign * equations.system.q_at(target)),
-        lines_(joint_, q_) {}
+        q_(path_.sign * equations.system.q_at(target)) {}
 
   ExactPath trace() {
     std::set<Border> tied = borders_near(c_, rounding);
     auto line = leave(tied, {});
     for (Index steps = 0; line && load_ < target_ && steps < most_steps(); ++steps) {
-      program::report_share(load_ / target_);
       const auto [end, reached] = next(*line);
       const double stop = line->loads ? std::min(end, target_) : end;
       if (!std::isfinite(stop)) break;  // at constant load nothing bears
@@ -115,8 +112,11 @@ class Tracer {
   }
 
   [[nodiscard]] std::optional<Line> line_in_cell() {
-    auto line = lines_.in(cell_);
-    return line ? line : line_without_stiffness(joint_.equations(cell_).J);
+    constexpr double singular = 1e-13;
+    const auto [J, offset] = joint_.equations(cell_);
+    const Eigen::PartialPivLU<MatrixXd> lu(J);
+    if (least_stretch(lu, J) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
+    return line_without_stiffness(J);
   }
 
   /// Line where some motion meets no stiffness: the shortest way that balances the load, or else that motion itself, in
@@ -180,7 +180,6 @@ class Tracer {
   double target_;
   ExactPath path_;
   VectorXd c_, q_;
-  CellLines lines_;
   double load_ = 0;  ///< |lambda|
 };
 
@@ -199,5 +198,9 @@ VectorXd ExactPath::at(double load_factor) const {
 }
 
 ExactPath exact_path(const JointEquations& equations, double target) { return Tracer(equations, target).trace(); }
+
+VectorXd exact_forces(const JointEquations& equations, double load_factor) {
+  return contact_state(equations, exact_path(equations, load_factor).at(load_factor)).F;
+}
 
 }  // namespace fastjoint::stage3

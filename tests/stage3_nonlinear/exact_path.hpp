@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <Eigen/LU>
-#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -29,9 +27,6 @@ struct Cell {
   std::vector<int> side;     ///< (f) 1 or -1: of each rim that friction acts on, the side that bears
 };
 
-/// Column of a plane in the equations of a cell, and its part of their offset, (n, 2).
-using CellColumn = Eigen::MatrixX2d;
-
 /// The equations in a cell: J c + offset = lambda q.
 struct CellEquations {
   MatrixXd J;
@@ -52,11 +47,6 @@ class PiecewiseJoint {
   /// The cell at no load, c = 0.
   [[nodiscard]] Cell start() const;
   [[nodiscard]] CellEquations equations(const Cell& cell) const;
-  [[nodiscard]] CellColumn column(const Cell& cell, Index plane) const;
-  /// Planes whose columns differ in two cells, ascending.
-  [[nodiscard]] std::vector<Index> changed(const Cell& from, const Cell& to) const;
-  /// J c + share offset, without the matrix.
-  [[nodiscard]] VectorXd forces(const Cell& cell, const VectorXd& c, double share) const;
   /// Bearing force b on a rim, linear in c: of c and a share of what it is at c = 0.
   [[nodiscard]] double rim_force(const Cell& cell, Index rim, const VectorXd& c, double share) const;
   /// Sets the sides of the rims that one plane alone bears on.
@@ -86,39 +76,6 @@ class PiecewiseJoint {
 struct Line {
   VectorXd offset, rate;
   bool loads = true;  ///< t is |lambda|
-};
-
-/// Lines of solutions in the cells of a path. Neighbouring cells differ in the columns of a few planes, so that one
-/// factor serves many of them (Woodbury's formula), as long as few columns have changed since, the matrix is far from
-/// singular and the line balances to rounding; else the cell's own matrix is factorised.
-class CellLines {
- public:
-  /// @param joint Outlives this.
-  /// @param q     Right-hand side of the equations at |lambda| = 1, (n).
-  CellLines(const PiecewiseJoint& joint, VectorXd q) : joint_(joint), q_(std::move(q)) {}
-
-  /// The line in a cell; none if its matrix is singular.
-  [[nodiscard]] std::optional<Line> in(const Cell& cell);
-  /// Number of cells whose own matrix was factorised.
-  [[nodiscard]] int n_factors() const { return n_factors_; }
-
- private:
-  /// A cell with the factor of its matrix.
-  struct Base {
-    Cell cell;
-    Eigen::PartialPivLU<MatrixXd> lu;
-    double stretch;  ///< least_stretch
-    Line line;
-    /// Column of each plane in the last cell in which it differed, and the solution for the difference.
-    std::map<Index, std::pair<CellColumn, CellColumn>> changes;
-  };
-
-  [[nodiscard]] std::optional<Line> from_base(const Cell& cell);
-
-  const PiecewiseJoint& joint_;
-  VectorXd q_;
-  std::optional<Base> base_;
-  int n_factors_ = 0;
 };
 
 /// Load factors between which nothing happens: c = offset + |lambda| rate.
@@ -151,5 +108,8 @@ struct ExactPath {
 /// @param equations is_piecewise_linear
 /// @param target    Load factor, either sign.
 [[nodiscard]] ExactPath exact_path(const JointEquations& equations, double target);
+
+/// Forces of all planes on the exact path at a load factor, (n).
+[[nodiscard]] VectorXd exact_forces(const JointEquations& equations, double load_factor);
 
 }  // namespace fastjoint::stage3
