@@ -15,7 +15,6 @@
 #include "common/program/warning.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -117,22 +116,20 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   const JointEquations equations = make_equations(joint);
   const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
   program::report_share(0);
-  LoadPath path =
-      scene.load_factors.empty() ? follow_events(equations, solving) : follow(equations, scene.load_factors, solving);
+  auto [path, increments] = follow_with_results(joint, equations, scene.load_factors, solving,
+                                                {scene.solver.tolerance, with_sensitivities, with_rim_stresses});
   path.interference = follow_interference(equations, solving, path);
   program::report_share(1);
-  const auto states = balanced_states(joint, equations.system, scene.solver.tolerance, with_rim_stresses, path);
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));
-  warn(log, rim_warnings(joint, states));
-  auto result = joint_result(joint, equations, path, states, with_rim_stresses);
+  warn(log, rim_warnings(joint, increments.states));
+  auto result = joint_result(joint, equations, path, increments, with_rim_stresses);
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
-  result.F_error = force_errors(joint, equations, path, states);
-  if (with_sensitivities) result.sensitivity = sensitivity_history(joint, equations, path, states);
+  if (with_sensitivities) result.sensitivity = sensitivity_history(joint, path, increments);
   timings.phase("write");
   formats::write(arguments.output, result);
   if (!csv_file.empty()) h5::write_whole_file(csv_file, csv(joint, result));
-  if (!arguments.quiet) out << summary(scene, joint, path, states, result, arguments.flag("--all-stresses"));
+  if (!arguments.quiet) out << summary(scene, joint, path, increments.states, result, arguments.flag("--all-stresses"));
   if (path.failure) throw IncompleteResult(failure_message(scene, joint, path, arguments.output));
 }
 

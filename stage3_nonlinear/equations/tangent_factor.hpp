@@ -37,6 +37,8 @@ class TangentFactor {
   };
   /// @param share Of the largest singular value of the small matrix, up to which one is none.
   [[nodiscard]] Singular solve_singular(const MatrixXd& b, double share) const;
+  /// J.
+  [[nodiscard]] const MatrixXd& matrix() const { return J_; }
   /// Number of rows of the small matrix.
   [[nodiscard]] Index n_kept() const { return kept_.size(); }
 

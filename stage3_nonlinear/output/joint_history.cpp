@@ -9,10 +9,7 @@
 #include <utility>
 
 #include "common/count.hpp"
-#include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/contact_history.hpp"
-#include "stage3_nonlinear/results/load_stiffness.hpp"
-#include "stage3_nonlinear/results/peak_sensitivity.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -95,9 +92,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   return history;
 }
 
-formats::PeakSlopes peak_slopes(const JointModel& joint, const JointEquations& equations, const JointNumbers& numbers,
-                                const PathStep& step, const JointState& state) {
-  const PeakSensitivity all = peak_sensitivity(joint, equations, numbers, step, state);
+formats::PeakSlopes peak_slopes(const JointModel& joint, const JointNumbers& numbers, const PeakSensitivity& all) {
   Index column = 1;
   const auto next = [&](Index count) -> MatrixXd {
     return all.slopes.middleCols(std::exchange(column, column + count), count);
@@ -156,7 +151,8 @@ std::string csv_heads(const JointModel& joint) {
 }  // namespace
 
 formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                                  const std::vector<JointState>& states, bool with_rim_stresses) {
+                                  const Increments& increments, bool with_rim_stresses) {
+  const auto& states = increments.states;
   const Index steps = path.steps.size(), n = joint.n_planes(), a = joint.n_directions();
   formats::JointResult result;
   result.p = joint.p;
@@ -181,7 +177,7 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
       result.transferred.row(i).segment<2>(2 * j) << states[i].transferred_first[j], states[i].transferred_second[j];
   }
   for (Index i = 0; i < steps; ++i) {
-    const auto loads = tangent_stiffness(joint, equations, path.steps[i]);
+    const auto& loads = increments.stiffness[i];
     result.load_stiffness.conservativeResize(steps, std::ssize(loads));
     for (Index at = 0; at < std::ssize(loads); ++at) {
       if (i == 0) result.load_external.push_back(loads[at].external);
@@ -193,6 +189,7 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
     result.first_hole.push_back(joint.name(joint.first_hole(plane)));
     result.second_hole.push_back(joint.is_to_ground(plane) ? ground_name : joint.name(joint.second_hole(plane)));
   }
+  result.F_error = increments.F_error;
   for (Index d = 0; d < std::ssize(joint.axes); ++d) result.direction.emplace_back(joint.axis_name(d));
   auto contacts = contact_histories(joint, equations, path);
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
@@ -202,9 +199,9 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
   return result;
 }
 
-formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
-                                                const LoadPath& path, const std::vector<JointState>& states) {
-  const JointNumbers numbers = joint_numbers(joint, equations.system);
+formats::SensitivityHistory sensitivity_history(const JointModel& joint, const LoadPath& path,
+                                                const Increments& increments) {
+  const JointNumbers& numbers = increments.numbers;
   formats::SensitivityHistory history;
   for (const auto& hole : numbers.friction) history.mu_hole.push_back(hole.name);
   history.mu_hole.insert(history.mu_hole.end(), numbers.shears.begin(), numbers.shears.end());
@@ -217,17 +214,16 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const J
   history.displacement_external = numbers.displacement;
   history.gap_hole = numbers.gap;
   history.load_factor.resize(std::ssize(path.steps), joint.n_planes());
-  for (const auto& step : path.steps) {
-    Sensitivity each = sensitivity(equations, numbers, step);
+  for (const auto& each : increments.sensitivity) {
     history.load_factor.row(std::ssize(history.clearance)) = each.load_factor.transpose();
-    history.clearance.push_back(std::move(each.clearance));
-    history.law.push_back(std::move(each.law));
-    history.mu.push_back(std::move(each.mu));
-    history.force.push_back(std::move(each.force));
-    history.displacement.push_back(std::move(each.displacement));
-    history.gap.push_back(std::move(each.gap));
+    history.clearance.push_back(each.clearance);
+    history.law.push_back(each.law);
+    history.mu.push_back(each.mu);
+    history.force.push_back(each.force);
+    history.displacement.push_back(each.displacement);
+    history.gap.push_back(each.gap);
   }
-  if (!states.empty()) history.peak = peak_slopes(joint, equations, numbers, path.steps.back(), states.back());
+  if (increments.peak) history.peak = peak_slopes(joint, numbers, *increments.peak);
   return history;
 }
 

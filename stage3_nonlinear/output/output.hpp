@@ -7,22 +7,20 @@
 
 #include "common/formats/joint_result.hpp"
 #include "common/program/warning.hpp"
-#include "stage3_nonlinear/results/joint_state.hpp"
+#include "stage3_nonlinear/results/increments.hpp"
 
 namespace fastjoint::stage3 {
 
 /// The path as RESULT.h5 holds it, one state per step; the header is left to the caller.
 /// @param with_rim_stresses Also the stresses around all holes, one degree apart.
 [[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations,
-                                                const LoadPath& path, const std::vector<JointState>& states,
+                                                const LoadPath& path, const Increments& increments,
                                                 bool with_rim_stresses);
 
 /// The derivatives of the bearing forces at every step of the path, and of the peaks at the last, as RESULT.h5 holds
 /// them.
-/// @param states One per step.
-[[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const JointEquations& equations,
-                                                              const LoadPath& path,
-                                                              const std::vector<JointState>& states);
+[[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const LoadPath& path,
+                                                              const Increments& increments);
 
 /// One line per increment and shear plane under a line of names; all digits, RFC 4180. What a plate's matrices do not
 /// tell, stresses and bypass loads, is left empty.

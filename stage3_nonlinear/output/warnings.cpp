@@ -10,7 +10,7 @@
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/equations/rim_friction.hpp"
-#include "stage3_nonlinear/equations/tangent.hpp"
+#include "stage3_nonlinear/equations/stability.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -209,13 +209,13 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
   const std::string kept = fmt::format("{} holds the {} before (complete = 0).", output, before);
   const std::string increment = fmt::format("increment {} of {} (load factor {:.6g})", failure.increment + 1,
                                             path.n_increments, failure.load_factor);
-  if (!failure.unbalanced.empty())
+  if (failure.unbalanced)
     return fmt::format(
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
         "carries load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made "
         "by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1, across to "
         "-friction/resultant_across and -traction/resultant_across",
-        scene.file, increment, failure.unbalanced, failure.out_of_balance, failure.allowed, kept);
+        scene.file, increment, failure.unbalanced->what, failure.unbalanced->by, failure.unbalanced->allowed, kept);
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
   if (!failure.level.empty())

@@ -246,21 +246,20 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   Walk walk(equations, options);
   const ContactCorners corners(equations);
   const auto [events, failed] = Search(equations, corners, walk).run();
-  if (failed) path.failure = walk.failure(events.size(), *failed);
-  for (const auto& event : events) {
-    walk.put(event.place, event.iterations);
-    path.steps.push_back(walk.step());
-    path.steps.back().events = event.events;
-  }
-  path.left = walk.left();
   const bool ends_there = !failed && !events.empty() && events.back().place.load_factor >= at_end;
   path.n_increments = events.size() + (ends_there ? 0 : 1);
+  if (failed) path.failure = walk.failure(events.size(), *failed);
+  path.left = walk.left();
+  for (const auto& event : events) {
+    walk.put(event.place, event.iterations);
+    if (!walk.record(path, event.events)) return path;
+  }
   if (failed || ends_there) return path;
   if (!walk.reach(1)) {
     path.failure = walk.failure(events.size(), 1);
-    return path;
+  } else {
+    walk.record(path, {});
   }
-  path.steps.push_back(walk.step());
   path.left = walk.left();
   return path;
 }
@@ -272,7 +271,9 @@ std::optional<Interference> follow_interference(const JointEquations& equations,
   const ContactCorners corners(equations, true);
   double last = 0;
   for (const auto& step : path.steps) last = std::max(last, step.load_factor);
-  Interference result{walk.step().moments, VectorXd(std::ssize(equations.rims)), last};
+  const VectorXd moments = contact_state(equations, walk.here().c).delta;
+  Interference result{moments.tail(moments.size() - equations.n_plane_rows()), VectorXd(std::ssize(equations.rims)),
+                      last};
   result.lost.setConstant(std::numeric_limits<double>::infinity());
   if (last <= first_load_factor) return result;
   walk.reach(first_load_factor);

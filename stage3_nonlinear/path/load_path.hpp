@@ -2,12 +2,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "stage3_nonlinear/equations/tangent.hpp"
+#include "stage3_nonlinear/equations/solved_point.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -103,6 +104,12 @@ struct PathStep {
   }
 };
 
+/// Part of a joint that is out of balance in an increment that converged.
+struct Imbalance {
+  std::string what;            ///< "a row", "a fastener", "a sheet"
+  double by = 0, allowed = 0;  ///< of the largest force
+};
+
 /// Place and reason of an early end of a path.
 struct PathFailure {
   Index increment;     ///< 0-based
@@ -112,11 +119,8 @@ struct PathFailure {
   double residual;     ///< there, relative to the load asked for; infinite if each try left it spent
   /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
   std::vector<Index> level;
-  std::optional<double> locking;  ///< TangentCheck's, for the sides that bear or would bear
-  /// Part that is out of balance in an increment that converged, if that ended the path, and by how much of the largest
-  /// force.
-  std::string unbalanced = {};
-  double out_of_balance = 0, allowed = 0;
+  std::optional<double> locking;             ///< TangentCheck's, for the sides that bear or would bear
+  std::optional<Imbalance> unbalanced = {};  ///< if that ended the path
   std::optional<double> limit = {};  ///< load factor beyond which surely nothing balances (limit_load), with its sign
 };
 
@@ -147,6 +151,8 @@ struct PathOptions {
   InitialScene initial;
   SolverScene solver;
   std::ostream* log = nullptr;  ///< gets a line for each iteration of each try
+  /// Takes each increment with the tangent of its solution; the path ends before one of which it returns something.
+  std::function<std::optional<Imbalance>(SolvedPoint, const PathStep&)> each = {};
 };
 
 /// Follows the load factors, each increment from the last: the chosen solver in the contact coordinates from the last

@@ -54,24 +54,36 @@ bool Walk::reach(double target) {
   return true;
 }
 
-PathStep Walk::step() const {
-  const auto state = contact_state(equations_, here_.c);
-  const VectorXd r = equations_.system.residual(state.F, state.delta, here_.load_factor, state.shear);
-  // On a corner of its law the side counts on which a fastener bears more.
-  const VectorXd beyond = here_.c + 1e-9 * (state.F.array() != 0).select(here_.c, 0);
+PathStep Walk::step(const SolvedPoint& point) const {
+  const ContactState& state = point.state();
+  const VectorXd r = equations_.system.residual(state.F, state.delta, point.load_factor(), state.shear);
   const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
-  const double scale = std::max(force_scale(equations_, here_.load_factor), rounding_ / options_.solver.tolerance);
-  return {.load_factor = here_.load_factor,
+  const double scale = std::max(force_scale(equations_, point.load_factor()), rounding_ / options_.solver.tolerance);
+  return {.load_factor = point.load_factor(),
           .F = state.F.head(planes),
           .delta = state.delta.head(planes),
           .iterations = iterations_,
           .residual = r.lpNorm<Eigen::Infinity>() / scale,
-          .check = check_tangent(equations_, contact_state(equations_, beyond)),
+          .check = point.check(),
           .rim_F = state.F.tail(rims),
           .moments = state.delta.tail(rims),
           .shear = state.shear,
-          .c = here_.c,
+          .c = point.c(),
           .scale = scale};
+}
+
+bool Walk::record(LoadPath& path, std::vector<ContactEvent> events) {
+  SolvedPoint point(equations_, here_.load_factor, here_.c);
+  PathStep step = this->step(point);
+  step.events = std::move(events);
+  auto unbalanced = options_.each ? options_.each(std::move(point), step) : std::nullopt;
+  if (!unbalanced) {
+    path.steps.push_back(std::move(step));
+    return true;
+  }
+  const double reached = path.steps.empty() ? 0 : path.steps.back().load_factor;
+  path.failure = PathFailure{std::ssize(path.steps), step.load_factor, reached, 0, 0, {}, {}, std::move(unbalanced)};
+  return false;
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) {
@@ -285,8 +297,7 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
       path.failure = walk.failure(i, load_factors[i]);
       break;
     }
-    path.steps.push_back(walk.step());
-    path.steps.back().events = corners.at(before, walk.here().c);
+    if (!walk.record(path, corners.at(before, walk.here().c))) break;
   }
   path.left = walk.left();
   return path;

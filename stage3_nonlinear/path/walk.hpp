@@ -30,13 +30,16 @@ class Walk {
   /// Goes on from a solution found elsewhere by so many iterations.
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
 
-  [[nodiscard]] PathStep step() const;
+  [[nodiscard]] PathStep step() const { return step(SolvedPoint(equations_, here_.load_factor, here_.c)); }
+  /// Appends the place to a path as its next increment; false if the taker of increments ends the path.
+  bool record(LoadPath& path, std::vector<ContactEvent> events);
   [[nodiscard]] PathFailure failure(Index increment, double load_factor);
 
   /// The place where the path from no load was left, if it was.
   [[nodiscard]] const std::optional<PathLeft>& left() const { return left_; }
 
  private:
+  [[nodiscard]] PathStep step(const SolvedPoint& point) const;
   /// Lower friction reserve of the sides that bear at the last load factor and of those that would bear if the
   /// fasteners were rigid and without friction.
   [[nodiscard]] std::optional<double> locking(double load_factor) const;

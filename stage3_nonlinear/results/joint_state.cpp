@@ -228,28 +228,6 @@ JointState joint_state(const JointModel& joint, const CondensedSystem& system, c
   return state;
 }
 
-std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system, double tolerance,
-                                        bool keep_loaded_rims, LoadPath& path) {
-  const double allowed = std::max(1e-8, 10 * tolerance);
-  std::vector<JointState> states;
-  for (Index i = 0; i < std::ssize(path.steps); ++i) {
-    JointState state = joint_state(joint, system, path.steps[i]);
-    const auto [worst, what] =
-        std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
-                  std::pair(state.plates_out_of_balance.value_or(0), "a sheet")});
-    if (!(worst <= allowed)) {
-      const double reached = i > 0 ? path.steps[i - 1].load_factor : 0;
-      path.failure = PathFailure{i, path.steps[i].load_factor, reached, 0, 0, {}, {}, what, worst, allowed};
-      path.steps.erase(path.steps.begin() + i, path.steps.end());
-      break;
-    }
-    if (!keep_loaded_rims)
-      for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
-    states.push_back(std::move(state));
-  }
-  return states;
-}
-
 VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   constexpr double rounding = 1e-9;
   VectorXd passed = transferred;  // with the sign that it has when the lower plate comes first; amounts have none

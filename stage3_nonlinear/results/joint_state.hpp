@@ -51,12 +51,6 @@ struct JointState {
 /// @param rims Those of contact.
 void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state);
 
-/// The states of all steps. A path ends where its forces do not balance to 1e-8 of the largest or to what the solver's
-/// tolerance leaves, since rounding errors would count as load.
-/// @param keep_loaded_rims Also PlateState::loaded, which takes memory.
-[[nodiscard]] std::vector<JointState> balanced_states(const JointModel& joint, const CondensedSystem& system,
-                                                      double tolerance, bool keep_loaded_rims, LoadPath& path);
-
 [[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
 
 /// Shares in per cent of the sum over all planes between the same two plates, or a plate and the ground, whichever

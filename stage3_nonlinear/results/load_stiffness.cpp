@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/load_stiffness.hpp"
 
-#include "stage3_nonlinear/equations/tangent.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
@@ -36,16 +34,15 @@ void add_shears(const JointModel& joint, const CondensedSystem& system, const Ve
 
 }  // namespace
 
-std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const JointEquations& equations,
-                                             const PathStep& step) {
-  const CondensedSystem& system = equations.system;
-  ContactState state = contact_state(equations, step.c);
-  if (system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  const Slopes slopes = implicit_slopes(equations, state, -system.q_at(step.load_factor));
-  const bool gives_way = step.check.at_limit_load() || !slopes.no_column.empty();
+std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const SolvedPoint& point) {
+  const CondensedSystem& system = point.equations().system;
+  const ContactState& state = point.beyond();
+  const double load_factor = point.load_factor();
+  const Slopes slopes = point.slopes(-system.q_at(load_factor));
+  const bool gives_way = point.check().at_limit_load() || !slopes.no_column.empty();
   // Rates with the load factor: displacements, and forces on all unknowns as far as they are friction's.
   VectorXd D =
-      system.D_load_at(step.load_factor) + system.D_delta * state.times(slopes.c.transpose(), state.ddelta).transpose();
+      system.D_load_at(load_factor) + system.D_delta * state.times(slopes.c.transpose(), state.ddelta).transpose();
   VectorXd friction = VectorXd::Zero(D.size());
   for (Index i = 0; i < std::ssize(system.friction); ++i) {
     const Side side = system.E.row(i).dot(state.F) < 0 ? minus_side : plus_side;
@@ -60,7 +57,7 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Join
   for (Index p = 0; p < std::ssize(joint.plates); ++p) {
     const PlateModel& plate = joint.plates[p];
     const Index m = plate.n_discs(), n = plate.n_unknowns();
-    const VectorXd u = D.segment(joint.offset(p), n), f = plate.traction_rate(step.load_factor);
+    const VectorXd u = D.segment(joint.offset(p), n), f = plate.traction_rate(load_factor);
     const auto add = [&](const std::string& name, double force, double moved) {
       result.push_back({plate.name + ":" + name, gives_way ? 0 : force / moved});
     };

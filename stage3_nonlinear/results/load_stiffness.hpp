@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/equations/solved_point.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -17,7 +17,6 @@ struct LoadStiffness {
 /// Rise of force over that of displacement along the direction of each boundary with a load other than zero, as all
 /// loads grow together (docs/theory.md, section 10): plate after plate, rigid externals before tractions. The mean
 /// displacement under a traction lacks what friction on rims adds to it while discs and rigid externals rest.
-[[nodiscard]] std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const JointEquations& equations,
-                                                           const PathStep& step);
+[[nodiscard]] std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const SolvedPoint& point);
 
 }  // namespace fastjoint::stage3

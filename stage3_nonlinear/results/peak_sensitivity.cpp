@@ -52,15 +52,15 @@ double at_place(const HoopStress& hoop, const PeakHole& peak, const std::vector<
 /// States of a joint beside one, and their hoop stresses at fixed places.
 class NearbyStates {
  public:
-  NearbyStates(const JointModel& joint, const JointEquations& equations, const JointNumbers& numbers,
-               const PathStep& step, std::vector<PeakHole> holes)
+  NearbyStates(const JointModel& joint, const JointNumbers& numbers, const SolvedPoint& point,
+               std::vector<PeakHole> holes)
       : joint_(joint),
-        equations_(equations),
+        equations_(point.equations()),
         numbers_(numbers),
-        step_(step),
+        point_(point),
         holes_(std::move(holes)),
-        slopes_(state_slopes(equations, numbers, step)),
-        forces_(unit_forces(joint, step.load_factor)),
+        slopes_(state_slopes(numbers, point)),
+        forces_(unit_forces(joint, point.load_factor())),
         first_mu_(1 + std::ssize(numbers.first_of_law) + std::ssize(numbers.law)),
         first_shear_(first_mu_ + std::ssize(numbers.friction)),
         first_force_(first_shear_ + std::ssize(numbers.shears)),
@@ -83,10 +83,10 @@ class NearbyStates {
       const double largest = all.lpNorm<Eigen::Infinity>();
       return largest > 0 ? change.lpNorm<Eigen::Infinity>() / largest : 0;
     };
-    const VectorXd F = step_.all_F(), delta = step_.all_delta();
-    const VectorXd U = equations_.system.displacements(F, delta, step_.load_factor, step_.shear);
+    const VectorXd &F = point_.state().F, &delta = point_.state().delta;
+    const VectorXd U = equations_.system.displacements(F, delta, point_.load_factor(), point_.state().shear);
     VectorXd direct = direct_.col(column);
-    if (column == 0) direct += equations_.system.D_load_at(step_.load_factor);
+    if (column == 0) direct += equations_.system.D_load_at(point_.load_factor());
     const double does =
         std::max({share(slopes_.F.col(column), F), share(slopes_.delta.col(column), delta), share(direct, U)});
     return does > 0 ? part / does : 0;
@@ -107,9 +107,9 @@ class NearbyStates {
  private:
   /// The plates after a change of a number: their loads and rims.
   [[nodiscard]] std::vector<PlateState> plates_after(Index column, double change) const {
-    const VectorXd F = step_.all_F() + change * slopes_.F.col(column);
-    const VectorXd delta = step_.all_delta() + change * slopes_.delta.col(column);
-    const double factor = step_.load_factor + (column == 0 ? change : 0);
+    const VectorXd F = point_.state().F + change * slopes_.F.col(column);
+    const VectorXd delta = point_.state().delta + change * slopes_.delta.col(column);
+    const double factor = point_.load_factor() + (column == 0 ? change : 0);
     const auto rims = rims_after(column, change);
     const VectorXd shear = shears(rims, delta);
     const VectorXd U = equations_.system.displacements(F, delta, factor, shear) + change * direct_.col(column);
@@ -140,14 +140,14 @@ class NearbyStates {
   [[nodiscard]] MatrixXd direct_displacements() const {
     const CondensedSystem& system = equations_.system;
     MatrixXd loads = MatrixXd::Zero(joint_.n_unknowns(), numbers_.n_derivatives());
-    const VectorXd b = system.friction.empty() ? VectorXd() : VectorXd(system.E * step_.all_F());
+    const VectorXd b = system.friction.empty() ? VectorXd() : VectorXd(system.E * point_.state().F);
     for (Index i = 0; i < std::ssize(numbers_.friction); ++i)
       for (const auto& row : numbers_.friction[i].rows) {
         const VectorXd& load = row.load[b[row.at] < 0 ? minus_side : plus_side];
         loads.col(first_mu_ + i).segment(joint_.offset(row.plate), load.size()) -= std::abs(b[row.at]) * load;
       }
     const auto add = [&](Index column, const UnitLoad& unit) {
-      loads.col(column).segment(joint_.offset(unit.plate), unit.load.size()) += step_.load_factor * unit.load;
+      loads.col(column).segment(joint_.offset(unit.plate), unit.load.size()) += point_.load_factor() * unit.load;
     };
     const auto displacements = unit_displacements(joint_);
     for (Index i = 0; i < std::ssize(forces_); ++i) add(first_force_ + i, forces_[i]);
@@ -156,7 +156,7 @@ class NearbyStates {
     MatrixXd direct = displacements_under(joint_, loads);
     for (Index i = 0; i < std::ssize(displacements); ++i)
       direct(joint_.offset(displacements[i].plate) + *displacements[i].displaced, first_displacement + i) +=
-          step_.load_factor;
+          point_.load_factor();
     return direct;
   }
 
@@ -174,7 +174,7 @@ class NearbyStates {
 
   /// Forces of the shears of all rims, (s).
   [[nodiscard]] VectorXd shears(const std::vector<RimContact>& rims, const VectorXd& delta) const {
-    VectorXd shear(step_.shear.size());
+    VectorXd shear(point_.state().shear.size());
     Index moment = equations_.n_plane_rows(), next = 0;
     for (const RimContact& rim : rims) {
       const VectorXd m = delta.segment(moment, rim.size());
@@ -221,7 +221,7 @@ class NearbyStates {
   const JointModel& joint_;
   const JointEquations& equations_;
   const JointNumbers& numbers_;
-  const PathStep& step_;
+  const SolvedPoint& point_;
   std::vector<PeakHole> holes_;
   StateSlopes slopes_;
   std::vector<UnitLoad> forces_;
@@ -231,14 +231,14 @@ class NearbyStates {
 
 }  // namespace
 
-PeakSensitivity peak_sensitivity(const JointModel& joint, const JointEquations& equations, const JointNumbers& numbers,
-                                 const PathStep& step, const JointState& state) {
+PeakSensitivity peak_sensitivity(const JointModel& joint, const JointNumbers& numbers, const SolvedPoint& point,
+                                 const JointState& state) {
   const auto holes = holes_with_peaks(joint, state);
   PeakSensitivity result{{}, MatrixXd::Zero(std::ssize(holes), numbers.n_derivatives())};
   for (const auto& hole : holes)
     result.hole.push_back(joint.plates[hole.plate].name + ":" + joint.plates[hole.plate].waves[hole.rim].hole);
   if (holes.empty()) return result;
-  const NearbyStates nearby(joint, equations, numbers, step, holes);
+  const NearbyStates nearby(joint, numbers, point, holes);
   const VectorXd here = nearby.hoop_stresses(0, 0);
   constexpr double part = 1e-6;
   for (Index column = 0; column < result.slopes.cols(); ++column)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "stage3_nonlinear/results/joint_state.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
 namespace fastjoint::stage3 {
@@ -20,8 +21,7 @@ struct PeakSensitivity {
 /// them directly; the hoop stress, which is linear in them but for contact, by its difference over a change of the
 /// state by 1e-6. They are infinite where the forces have no derivative, and of holes without stress, where no place is
 /// the peak yet.
-[[nodiscard]] PeakSensitivity peak_sensitivity(const JointModel& joint, const JointEquations& equations,
-                                               const JointNumbers& numbers, const PathStep& step,
-                                               const JointState& state);
+[[nodiscard]] PeakSensitivity peak_sensitivity(const JointModel& joint, const JointNumbers& numbers,
+                                               const SolvedPoint& point, const JointState& state);
 
 }  // namespace fastjoint::stage3

@@ -2,17 +2,12 @@
 #include "stage3_nonlinear/results/sensitivity.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
-#include "common/matrices/stiffness_error.hpp"
 #include "stage3_nonlinear/equations/rim_friction.hpp"
-#include "stage3_nonlinear/equations/tangent.hpp"
+#include "stage3_nonlinear/equations/solved_point.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Derivatives dF and d delta at fixed c by the clearances, then by the numbers of the laws, each of shape (r, n +
 /// l).
@@ -86,9 +81,12 @@ MatrixXd gap_changes(const JointEquations& equations, const ContactState& state)
 /// Changes of the residual at fixed c by all numbers, (r, columns): load factor, clearances, laws, mu, forces,
 /// displacements, gaps.
 /// @param F, delta Those of law_changes.
-MatrixXd residual_changes(const JointEquations& equations, const JointNumbers& numbers, const ContactState& state,
-                          const MatrixXd& F, const MatrixXd& delta, double load_factor) {
+MatrixXd residual_changes(const JointNumbers& numbers, const SolvedPoint& point, const MatrixXd& F,
+                          const MatrixXd& delta) {
+  const JointEquations& equations = point.equations();
   const CondensedSystem& system = equations.system;
+  const ContactState& state = point.state();
+  const double load_factor = point.load_factor();
   MatrixXd by_law = F + system.S_ud * delta;
   if (!system.friction.empty()) by_law += system.friction_matrix(state.F) * F;
   const MatrixXd by_cosine = friction_changes(system, numbers.friction, state.F);
@@ -102,133 +100,39 @@ MatrixXd residual_changes(const JointEquations& equations, const JointNumbers& n
 
 /// Slopes of a solution by all numbers, with what these do at fixed c.
 /// @param all_delta If not null, also of delta, (r, columns).
-Slopes all_slopes(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step, const VectorXd& c,
-                  ContactState state, MatrixXd* all_delta) {
-  const auto [F, delta] = law_changes(equations, numbers, state, c);
-  const MatrixXd residual = residual_changes(equations, numbers, state, F, delta, step.load_factor);
-  if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations, state, residual);
+Slopes all_slopes(const JointNumbers& numbers, const SolvedPoint& point, MatrixXd* all_delta) {
+  const auto [F, delta] = law_changes(point.equations(), numbers, point.state(), point.c());
+  Slopes slopes = point.slopes(residual_changes(numbers, point, F, delta));
   slopes.F.middleCols(1, F.cols()) += F;
   if (all_delta) {
-    *all_delta = state.times(slopes.c.transpose(), state.ddelta).transpose();
+    *all_delta = point.beyond().times(slopes.c.transpose(), point.beyond().ddelta).transpose();
     all_delta->middleCols(1, F.cols()) += delta;
   }
   return slopes;
 }
 
-bool is_known(const PlateModel& plate) { return plate.degrees.p.size() > 1 || plate.S_error.allFinite(); }
-
-/// Changes of the plates' stiffness with the last degree, over the shear planes: D_delta^T dS D_delta of each, its
-/// lower triangle with half the diagonal, (n a, n a); empty of a plate of one degree.
-std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const CondensedSystem& system) {
-  std::vector<MatrixXd> changes;
-  Index moment = joint.n_planes() * joint.n_directions();
-  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    const PlateModel& plate = joint.plates[i];
-    const auto& S = plate.degrees.S;
-    const Index m = plate.first_moment(), k = plate.n_unknowns() - m;
-    MatrixXd& change = changes.emplace_back();
-    if (S.size() < 2) continue;
-    const MatrixXd dS = S[S.size() - 2] - S.back();
-    const auto D = system.D_delta.middleRows(joint.offset(i), m);  // behind them moments are unknowns themselves
-    change = D.transpose() * (dS.topLeftCorner(m, m) * D);
-    if (k > 0) {
-      const MatrixXd mixed = D.transpose() * dS.topRightCorner(m, k);
-      change.middleCols(moment, k) += mixed;
-      change.middleRows(moment, k) += mixed.transpose();
-      change.block(moment, moment, k, k) += dS.bottomRightCorner(k, k);
-    }
-    moment += k;
-    change.diagonal() /= 2;
-  }
-  return changes;
-}
-
-/// Part of a plate in the errors of all forces, (n).
-/// @param A  (n, n a) change of each force per rise of the residual of each plane; w = A D^T.
-/// @param D  (m + e, n a) rows of D_delta. @param dS The plate's stiffness_changes.
-VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::Ref<const MatrixXd>& D,
-                      const MatrixXd& dS, const PlateState& state) {
-  VectorXd u(plate.n_unknowns());
-  u << state.D, state.De, state.moments;
-  const VectorXd& f = state.traction;
-  const PlateDegrees& degrees = plate.degrees;
-  const auto n = degrees.S.size();
-  if (n < 2) return (A * D.transpose()).cwiseAbs() * (plate.S_error * u.cwiseAbs());
-  constexpr double least = 0.25;                     // of the bound
-  const auto load = [&](Index before) -> VectorXd {  // at a degree before the last
-    const auto R = degrees.R.rbegin() + before;
-    return degrees.S[n - 1 - before] * u + degrees.T[n - 1 - before] * f + *R * state.Lambda;
-  };
-  VectorXd energy(degrees.p.size());  // u . S u + 2 u . T f - f . C f at every degree
-  for (Index i = 0; i < std::ssize(energy); ++i)
-    energy[i] = u.dot(degrees.S[i] * u) + 2 * u.dot(degrees.T[i] * f) - f.dot(degrees.C[i] * f);
-  const double fall = std::abs(energy[energy.size() - 2] - energy[energy.size() - 1]);
-  const double more = fall > 0 ? matrices::extrapolated_error(energy, degrees.p) / fall : 1;
-  const VectorXd change = A * (D.transpose() * (load(1) - load(0)));
-  const MatrixXd A_dS = A * dS.triangularView<Eigen::Lower>();
-  const VectorXd fall_by_w = 2 * (A_dS.cwiseProduct(A) * VectorXd::Ones(A.cols())).cwiseAbs();
-  return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
-}
-
-/// Errors of the forces of one increment, (n).
-/// @param dS Results of stiffness_changes.
-VectorXd errors(const JointModel& joint, const JointEquations& equations, const std::vector<MatrixXd>& dS,
-                const PathStep& step, const JointState& solution) {
-  const VectorXd& c = step.c;
-  ContactState state = contact_state(equations, c);
-  if (equations.system.has_friction() && state.F.isZero(0)) bear(equations, state);
-  Slopes slopes = implicit_slopes(equations, state);
-  slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
-  const MatrixXd A = of_amounts(slopes, state, c);
-  VectorXd result = VectorXd::Zero(A.rows());
-  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    const PlateModel& plate = joint.plates[i];
-    const auto D = equations.system.D_delta.middleRows(joint.offset(i), plate.n_unknowns());
-    result += plate_errors(plate, A, D, dS[i], solution.plates[i]);
-  }
-  if (step.check.at_limit_load()) result.setConstant(infinite);
-  for (const Index row : slopes.no_row)
-    if (row < equations.n_plane_rows()) result[row / joint.n_directions()] = infinite;
-  return result;
-}
-
 }  // namespace
 
-StateSlopes state_slopes(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
-  const VectorXd& c = step.c;
-  const ContactState state = contact_state(equations, c);
+StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point) {
   MatrixXd delta;
-  const Slopes slopes = all_slopes(equations, numbers, step, c, state, &delta);
+  const Slopes slopes = all_slopes(numbers, point, &delta);
   return {slopes.F, delta, slopes.no_column};
 }
 
-Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers, const PathStep& step) {
-  const VectorXd& c = step.c;
-  const ContactState state = contact_state(equations, c);
-  const MatrixXd dF = of_amounts(all_slopes(equations, numbers, step, c, state, nullptr), state, c);
+Sensitivity sensitivity(const JointNumbers& numbers, const SolvedPoint& point) {
+  const MatrixXd dF = point.of_amounts(all_slopes(numbers, point, nullptr));
   Index column = 0;
   const auto next = [&](Index count) -> MatrixXd {
     column += count;
     return dF.middleCols(column - count, count);
   };
   return {.load_factor = next(1),
-          .clearance = next(std::ssize(equations.contacts)),
+          .clearance = next(point.equations().n_planes()),
           .law = next(std::ssize(numbers.law)),
           .mu = next(std::ssize(numbers.friction) + std::ssize(numbers.shears)),
           .force = next(numbers.q_force.cols()),
           .displacement = next(numbers.q_displacement.cols()),
-          .gap = next(std::ssize(equations.rims))};
-}
-
-std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                                     const std::vector<JointState>& states) {
-  if (!std::ranges::all_of(joint.plates, is_known)) return std::nullopt;
-  const auto dS = stiffness_changes(joint, equations.system);
-  MatrixXd result(std::ssize(path.steps), joint.n_planes());
-  for (Index i = 0; i < std::ssize(path.steps); ++i)
-    result.row(i) = errors(joint, equations, dS, path.steps[i], states[i]).transpose();
-  return result;
+          .gap = next(std::ssize(numbers.gap))};
 }
 
 }  // namespace fastjoint::stage3

@@ -2,14 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <optional>
-#include <string>
-#include <utility>
 #include <vector>
 
-#include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/equations/solved_point.hpp"
 #include "stage3_nonlinear/results/joint_numbers.hpp"
-#include "stage3_nonlinear/results/joint_state.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -30,27 +26,13 @@ struct StateSlopes {
   MatrixXd F, delta;        ///< (r, columns) of all rows of the condensed system
   std::vector<Index> none;  ///< columns without a derivative
 };
-[[nodiscard]] StateSlopes state_slopes(const JointEquations& equations, const JointNumbers& numbers,
-                                       const PathStep& step);
+[[nodiscard]] StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point);
 
-/// Derivatives at one step, by the implicit function theorem with one factorisation of the tangent for all numbers
-/// (docs/theory.md, section 10). They are one-sided where F has a corner.
+/// Derivatives at a solution, by the implicit function theorem for all numbers at once (docs/theory.md, section 10).
+/// They are one-sided where F has a corner.
 ///
 /// Forces on a plate that gaps leave free (TangentCheck::mechanism) are differentiable by all numbers that leave it in
 /// balance; derivatives by a load that would set it moving, and those of forces at a limit load, are infinite.
-[[nodiscard]] Sensitivity sensitivity(const JointEquations& equations, const JointNumbers& numbers,
-                                      const PathStep& step);
-
-/// Estimated errors of the n bearing forces (with two directions of their amounts) by those of the plates' matrices,
-/// shape (steps, n), force; none if those of a plate are not known.
-///
-/// An error of a plate's matrices acts, to first order, as a load on its unknowns; implicit_slopes gives what that load
-/// does to each force. The last change with p is extrapolated as the plate's energy is, and errors of several plates
-/// are added without sign (docs/theory.md, section 5.3).
-///
-/// The file's own S_error counts for matrices of one degree, as from a laboratory, with the worst sign of every entry.
-/// Errors of forces at a limit load are infinite.
-[[nodiscard]] std::optional<MatrixXd> force_errors(const JointModel& joint, const JointEquations& equations,
-                                                   const LoadPath& path, const std::vector<JointState>& states);
+[[nodiscard]] Sensitivity sensitivity(const JointNumbers& numbers, const SolvedPoint& point);
 
 }  // namespace fastjoint::stage3

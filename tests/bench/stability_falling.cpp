@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <random>
 
-#include "stage3_nonlinear/equations/tangent.hpp"
+#include "stage3_nonlinear/equations/stability.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/bench/stability_curves.hpp"

@@ -65,6 +65,12 @@ struct RandomJoint {
 /// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.
 [[nodiscard]] stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind);
 
+/// The solution of a step.
+[[nodiscard]] inline stage3::SolvedPoint point_of(const stage3::JointEquations& equations,
+                                                  const stage3::PathStep& step) {
+  return {equations, step.load_factor, step.c};
+}
+
 /// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).
 [[nodiscard]] Eigen::MatrixXd random_stiffness(std::mt19937& random, int n);
 

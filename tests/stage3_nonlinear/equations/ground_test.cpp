@@ -170,7 +170,7 @@ TEST(Ground, SensitivitiesAreThoseOfThePlateThatDoesNotMove) {
     const JointModel grounded = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
     const auto of = [](const JointModel& joint) {
       const JointEquations equations = make_equations(joint);
-      return sensitivity(equations, joint_numbers(joint, equations.system), test::solved(joint));
+      return sensitivity(joint_numbers(joint, equations.system), test::point_of(equations, test::solved(joint)));
     };
     const Sensitivity a = of(grounded), b = of(with_wall(grounded, 5000));
     EXPECT_LT((a.load_factor - b.load_factor).norm(), 1e-11 * b.load_factor.norm()) << i;

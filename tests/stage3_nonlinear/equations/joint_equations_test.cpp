@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 
 #include "common/matrices/decompositions.hpp"
-#include "stage3_nonlinear/equations/tangent.hpp"
+#include "stage3_nonlinear/equations/solved_point.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -89,9 +89,10 @@ TEST(JointEquations, SlopesByTheHessianAreThoseOfTheTangent) {
     const auto state = contact_state(equations.contacts, c);
     const MatrixXd J = tangent(equations.system, state), identity = MatrixXd::Identity(J.rows(), J.rows());
     const MatrixXd F = -state.times(identity, state.dF) * J.partialPivLu().solve(identity);
-    EXPECT_LT((implicit_slopes(equations, state).F - F).norm(), 1e-9 * F.norm()) << i;
+    const SolvedPoint point(equations, 1, c);
+    EXPECT_LT((point.slopes().F - F).norm(), 1e-9 * F.norm()) << i;
     const MatrixXd residual = MatrixXd::Random(J.rows(), 2);
-    EXPECT_LT((implicit_slopes(equations, state, residual).F - F * residual).norm(), 1e-9 * residual.norm()) << i;
+    EXPECT_LT((point.slopes(residual).F - F * residual).norm(), 1e-9 * residual.norm()) << i;
   }
 }
 
@@ -117,7 +118,7 @@ TEST(JointEquations, TellsASheetThatNothingHolds) {
   for (auto& plane : joint.planes) plane.clearance = 1;
   const JointEquations equations = make_equations(joint);
   const auto open_at = [&](double c0, double c1) {
-    return check_tangent(equations, contact_state(equations.contacts, Eigen::Vector2d(c0, c1))).mechanism;
+    return SolvedPoint(equations, 1, Eigen::Vector2d(c0, c1)).check().mechanism;
   };
   ASSERT_TRUE(open_at(0, 0));
   EXPECT_THAT(open_at(0, 0)->open, ElementsAre(0, 1));
@@ -133,7 +134,7 @@ TEST(JointEquations, TellsASolutionPastTheLargestLoad) {
   const JointEquations equations = make_equations(test::joint_of(lap, falling));
   const auto unstable_at = [&](double delta) {
     const double c = equations.contacts[0].stiffness * delta;
-    return check_tangent(equations, contact_state(equations.contacts, VectorXd::Constant(1, c))).unstable;
+    return SolvedPoint(equations, 1, VectorXd::Constant(1, c)).check().unstable;
   };
   EXPECT_EQ(unstable_at(7.9), 0);
   EXPECT_EQ(unstable_at(8.1), 1);

@@ -9,7 +9,7 @@
 
 #include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
-#include "stage3_nonlinear/results/joint_state.hpp"
+#include "stage3_nonlinear/results/increments.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
@@ -87,11 +87,9 @@ TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
       for (auto& fastener : joint.fasteners)
         for (auto& hole : fastener.holes) hole.gap = std::abs(hole.gap);
     const JointEquations equations = make_equations(joint);
-    LoadPath path = follow(equations, {1e-6, 0.3, 1, 1.2e-16, -1, 1e-3}, {});
+    const auto [path, increments] =
+        follow_with_results(joint, equations, {1e-6, 0.3, 1, 1.2e-16, -1, 1e-3}, {}, {.tolerance = 1e-10});
     ASSERT_FALSE(path.failure) << "joint " << i;
-    const auto states = balanced_states(joint, equations.system, 1e-10, false, path);
-    ASSERT_FALSE(path.failure) << "joint " << i << ": " << path.failure->unbalanced << " "
-                               << path.failure->out_of_balance;
     for (const auto& step : path.steps) {
       if (!step.rim_F.isZero(0)) continue;
       EXPECT_TRUE(step.F.isZero(0)) << "joint " << i << " at " << step.load_factor << ": " << step.F.transpose();
@@ -213,10 +211,10 @@ TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
     its.mu = decades(random_, 0.5, 20);
     const JointEquations equations = make_equations(random_contact_joint(random_, its));
     const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random_, -1, 1); });
-    const ContactState state = contact_state(equations, c);
-    const TangentCheck check = check_tangent(equations, state);
+    const SolvedPoint point(equations, 1, c);
+    const TangentCheck& check = point.check();
     if (check.mechanism) continue;
-    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(equations.system, state));
+    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(equations.system, point.beyond()));
     EXPECT_EQ(check.unstable, (values.real().array() < -1e-10).count()) << "joint " << i;
     if (check.unstable > 0) ++unstable;
   }

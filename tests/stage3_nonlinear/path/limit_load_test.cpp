@@ -34,7 +34,7 @@ test::Lap uncoupled(int n, double k) {
 
 Eigen::Index unstable(const JointEquations& equations, double delta) {
   const VectorXd c = equations.contacts[0].stiffness * VectorXd::Constant(equations.n_unknowns(), delta);
-  return check_tangent(equations, contact_state(equations.contacts, c)).unstable;
+  return SolvedPoint(equations, 1, c).check().unstable;
 }
 
 TEST(Instability, CountsEachOfTwoEqualUncoupledFasteners) {

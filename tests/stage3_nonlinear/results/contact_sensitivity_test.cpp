@@ -6,9 +6,11 @@
 #include <optional>
 
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 #include "stage3_nonlinear/results/load_stiffness.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -51,7 +53,7 @@ TEST_F(ContactJoint, HaveTheStiffnessOfDifferences) {
       const PlateState b = joint_state(joint, equations.system, path.steps[high]).plates[0];
       return (b.Pe[0] - a.Pe[0]) / (b.De[0] - a.De[0]);
     };
-    const double stiffness = tangent_stiffness(joint, equations, path.steps[0]).at(0).stiffness;
+    const double stiffness = tangent_stiffness(joint, test::point_of(equations, path.steps[0])).at(0).stiffness;
     if (std::abs(between(1, 2) / between(3, 4) - 1) < 1e-6) {  // no corner is near
       ++compared;
       EXPECT_NEAR(stiffness / between(3, 4), 1, 1e-5) << "joint " << i;
@@ -59,7 +61,7 @@ TEST_F(ContactJoint, HaveTheStiffnessOfDifferences) {
     if (joint.plates[0].external_displacement[0] || its.mu > 0) continue;
     joint.plates[0] = under_traction(joint.plates[0]);
     const JointEquations others = make_equations(joint);
-    const auto other = tangent_stiffness(joint, others, follow(others, {1}, tight).steps.at(0)).at(0);
+    const auto other = tangent_stiffness(joint, test::point_of(others, follow(others, {1}, tight).steps.at(0))).at(0);
     EXPECT_EQ(other.external, "a:P");
     EXPECT_NEAR(other.stiffness / stiffness, 1, 1e-7) << "joint " << i;
   }
@@ -78,7 +80,8 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {1}, options);
     ASSERT_FALSE(path.failure);
-    const Sensitivity by = sensitivity(equations, joint_numbers(joint, equations.system), path.steps[0]);
+    const Sensitivity by =
+        sensitivity(joint_numbers(joint, equations.system), test::point_of(equations, path.steps[0]));
     const MatrixXd& by_gap = by.gap;
     EXPECT_EQ(names_of_numbers(joint).n_derivatives(), 1 + by.clearance.cols() + by.law.cols() + by.mu.cols() +
                                                            by.force.cols() + by.displacement.cols() + by_gap.cols());

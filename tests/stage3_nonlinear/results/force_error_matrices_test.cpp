@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/results/sensitivity.hpp"
+#include "stage3_nonlinear/results/force_errors.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::force_error_matrices_test {
@@ -82,8 +82,9 @@ VectorXd bars_over_errors(const Errors& errors) {
   const auto path = stage3::follow(equations, {1}, tight);
   const auto exact = stage3::follow(stage3::make_equations(joint_of(errors, true)), {1}, tight);
   const auto bars =
-      stage3::force_errors(joint, equations, path, {stage3::joint_state(joint, equations.system, path.steps.at(0))});
-  return bars->row(0).transpose().cwiseQuotient((path.steps[0].F - exact.steps.at(0).F).cwiseAbs());
+      stage3::ForceErrors(joint, equations)
+          .at(test::point_of(equations, path.steps.at(0)), stage3::joint_state(joint, equations.system, path.steps[0]));
+  return bars.cwiseQuotient((path.steps[0].F - exact.steps.at(0).F).cwiseAbs());
 }
 
 /// One direction of displacement, so that the bound of the mixed term is the error itself.

@@ -18,7 +18,7 @@ TEST(LoadStiffness, OfALinearJointIsItsSecant) {
   const LoadPath path = follow(equations, {0, 0.5, -1}, {});
   const double moved = joint_state(joint, equations.system, path.steps[1]).plates[0].De[0];
   for (const auto& step : path.steps) {
-    const auto stiffness = tangent_stiffness(joint, equations, step);
+    const auto stiffness = tangent_stiffness(joint, test::point_of(equations, step));
     ASSERT_EQ(stiffness.size(), 1U) << "Q of no plate has a load";
     EXPECT_EQ(stiffness[0].external, "a:P");
     EXPECT_NEAR(stiffness[0].stiffness, 50 / moved, 1e-9 * 50 / moved);
@@ -47,7 +47,8 @@ TEST(LoadStiffness, OfRandomJointsIsThatOfDifferences) {
     if (!(std::abs(coarse - fine) < 1e-5 * std::abs(fine))) continue;  // a corner is near
     ++compared;
     const LoadPath path = follow(equations, {1}, {{}, {.tolerance = 1e-13}});
-    EXPECT_NEAR(tangent_stiffness(joint, equations, path.steps[0])[0].stiffness / fine, 1, 1e-5) << "joint " << i;
+    EXPECT_NEAR(tangent_stiffness(joint, test::point_of(equations, path.steps[0]))[0].stiffness / fine, 1, 1e-5)
+        << "joint " << i;
   }
   EXPECT_GT(compared, 60);
 }
@@ -60,7 +61,7 @@ TEST(LoadStiffness, AtALimitLoadIsZero) {
   const LoadPath path = follow(equations, {1}, {});
   ASSERT_FALSE(path.failure);
   ASSERT_TRUE(path.steps[0].check.at_limit_load());
-  EXPECT_EQ(tangent_stiffness(joint, equations, path.steps[0])[0].stiffness, 0);
+  EXPECT_EQ(tangent_stiffness(joint, test::point_of(equations, path.steps[0]))[0].stiffness, 0);
 }
 
 }  // namespace

@@ -31,7 +31,8 @@ struct Solved {
 Solved solved(const JointModel& joint, const std::vector<double>& load_factors) {
   const JointEquations equations = make_equations(joint);
   Solved result{follow(equations, load_factors, tight), joint_numbers(joint, equations.system), {}};
-  for (const auto& step : result.path.steps) result.by.push_back(sensitivity(equations, result.numbers, step));
+  for (const auto& step : result.path.steps)
+    result.by.push_back(sensitivity(result.numbers, test::point_of(equations, step)));
   return result;
 }
 
@@ -81,7 +82,7 @@ TEST_F(TwoFastenerLap, AtFirstContactIsOfTheSideThatBears) {
   const PathStep at = at_contact(equations);
   const double k = equations.contacts[1].stiffness;
   ASSERT_EQ(contact_state(equations.contacts, Vector2d(k, k * g)).F[1], 0);
-  const Sensitivity by = sensitivity(equations, numbers, at);
+  const Sensitivity by = sensitivity(numbers, test::point_of(equations, at));
   EXPECT_LT((by.load_factor - Vector2d(P / 2, P / 2)).norm(), 1e-10);
   const double by_g = 1 / (1 / K + f) / 2;
   EXPECT_LT((by.clearance.col(1) - Vector2d(by_g, -by_g)).norm(), 1e-10 * by_g);
@@ -96,7 +97,7 @@ TEST_F(TwoFastenerLap, SaysTheSameWithPowerAndCubicLawsAtFirstContact) {
     model.planes[1].law_name = "other";
     const JointEquations equations = make_equations(model);
     const PathStep at = at_contact(equations);
-    const Sensitivity by = sensitivity(equations, joint_numbers(model, equations.system), at);
+    const Sensitivity by = sensitivity(joint_numbers(model, equations.system), test::point_of(equations, at));
     EXPECT_NEAR(by.clearance(1, 1) * (1 / K + 2 * f + flexibility), -1, 1e-12);
     EXPECT_NEAR(by.load_factor[1] * (1 / K + 2 * f + flexibility), P * (1 / K + f), 1e-9);
     EXPECT_TRUE(by.law.allFinite());
@@ -283,7 +284,7 @@ TEST(Sensitivity, AtALimitPointIsInfinite) {
   for (const auto& parameter : equations.contacts[0].law->parameters()) numbers.law.emplace_back("law", parameter);
   PathStep at{1, VectorXd::Constant(1, on.F), VectorXd::Constant(1, 3), 0, 0, {}};
   at.c = at.delta;
-  const Sensitivity by = sensitivity(equations, numbers, at);
+  const Sensitivity by = sensitivity(numbers, test::point_of(equations, at));
   EXPECT_THAT(by.load_factor, ElementsAre(infinity));
   EXPECT_EQ(by.law(0, 0), infinity);
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stage3_nonlinear/equations/joint_equations.hpp"
+#include "stage3_nonlinear/equations/tangent_factor.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -31,7 +32,12 @@ struct TangentCheck {
   [[nodiscard]] bool at_limit_load() const { return mechanism && !mechanism->level.empty(); }
 };
 
-[[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state);
+/// Reciprocal condition, with columns scaled, below which a tangent is singular.
+inline constexpr double singular_tangent = 1e-10;
+
+/// @param scale What the columns of the tangent were divided by before `factor` was made of it.
+[[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state,
+                                         const TangentFactor& factor, const VectorXd& scale);
 
 /// Friction reserve of the sides that bear under the forces F, (n a).
 [[nodiscard]] std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F);
@@ -42,25 +48,5 @@ struct TangentCheck {
 /// Planes whose laws may fall more steeply than the plates hold against: S_ud + diag(least slopes) is not positive
 /// definite, so that the solution may be one of several. Empty if the joint has one solution only (friction aside).
 [[nodiscard]] std::vector<Index> planes_that_may_snap(const JointEquations& equations);
-
-/// Derivatives of the bearing forces as vectors, one column for each number (docs/theory.md, section 10).
-struct Slopes {
-  MatrixXd F;                            ///< (n a, columns)
-  MatrixXd c;                            ///< (n a, columns) of the contact coordinates
-  std::vector<Index> no_column, no_row;  ///< columns and rows of F that have no derivative
-};
-
-/// Slopes by the implicit function theorem: dF = F_c dc with J dc = -residual, at a solution.
-/// @param residual Rise of the residual of the condensed system at fixed c, force, shape (n a, columns); the identity
-///                 unless given, for which slopes of moments and of c may be left out.
-[[nodiscard]] Slopes implicit_slopes(const JointEquations& equations, const ContactState& state,
-                                     const std::optional<MatrixXd>& residual = std::nullopt);
-
-/// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
-/// friction acts.
-void bear(const JointEquations& equations, ContactState& state);
-
-/// Slopes of the forces' amounts, (n, columns); infinite where they do not exist.
-[[nodiscard]] MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const VectorXd& c);
 
 }  // namespace fastjoint::stage3

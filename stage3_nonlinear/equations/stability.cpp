@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/equations/tangent.hpp"
+#include "stage3_nonlinear/equations/stability.hpp"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -9,21 +9,9 @@
 #include <limits>
 
 #include "common/matrices/decompositions.hpp"
-#include "stage3_nonlinear/equations/tangent_factor.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
-
-/// Reciprocal condition, with columns scaled, below which a tangent is singular.
-constexpr double singular_tangent = 1e-10;
-
-/// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
-/// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
-VectorXd scale_columns(MatrixXd& A) {
-  VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
-  A.array().rowwise() /= scale.transpose().array();
-  return scale;
-}
 
 /// The motion that the tangent does not resist, and the planes that take part in it by more than a share of its largest
 /// entry: those that are open, and those that bear on a level piece of their law. A law that rises again behind a level
@@ -79,41 +67,6 @@ bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
   return matrices::is_positive_definite(H + H.transpose());
 }
 
-/// True if the tangent is W times a symmetric Hessian H: without friction, rims of contact and laws that fall.
-bool has_hessian(const JointEquations& equations) {
-  return equations.metric.size() > 0 && !equations.system.has_friction() && equations.rims.empty();
-}
-
-/// Reciprocal condition of H above which no tangent is near singular.
-constexpr double surely_regular = 1e3 * singular_tangent;
-
-/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it has a Hessian
-/// H that is surely regular.
-std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
-  if (!has_hessian(equations)) return std::nullopt;
-  const MatrixXd H = hessian(equations, state);
-  const auto inverse = matrices::inverse_of_positive(H);
-  const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
-  if (!inverse || !(surely_regular * norm(H) * norm(*inverse) < 1)) return std::nullopt;
-  MatrixXd J = state.times(*inverse, state.ddelta);
-  J.diagonal().array() += 1;
-  return J;
-}
-
-/// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
-/// free motions of the unknowns change have no derivative.
-Slopes solve_singular(const TangentFactor& factor, const MatrixXd& J, const MatrixXd& F_c, const MatrixXd& rhs) {
-  constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
-  const auto [dc, free] = factor.solve_singular(rhs, singular_tangent);
-  Slopes slopes{F_c * dc, dc, {}, {}};
-  const MatrixXd rest = J * dc - rhs, F_free = F_c * free;
-  for (Index i = 0; i < rhs.cols(); ++i)
-    if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
-  for (Index i = 0; i < F_free.rows(); ++i)
-    if (F_free.row(i).norm() > left) slopes.no_row.push_back(i);
-  return slopes;
-}
-
 }  // namespace
 
 std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F) {
@@ -129,16 +82,11 @@ std::optional<double> self_locking(const CondensedSystem& system, const VectorXd
   return 1 / largest;
 }
 
-TangentCheck check_tangent(const JointEquations& equations, const ContactState& state) {
-  if (has_hessian(equations)) {
-    const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
-    if (factor.info() == Eigen::Success && factor.rcond() > surely_regular) return {};
-  }
+TangentCheck check_tangent(const JointEquations& equations, const ContactState& state, const TangentFactor& factor,
+                           const VectorXd& scale) {
   const CondensedSystem& system = equations.system;
   TangentCheck check;
-  MatrixXd J = tangent(system, state);
-  const VectorXd scale = scale_columns(J);
-  if (const TangentFactor factor(J, equations.rim_sizes()); !(factor.least_stretch() > singular_tangent)) {
+  if (!(factor.least_stretch() > singular_tangent)) {
     Mechanism found = mechanism(equations, state, factor, scale);
     if (!found.open.empty() || !found.level.empty()) {
       check.mechanism = std::move(found);
@@ -149,7 +97,7 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   const bool falls = (state.dF.along.array() < 0).any();
   MatrixXd friction = system.friction_matrix(state.F);
   add_shear_slopes(system, state, friction);
-  if (falls || (friction_norm(friction) >= 1 && !surely_stable(equations, J * scale.asDiagonal())))
+  if (falls || (friction_norm(friction) >= 1 && !surely_stable(equations, factor.matrix() * scale.asDiagonal())))
     check.unstable = soft_modes(system, state, -singular_tangent);
   check.locking = self_locking(system, state.F);
   return check;
@@ -188,59 +136,6 @@ std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
   }
   if (falling.empty() || matrices::is_positive_definite(S)) return {};
   return falling;
-}
-
-Slopes implicit_slopes(const JointEquations& equations, const ContactState& state,
-                       const std::optional<MatrixXd>& given) {
-  if (const auto inverse = inverse_tangent(equations, state)) {
-    const MatrixXd dc = given ? *inverse * *given : *inverse;
-    return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
-  }
-  MatrixXd J = tangent(equations.system, state);
-  const VectorXd scale = scale_columns(J);
-  const TangentFactor factor(J, equations.rim_sizes());
-  if (factor.least_stretch() > singular_tangent) {
-    if (!given) {  // from the few forces back
-      const MatrixXd F_c = state.times(MatrixXd::Identity(equations.n_plane_rows(), J.rows()), state.dF);
-      const MatrixXd back = factor.solve_transposed(scale.cwiseInverse().asDiagonal() * F_c.transpose());
-      return {-back.transpose(), {}, {}, {}};
-    }
-    const MatrixXd dc = scale.cwiseInverse().asDiagonal() * factor.solve(*given);
-    return {-state.times(dc.transpose(), state.dF).transpose(), -dc, {}, {}};
-  }
-  const MatrixXd F_c = state.times(MatrixXd::Identity(J.rows(), J.rows()), state.dF);
-  Slopes slopes = solve_singular(factor, J, F_c * scale.cwiseInverse().asDiagonal(),
-                                 -given.value_or(MatrixXd::Identity(J.rows(), J.rows())));
-  slopes.c = scale.cwiseInverse().asDiagonal() * slopes.c;
-  return slopes;
-}
-
-void bear(const JointEquations& equations, ContactState& state) {
-  constexpr int most_tries = 8;
-  const CondensedSystem& system = equations.system;
-  for (int i = 0; i < most_tries && !system.friction.empty(); ++i) {
-    const VectorXd before = system.E * state.F;
-    state.F = implicit_slopes(equations, state, -system.q).F;
-    if (i > 0 && ((system.E * state.F).array() * before.array() >= 0).all()) return;
-  }
-}
-
-MatrixXd of_amounts(const Slopes& slopes, const ContactState& state, const VectorXd& c) {
-  const Index a = state.direction.rows(), n = state.direction.cols();
-  MatrixXd result = slopes.F.topRows(n);
-  if (a > 1) {
-    for (Index j = 0; j < result.rows(); ++j) {
-      const auto block = slopes.F.middleRows(j * a, a);
-      result.row(j) = state.direction.col(j).transpose() * block;
-      // Without load there is no direction; the amount then grows whatever the direction is.
-      if (c.segment(j * a, a).isZero(0)) result.row(j) = block.colwise().norm();
-    }
-  }
-  constexpr double none = std::numeric_limits<double>::infinity();
-  for (const Index i : slopes.no_column) result.col(i).setConstant(none);
-  for (const Index i : slopes.no_row)
-    if (i < n * a) result.row(i / a).setConstant(none);
-  return result;
 }
 
 }  // namespace fastjoint::stage3

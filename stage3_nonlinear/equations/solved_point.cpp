@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/solved_point.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "common/matrices/decompositions.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+thread_local Index factorised = 0;
+
+/// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
+/// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
+VectorXd scale_columns(MatrixXd& A) {
+  VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
+  A.array().rowwise() /= scale.transpose().array();
+  return scale;
+}
+
+/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it is W times a symmetric Hessian
+/// H, without friction, rims of contact and laws that fall, and H is surely regular.
+std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
+  constexpr double surely_regular = 1e3 * singular_tangent;
+  if (equations.metric.size() == 0 || equations.system.has_friction() || !equations.rims.empty()) return std::nullopt;
+  const MatrixXd H = hessian(equations, state);
+  const auto inverse = matrices::inverse_of_positive(H);
+  const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
+  if (!inverse || !(surely_regular * norm(H) * norm(*inverse) < 1)) return std::nullopt;
+  MatrixXd J = state.times(*inverse, state.ddelta);
+  J.diagonal().array() += 1;
+  return J;
+}
+
+/// Coordinates a little beyond the corners that planes under load are on. Only laws that are linear between corners
+/// have others than that of their gap, at which they carry nothing.
+VectorXd beyond_corners(const JointEquations& equations, const ContactState& state, VectorXd c) {
+  constexpr double beyond = 1 + 1e-9;
+  const Index a = equations.n_directions();
+  for (Index j = 0; j < equations.n_planes(); ++j) {
+    const Contact& contact = equations.contacts[j];
+    if (!state.F.segment(j * a, a).isZero(0) && contact.law->corners(contact.stiffness, contact.clearance))
+      c.segment(j * a, a) *= beyond;
+  }
+  return c;
+}
+
+}  // namespace
+
+SolvedPoint::SolvedPoint(const JointEquations& equations, double load_factor, VectorXd c)
+    : equations_(&equations),
+      load_factor_(load_factor),
+      c_(std::move(c)),
+      state_(contact_state(equations, c_)),
+      beyond_(contact_state(equations, beyond_corners(equations, state_, c_))) {
+  factorise();
+  if (equations.system.has_friction() && state_.F.isZero(0)) bear();
+  if (factor_) check_ = check_tangent(equations, beyond_, *factor_, scale_);
+}
+
+Index SolvedPoint::n_factorised() { return factorised; }
+
+void SolvedPoint::factorise() {
+  ++factorised;
+  inverse_ = inverse_tangent(*equations_, beyond_);
+  if (inverse_) return;
+  MatrixXd J = tangent(equations_->system, beyond_);
+  scale_ = scale_columns(J);
+  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_->rim_sizes());
+}
+
+/// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
+/// friction acts.
+void SolvedPoint::bear() {
+  constexpr int most_tries = 8;
+  const CondensedSystem& system = equations_->system;
+  for (int i = 0; i < most_tries && !system.friction.empty(); ++i) {
+    const VectorXd before = system.E * beyond_.F;
+    beyond_.F = slopes(-system.q).F;
+    if (i > 0 && ((system.E * beyond_.F).array() * before.array() >= 0).all()) return;
+    factorise();
+  }
+}
+
+Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
+  if (inverse_) {
+    const MatrixXd dc = residual ? *inverse_ * *residual : *inverse_;
+    return {-beyond_.times(dc.transpose(), beyond_.dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
+  }
+  const Index r = c_.size();
+  if (!(factor_->least_stretch() > singular_tangent))
+    return slopes_of_singular(-residual.value_or(MatrixXd::Identity(r, r)));
+  if (!residual) {  // from the few forces back
+    const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_->n_plane_rows(), r), beyond_.dF);
+    const MatrixXd back = factor_->solve_transposed(scale_.cwiseInverse().asDiagonal() * F_c.transpose());
+    return {-back.transpose(), {}, {}, {}};
+  }
+  const MatrixXd dc = scale_.cwiseInverse().asDiagonal() * factor_->solve(*residual);
+  return {-beyond_.times(dc.transpose(), beyond_.dF).transpose(), -dc, {}, {}};
+}
+
+/// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
+/// free motions of the unknowns change have no derivative.
+Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
+  constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
+  const auto [dx, free] = factor_->solve_singular(rhs, singular_tangent);
+  const MatrixXd F_x = beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), beyond_.dF) *
+                       MatrixXd(scale_.cwiseInverse().asDiagonal());
+  Slopes slopes{F_x * dx, scale_.cwiseInverse().asDiagonal() * dx, {}, {}};
+  const MatrixXd rest = factor_->matrix() * dx - rhs, F_free = F_x * free;
+  for (Index i = 0; i < rhs.cols(); ++i)
+    if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
+  for (Index i = 0; i < F_free.rows(); ++i)
+    if (F_free.row(i).norm() > left) slopes.no_row.push_back(i);
+  return slopes;
+}
+
+MatrixXd SolvedPoint::of_amounts(const Slopes& slopes) const {
+  const Index a = beyond_.direction.rows(), n = beyond_.direction.cols();
+  MatrixXd result = slopes.F.topRows(n);
+  if (a > 1) {
+    for (Index j = 0; j < result.rows(); ++j) {
+      const auto block = slopes.F.middleRows(j * a, a);
+      result.row(j) = beyond_.direction.col(j).transpose() * block;
+      // Without load there is no direction; the amount then grows whatever the direction is.
+      if (c_.segment(j * a, a).isZero(0)) result.row(j) = block.colwise().norm();
+    }
+  }
+  constexpr double none = std::numeric_limits<double>::infinity();
+  for (const Index i : slopes.no_column) result.col(i).setConstant(none);
+  for (const Index i : slopes.no_row)
+    if (i < n * a) result.row(i / a).setConstant(none);
+  return result;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/increments.hpp"
+
+#include <algorithm>
+
+namespace fastjoint::stage3 {
+namespace {
+
+/// Part of a state that is out of balance, if it is by more than is allowed.
+std::optional<Imbalance> imbalance(const JointState& state, double tolerance) {
+  const double allowed = std::max(1e-8, 10 * tolerance);
+  const auto [worst, what] =
+      std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
+                std::pair(state.plates_out_of_balance.value_or(0), "a sheet")});
+  if (worst <= allowed) return std::nullopt;
+  return Imbalance{what, worst, allowed};
+}
+
+}  // namespace
+
+std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, const JointEquations& equations,
+                                                    const std::vector<double>& load_factors, PathOptions options,
+                                                    const Wanted& wanted) {
+  Increments all;
+  if (wanted.sensitivities) all.numbers = joint_numbers(joint, equations.system);
+  const ForceErrors errors(joint, equations);
+  std::vector<VectorXd> F_error;
+  std::optional<SolvedPoint> last;
+  options.each = [&](SolvedPoint point, const PathStep& step) -> std::optional<Imbalance> {
+    JointState state = joint_state(joint, equations.system, step);
+    if (const auto found = imbalance(state, wanted.tolerance)) return found;
+    if (errors.are_known()) F_error.push_back(errors.at(point, state));
+    all.stiffness.push_back(tangent_stiffness(joint, point));
+    if (wanted.sensitivities) all.sensitivity.push_back(sensitivity(all.numbers, point));
+    if (!wanted.keep_loaded_rims)
+      for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
+    all.states.push_back(std::move(state));
+    if (wanted.sensitivities) last.emplace(std::move(point));
+    return std::nullopt;
+  };
+  LoadPath path = load_factors.empty() ? follow_events(equations, options) : follow(equations, load_factors, options);
+  if (errors.are_known()) {
+    all.F_error.emplace(std::ssize(F_error), joint.n_planes());
+    for (Index i = 0; i < std::ssize(F_error); ++i) all.F_error->row(i) = F_error[i].transpose();
+  }
+  if (last) all.peak = peak_sensitivity(joint, all.numbers, *last, all.states.back());
+  return {std::move(path), std::move(all)};
+}
+
+}  // namespace fastjoint::stage3
