@@ -59,7 +59,7 @@ double matrices_need(const JointScene& scene) {
 void require_memory(const JointScene& scene, const JointModel& joint, bool with_csv, bool with_sensitivities,
                     bool with_rim_stresses) {
   using program::bytes_text;
-  const JointNumbers numbers = names_of_numbers(joint);  // their derivatives take as long as a run
+  const JointNumbers numbers = joint_numbers(joint);  // their derivatives take as long as a run
   const double n = double(joint.n_planes());
   double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());

@@ -2,64 +2,43 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/LU>
 #include <vector>
 
-#include "stage3_nonlinear/model/joint_model.hpp"
+#include "stage3_nonlinear/equations/rigid_joint.hpp"
+#include "stage3_nonlinear/interfaces/friction_layout.hpp"
+#include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
 
-/// A hole and direction in which friction acts, there or in another hole of its fastener.
-struct FrictionRow {
-  Index fastener, hole;  ///< hole of the fastener
-  Index direction;       ///< of the joint's directions
-};
-
 /// Linear part of a joint, condensed on its n shear planes in a directions and on the moments of its rims of contact,
-/// for any stack of plates (docs/theory.md, section 7.1). The r rows are those of the planes, then those of the
-/// moments: below, delta holds the moments too, and F the forces of their springs.
+/// for any stack of plates (docs/theory.md, section 7.1). It is made once from plates and fasteners, and knows no
+/// number of a run: loads, laws, clearances, gaps and coefficients of friction are Parameters.
 ///
-/// The rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D leave
-///   F + S_ud delta + H+ b+ + H- b- = lambda q,   b = E F, b+ = max(b, 0), b- = max(-b, 0),
-/// with the laws' forces b on the rims that friction acts on, and every displacement follows from lambda, delta, b.
-/// Rims of contact with friction add H_shear tau, with the forces tau of their shears (RimFriction).
-/// G also takes the part of a rim's bearing force that differs from b (FrictionLoad::bearing).
+/// The r rows are those of the planes, then those of the moments: below, delta holds the moments too, and F the forces
+/// of their springs. The rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D leave
+///   F + S_ud delta + H Lambda = Q f,
+/// with the amounts Lambda of friction and f of loads, and every displacement follows from f, delta, Lambda.
 /// S_ud is the parallel sum of the plates' matrices, and exists also when a plate floats.
 struct CondensedSystem {
-  VectorXd q;                         ///< (r) forces of rigid fasteners per unit load factor, force
-  MatrixXd S_ud;                      ///< (r, r) force / length
-  std::vector<FrictionRow> friction;  ///< (f)
-  MatrixXd E;                         ///< (f, r) +1 of a plane that pushes the rim's plate, -1 of one that pulls
-  MatrixXd H_plus, H_minus;           ///< (r, f) for b > 0 and b < 0, dimensionless
-  MatrixXd H_shear{};                 ///< (r, s) of the shears of rims of contact with friction, dimensionless
+  MatrixXd S_ud;                                ///< (r, r) force / length
+  MatrixXd Q;                                   ///< (r, l) forces of rigid fasteners per unit of each load case
+  Index n_moments = 0;                          ///< r - n a
+  VectorXd Q_scale = VectorXd::Ones(Q.cols());  ///< (l) largest force of each on anything, for rounding
+  MatrixXd H = MatrixXd(S_ud.rows(), 0);        ///< (r, t) of friction, per unit of each amount
+  std::vector<LoadCase> cases = {};             ///< (l)
+  FrictionLayout friction = {};                 ///< (t)
   // Displacements of the joint's N unknowns, given ones included.
-  VectorXd D_load;           ///< (N) per unit load factor at delta = 0, length
-  MatrixXd D_delta;          ///< (N, r) per relative displacement, dimensionless
-  MatrixXd D_plus, D_minus;  ///< (N, f) per unit b+, b-, length / force
-  MatrixXd D_shear{};        ///< (N, s) per unit of each shear's force, length / force
-  // q and D_load where the load factor is negative; empty if they are the same. Loads in holes then bear on the other
-  // side.
-  VectorXd q_reversed{}, D_load_reversed{};
+  MatrixXd D_load = {};   ///< (N, l) per unit of each load case at delta = 0
+  MatrixXd D_delta = {};  ///< (N, r) per relative displacement, dimensionless
+  RigidJoint rigid = {};
+  /// Reference stiffness k of each plane, force / length, a little more than the sum of the amounts in its rows of
+  /// S_ud, so that W = K - S_ud of the planes is positive definite (docs/theory.md, section 8.2). Where S_ud is nothing
+  /// but rounding, the plate's own stiffness takes its place.
+  VectorXd stiffness = {};
+  MatrixXd metric = {};  ///< (n a, n a) inverse of W, length / force
 
-  [[nodiscard]] bool has_friction() const { return !friction.empty() || H_shear.cols() > 0; }
-  /// q at a load factor.
-  [[nodiscard]] const VectorXd& q_at(double load_factor) const {
-    return load_factor < 0 && q_reversed.size() > 0 ? q_reversed : q;
-  }
-  /// D_load at a load factor.
-  [[nodiscard]] const VectorXd& D_load_at(double load_factor) const {
-    return load_factor < 0 && D_load_reversed.size() > 0 ? D_load_reversed : D_load;
-  }
-  /// F + S_ud delta + H+ b+ + H- b- + H_shear tau - lambda q, shape (r), force.
-  /// @param shear tau, (s).
-  [[nodiscard]] VectorXd residual(const VectorXd& F, const VectorXd& delta, double load_factor,
-                                  const VectorXd& shear = {}) const;
-  /// Forces of friction on the planes, H+ b+ + H- b- + H_shear tau, shape (r), force.
-  [[nodiscard]] VectorXd friction_forces(const VectorXd& F, const VectorXd& shear = {}) const;
-  /// d friction_forces / d F on the sides that bear under F, shape (r, r), dimensionless.
-  [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
-  /// Displacements of all discs and rigid externals, shape (N), length.
-  [[nodiscard]] VectorXd displacements(const VectorXd& F, const VectorXd& delta, double load_factor,
-                                       const VectorXd& shear = {}) const;
+  [[nodiscard]] Index n_friction() const { return H.cols(); }
 };
 
 /// Forces q with zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to
@@ -71,9 +50,9 @@ struct CondensedSystem {
 /// meets.
 [[nodiscard]] double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A);
 
-/// Displacements of all unknowns under loads on them while the shear planes do not move and given displacements are 0,
-/// (N, loads), length. The joint must be held (condense).
-[[nodiscard]] MatrixXd displacements_under(const JointModel& joint, const MatrixXd& loads);
+/// Sets stiffness and metric.
+/// @param own Stiffness of the plates themselves at each plane, (n).
+void set_reference(CondensedSystem& system, const VectorXd& own);
 
 /// @throws NumericalError naming the plates that can move if nothing holds them.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint);

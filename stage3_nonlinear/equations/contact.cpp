@@ -2,96 +2,79 @@
 #include "stage3_nonlinear/equations/contact.hpp"
 
 namespace fastjoint::stage3 {
-namespace {
-
-/// Unit vector along v; the first axis where v = 0.
-VectorXd along(const VectorXd& v) {
-  const double length = v.norm();
-  return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));
-}
-
-}  // namespace
 
 VectorXd amounts(const VectorXd& vectors, Index n_directions) {
   if (n_directions == 1) return vectors;
   return vectors.reshaped(n_directions, vectors.size() / n_directions).colwise().norm().transpose();
 }
 
-MatrixXd ContactState::times(const MatrixXd& A, const Blocks& blocks) const {
-  const Index a = direction.rows();
-  if (a == 1 && blocks.rims.empty()) return A * blocks.along.asDiagonal();
-  MatrixXd result(A.rows(), A.cols());
-  Index first = a * direction.cols();
-  for (const auto& rim : blocks.rims) {
-    const auto columns = A.middleCols(first, rim.cols());
-    if (rim.isDiagonal(0)) {
-      result.middleCols(first, rim.cols()) = columns * rim.diagonal().asDiagonal();
-    } else {
-      result.middleCols(first, rim.cols()).noalias() = columns * rim;
-    }
-    first += rim.cols();
+ContactState contact_state(const std::vector<PlacedInterface>& interfaces, Index n_directions, Index n_planes,
+                           const VectorXd& c) {
+  ContactState state{VectorXd(c.size()), VectorXd(c.size()), {}, {}, MatrixXd(n_directions, n_planes), {}};
+  if (!interfaces.empty()) state.Lambda.resize(interfaces.back().friction + interfaces.back().interface->n_friction());
+  state.parts.reserve(interfaces.size());
+  for (const auto& [interface, row, friction] : interfaces) {
+    const Index n = interface->size();
+    const Response& part = state.parts.emplace_back(interface->respond(c.segment(row, n), History()));
+    state.F.segment(row, n) = part.F;
+    state.delta.segment(row, n) = part.delta;
+    state.Lambda.segment(friction, part.Lambda.size()) = part.Lambda;
+    if (part.spent >= 0) state.spent = row + part.spent;
   }
-  for (Index j = 0; j < direction.cols(); ++j) {
-    const VectorXd e = direction.col(j);
-    const auto columns = A.middleCols(j * a, a);
-    result.middleCols(j * a, a) =
-        blocks.across[j] * columns + (blocks.along[j] - blocks.across[j]) * (columns * e) * e.transpose();
-  }
-  return result;
-}
-
-void ContactState::add(double factor, const Blocks& blocks, MatrixXd& A) const {
-  const Index a = direction.rows();
-  for (Index j = 0; j < direction.cols(); ++j) {
-    const MatrixXd along = direction.col(j) * direction.col(j).transpose();
-    A.block(j * a, j * a, a, a) +=
-        factor * (blocks.along[j] * along + blocks.across[j] * (MatrixXd::Identity(a, a) - along));
-  }
-  Index first = a * direction.cols();
-  for (const auto& rim : blocks.rims) {
-    A.block(first, first, rim.rows(), rim.cols()) += factor * rim;
-    first += rim.cols();
-  }
-}
-
-ContactState contact_state(const std::vector<Contact>& contacts, const VectorXd& c) {
-  const Index n = contacts.size(), a = c.size() / n;
-  ContactState state{
-      VectorXd(n * a), VectorXd(n * a), MatrixXd(a, n), {VectorXd(n), VectorXd(n)}, {VectorXd(n), VectorXd(n)}, {}};
-  for (Index j = 0; j < n; ++j) {
-    const Contact& contact = contacts[j];
-    const VectorXd here = c.segment(j * a, a);
-    const VectorXd e = along(here);
-    const double k = contact.stiffness;
+  for (Index j = 0; j < n_planes; ++j) {
+    const VectorXd here = c.segment(j * n_directions, n_directions);
     const double length = here.norm();
-    const Branch on =
-        contact.is_pulled_open(here) ? Branch::open(length, k) : contact.law->at(length, k, contact.clearance);
-    if (on.spent) state.spent = j;
-    state.direction.col(j) = e;
-    state.F.segment(j * a, a) = on.F * e;
-    state.delta.segment(j * a, a) = on.delta * e;
-    state.dF.along[j] = on.dF;
-    state.ddelta.along[j] = on.ddelta;
-    // At c = 0 the limits of F / |c| and delta / |c|.
-    state.dF.across[j] = length > 0 ? on.F / length : on.dF;
-    state.ddelta.across[j] = length > 0 ? on.delta / length : on.ddelta;
+    state.direction.col(j) = length > 0 ? VectorXd(here / length) : VectorXd(VectorXd::Unit(n_directions, 0));
   }
   return state;
 }
 
-VectorXd contact_coordinates(const std::vector<Contact>& contacts, const VectorXd& F) {
-  const Index a = F.size() / contacts.size();
-  VectorXd c(F.size());
-  for (Index j = 0; j < std::ssize(contacts); ++j) {
-    const Contact& contact = contacts[j];
-    const Index at = j * a;
-    const VectorXd here = F.segment(at, a);
-    const double force = here.norm();
-    const bool carries = force > 0 && !contact.is_pulled_open(here);
-    c.segment(at, a) =
-        carries ? VectorXd(along(here) * contact.law->coordinate(force, contact.stiffness, contact.clearance)) : here;
+double ContactState::along(MatrixXd Response::*slopes, Index plane) const {
+  const Index a = direction.rows();
+  Index first = 0;
+  for (const Response& part : parts) {
+    const Index at = plane * a - first, n = part.F.size();
+    if (at < n) return direction.col(plane).dot((part.*slopes).block(at, at, a, a) * direction.col(plane));
+    first += n;
   }
-  return c;
+  return 0;
+}
+
+MatrixXd ContactState::times(const MatrixXd& A, MatrixXd Response::*slopes) const {
+  MatrixXd result(A.rows(), A.cols());
+  Index first = 0;
+  for (const Response& part : parts) {
+    const MatrixXd& block = part.*slopes;
+    const auto columns = A.middleCols(first, block.cols());
+    if (block.isDiagonal(0)) {
+      result.middleCols(first, block.cols()) = columns * block.diagonal().asDiagonal();
+    } else {
+      result.middleCols(first, block.cols()).noalias() = columns * block;
+    }
+    first += block.cols();
+  }
+  return result;
+}
+
+void ContactState::add(double factor, MatrixXd Response::*slopes, MatrixXd& A) const {
+  Index first = 0;
+  for (const Response& part : parts) {
+    const MatrixXd& block = part.*slopes;
+    A.block(first, first, block.rows(), block.cols()) += factor * block;
+    first += block.cols();
+  }
+}
+
+MatrixXd ContactState::friction_by(const MatrixXd& dc) const {
+  MatrixXd result(Lambda.size(), dc.cols());
+  Index row = 0, friction = 0;
+  for (const Response& part : parts) {
+    const Index t = part.dLambda.rows(), n = part.F.size();
+    if (t > 0) result.middleRows(friction, t).noalias() = part.dLambda * dc.middleRows(row, n);
+    friction += t;
+    row += n;
+  }
+  return result;
 }
 
 }  // namespace fastjoint::stage3

@@ -14,22 +14,22 @@ namespace {
 /// Motions of the planes, (n a, their number), that move the sheets as rigid bodies: S_ud does not resist them.
 MatrixXd free_motions(const JointEquations& equations) {
   constexpr double rounding = 1e-11;  // of the largest singular value
-  const auto svd = matrices::singular_values(equations.system.S_ud.leftCols(equations.n_plane_rows()));
+  const auto svd = matrices::singular_values(equations.system->S_ud.leftCols(equations.n_plane_rows()));
   return svd.V.rightCols(svd.V.cols() - svd.rank(rounding));
 }
 
 }  // namespace
 
 std::optional<LimitLoad> limit_load(const JointEquations& equations, double sign) {
-  if (!equations.system.friction.empty()) return std::nullopt;
+  if (equations.has_cosine_friction()) return std::nullopt;
   const Index n = equations.n_planes(), a = equations.n_directions();
   VectorXd most(n);
   for (Index j = 0; j < n; ++j) most[j] = equations.contacts[j].law->most_force();
   if (!most.allFinite()) return std::nullopt;
   const MatrixXd motions = free_motions(equations);
-  const VectorXd work = motions.transpose() * equations.system.q_at(sign).head(n * a);
+  const VectorXd work = motions.transpose() * equations.q_at(sign).head(n * a);
   constexpr double nothing = 1e-12;
-  if (motions.cols() == 0 || work.norm() <= nothing * equations.system.q_at(sign).norm()) return std::nullopt;
+  if (motions.cols() == 0 || work.norm() <= nothing * equations.q_at(sign).norm()) return std::nullopt;
   // The laws do least work on one of the motions on which the unit load does unit work. Least squares find it, whose
   // weights follow the amounts of the turn before.
   constexpr int turns = 40;

@@ -23,12 +23,12 @@ VectorXd scale_columns(MatrixXd& A) {
 /// H, without friction, rims of contact and laws that fall, and H is surely regular.
 std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
   constexpr double surely_regular = 1e3 * singular_tangent;
-  if (equations.metric.size() == 0 || equations.system.has_friction() || !equations.rims.empty()) return std::nullopt;
+  if (!equations.rises || equations.has_friction() || !equations.rims.empty()) return std::nullopt;
   const MatrixXd H = hessian(equations, state);
   const auto inverse = matrices::inverse_of_positive(H);
   const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
   if (!inverse || !(surely_regular * norm(H) * norm(*inverse) < 1)) return std::nullopt;
-  MatrixXd J = state.times(*inverse, state.ddelta);
+  MatrixXd J = state.times(*inverse, &Response::ddelta);
   J.diagonal().array() += 1;
   return J;
 }
@@ -55,7 +55,7 @@ SolvedPoint::SolvedPoint(const JointEquations& equations, double load_factor, Ve
       state_(contact_state(equations, c_)),
       beyond_(contact_state(equations, beyond_corners(equations, state_, c_))) {
   factorise();
-  if (equations.system.has_friction() && state_.F.isZero(0)) bear();
+  if (equations.has_friction() && state_.F.isZero(0)) bear();
   if (factor_) check_ = check_tangent(equations, beyond_, *factor_, scale_);
 }
 
@@ -65,7 +65,7 @@ void SolvedPoint::factorise() {
   ++factorised;
   inverse_ = inverse_tangent(*equations_, beyond_);
   if (inverse_) return;
-  MatrixXd J = tangent(equations_->system, beyond_);
+  MatrixXd J = tangent(*equations_->system, beyond_);
   scale_ = scale_columns(J);
   factor_ = std::make_unique<TangentFactor>(std::move(J), equations_->rim_sizes());
 }
@@ -74,11 +74,15 @@ void SolvedPoint::factorise() {
 /// friction acts.
 void SolvedPoint::bear() {
   constexpr int most_tries = 8;
-  const CondensedSystem& system = equations_->system;
-  for (int i = 0; i < most_tries && !system.friction.empty(); ++i) {
-    const VectorXd before = system.E * beyond_.F;
-    beyond_.F = slopes(-system.q).F;
-    if (i > 0 && ((system.E * beyond_.F).array() * before.array() >= 0).all()) return;
+  for (int i = 0; i < most_tries && equations_->has_cosine_friction(); ++i) {
+    const MatrixXd before = equations_->friction_matrix(beyond_.F);
+    beyond_.F = slopes(-equations_->q).F;
+    if (i > 0 && equations_->friction_matrix(beyond_.F) == before) return;
+    for (Index at = 0; at < std::ssize(beyond_.parts); ++at) {
+      const auto& [interface, row, friction] = equations_->interfaces[at];
+      const MatrixXd by_force = interface->friction_by_force(beyond_.F.segment(row, interface->size()));
+      if (by_force.size() > 0) beyond_.parts[at].dLambda = by_force * beyond_.parts[at].dF;
+    }
     factorise();
   }
 }
@@ -86,18 +90,18 @@ void SolvedPoint::bear() {
 Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   if (inverse_) {
     const MatrixXd dc = residual ? *inverse_ * *residual : *inverse_;
-    return {-beyond_.times(dc.transpose(), beyond_.dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
+    return {-beyond_.times(dc.transpose(), &Response::dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
   }
   const Index r = c_.size();
   if (!(factor_->least_stretch() > singular_tangent))
     return slopes_of_singular(-residual.value_or(MatrixXd::Identity(r, r)));
   if (!residual) {  // from the few forces back
-    const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_->n_plane_rows(), r), beyond_.dF);
+    const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_->n_plane_rows(), r), &Response::dF);
     const MatrixXd back = factor_->solve_transposed(scale_.cwiseInverse().asDiagonal() * F_c.transpose());
     return {-back.transpose(), {}, {}, {}};
   }
   const MatrixXd dc = scale_.cwiseInverse().asDiagonal() * factor_->solve(*residual);
-  return {-beyond_.times(dc.transpose(), beyond_.dF).transpose(), -dc, {}, {}};
+  return {-beyond_.times(dc.transpose(), &Response::dF).transpose(), -dc, {}, {}};
 }
 
 /// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
@@ -105,7 +109,7 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
 Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
   constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
   const auto [dx, free] = factor_->solve_singular(rhs, singular_tangent);
-  const MatrixXd F_x = beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), beyond_.dF) *
+  const MatrixXd F_x = beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), &Response::dF) *
                        MatrixXd(scale_.cwiseInverse().asDiagonal());
   Slopes slopes{F_x * dx, scale_.cwiseInverse().asDiagonal() * dx, {}, {}};
   const MatrixXd rest = factor_->matrix() * dx - rhs, F_free = F_x * free;

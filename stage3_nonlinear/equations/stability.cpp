@@ -21,15 +21,15 @@ Mechanism mechanism(const JointEquations& equations, const ContactState& state, 
                     const VectorXd& scale) {
   constexpr double moves = 1e-6, level = 1e-12, far = 1e6;
   const MatrixXd dc = scale.cwiseInverse().asDiagonal() * J.free_motions(singular_tangent);
-  const MatrixXd delta = state.times(dc.transpose(), state.ddelta).transpose();  // the blocks are symmetric
-  Mechanism result{{}, {}, equations.system.D_delta * delta.rightCols(1)};
+  const MatrixXd delta = state.times(dc.transpose(), &Response::ddelta).transpose();  // the blocks are symmetric
+  Mechanism result{{}, {}, equations.system->D_delta * delta.rightCols(1)};
   const Index a = state.direction.rows();
-  for (Index j = 0; j < std::ssize(state.dF.along); ++j) {
+  for (Index j = 0; j < equations.n_planes(); ++j) {
     if (!(delta.middleRows(j * a, a).norm() > moves * delta.norm())) continue;
     if (state.F.segment(j * a, a).isZero(0)) {
       result.open.push_back(j);
     } else if (const Contact& at = equations.contacts[j];
-               state.dF.along[j] <= level &&
+               state.along(&Response::dF, j) <= level &&
                at.law->at(far * (state.F + at.stiffness * state.delta).norm(), at.stiffness, at.clearance).F <=
                    (1 + far * level) * state.F.segment(j * a, a).norm()) {
       result.level.push_back(j);
@@ -41,16 +41,23 @@ Mechanism mechanism(const JointEquations& equations, const ContactState& state, 
   return result;
 }
 
+/// Symmetric square root of a symmetric matrix without negative eigenvalues.
+MatrixXd square_root(const MatrixXd& A) {
+  if (A.isDiagonal(0)) return A.cwiseMax(0).cwiseSqrt();
+  const auto eigen = matrices::symmetric_eigen(A);
+  return eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
+}
+
 /// Eigenvalues of the tangent whose real part is less than `least`.
-Index soft_modes(const CondensedSystem& system, const ContactState& state, double least) {
-  if (system.has_friction()) {
-    return (matrices::eigenvalues(tangent(system, state)).real().array() < least).count();
-  }
+Index soft_modes(const JointEquations& equations, const ContactState& state, double least) {
+  const CondensedSystem& system = *equations.system;
+  if (equations.has_friction()) return (matrices::eigenvalues(tangent(system, state)).real().array() < least).count();
   // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
-  Blocks root{state.ddelta.along.cwiseSqrt(), state.ddelta.across.cwiseSqrt()};
-  for (const auto& rim : state.ddelta.rims) root.rims.emplace_back(rim.cwiseSqrt());
-  const MatrixXd PS = state.times(system.S_ud, root).transpose();
-  const MatrixXd A = state.times(PS, root) + state.times(MatrixXd::Identity(PS.rows(), PS.rows()), state.dF);
+  ContactState root = state;
+  for (Response& part : root.parts) part.ddelta = square_root(part.ddelta);
+  const MatrixXd PS = root.times(system.S_ud, &Response::ddelta).transpose();
+  MatrixXd A = root.times(PS, &Response::ddelta);
+  state.add(1, &Response::dF, A);
   return (matrices::symmetric_eigenvalues(A).array() < least).count();
 }
 
@@ -62,16 +69,43 @@ double friction_norm(const MatrixXd& H) {
 /// True if the tangent J of laws that rise has no eigenvalue that `soft_modes` would count, as it surely has not where
 /// the symmetric part of its product with the metric is positive definite: it is similar to M^1/2 (M^-1 J) M^1/2.
 bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
-  if (equations.metric.size() == 0) return false;
+  if (!equations.rises) return false;
   const MatrixXd H = gradient(equations, J + singular_tangent * MatrixXd::Identity(J.rows(), J.cols()));
   return matrices::is_positive_definite(H + H.transpose());
 }
 
+/// A norm of the derivatives of friction's forces by c: of cosine friction by the forces, which rise no faster than c.
+double shares_of_friction(const JointEquations& equations, const ContactState& state) {
+  if (!equations.has_friction()) return 0;
+  MatrixXd friction = equations.friction_matrix(state.F);
+  for (Index i = 0; i < std::ssize(equations.interfaces); ++i) {
+    const auto& [interface, row, at] = equations.interfaces[i];
+    const Index t = interface->n_friction(), n = interface->size();
+    if (t > 0 && interface->friction_by_force(state.F.segment(row, n)).size() == 0)
+      friction.middleCols(row, n) += equations.system->H.middleCols(at, t) * state.parts[i].dLambda;
+  }
+  return friction_norm(friction);
+}
+
+/// Takes away what the force of a plane rises along c.
+void lower(ContactState& state, Index plane) {
+  const Index a = state.direction.rows();
+  Index row = plane * a;
+  for (Response& part : state.parts) {
+    if (row < part.F.size()) {
+      const double rise = std::max(state.along(&Response::dF, plane), 0.0);
+      part.dF.block(row, row, a, a) -= rise * state.direction.col(plane) * state.direction.col(plane).transpose();
+      return;
+    }
+    row -= part.F.size();
+  }
+}
+
 }  // namespace
 
-std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F) {
-  if (system.friction.empty()) return std::nullopt;
-  const MatrixXd H = system.friction_matrix(F);
+std::optional<double> self_locking(const JointEquations& equations, const VectorXd& F) {
+  if (!equations.has_cosine_friction()) return std::nullopt;
+  const MatrixXd H = equations.friction_matrix(F);
   if (friction_norm(H) < 1) return std::nullopt;
   constexpr double real = 1e-9;  // imaginary part of a real eigenvalue, by rounding
   double largest = 0;
@@ -84,7 +118,6 @@ std::optional<double> self_locking(const CondensedSystem& system, const VectorXd
 
 TangentCheck check_tangent(const JointEquations& equations, const ContactState& state, const TangentFactor& factor,
                            const VectorXd& scale) {
-  const CondensedSystem& system = equations.system;
   TangentCheck check;
   if (!(factor.least_stretch() > singular_tangent)) {
     Mechanism found = mechanism(equations, state, factor, scale);
@@ -94,18 +127,19 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
     }
   }
   // Only large friction makes a joint of rising laws unstable.
-  const bool falls = (state.dF.along.array() < 0).any();
-  MatrixXd friction = system.friction_matrix(state.F);
-  add_shear_slopes(system, state, friction);
-  if (falls || (friction_norm(friction) >= 1 && !surely_stable(equations, factor.matrix() * scale.asDiagonal())))
-    check.unstable = soft_modes(system, state, -singular_tangent);
-  check.locking = self_locking(system, state.F);
+  bool falls = false;
+  for (Index j = 0; j < equations.n_planes(); ++j) falls = falls || state.along(&Response::dF, j) < 0;
+  if (falls ||
+      (shares_of_friction(equations, state) >= 1 && !surely_stable(equations, factor.matrix() * scale.asDiagonal())))
+    check.unstable = soft_modes(equations, state, -singular_tangent);
+  check.locking = self_locking(equations, state.F);
   return check;
 }
 
 std::vector<Index> level_planes(const JointEquations& equations, const VectorXd& c) {
   constexpr double nearly_level = 1e-3, nearly_singular = 1e-4;  // where a try that failed ended
   ContactState state = contact_state(equations, c);
+  const Index spent = state.spent ? equations.entry_of(*state.spent) : -1;
   std::vector<Index> level;
   for (Index j = 0; j < equations.n_planes(); ++j) {
     const Index a = equations.n_directions();
@@ -116,17 +150,17 @@ std::vector<Index> level_planes(const JointEquations& equations, const VectorXd&
     const bool rises_again = std::ranges::any_of(std::array{1.5, 3.0, 10.0, 100.0}, [&](double further) {
       return contact.law->at(further * amount, contact.stiffness, contact.clearance).dF > nearly_level;
     });
-    if (state.spent != j && (open || state.dF.along[j] > nearly_level || rises_again)) continue;
+    if (spent != j && (open || state.along(&Response::dF, j) > nearly_level || rises_again)) continue;
     level.push_back(j);
-    state.dF.along[j] = std::min(state.dF.along[j], 0.0);
+    lower(state, j);
   }
-  if (state.spent || soft_modes(equations.system, state, nearly_singular) > 0) return level;
+  if (state.spent || soft_modes(equations, state, nearly_singular) > 0) return level;
   return {};
 }
 
 std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
   std::vector<Index> falling;
-  MatrixXd S = equations.system.S_ud;
+  MatrixXd S = equations.system->S_ud;
   const Index n = equations.n_planes(), a = equations.n_directions();
   for (Index j = 0; j < n; ++j) {
     const Law& law = *equations.contacts[j].law;

@@ -39,8 +39,8 @@ inline constexpr double singular_tangent = 1e-10;
 [[nodiscard]] TangentCheck check_tangent(const JointEquations& equations, const ContactState& state,
                                          const TangentFactor& factor, const VectorXd& scale);
 
-/// Friction reserve of the sides that bear under the forces F, (n a).
-[[nodiscard]] std::optional<double> self_locking(const CondensedSystem& system, const VectorXd& F);
+/// Friction reserve of the sides that bear under the forces F, (r).
+[[nodiscard]] std::optional<double> self_locking(const JointEquations& equations, const VectorXd& F);
 
 /// Planes that at the contact coordinates c, (n a), carry all that their laws allow, if nothing else holds the joint.
 [[nodiscard]] std::vector<Index> level_planes(const JointEquations& equations, const VectorXd& c);

@@ -103,6 +103,8 @@ MatrixXd TangentFactor::free_motions(double least) const {
 
 TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double share) const {
   const auto svd = matrices::singular_values(small_);
+  if (svd.values[0] < 1)
+    share /= std::max(svd.values[0], std::numeric_limits<double>::min());  // all of it may be small
   const auto solve = [&](const MatrixXd& f) -> MatrixXd { return svd.solve(f, share); };
   const MatrixXd free = extended(svd.V.rightCols(small_.cols() - svd.rank(share)));
   if (short_waves_.empty()) return {solve(b), free};

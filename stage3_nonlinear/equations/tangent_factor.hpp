@@ -35,7 +35,7 @@ class TangentFactor {
   struct Singular {
     MatrixXd x, free;
   };
-  /// @param share Of the largest singular value of the small matrix, up to which one is none.
+  /// @param share Of the largest singular value of the small matrix, or of 1 if that is more, up to which one is none.
   [[nodiscard]] Singular solve_singular(const MatrixXd& b, double share) const;
   /// J.
   [[nodiscard]] const MatrixXd& matrix() const { return J_; }

@@ -14,6 +14,7 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "stage3_nonlinear/model/fastener_gaps.hpp"
+#include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -94,7 +95,7 @@ void check_directions(const JointModel& model, const FastenerScene& scene, const
 }
 
 /// The friction case of a hole for the side that bears along an axis.
-FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
+FrictionCase friction_case(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
   const std::string bearing = fmt::format("{}{}", side == plus_side ? '+' : '-', axis_names[axis]);
   for (Index i = 0; i < std::ssize(plate.friction_unit_force); ++i) {
     if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
@@ -104,19 +105,12 @@ FrictionLoad friction_load(const PlateModel& plate, const std::string& hole, dou
           "{}:friction/unit_force: hole \"{}\" has {} on its side {}: no rim there can bear, so friction {} has no "
           "meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or friction 0",
           plate.file, hole, c, bearing, mu));
-    return {plate.R.col(i) * (mu / c), std::abs(plate.friction_resultant[i]) * mu / c, i, mu / c};
+    return {i, c, std::abs(plate.friction_resultant[i])};
   }
   throw InputError(
       fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has friction "
                   "{}; run stage 2 again, or set the friction to 0",
                   plate.file, hole, bearing, mu));
-}
-
-/// Lets the disc of a hole that moves along two axes take the resultant of friction across its direction.
-/// @param other Unknown of the disc along the other axis.
-void take_across(const PlateModel& plate, Index other, FrictionLoad& friction) {
-  friction.across = entry_or_0(plate.friction_resultant_across, friction.case_index) * friction.peak;
-  friction.load[other] += friction.across;
 }
 
 /// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
@@ -164,8 +158,9 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
     const Index other = result.disc + 1 - d;
     for (const Side side : {plus_side, minus_side}) {
       if (!sides[side] || !plate.has_disc(result.disc + d)) continue;
-      friction[side] = friction_load(plate, hole.name, mu, model.axes[d], side);
-      if (model.n_directions() == 2 && plate.has_disc(other)) take_across(plate, other, friction[side]);
+      friction[side] = friction_case(plate, hole.name, mu, model.axes[d], side);
+      if (model.n_directions() == 2 && plate.has_disc(other))
+        friction[side].across = entry_or_0(plate.friction_resultant_across, friction[side].column);
     }
   }
   return result;
@@ -187,7 +182,6 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
   check_clearance(model, fastener, result);
   for (const auto& hole : result.holes)  // a disc takes the friction of a rim of contact: the shank carries both
     result.law_includes_friction |= model.plates[hole.plate].is_in_contact(model.plates[hole.plate].hole_of(hole.disc));
-  balance(result);
   model.fasteners.push_back(std::move(result));
 }
 
@@ -210,7 +204,8 @@ void check_side(const PlateModel& plate, Index traction, const LoadScene& load, 
   for (const double factor : factors) {
     bool acts = load.value * factor == 0;
     for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      acts = acts || (plate.tractions[i] == plate.tractions[traction] && plate.acts(i, factor));
+      acts = acts || (plate.tractions[i] == plate.tractions[traction] &&
+                      fastjoint::stage3::acts(plate.sense(i), load.value, factor));
     if (!acts)
       refuse(load.external.where,
              fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
@@ -245,33 +240,6 @@ void apply_load(JointModel& model, const LoadScene& load, const std::vector<doub
 }
 
 }  // namespace
-
-double part_of_mean_share(const FastenerModel& fastener, Index of, Index hole, Index d, Side side) {
-  const auto& friction = fastener.holes[of].friction;
-  if (friction.empty()) return 0;
-  const auto& sides = friction[d];
-  const double n = double(fastener.holes.size());
-  if (fastener.n_planes() == 1) return sides[of == hole ? side : 1 - side].share() / n;
-  const auto bears = std::ranges::count_if(sides, [](const auto& each) { return each.load.size() > 0; });
-  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / double(bears) / n;
-}
-
-void balance(FastenerModel& fastener) {
-  Index directions = 0;
-  for (const auto& hole : fastener.holes) directions = std::max(directions, std::ssize(hole.friction));
-  for (auto& hole : fastener.holes) hole.friction.resize(directions);
-  for (Index at = 0; at < std::ssize(fastener.holes); ++at)
-    for (Index d = 0; d < directions; ++d)
-      for (const Side side : {plus_side, minus_side}) {
-        double transferred = 1;
-        for (Index of = 0; of < std::ssize(fastener.holes) && !fastener.law_includes_friction; ++of)
-          transferred += part_of_mean_share(fastener, of, at, d, side);
-        FrictionLoad& friction = fastener.holes[at].friction[d][side];
-        const double change = transferred / (1 + friction.share()) / friction.bearing;
-        friction.load *= change;
-        for (double* each : {&friction.resultant, &friction.peak, &friction.bearing, &friction.across}) *each *= change;
-      }
-}
 
 Index JointModel::offset(Index plate) const {
   Index offset = 0;

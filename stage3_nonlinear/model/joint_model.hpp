@@ -73,20 +73,14 @@ struct PlateModel {
   /// (q) side of the hole that bears under the force of this case, "+x", ...; "" or none of edges
   std::vector<std::string> traction_bearing{};
 
-  /// True if a traction's force, or a positive one if it has none, is of this case at a load factor: one in a hole
-  /// bears on the side that it points to.
-  [[nodiscard]] bool acts(Index traction, double load_factor) const {
-    if (traction >= std::ssize(traction_bearing) || traction_bearing[traction].empty()) return true;
-    return (traction_bearing[traction][0] == '+') == ((traction_force[traction] < 0) == (load_factor < 0));
+  /// Sign of the force under which a traction's side of its hole bears; 0 of edges.
+  [[nodiscard]] int sense(Index traction) const {
+    if (traction >= std::ssize(traction_bearing) || traction_bearing[traction].empty()) return 0;
+    return traction_bearing[traction][0] == '+' ? 1 : -1;
   }
   /// True of a traction case for the other side of the hole of the case before.
   [[nodiscard]] bool is_other_side(Index traction) const {
     return traction > 0 && traction < std::ssize(tractions) && tractions[traction] == tractions[traction - 1];
-  }
-  /// Force of each traction case per unit of the load factor, at a load factor, (q).
-  [[nodiscard]] VectorXd traction_rate(double load_factor) const {
-    return VectorXd::NullaryExpr(traction_force.size(),
-                                 [&](Index i) { return acts(i, load_factor) ? traction_force[i] : 0; });
   }
   /// m: unknowns of the discs.
   [[nodiscard]] Index n_discs() const { return holes.size() * axes.size(); }
@@ -125,23 +119,16 @@ struct PlateModel {
 [[nodiscard]] std::vector<int> joint_axes(std::span<const std::string> files,
                                           std::span<const formats::PlateMatrices> all);
 
-/// Friction in a hole for one side that bears, per unit of the law's force there; `load` is empty without friction.
-struct FrictionLoad {
-  VectorXd load;         ///< (m+e) R mu / c: force that must act on the plate's unknowns, dimensionless
-  double resultant = 0;  ///< |resultant| mu / c: force of friction on the rim
-  Index case_index = 0;  ///< among the plate's friction cases
-  double peak = 0;       ///< mu / c: peak stress Lambda of the case, 1 / length^2
-  double bearing = 1;    ///< force of bearing on the rim; other than 1 it has been put into the others
-  /// Force of friction on the rim along + the other axis, of a hole whose disc moves along both. The disc takes it
-  /// back as bearing, which is in `load`: what the law transfers along the other axis remains the law's.
-  double across = 0;
-
-  /// Force of friction over that of bearing.
-  [[nodiscard]] double share() const { return resultant / bearing; }
-};
-
 /// Side of a rim that bears, under a bearing force on the plate along + or - the axis.
 enum Side : Index { plus_side, minus_side };
+
+/// Friction of a hole while one of its sides bears, per unit of its peak stress.
+struct FrictionCase {
+  Index column = -1;      ///< of PlateModel::R; -1 where no rim can bear
+  double unit_force = 0;  ///< c: force of bearing, length^2
+  double resultant = 0;   ///< amount of the force of friction along the direction, length^2
+  double across = 0;      ///< and along + the other axis, which the disc takes, length^2
+};
 
 /// Place at which a fastener holds a plate.
 struct HoleModel {
@@ -149,8 +136,8 @@ struct HoleModel {
   Index disc = 0;  ///< first unknown of its disc among the plate's
   double mu = 0;   ///< coefficient of friction
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
-  /// Empty at a rim of contact, whose friction follows its pressure (RimFriction).
-  std::vector<std::array<FrictionLoad, 2>> friction;
+  /// Empty without friction, and at a rim of contact, whose friction follows its pressure (RimFriction).
+  std::vector<std::array<FrictionCase, 2>> friction;
   double gap = 0;  ///< radial, between the fastener and a rim whose springs push but do not pull, length
 };
 
@@ -163,15 +150,6 @@ struct FastenerModel {
 
   [[nodiscard]] Index n_planes() const { return std::ssize(holes) - (grounded ? 0 : 1); }
 };
-
-/// Part that friction in the hole `of` adds to the mean share of friction in its fastener's holes, where `hole` bears
-/// on `side` in direction d. The two holes of a single plane bear on opposite sides; of several planes each may bear on
-/// any, and its sides count alike. The ground is no hole.
-[[nodiscard]] double part_of_mean_share(const FastenerModel& fastener, Index of, Index hole, Index d, Side side);
-
-/// Gives each hole of a fastener the bearing force with which bearing and friction together transfer the load of the
-/// shear plane, so that a fastener with unlike friction in its holes is in equilibrium (docs/theory.md, section 7.4).
-void balance(FastenerModel& fastener);
 
 /// Plane between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F
 /// and the first with -F. The second may be the ground, D = 0.

@@ -81,7 +81,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.amounts = rows(&PlateState::added, n_added);
   history.w = rows(&PlateState::moments, plate.n_unknowns() - plate.first_moment());
   history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
-  history.traction = rows(&PlateState::traction, plate.traction_force.size());
+  history.traction = rows(&PlateState::traction, std::ssize(plate.tractions));
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
   if (plate.stress_level) history.rims = rims_of(plate.stresses);
   if (plate.stress_level && with_rim_stresses) history.rims.stresses = rim_stresses(history.rims.hole, states, at);
@@ -101,7 +101,7 @@ formats::PeakSlopes peak_slopes(const JointModel& joint, const JointNumbers& num
           .load_factor = all.slopes.col(0),
           .clearance = next(joint.n_planes()),
           .law = next(std::ssize(numbers.law)),
-          .mu = next(std::ssize(numbers.friction) + std::ssize(numbers.shears)),
+          .mu = next(std::ssize(numbers.friction) + std::ssize(numbers.rim_friction)),
           .force = next(std::ssize(numbers.force)),
           .displacement = next(std::ssize(numbers.displacement)),
           .gap = next(std::ssize(numbers.gap))};
@@ -203,8 +203,8 @@ formats::SensitivityHistory sensitivity_history(const JointModel& joint, const L
                                                 const Increments& increments) {
   const JointNumbers& numbers = increments.numbers;
   formats::SensitivityHistory history;
-  for (const auto& hole : numbers.friction) history.mu_hole.push_back(hole.name);
-  history.mu_hole.insert(history.mu_hole.end(), numbers.shears.begin(), numbers.shears.end());
+  history.mu_hole = numbers.friction;
+  history.mu_hole.insert(history.mu_hole.end(), numbers.rim_friction.begin(), numbers.rim_friction.end());
   for (const auto& [law, number] : numbers.law) {
     history.law_name.push_back(law);
     history.law_number.push_back(number.name);

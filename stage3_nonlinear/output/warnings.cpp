@@ -9,8 +9,8 @@
 #include <set>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/equations/rim_friction.hpp"
 #include "stage3_nonlinear/equations/stability.hpp"
+#include "stage3_nonlinear/interfaces/rim_friction.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

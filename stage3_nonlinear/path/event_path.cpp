@@ -126,7 +126,7 @@ class Search {
     problem.jacobian = [&](const VectorXd& x) -> MatrixXd {
       MatrixXd J = MatrixXd::Zero(rows + 1, rows + 1);
       J.topLeftCorner(rows, rows) = root_problem(equations_, x[rows], unit).jacobian(x.head(rows));
-      J.col(rows).head(rows) = -equations_.system.q_at(x[rows]) / unit;
+      J.col(rows).head(rows) = -equations_.q_at(x[rows]) / unit;
       J.row(rows).head(rows) = corners_.slope(unit * x.head(rows), plane);
       return J;
     };

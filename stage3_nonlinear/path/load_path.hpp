@@ -86,7 +86,7 @@ struct PathStep {
   double residual;    ///< largest, over `scale`
   TangentCheck check;
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
-  VectorXd shear = {};                    ///< (s) forces of the shears of rims of contact with friction, force
+  VectorXd Lambda = {};                   ///< (t) amounts of friction
   std::vector<ContactEvent> events = {};  ///< what happens exactly here, or to rims since the increment before
   VectorXd c = {};                        ///< (r) contact coordinates, force
   /// Against which residuals count: force_scale, or rounding of clearances over the tolerance, force.

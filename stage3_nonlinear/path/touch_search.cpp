@@ -11,7 +11,7 @@ namespace fastjoint::stage3 {
 
 VectorXd rate(const JointEquations& equations, const Sample& at) {
   const double unit = force_scale(equations, at.load);
-  return root_problem(equations, at.load, unit).solve(at.c / unit, equations.system.q_at(at.load));
+  return root_problem(equations, at.load, unit).solve(at.c / unit, equations.q_at(at.load));
 }
 
 bool TouchSearch::make_the_difference(const Sample& a, const Sample& b) const {

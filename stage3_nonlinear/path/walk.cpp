@@ -10,11 +10,12 @@
 #include <utility>
 
 #include "common/program/progress.hpp"
+#include "stage3_nonlinear/equations/first_guesses.hpp"
 
 namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
   constexpr double of_gaps = 1e-4;  // rounding of their displacements stays far below a solver's tolerance of it
-  const double scale = std::max(std::abs(load_factor) * equations.system.q_at(load_factor).lpNorm<Eigen::Infinity>(),
+  const double scale = std::max(std::abs(load_factor) * equations.q_at(load_factor).lpNorm<Eigen::Infinity>(),
                                 of_gaps * equations.force_of_gaps());
   return scale > 0 ? scale : 1;
 }
@@ -56,7 +57,7 @@ bool Walk::reach(double target) {
 
 PathStep Walk::step(const SolvedPoint& point) const {
   const ContactState& state = point.state();
-  const VectorXd r = equations_.system.residual(state.F, state.delta, point.load_factor(), state.shear);
+  const VectorXd r = equations_.residual(state, point.load_factor());
   const Index planes = equations_.n_plane_rows(), rims = state.F.size() - planes;
   const double scale = std::max(force_scale(equations_, point.load_factor()), rounding_ / options_.solver.tolerance);
   return {.load_factor = point.load_factor(),
@@ -67,7 +68,7 @@ PathStep Walk::step(const SolvedPoint& point) const {
           .check = point.check(),
           .rim_F = state.F.tail(rims),
           .moments = state.delta.tail(rims),
-          .shear = state.shear,
+          .Lambda = state.Lambda,
           .c = point.c(),
           .scale = scale};
 }
@@ -101,8 +102,8 @@ PathFailure Walk::failure(Index increment, double load_factor) {
 }
 
 std::optional<double> Walk::locking(double load_factor) const {
-  const auto last = self_locking(equations_.system, contact_state(equations_, here_.c).F);
-  const auto rigid = self_locking(equations_.system, load_factor * equations_.system.q_at(load_factor));
+  const auto last = self_locking(equations_, contact_state(equations_, here_.c).F);
+  const auto rigid = self_locking(equations_, load_factor * equations_.q_at(load_factor));
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
 
@@ -159,8 +160,7 @@ bool Walk::solve_from_guesses(double target) {
 
 std::optional<VectorXd> Walk::loose_without_friction(const VectorXd& start, double target) {
   const bool loose = std::ranges::all_of(equations_.rims, [](const RimContact& rim) { return rim.gap() > 0; });
-  if (equations_.rims.empty() || !loose || !equations_.system.has_friction() || equations_.metric.size() == 0)
-    return std::nullopt;
+  if (equations_.rims.empty() || !loose || !equations_.has_friction() || !equations_.rises) return std::nullopt;
   const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
   const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);
   if (!root.converged) return std::nullopt;
@@ -193,7 +193,7 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
       if (solver != newton_root) continue;
       note_failure(root);  // it descends: where it ends is where the joint gives way
       // Without friction it ends there from wherever it starts.
-      if (is_too_much(target) || (!equations_.system.has_friction() && gives_way())) return false;
+      if (is_too_much(target) || (!equations_.has_friction() && gives_way())) return false;
     }
     return false;
   };
@@ -204,7 +204,7 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
 /// converge where friction changes the forces by less than themselves.
 bool Walk::solve_by_turns(double target) {
   constexpr int most_turns = 50;
-  if (!equations_.system.has_friction() || equations_.metric.size() == 0) return false;
+  if (!equations_.has_friction() || !equations_.rises) return false;
   const auto problem = root_problem(equations_, target, scale_);
   VectorXd c = here_.c;
   for (int turn = 0; turn < most_turns; ++turn) {
@@ -260,13 +260,12 @@ bool Walk::take(const Root& root, double target) {
     constexpr double more = 10;     // times what a solution may be out of balance
     VectorXd loose = c;
     loose.head(planes) = without_rounding(c.head(planes), little * scale_);
-    const auto state = contact_state(equations_, loose);
-    const VectorXd r = equations_.system.residual(state.F, state.delta, target, state.shear);
+    const VectorXd r = equations_.residual(contact_state(equations_, loose), target);
     if (is_small(r.lpNorm<Eigen::Infinity>() / more)) c = loose;
   }
   if (const auto spent = contact_state(equations_, c).spent) {
     if (std::isinf(worst_residual_)) {
-      worst_row_ = *spent * equations_.n_directions();
+      worst_row_ = *spent;
       best_ = c;
     }
     return false;

@@ -67,7 +67,7 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
 
 ForceErrors::ForceErrors(const JointModel& joint, const JointEquations& equations)
     : joint_(joint), equations_(equations), are_known_(std::ranges::all_of(joint.plates, is_known)) {
-  if (are_known_) stiffness_changes_ = stiffness_changes(joint, equations.system);
+  if (are_known_) stiffness_changes_ = stiffness_changes(joint, *equations.system);
 }
 
 VectorXd ForceErrors::at(const SolvedPoint& point, const JointState& state) const {
@@ -77,7 +77,7 @@ VectorXd ForceErrors::at(const SolvedPoint& point, const JointState& state) cons
   VectorXd result = VectorXd::Zero(A.rows());
   for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
     const PlateModel& plate = joint_.plates[i];
-    const auto D = equations_.system.D_delta.middleRows(joint_.offset(i), plate.n_unknowns());
+    const auto D = equations_.system->D_delta.middleRows(joint_.offset(i), plate.n_unknowns());
     result += plate_errors(plate, A, D, stiffness_changes_[i], state.plates[i]);
   }
   constexpr double infinite = std::numeric_limits<double>::infinity();

@@ -22,16 +22,20 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
                                                     const std::vector<double>& load_factors, PathOptions options,
                                                     const Wanted& wanted) {
   Increments all;
-  if (wanted.sensitivities) all.numbers = joint_numbers(joint, equations.system);
+  if (wanted.sensitivities) all.numbers = joint_numbers(joint);
   const ForceErrors errors(joint, equations);
   std::vector<VectorXd> F_error;
   std::optional<SolvedPoint> last;
+  StateSlopes slopes;
   options.each = [&](SolvedPoint point, const PathStep& step) -> std::optional<Imbalance> {
-    JointState state = joint_state(joint, equations.system, step);
+    JointState state = joint_state(joint, equations, step);
     if (const auto found = imbalance(state, wanted.tolerance)) return found;
     if (errors.are_known()) F_error.push_back(errors.at(point, state));
     all.stiffness.push_back(tangent_stiffness(joint, point));
-    if (wanted.sensitivities) all.sensitivity.push_back(sensitivity(all.numbers, point));
+    if (wanted.sensitivities) {
+      slopes = state_slopes(all.numbers, point);
+      all.sensitivity.push_back(sensitivity(all.numbers, slopes, point));
+    }
     if (!wanted.keep_loaded_rims)
       for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
     all.states.push_back(std::move(state));
@@ -43,7 +47,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
     all.F_error.emplace(std::ssize(F_error), joint.n_planes());
     for (Index i = 0; i < std::ssize(F_error); ++i) all.F_error->row(i) = F_error[i].transpose();
   }
-  if (last) all.peak = peak_sensitivity(joint, all.numbers, *last, all.states.back());
+  if (last) all.peak = peak_sensitivity(joint, all.numbers, slopes, *last, all.states.back());
   return {std::move(path), std::move(all)};
 }
 

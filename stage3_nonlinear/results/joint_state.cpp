@@ -7,91 +7,56 @@
 #include <tuple>
 #include <utility>
 
-#include "stage3_nonlinear/equations/rim_friction.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
-/// The laws' forces on the plates by fastener and hole, that on the ground behind the last, each (a), force.
-using Bearing = std::vector<std::vector<VectorXd>>;
+/// Load that each plane transfers by one of its holes, by amount where the discs have two directions, (n).
+VectorXd transferred(const JointEquations& equations, const VectorXd& F, Index side) {
+  VectorXd result(F.size());
+  for (const auto& [interface, row, friction] : equations.interfaces)
+    if (const Index n = interface->size(); row + n <= F.size())
+      result.segment(row, n) = interface->transferred(F.segment(row, n), side);
+  return amounts(result, equations.n_directions());
+}
 
-Bearing bearing_forces(const JointModel& joint, const VectorXd& F) {
+/// The laws' forces on all discs, with what friction puts on them instead, (N) by unknowns, force.
+VectorXd forces_on_discs(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
   const Index a = joint.n_directions();
-  Bearing bearing;
-  for (const auto& fastener : joint.fasteners) bearing.emplace_back(fastener.n_planes() + 1, VectorXd::Zero(a));
+  VectorXd forces = VectorXd::Zero(joint.n_unknowns());
+  const auto disc = [&](const HoleModel& hole) { return joint.offset(hole.plate) + hole.disc; };
   for (Index j = 0; j < joint.n_planes(); ++j) {
-    const ShearPlane& plane = joint.planes[j];
-    bearing[plane.fastener][plane.first] -= F.segment(j * a, a);
-    bearing[plane.fastener][plane.first + 1] += F.segment(j * a, a);
+    const auto holes = joint.holes(joint.planes[j]);
+    forces.segment(disc(holes[0]), a) -= step.F.segment(j * a, a);
+    if (holes.size() > 1) forces.segment(disc(holes[1]), a) += step.F.segment(j * a, a);
   }
-  return bearing;
+  const auto& columns = equations.system->friction.columns;
+  for (Index i = 0; i < std::ssize(columns); ++i)
+    if (columns[i].case_at < 0) forces[joint.offset(columns[i].plate) + columns[i].disc] -= step.Lambda[i];
+  return forces;
 }
 
-/// Friction case of a hole for a bearing force; that without a load if there is no friction.
-const FrictionLoad& friction_at(const HoleModel& hole, Index direction, double bearing) {
-  static const FrictionLoad none;
-  return hole.friction.empty() ? none : hole.friction[direction][bearing < 0 ? minus_side : plus_side];
-}
-
-/// @param side 0: in the first hole of each plane, 1: in the second; the ground gets what leaves the last hole.
-VectorXd transferred(const JointModel& joint, const VectorXd& F, const Bearing& bearing, Index side) {
-  const Index a = joint.n_directions();
-  VectorXd result = F;
-  for (Index j = 0; j < joint.n_planes(); ++j) {
-    const ShearPlane& plane = joint.planes[j];
-    const Index hole = joint.is_to_ground(plane) ? plane.first : plane.first + side;
-    for (Index d = 0; d < a; ++d) {
-      const double b = bearing[plane.fastener][hole][d];
-      const FrictionLoad& friction = friction_at(joint.fasteners[plane.fastener].holes[hole], d, b);
-      result[j * a + d] *= friction.bearing + friction.resultant;
-    }
+/// Sets the forces of friction on the discs of a plate by the peak stresses of its cases, and takes those of the shears
+/// of rims of contact, which are in the discs' forces, out of the bearing.
+void set_friction(const PlateModel& plate, PlateState& state) {
+  for (Index i = 0; i < std::ssize(plate.friction_hole); ++i) {
+    const auto hole = std::ranges::find(plate.holes, plate.friction_hole[i]);
+    const int axis = plate.friction_bearing[i].back() == 'y' ? 1 : 0;
+    const auto at = std::ranges::find(plate.axes, axis);
+    if (state.Lambda[i] == 0 || hole == plate.holes.end() || at == plate.axes.end()) continue;
+    const Index a = std::ssize(plate.axes), disc = (hole - plate.holes.begin()) * a, d = at - plate.axes.begin();
+    const double sign = plate.friction_bearing[i][0] == '-' ? -1 : 1;
+    state.friction[disc + d] += sign * std::abs(plate.friction_resultant[i]) * state.Lambda[i];
+    if (a > 1 && plate.has_disc(disc + 1 - d))
+      state.friction[disc + 1 - d] += entry_or_0(plate.friction_resultant_across, i) * state.Lambda[i];
   }
-  return amounts(result, a);
-}
-
-/// Adds what a fastener's bearing forces, (a), and their friction do to a plate in one of its holes.
-/// @param asked (m+e) S u + R Lambda + T f of the plate's rows, force.
-void add_hole(PlateState& state, VectorXd& asked, const HoleModel& hole, const VectorXd& bearing) {
-  for (Index d = 0; d < std::ssize(bearing); ++d) {
-    const double b = bearing[d];
-    const FrictionLoad& friction = friction_at(hole, d, b);
-    state.bearing[hole.disc + d] += friction.bearing * b;
-    if (friction.load.size() == 0) continue;
-    asked += friction.load * std::abs(b);
-    state.Lambda[friction.case_index] += friction.peak * std::abs(b);
-    state.friction[hole.disc + d] += b * friction.resultant;
-    if (friction.across == 0) continue;
-    const Index other = hole.disc + 1 - d;
-    const double across = friction.across * std::abs(b);
-    state.friction[other] += across;
-    for (double* bearing_there : {&state.bearing[other], &asked[other]}) *bearing_there -= across;
-  }
-}
-
-/// Adds the shears of a plate's rims of contact: what they ask of its rows, and their share of the force on each disc.
-/// @param shear Of all rims from the plate's on; what it has taken is cut off.
-void add_shears(const JointModel& joint, Index at, VectorXd& asked, VectorXd& shear, PlateState& state) {
-  const PlateModel& plate = joint.plates[at];
   for (const auto& rim : plate.contact) {
-    if (joint.mu(at, rim.hole) == 0) continue;
-    const Index n = rim.pressures.n_shears(), first = plate.first_shear(rim);
-    state.Lambda.segment(first, n) = shear.head(n) / rim.area;
-    asked += plate.R.middleCols(first, n) * state.Lambda.segment(first, n);
+    const VectorXd shear = rim.area * state.Lambda.segment(plate.first_shear(rim), rim.pressures.n_shears());
     for (Index disc = 0; disc < plate.n_discs(); ++disc) {
       if (plate.hole_of(disc) != rim.hole) continue;
-      state.friction[disc] = rim.pressures.drag(plate.axis_of(disc)).dot(shear.head(n));
+      state.friction[disc] = rim.pressures.drag(plate.axis_of(disc)).dot(shear);
       state.bearing[disc] -= state.friction[disc];
     }
-    shear = shear.tail(shear.size() - n).eval();
   }
-}
-
-/// The rims of contact of a plate.
-std::vector<RimContact> rims_of_contact(const JointModel& joint, Index at) {
-  std::vector<RimContact> rims;
-  for (const auto& rim : joint.plates[at].contact)
-    rims.emplace_back(rim.pressures, rim.modulus * rim.area, joint.gap(at, rim.hole), joint.mu(at, rim.hole));
-  return rims;
 }
 
 /// Amounts of the unit cases of a plate's file.
@@ -113,37 +78,22 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
   return discs;
 }
 
-/// @param u         (m+e+k) displacements of the plate and moments of its rims.
-/// @param rim_F     (k) forces of these.
-/// @param shear     Forces of the shears of this plate's rims and of those behind it; cut to the latter.
+/// @param rim_F     (k) forces of the moments of the plate's rims.
+/// @param on_discs  (m) results of forces_on_discs.
 /// @param worst_row Raised to what the plate's worst row is out of balance, force.
-PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, const VectorXd& rim_F,
-                       const PathStep& step, const Bearing& bearing, VectorXd& shear, double& worst_row) {
-  const PlateModel& plate = joint.plates[at];
+void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorXd& on_discs, double scale,
+                   PlateState& state, double& worst_row) {
   const Index m = plate.n_discs(), k = rim_F.size();
-  const double factor = step.load_factor;
-  const VectorXd none = VectorXd::Zero(m);
-  VectorXd asked = plate.S * u + factor * (plate.T * plate.traction_rate(factor));
-  PlateState state{.D = u.head(m),
-                   .De = u.segment(m, plate.n_externals()),
-                   .Pe = factor * plate.external_force,
-                   .moments = u.tail(k),
-                   .waves = {},
-                   .added = {},
-                   .Lambda = VectorXd::Zero(plate.R.cols()),
-                   .traction = factor * plate.traction_rate(factor),
-                   .bearing = none,
-                   .friction = none};
-  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
-    for (Index hole = 0; hole < std::ssize(joint.fasteners[i].holes); ++hole)
-      if (joint.fasteners[i].holes[hole].plate == at)
-        add_hole(state, asked, joint.fasteners[i].holes[hole], bearing[i][hole]);
-  const VectorXd on_discs = state.bearing;  // in holes of contact with their friction
-  add_shears(joint, at, asked, shear, state);
-  load_rims(plate, rims_of_contact(joint, at), state);
+  VectorXd u(plate.n_unknowns());
+  u << state.D, state.De, state.moments;
+  VectorXd asked = plate.S * u + plate.T * state.traction;
+  if (state.Lambda.size() > 0) asked += plate.R * state.Lambda;
+  state.bearing = on_discs;
+  state.friction = VectorXd::Zero(m);
+  set_friction(plate, state);
   if (plate.stress_level)
     state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_amounts(plate, state),
-                            loaded_discs(plate, state), step.scale, state.loaded);
+                            loaded_discs(plate, state), scale, state.loaded);
   worst_row = std::max(
       {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
@@ -157,7 +107,6 @@ PlateState plate_state(const JointModel& joint, Index at, const VectorXd& u, con
   }
   for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += state.bearing[i] + state.friction[i];
   state.by_supports = -(state.applied + state.by_fasteners);
-  return state;
 }
 
 /// Worst component of what the holes of a fastener give it altogether, bearing and friction, of all fasteners that
@@ -177,6 +126,44 @@ double worst_fastener(const JointModel& joint, const std::vector<PlateState>& pl
 }
 
 }  // namespace
+
+MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, const MatrixXd& load,
+                       const MatrixXd& delta, const MatrixXd& Lambda) {
+  MatrixXd D = system.D_load * load + system.D_delta * delta;
+  if (Lambda.rows() > 0) D -= system.rigid.moved(friction_loads(joint, system.friction.columns, Lambda));
+  return D;
+}
+
+std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
+                                    const std::vector<RimContact>& rims, const VectorXd& D, const VectorXd& load,
+                                    const VectorXd& Lambda) {
+  std::vector<PlateState> plates(joint.plates.size());
+  for (Index i = 0; i < std::ssize(plates); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
+    plates[i].D = u.head(plate.n_discs());
+    plates[i].De = u.segment(plate.n_discs(), plate.n_externals());
+    plates[i].moments = u.tail(plate.n_unknowns() - plate.first_moment());
+    plates[i].Lambda = VectorXd::Zero(plate.R.cols());
+    plates[i].Pe = VectorXd::Zero(plate.n_externals());
+    plates[i].traction = VectorXd::Zero(std::ssize(plate.tractions));
+  }
+  for (Index i = 0; i < load.size(); ++i) {
+    const LoadCase& its = system.cases[i];
+    if (its.is_displacement) continue;
+    (its.is_traction ? plates[its.plate].traction : plates[its.plate].Pe)[its.at] = load[i];
+  }
+  for (Index i = 0; i < Lambda.size(); ++i)
+    if (const auto& [plate, case_at, disc] = system.friction.columns[i]; case_at >= 0)
+      plates[plate].Lambda[case_at] += Lambda[i];
+  Index first_rim = 0;
+  for (Index i = 0; i < std::ssize(plates); ++i) {
+    const Index n = std::ssize(joint.plates[i].contact);
+    load_rims(joint.plates[i], std::span(rims).subspan(first_rim, n), plates[i]);
+    first_rim += n;
+  }
+  return plates;
+}
 
 void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state) {
   const Index h = std::ssize(plate.friction_hole), n_shears = plate.R.cols() - h;
@@ -199,21 +186,23 @@ void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateS
   if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_amounts(plate, state), loads);
 }
 
-JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step) {
-  const VectorXd D = system.displacements(step.all_F(), step.all_delta(), step.load_factor, step.shear);
+JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
+  const CondensedSystem& system = *equations.system;
+  const VectorXd load = step.load_factor * equations.load_rates(step.load_factor);
+  const VectorXd D = displacements(joint, system, load, step.all_delta(), step.Lambda);
+  const VectorXd on_discs = forces_on_discs(joint, equations, step);
   JointState state;
-  VectorXd shear = step.shear;
-  const Bearing bearing = bearing_forces(joint, step.F);
-  state.transferred_first = transferred(joint, step.F, bearing, 0);
-  state.transferred_second = transferred(joint, step.F, bearing, 1);
+  state.plates = plate_loads(joint, system, equations.rims, D, load, step.Lambda);
+  state.transferred_first = transferred(equations, step.F, 0);
+  state.transferred_second = transferred(equations, step.F, 1);
   state.largest_force = std::max(step.F.lpNorm<Eigen::Infinity>(), step.scale);
   Index first_moment = 0;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
-    const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
-    const Index k = plate.n_unknowns() - plate.first_moment();
-    const PlateState& its = state.plates.emplace_back(
-        plate_state(joint, i, u, step.rim_F.segment(first_moment, k), step, bearing, shear, state.out_of_balance));
+    PlateState& its = state.plates[i];
+    const Index k = its.moments.size();
+    balance_plate(plate, step.rim_F.segment(first_moment, k), on_discs.segment(joint.offset(i), plate.n_discs()),
+                  step.scale, its, state.out_of_balance);
     first_moment += k;
     // Matrices do not tell: a sheet that supports hold without statical indeterminacy moves without force as well.
     for (const int axis : plate.unsupported_axes)

@@ -51,7 +51,19 @@ struct JointState {
 /// @param rims Those of contact.
 void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state);
 
-[[nodiscard]] JointState joint_state(const JointModel& joint, const CondensedSystem& system, const PathStep& step);
+/// Displacements of all unknowns, (N, columns), length, by amounts of the load cases, (l, columns), relative
+/// displacements of planes and moments, (r, columns), and amounts of friction, (t, columns).
+[[nodiscard]] MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, const MatrixXd& load,
+                                     const MatrixXd& delta, const MatrixXd& Lambda);
+
+/// What loads, displacements and friction make of each plate: D, De, moments, Lambda, tractions and forces Pe, and what
+/// load_rims adds.
+/// @param rims Of contact, of all plates. @param D (N).
+[[nodiscard]] std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
+                                                  const std::vector<RimContact>& rims, const VectorXd& D,
+                                                  const VectorXd& load, const VectorXd& Lambda);
+
+[[nodiscard]] JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step);
 
 /// Shares in per cent of the sum over all planes between the same two plates, or a plate and the ground, whichever
 /// their fasteners name first, shape (n); NaN where the sum is nothing but rounding.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/count.hpp"
-#include "stage3_nonlinear/equations/rim_friction.hpp"
+#include "stage3_nonlinear/interfaces/rim_friction.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "stage3_nonlinear/equations/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/rim_contact.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 #include "stage3_nonlinear/results/hoop_stress.hpp"
 

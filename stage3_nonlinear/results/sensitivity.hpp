@@ -21,10 +21,12 @@ struct Sensitivity {
   MatrixXd gap;           ///< (n, g) by the gap of each rim of contact, force / length
 };
 
-/// Changes of a solution with each number, in the order of JointNumbers::n_derivatives.
+/// Changes of a solution with each number, in the order of JointNumbers.
 struct StateSlopes {
-  MatrixXd F, delta;        ///< (r, columns) of all rows of the condensed system
-  std::vector<Index> none;  ///< columns without a derivative
+  MatrixXd F, delta;                ///< (r, columns) of all rows of the condensed system
+  MatrixXd Lambda;                  ///< (t, columns) of the amounts of friction
+  MatrixXd load;                    ///< (l, columns) of the amounts of the load cases
+  std::vector<Index> none, no_row;  ///< columns without a derivative, and rows of F
 };
 [[nodiscard]] StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point);
 
@@ -33,6 +35,6 @@ struct StateSlopes {
 ///
 /// Forces on a plate that gaps leave free (TangentCheck::mechanism) are differentiable by all numbers that leave it in
 /// balance; derivatives by a load that would set it moving, and those of forces at a limit load, are infinite.
-[[nodiscard]] Sensitivity sensitivity(const JointNumbers& numbers, const SolvedPoint& point);
+[[nodiscard]] Sensitivity sensitivity(const JointNumbers& numbers, const StateSlopes& slopes, const SolvedPoint& point);
 
 }  // namespace fastjoint::stage3

@@ -17,10 +17,10 @@ namespace {
 using Eigen::VectorXd;
 using stage3::JointEquations;
 
-double force_scale(const JointEquations& equations) { return equations.system.q.cwiseAbs().maxCoeff(); }
+double force_scale(const JointEquations& equations) { return equations.q.cwiseAbs().maxCoeff(); }
 
 double residual_of(const JointEquations& equations, const VectorXd& F, const VectorXd& delta) {
-  return equations.system.residual(F, delta, 1).cwiseAbs().maxCoeff() / force_scale(equations);
+  return VectorXd(F + equations.system->S_ud * delta - equations.q).cwiseAbs().maxCoeff() / force_scale(equations);
 }
 
 /// Forces of all solutions that random starts find, spent fasteners left out.
@@ -35,7 +35,7 @@ std::vector<VectorXd> solutions(const JointEquations& equations, std::mt19937& r
         equations.n_unknowns(), [&] { return (chance(random, 0.5) ? 1 : -1) * decades(random, 1e-2, 1e2); });
     const auto root = (i % 2 == 0 ? stage3::hybridsj_root : stage3::newton_root)(problem, start, {tolerance, 200});
     if (!root.converged) continue;
-    const auto state = contact_state(equations.contacts, scale * root.x);
+    const auto state = contact_state(equations, scale * root.x);
     const auto equal = [&](const VectorXd& F) { return (F - state.F).cwiseAbs().maxCoeff() < same * scale; };
     if (!state.spent && std::none_of(found.begin(), found.end(), equal)) found.push_back(state.F);
   }
@@ -49,7 +49,7 @@ bool is_solution(const JointEquations& equations, const stage3::PathStep& step, 
     const auto& contact = equations.contacts[j];
     c[j] = contact.stiffness * step.delta[j] + (contact.law->rises() ? step.F[j] : 0);
   }
-  const auto state = contact_state(equations.contacts, c);
+  const auto state = contact_state(equations, c);
   return !state.spent && residual_of(equations, state.F, state.delta) <= 10 * tolerance &&
          residual_of(equations, step.F, step.delta) <= tolerance;
 }

@@ -4,6 +4,7 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "tests/bench/stability_curves.hpp"
@@ -60,7 +61,31 @@ test::Lap rows(std::mt19937& random, Family family, int n) {
   return {plate(random, a), plate(random, b), decades(random, 1e-3, 1e6)};
 }
 
-stage3::CondensedSystem two_plates(std::mt19937& random, Family family, int n) {
+/// A joint whose laws are still to come: of plates, or of a stiffness and a load alone.
+struct Base {
+  std::optional<stage3::JointModel> joint;
+  MatrixXd S_ud;
+  VectorXd q;
+
+  /// @param contacts One for each plane; without plates with the plates' own stiffness.
+  [[nodiscard]] stage3::JointEquations with(const std::vector<Contact>& contacts) const {
+    if (!joint) return test::equations_of(S_ud, q, contacts);
+    stage3::JointModel its = *joint;
+    for (Index j = 0; j < std::ssize(contacts); ++j) {
+      its.planes[j].law = contacts[j].law;
+      its.planes[j].clearance = contacts[j].clearance;
+      its.planes[j].one_sided = contacts[j].one_sided;
+    }
+    return make_equations(its);
+  }
+};
+
+Base base_of(stage3::JointModel joint) {
+  const auto equations = make_equations(joint);
+  return {std::move(joint), equations.system->S_ud, equations.q};
+}
+
+Base two_plates(std::mt19937& random, Family family, int n) {
   auto lap = rows(random, family, n);
   const bool friction = family == Family::friction;
   if (friction) {
@@ -70,10 +95,10 @@ stage3::CondensedSystem two_plates(std::mt19937& random, Family family, int n) {
   auto joint = test::joint_of(lap, test::linear_law(1));
   for (Index j = 0; friction && j < std::ssize(joint.planes); ++j)
     if (chance(random, 0.7)) test::set_friction(joint, j, uniform(random, 0, 0.4));
-  return condense(joint);
+  return base_of(std::move(joint));
 }
 
-stage3::CondensedSystem three_plates(std::mt19937& random, int n_planes) {
+Base three_plates(std::mt19937& random, int n_planes) {
   const int n = std::max(2, n_planes / 2);
   const double k = decades(random, 1e2, 1e7);
   const auto law = test::linear_law(1);
@@ -85,18 +110,18 @@ stage3::CondensedSystem three_plates(std::mt19937& random, int n_planes) {
   joint.plates.push_back(stage3::make_plate(
       "c", "c.h5", plate(random, {n, k * decades(random, 0.1, 10), false, chance(random, 0.5) ? k : 0}), 8));
   for (int j = 0; j < n; ++j) test::add_fastener(joint, {{1, j}, {0, j}, {2, j}}, law);
-  return condense(joint);
+  return base_of(std::move(joint));
 }
 
 /// Eigenvalues over three decades, in one joint of two a plate that floats in x and y.
-stage3::CondensedSystem discs_in_x_and_y(std::mt19937& random, int n_planes) {
+Base discs_in_x_and_y(std::mt19937& random, int n_planes) {
   const Index n = 2 * std::max(2, n_planes / 2);
   const auto normal = [&] { return std::normal_distribution<double>()(random); };
   const Eigen::HouseholderQR<MatrixXd> qr(MatrixXd::NullaryExpr(n, n, normal));
   const MatrixXd Q = qr.householderQ();
   const double k = decades(random, 1e2, 1e7);
   const VectorXd values = VectorXd::NullaryExpr(n, [&] { return k * decades(random, 1e-3, 1); });
-  stage3::CondensedSystem system;
+  Base system;
   system.S_ud = Q * values.asDiagonal() * Q.transpose();
   if (chance(random, 0.5)) {
     MatrixXd fixed = MatrixXd::Zero(n, n);  // what is left without the mean motion in each direction
@@ -106,11 +131,10 @@ stage3::CondensedSystem discs_in_x_and_y(std::mt19937& random, int n_planes) {
     system.S_ud = fixed * system.S_ud * fixed;
   }
   system.q = decades(random, 1e-3, 1e6) * VectorXd::NullaryExpr(n, normal);
-  system.E = system.H_plus = system.H_minus = {};
   return system;
 }
 
-stage3::CondensedSystem random_system(std::mt19937& random, Family family, int n_planes) {
+Base random_base(std::mt19937& random, Family family, int n_planes) {
   if (family == Family::stack) return three_plates(random, n_planes);
   if (family == Family::discs) return discs_in_x_and_y(random, n_planes);
   return two_plates(random, family, n_planes);
@@ -118,14 +142,13 @@ stage3::CondensedSystem random_system(std::mt19937& random, Family family, int n
 
 /// Makes the load from a solution: coordinates at random, of which some stop exactly where a fastener begins to bear,
 /// slips or yields. Then there is a solution also of fasteners that carry a limited force only.
-void load_from_solution(std::mt19937& random, RandomJoint& joint) {
-  auto& [system, contacts, metric, rims] = joint.equations;
-  const Index a = std::ssize(system.q) / contacts.size();
-  const double scale = system.q.cwiseAbs().maxCoeff();
+void load_from_solution(std::mt19937& random, const Base& base, std::vector<Contact>& contacts, RandomJoint& joint) {
+  const Index a = std::ssize(base.q) / contacts.size();
+  const double scale = base.q.cwiseAbs().maxCoeff();
   VectorXd c = VectorXd::NullaryExpr(
-      system.q.size(), [&] { return scale * (chance(random, 0.5) ? 1 : -1) * decades(random, 1e-2, 10); });
+      base.q.size(), [&] { return scale * (chance(random, 0.5) ? 1 : -1) * decades(random, 1e-2, 10); });
   for (Index j = 0; j < std::ssize(contacts); ++j) {
-    const Contact& contact = contacts[j];
+    const Contact& contact = joint.equations.contacts[j];
     auto here = c.segment(j * a, a);
     const double open = contact.stiffness * contact.law->gap(contact.clearance);
     here += here.normalized() * open;
@@ -134,12 +157,14 @@ void load_from_solution(std::mt19937& random, RandomJoint& joint) {
     const double event = corners && !corners->empty() ? corners->back() : open;
     here = here.normalized() * (chance(random, 0.2) ? 0.5 * open : event);
   }
-  if (a == 1 && chance(random, 0.3))
+  if (a == 1 && chance(random, 0.3)) {
     for (auto& contact : contacts) contact.one_sided = chance(random, 0.5);
-  const auto state = contact_state(contacts, c);
-  const VectorXd q = system.residual(state.F, state.delta, 0);
+    joint.equations = base.with(contacts);
+  }
+  const auto state = contact_state(joint.equations, c);
+  const VectorXd q = joint.equations.residual(state, 0);
   if (q.cwiseAbs().maxCoeff() == 0) return;
-  system.q = q;
+  joint.equations.q = q;
   joint.exact = state.F;
 }
 
@@ -151,7 +176,7 @@ RandomJoint random_joint(std::uint32_t seed) {
   joint.seed = seed;
   joint.family = static_cast<Family>(std::uniform_int_distribution<int>(0, family_names.size() - 1)(random));
   joint.ratio = decades(random, 1e-4, 1e4);
-  auto system = random_system(random, joint.family, static_cast<int>(decades(random, 3, 101)));
+  const Base system = random_base(random, joint.family, static_cast<int>(decades(random, 3, 101)));
   const double F = system.q.cwiseAbs().maxCoeff(), k = system.S_ud.diagonal().mean();
   const Index n = system.q.size() / (joint.family == Family::discs ? 2 : 1);
   const double loose = chance(random, 0.3) ? 0 : uniform(random, 0.2, 1), gap = F / k * decades(random, 1e-4, 1e4);
@@ -162,17 +187,18 @@ RandomJoint random_joint(std::uint32_t seed) {
     const double clearance = chance(random, loose) ? gap * decades(random, 0.1, 1) : 0;
     contacts.push_back({joint.curves.back().law, clearance, 1, false});
   }
-  joint.equations = make_equations(std::move(system), std::move(contacts));
+  joint.equations = system.with(contacts);
   const bool limited = std::any_of(joint.curves.begin(), joint.curves.end(),
                                    [&](const Curve& curve) { return curve.at(1e9 * F / k, 0).slope == 0; });
-  if (limited || joint.family == Family::contact || joint.family == Family::discs) load_from_solution(random, joint);
+  if (limited || joint.family == Family::contact || joint.family == Family::discs)
+    load_from_solution(random, system, contacts, joint);
   return joint;
 }
 
 stage3::JointEquations random_falling_joint(std::uint32_t seed) {
   std::mt19937 random(seed);
   const int n = std::uniform_int_distribution<int>(1, 3)(random);
-  auto system = two_plates(random, Family::lap, n);
+  const Base system = two_plates(random, Family::lap, n);
   const double F = system.q.cwiseAbs().maxCoeff(), k = system.S_ud.diagonal().maxCoeff();
   std::vector<Contact> contacts;
   for (int j = 0; j < n; ++j) {
@@ -181,7 +207,7 @@ stage3::JointEquations random_falling_joint(std::uint32_t seed) {
                                      std::array{size, size * uniform(random, 0.1, 2), size * uniform(random, 0.1, 3)});
     contacts.push_back({law, chance(random, 0.5) ? 0 : unit * uniform(random, 0, 1), 1, chance(random, 0.2)});
   }
-  return make_equations(std::move(system), std::move(contacts));
+  return system.with(contacts);
 }
 
 }  // namespace fastjoint::bench

@@ -34,7 +34,7 @@ struct RandomJoint {
   stage3::JointEquations equations;
   std::vector<Curve> curves;  ///< of the planes
   Eigen::VectorXd exact;      ///< forces, where the load was made from the solution, else empty
-  [[nodiscard]] double force_scale() const { return equations.system.q.cwiseAbs().maxCoeff(); }
+  [[nodiscard]] double force_scale() const { return equations.q.cwiseAbs().maxCoeff(); }
 };
 
 /// 3 to 100 shear planes, stiffness ratios 1e-4 to 1e4, clearances of 1e-4 to 1e4 of the plates' own displacement.

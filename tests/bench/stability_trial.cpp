@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "stage3_nonlinear/equations/first_guesses.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::bench {
@@ -20,19 +21,34 @@ stage3::ContactState state_at(const RandomJoint& joint, const VectorXd& delta, d
   const auto& contacts = joint.equations.contacts;
   const Index n = contacts.size();
   const Index a = delta.size() / n;
-  stage3::ContactState state{
-      VectorXd(n * a), delta, MatrixXd(a, n), {VectorXd(n), VectorXd(n)}, {VectorXd::Ones(n), VectorXd::Ones(n)}, {}};
-  for (Index j = 0; j < n; ++j) {
-    const auto& contact = contacts[j];
-    const VectorXd here = delta.segment(j * a, a);
-    const double length = here.norm();
-    const VectorXd e = length > 0 ? VectorXd(here / length) : VectorXd(VectorXd::Unit(a, 0));
-    const bool open = contact.one_sided && here[0] < 0;
-    const Force on = open ? Force{0, 0} : joint.curves[j].at(length, contact.clearance);
-    state.F.segment(j * a, a) = on.F * e;
-    state.direction.col(j) = e;
-    state.dF.along[j] = std::min(on.slope, steepest);
-    state.dF.across[j] = length > 0 ? std::min(on.F / length, steepest) : state.dF.along[j];
+  stage3::ContactState state = contact_state(joint.equations, VectorXd::Zero(delta.size()));  // for its shapes
+  state.delta = delta;
+  Index first = 0;
+  for (std::size_t i = 0; i < state.parts.size(); ++i) {
+    stage3::Response& part = state.parts[i];
+    const Index rows = part.F.size();
+    part.ddelta.setIdentity();
+    for (Index j = first / a; j < (first + rows) / a; ++j) {
+      const auto& contact = contacts[j];
+      const VectorXd here = delta.segment(j * a, a);
+      const double length = here.norm();
+      const VectorXd e = length > 0 ? VectorXd(here / length) : VectorXd(VectorXd::Unit(a, 0));
+      const bool open = contact.one_sided && here[0] < 0;
+      const Force on = open ? Force{0, 0} : joint.curves[j].at(length, contact.clearance);
+      const double along = std::min(on.slope, steepest),
+                   across = length > 0 ? std::min(on.F / length, steepest) : along;
+      state.F.segment(j * a, a) = on.F * e;
+      auto dF = part.dF.block(j * a - first, j * a - first, a, a);
+      dF = (along - across) * e * e.transpose();
+      dF.diagonal().array() += across;
+    }
+    part.F = state.F.segment(first, rows);
+    const auto& interface = joint.equations.interfaces[i];
+    if (const MatrixXd by_force = interface.interface->friction_by_force(part.F); by_force.size() > 0) {
+      part.dLambda = by_force * part.dF;
+      state.Lambda.segment(interface.friction, by_force.rows()) = by_force * part.F;  // homogeneous of degree one
+    }
+    first += rows;
   }
   return state;
 }
@@ -63,10 +79,10 @@ RootProblem displacement_problem(const RandomJoint& joint, double unit) {
   const double steepest = 1e12 * joint.equations.contacts[0].stiffness;
   return {.residual = [&joint, unit, scale](const VectorXd& x) -> VectorXd {
             const auto state = state_at(joint, unit * x, 0);
-            return joint.equations.system.residual(state.F, state.delta, 1) / scale;
+            return joint.equations.residual(state, 1) / scale;
           },
           .jacobian = [&joint, unit, scale, steepest](const VectorXd& x) -> MatrixXd {
-            return tangent(joint.equations.system, state_at(joint, unit * x, steepest)) * (unit / scale);
+            return tangent(*joint.equations.system, state_at(joint, unit * x, steepest)) * (unit / scale);
           },
           .gradient = {}};
 }
@@ -80,7 +96,7 @@ std::vector<Trial> try_guesses(const RandomJoint& joint, stage3::SolveFunction s
   const RootProblem problem = contact ? root_problem(equations, 1, scale) : displacement_problem(joint, unit);
   std::vector<Trial> trials;
   for (const auto& c : first_guesses(equations, {}, 1)) {
-    const VectorXd start = contact ? c : contact_state(equations.contacts, c).delta;
+    const VectorXd start = contact ? c : contact_state(equations, c).delta;
     Counts counts;
     const double begin = now();
     const Root root = solver(counted(problem, counts), start / unit, options);
@@ -88,7 +104,7 @@ std::vector<Trial> try_guesses(const RandomJoint& joint, stage3::SolveFunction s
     Trial trial{root.converged, root.iterations, counts.residuals, counts.jacobians, seconds, {}};
     if (root.converged) {
       const VectorXd x = unit * root.x;
-      trial.F = contact ? contact_state(equations.contacts, x).F : state_at(joint, x, 0).F;
+      trial.F = contact ? contact_state(equations, x).F : state_at(joint, x, 0).F;
     }
     trials.push_back(std::move(trial));
   }

@@ -164,7 +164,7 @@ TEST_F(ThreeFasteners, AllFirstGuessesAgree) {
 TEST_F(ThreeFasteners, SummaryNamesWhatAnEngineerReads) {
   folder_->write("joint.json", test::three_fastener_joint(1000, 1000, R"(, "clearance": 0.02)"));
   const auto run = test::stage3(*folder_, "joint.json -o result.h5 --csv loads.csv");
-  for (const char* word : {"delta", "F", "transferred", "%", "iterations", "residual", "equilibrium"})
+  for (const char* word : {"delta", "F", "transferred", "%", "iteration", "residual", "equilibrium"})
     EXPECT_THAT(run.out, testing::HasSubstr(word));
   const std::string csv = test::read_file(folder_->path("loads.csv"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4) << csv;

@@ -33,7 +33,7 @@ class Tracer {
         target_(std::abs(target)),
         path_{target < 0 ? -1.0 : 1.0, {}},
         c_(VectorXd::Zero(equations.n_unknowns())),
-        q_(path_.sign * equations.system.q_at(target)) {}
+        q_(path_.sign * equations.q_at(target)) {}
 
   ExactPath trace() {
     std::set<Border> tied = borders_near(c_, rounding);

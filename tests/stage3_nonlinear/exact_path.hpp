@@ -60,10 +60,10 @@ class PiecewiseJoint {
   }
   /// Forces of friction on the planes per force b on a rim, on the side that bears, (n).
   [[nodiscard]] VectorXd friction(const Cell& cell, Index rim) const {
-    if (cell.side[rim] > 0) return system_->H_plus.col(rim);
-    return -system_->H_minus.col(rim);
+    return cell.side[rim] > 0 ? H_plus_.col(rim) : H_minus_.col(rim);
   }
   const CondensedSystem* system_;
+  MatrixXd H_plus_, H_minus_;  ///< (n, f) forces of friction per force on a rim, by the side that bears
   std::vector<CornerCurve> curves_;
   std::vector<Rim> rims_;  ///< (f) rows of E
   std::vector<Index> shared_rims_;

@@ -8,7 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "stage3_nonlinear/equations/first_guesses.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
+#include "stage3_nonlinear/results/joint_state.hpp"
 
 namespace fastjoint::test {
 
@@ -148,12 +150,76 @@ void set_friction(stage3::JointModel& joint, Index fastener, double mu) {
     hole.friction.resize(1);
     for (const auto side : {stage3::plus_side, stage3::minus_side}) {
       const Index column = 2 * hole.disc + (side == stage3::plus_side ? 0 : 1);
-      const double amplitude = mu / plate.friction_unit_force[column];
-      hole.friction[0][side] = {plate.R.col(column) * amplitude, std::abs(plate.friction_resultant[column]) * amplitude,
-                                column, amplitude};
+      hole.friction[0][side] = {column, plate.friction_unit_force[column], std::abs(plate.friction_resultant[column])};
     }
   }
-  balance(joint.fasteners[fastener]);
+}
+
+stage3::FrictionCase add_case(stage3::PlateModel& plate, const stage3::HoleModel& hole, Index d, stage3::Side side,
+                              const Eigen::VectorXd& load, double resultant) {
+  const Index column = plate.R.cols();
+  plate.R.conservativeResize(plate.n_unknowns(), column + 1);
+  plate.R.col(column) = load;
+  plate.friction_hole.push_back(plate.hole_of(hole.disc));
+  const char sign = side == stage3::plus_side ? '+' : '-';
+  plate.friction_bearing.push_back(sign + std::string(stage3::axis_names[plate.axes[d]]));
+  for (auto* list : {&plate.friction_unit_force, &plate.friction_resultant}) list->conservativeResize(column + 1);
+  plate.friction_unit_force[column] = 1;
+  plate.friction_resultant[column] = side == stage3::plus_side ? resultant : -resultant;
+  return {column, 1, resultant};
+}
+
+namespace {
+
+/// Each plane as a fastener of its own.
+std::vector<stage3::PlacedInterface> interfaces_of(const std::vector<stage3::Contact>& contacts, Index n_directions) {
+  std::vector<stage3::PlacedInterface> result;
+  for (Index j = 0; j < std::ssize(contacts); ++j)
+    result.push_back({std::make_shared<stage3::FastenerInterface>(
+                          std::vector{contacts[j]},
+                          stage3::FastenerInterface::Place{.first_plane = j, .n_directions = n_directions}),
+                      j * n_directions, 0});
+  return result;
+}
+
+}  // namespace
+
+stage3::JointEquations equations_of(const MatrixXd& S_ud, const Eigen::VectorXd& q,
+                                    std::vector<stage3::Contact> contacts) {
+  auto system = std::make_shared<stage3::CondensedSystem>(stage3::CondensedSystem{.S_ud = S_ud, .Q = q});
+  system->cases = {{0, 0, 0, false, false}};
+  Eigen::VectorXd own(std::ssize(contacts));
+  for (Index j = 0; j < own.size(); ++j) own[j] = contacts[j].stiffness;
+  set_reference(*system, own);
+  stage3::JointEquations equations{system,
+                                   {.load = Eigen::VectorXd::Ones(1), .law = {}, .clearance = {}, .mu = {}, .gap = {}},
+                                   std::move(contacts),
+                                   {},
+                                   {},
+                                   q,
+                                   q};
+  for (Index j = 0; j < own.size(); ++j) {
+    equations.contacts[j].stiffness = system->stiffness[j];
+    equations.rises = equations.rises && equations.contacts[j].law->rises();
+  }
+  equations.interfaces = interfaces_of(equations.contacts, q.size() / own.size());
+  return equations;
+}
+
+stage3::ContactState state_of(const std::vector<stage3::Contact>& contacts, const Eigen::VectorXd& c) {
+  const Index n = std::ssize(contacts), a = c.size() / n;
+  return contact_state(interfaces_of(contacts, a), a, n, c);
+}
+
+Eigen::VectorXd linear_solution(const stage3::JointModel& joint, double k) {
+  const auto equations = make_equations(joint);
+  return linear_forces(equations, Eigen::VectorXd::Constant(equations.n_unknowns(), 1 / k), 1).F;
+}
+
+Eigen::VectorXd displacements_of(const stage3::JointModel& joint, const Eigen::VectorXd& delta) {
+  const auto equations = make_equations(joint);
+  return displacements(joint, *equations.system, equations.load_rates(1), delta,
+                       Eigen::VectorXd::Zero(equations.system->n_friction()));
 }
 
 stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {

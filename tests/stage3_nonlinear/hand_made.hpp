@@ -9,6 +9,7 @@
 
 #include "common/formats/plate_matrices.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/sensitivity.hpp"
 #include "tests/stage3_nonlinear/scenes.hpp"
 #include "tests/support/files.hpp"
 
@@ -51,6 +52,11 @@ void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Eigen::
 /// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
 void set_friction(stage3::JointModel& joint, Eigen::Index fastener, double mu);
 
+/// Gives a hole a friction case of its own for a side that bears: the loads on the plate's unknowns and the force of
+/// friction, both per unit bearing force and unit coefficient.
+[[nodiscard]] stage3::FrictionCase add_case(stage3::PlateModel& plate, const stage3::HoleModel& hole, Eigen::Index d,
+                                            stage3::Side side, const Eigen::VectorXd& load, double resultant);
+
 /// Ranges of random joints.
 struct RandomJoint {
   double least_n = 0.4;  ///< exponents from here to 1
@@ -65,10 +71,29 @@ struct RandomJoint {
 /// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.
 [[nodiscard]] stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind);
 
+/// Equations of planes without plates, each a fastener of its own, under a load q at load factor 1.
+/// @param contacts With the stiffness of the plates themselves, which is replaced.
+[[nodiscard]] stage3::JointEquations equations_of(const Eigen::MatrixXd& S_ud, const Eigen::VectorXd& q,
+                                                  std::vector<stage3::Contact> contacts);
+
+/// State of such planes, whose stiffness is that of their contacts.
+[[nodiscard]] stage3::ContactState state_of(const std::vector<stage3::Contact>& contacts, const Eigen::VectorXd& c);
+
+/// Forces of linear fasteners of stiffness k at load factor 1.
+[[nodiscard]] Eigen::VectorXd linear_solution(const stage3::JointModel& joint, double k);
+
+/// Displacements of all unknowns without friction at load factor 1.
+[[nodiscard]] Eigen::VectorXd displacements_of(const stage3::JointModel& joint, const Eigen::VectorXd& delta);
+
 /// The solution of a step.
 [[nodiscard]] inline stage3::SolvedPoint point_of(const stage3::JointEquations& equations,
                                                   const stage3::PathStep& step) {
   return {equations, step.load_factor, step.c};
+}
+
+[[nodiscard]] inline stage3::Sensitivity sensitivity_at(const stage3::JointNumbers& numbers,
+                                                        const stage3::SolvedPoint& point) {
+  return sensitivity(numbers, state_slopes(numbers, point), point);
 }
 
 /// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).

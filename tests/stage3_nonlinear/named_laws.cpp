@@ -79,15 +79,14 @@ void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
       for (Index d = 0; d < joint.n_directions(); ++d) {
         auto& sides = hole.friction.emplace_back();
         for (const auto side : {stage3::plus_side, stage3::minus_side}) {
-          const double amplitude = (side == stage3::plus_side ? -0.6 : 0.6) * hole.mu;
+          const double amplitude = side == stage3::plus_side ? -0.6 : 0.6;
           VectorXd load = VectorXd::NullaryExpr(joint.plates[hole.plate].n_unknowns(),
                                                 [&] { return amplitude * uniform(random, 0, 0.2); });
           load[hole.disc + d] += 0.4 * amplitude;
-          sides[side] = {load, 0.6 * hole.mu, 0, 1};
+          sides[side] = add_case(joint.plates[hole.plate], hole, d, side, load, 0.6);
         }
       }
     }
-    balance(fastener);
   }
 }
 
@@ -167,10 +166,10 @@ stage3::JointEquations NamedJoint::equations() {
 NamedJoint named_joint(std::mt19937& random, int kind) {
   NamedJoint joint{random_model(random, kind), {}};
   if (kind == 5 || kind >= 7) add_random_friction(random, joint.model);
-  const auto system = condense(joint.model);
-  const double q = system.q.cwiseAbs().maxCoeff();
+  const auto equations = make_equations(joint.model);
+  const double q = equations.q.cwiseAbs().maxCoeff();
   const double F = q > 0 ? q : 1;  // a sheet that one fastener alone holds and nothing loads
-  const double stiffest = system.S_ud.diagonal().maxCoeff();
+  const double stiffest = equations.system->S_ud.diagonal().maxCoeff();
   // None of a sheet that one fastener holds.
   const double d = stiffest > 1e-9 * F ? F / stiffest : 0.01;
   const auto first = std::uniform_int_distribution<std::size_t>(0, 11)(random);
@@ -184,18 +183,6 @@ NamedJoint named_joint(std::mt19937& random, int kind) {
   }
   joint.load_factor = uniform(random, 0.5, 1.5) * (kind == 2 || uniform(random, 0, 1) < 0.7 ? 1 : -1);
   return joint;
-}
-
-void add_to_mu(stage3::FastenerModel& fastener, Index hole, double change) {
-  const double factor = (fastener.holes[hole].mu + change) / fastener.holes[hole].mu;
-  fastener.holes[hole].mu += change;
-  for (auto& sides : fastener.holes[hole].friction)
-    for (auto& side : sides) {
-      side.load *= factor / side.bearing;
-      side.resultant *= factor / side.bearing;
-      side.bearing = 1;
-    }
-  stage3::balance(fastener);
 }
 
 }  // namespace fastjoint::test

@@ -5,6 +5,8 @@
 #include <cassert>
 #include <cmath>
 
+#include "tests/stage3_nonlinear/hand_made.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -34,9 +36,9 @@ CornerCurve make_curve(const Contact& contact, bool friction) {
     const double high = i == std::ssize(at) ? low + outward(low) : at[i];
     const double c = 0.5 * (low + high);
     const double near = c < 0 ? high : low;  // a law that yields far out loses no digits of its offset there
-    const auto inside = contact_state({contact}, VectorXd::Constant(1, c));
-    const auto state = contact_state({contact}, VectorXd::Constant(1, near));
-    const double dF = inside.dF.along[0], ddelta = inside.ddelta.along[0];
+    const auto inside = test::state_of({contact}, VectorXd::Constant(1, c));
+    const auto state = test::state_of({contact}, VectorXd::Constant(1, near));
+    const double dF = inside.along(&Response::dF, 0), ddelta = inside.along(&Response::ddelta, 0);
     curve.pieces.push_back({state.F[0] - dF * near, dF, state.delta[0] - ddelta * near, ddelta, c < 0 ? -1 : 1});
   }
   return curve;
@@ -51,19 +53,34 @@ bool is_piecewise_linear(const JointEquations& equations) {
          });
 }
 
-PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(&equations.system) {
+PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(equations.system.get()) {
   assert(is_piecewise_linear(equations));
   std::vector<bool> alone(equations.contacts.size(), false);
-  for (Index at = 0; at < system_->E.rows(); ++at) {
-    Rim& rim = rims_.emplace_back();
-    for (Index plane = 0; plane < system_->E.cols(); ++plane)
-      if (const double sign = system_->E(at, plane); sign != 0) rim.emplace_back(plane, sign);
-    if (rim.size() > 1) {
-      shared_rims_.push_back(at);
-    } else {
-      alone[rim[0].first] = true;
+  const auto& layout = system_->friction.rubbing;
+  for (std::size_t fastener = 0; fastener < layout.size(); ++fastener)
+    for (const RubbingHole& hole : layout[fastener]) {
+      const auto& [interface, row, friction] = equations.interfaces[fastener];
+      Rim& rim = rims_.emplace_back();
+      if (hole.hole > 0) rim.emplace_back(row + hole.hole - 1, 1);
+      if (hole.hole < interface->size()) rim.emplace_back(row + hole.hole, -1);
+      const auto [plane, sign] = rim[0];
+      for (const double side : {1.0, -1.0}) {
+        VectorXd F = VectorXd::Zero(interface->size());
+        F[plane - row] = side * sign;
+        const VectorXd all = interface->friction_by_force(F).col(plane - row) / sign;
+        VectorXd its = VectorXd::Zero(all.size());  // what this hole alone does
+        for (const Index at : {hole.sides[plus_side].column, hole.sides[minus_side].column, hole.disc})
+          if (at >= 0) its[at] = all[at];
+        MatrixXd& H = side > 0 ? H_plus_ : H_minus_;
+        H.conservativeResize(system_->H.rows(), H.cols() + 1);
+        H.rightCols(1) = system_->H.middleCols(friction, all.size()) * its;
+      }
+      if (rim.size() > 1) {
+        shared_rims_.push_back(std::ssize(rims_) - 1);
+      } else {
+        alone[plane] = true;
+      }
     }
-  }
   for (Index j = 0; j < std::ssize(alone); ++j) curves_.push_back(make_curve(equations.contacts[j], alone[j]));
 }
 
@@ -90,7 +107,8 @@ CellEquations PiecewiseJoint::equations(const Cell& cell) const {
   for (Index j = 0; j < n; ++j) {
     VectorXd by_force = VectorXd::Unit(n, j);
     for (Index at = 0; at < std::ssize(rims_); ++at)
-      if (const double sign = system_->E(at, j); sign != 0) by_force += sign * friction(cell, at);
+      for (const auto& [plane, of_plane] : rims_[at])
+        if (plane == j) by_force += of_plane * friction(cell, at);
     const auto& [F0, dF, delta0, ddelta, sign] = piece(cell, j);
     const auto by_delta = system_->S_ud.col(j);
     result.J.col(j) = ddelta * by_delta + dF * by_force;

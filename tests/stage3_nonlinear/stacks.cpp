@@ -39,6 +39,7 @@ stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates) {
 
 void load_discs(stage3::JointModel& joint, Index plate, const VectorXd& forces) {
   joint.plates[plate].T = -forces;
+  joint.plates[plate].tractions = {"T"};
   joint.plates[plate].traction_force = VectorXd::Ones(1);
   joint.plates[plate].traction_axis = {joint.axes[0]};
 }
@@ -87,7 +88,7 @@ stage3::PathStep solved(const stage3::JointModel& joint) {
 }
 
 stage3::JointState state_of(const stage3::JointModel& joint, const stage3::PathStep& step) {
-  return stage3::joint_state(joint, stage3::condense(joint), step);
+  return stage3::joint_state(joint, stage3::make_equations(joint), step);
 }
 
 }  // namespace fastjoint::test

@@ -6,6 +6,7 @@
 #include <Eigen/LU>
 
 #include "common/errors.hpp"
+#include "stage3_nonlinear/equations/first_guesses.hpp"
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
@@ -31,9 +32,7 @@ formats::PlateMatrices plate_of(const MatrixXd& S, int n_discs, int n_externals)
   return plate;
 }
 
-VectorXd linear_solution(const CondensedSystem& system, double k) {
-  return linear_forces(system, VectorXd::Constant(system.q.size(), 1 / k), 1).F;
-}
+using test::linear_solution;
 
 TEST(CondensedSystem, OfTwoEqualSheetsIsHalfASheet) {
   // Equal S: the parallel sum S (S + S)^-1 S is S / 2, where the minus sign printed in (26) has no value at
@@ -42,12 +41,12 @@ TEST(CondensedSystem, OfTwoEqualSheetsIsHalfASheet) {
   const MatrixXd S = test::random_stiffness(random, 5);
   auto joint = test::joint_of({plate_of(S, 4, 1), plate_of(S, 4, 1), 10}, test::linear_law(1));
   const MatrixXd Shat = S.topLeftCorner(4, 4) - S.topRightCorner(4, 1) * S.bottomLeftCorner(1, 4) / S(4, 4);
-  const CondensedSystem system = condense(joint);
-  EXPECT_LT((system.S_ud - Shat / 2).norm(), 1e-14 * Shat.norm());
+  const JointEquations equations = make_equations(joint);
+  EXPECT_LT((equations.system->S_ud - Shat / 2).norm(), 1e-14 * Shat.norm());
   // Rigid fasteners: both plates move as one, so the second carries half of what the discs of the first must
   // be held with.
   const VectorXd Phat = S.topRightCorner(4, 1) / S(4, 4) * 10.0;
-  EXPECT_LT((system.q + Phat / 2).norm(), 1e-14 * Phat.norm());
+  EXPECT_LT((equations.q + Phat / 2).norm(), 1e-14 * Phat.norm());
 }
 
 TEST(CondensedSystem, OfTwoEqualSheetsWithOneFastenerHasAClosedForm) {
@@ -56,7 +55,7 @@ TEST(CondensedSystem, OfTwoEqualSheetsWithOneFastenerHasAClosedForm) {
   const auto joint = test::joint_of(
       {test::spring_plate(1, 1, {{0, ground, k}, {0, 1, 55}}), test::spring_plate(1, 0, {{0, ground, k}}), P},
       test::linear_law(K));
-  EXPECT_NEAR(linear_solution(condense(joint), K)[0], P / 2 * K / (K + k / 2), 1e-14 * P);
+  EXPECT_NEAR(linear_solution(joint, K)[0], P / 2 * K / (K + k / 2), 1e-14 * P);
 }
 
 /// A sheet as if in other units: two springs in series between the discs, none free.
@@ -83,7 +82,7 @@ TEST(CondensedSystem, OfAFloatingDoublerHasAClosedForm) {
   const auto joint = test::joint_of(
       {test::spring_plate(2, 1, {{0, ground, k1}, {0, 1, k2}, {1, 2, k3}}), test::spring_plate(2, 0, {{0, 1, kd}}), P},
       test::linear_law(K));
-  const VectorXd F = linear_solution(condense(joint), K);
+  const VectorXd F = linear_solution(joint, K);
   const double T = P / (1 + k2 / kd + 2 * k2 / K);
   EXPECT_NEAR(F[0], -T, 1e-14 * P);
   EXPECT_NEAR(F[1], T, 1e-14 * P);
@@ -96,7 +95,7 @@ TEST(CondensedSystem, IsTheSameForALargerSpreadOfStiffness) {
                                      test::spring_plate(2, 0, {{0, 1, kd}}), P},
                                     test::linear_law(K));
   const double T = P / (1 + k2 / kd + 2 * k2 / K);
-  EXPECT_NEAR(linear_solution(condense(joint), K)[1] / T, 1, 1e-9);
+  EXPECT_NEAR(linear_solution(joint, K)[1] / T, 1, 1e-9);
 }
 
 /// The other way round, where rounding of the doubler's stiffness meets what holds it; at last nothing seems to.
@@ -109,7 +108,7 @@ TEST(CondensedSystem, AFloatingSheetMayBeMuchStifferThanWhatHoldsIt) {
   };
   for (const double contrast : {1e3, 1e6, 1e9}) {
     const double T = P / (1 + 1 / contrast + 2 * k / K);
-    EXPECT_NEAR(linear_solution(condense(joint(contrast)), K)[1], T, 1e-15 * contrast * T) << contrast;
+    EXPECT_NEAR(linear_solution(joint(contrast), K)[1], T, 1e-15 * contrast * T) << contrast;
   }
   EXPECT_THAT([&] { return condense(joint(1e12)); }, testing::ThrowsMessage<NumericalError>(HasSubstr("mechanism")));
 }
@@ -119,14 +118,12 @@ TEST(CondensedSystem, ImposedDisplacementActsLikeItsForce) {
   auto joint = test::joint_of(
       {plate_of(test::random_stiffness(random, 4), 3, 1), plate_of(test::random_stiffness(random, 3), 3, 0), 10},
       test::linear_law(2));
-  const CondensedSystem by_force = condense(joint);
-  const VectorXd F = linear_solution(by_force, 2);
-  const double displacement = by_force.displacements(F, F / 2, 1)[3];
+  const VectorXd F = linear_solution(joint, 2);
+  const double displacement = test::displacements_of(joint, F / 2)[3];
   joint.plates[0].external_force[0] = 0;
   joint.plates[0].external_displacement[0] = displacement;
-  const CondensedSystem by_displacement = condense(joint);
-  EXPECT_LT((linear_solution(by_displacement, 2) - F).norm(), 1e-13 * F.norm());
-  const JointState state = joint_state(joint, by_displacement, {1, F, F / 2, 1, 0, {}});
+  EXPECT_LT((linear_solution(joint, 2) - F).norm(), 1e-13 * F.norm());
+  const JointState state = joint_state(joint, make_equations(joint), {1, F, F / 2, 1, 0, {}});
   EXPECT_NEAR(state.plates[0].Pe[0], 10, 1e-12);
   EXPECT_EQ(state.plates[0].De[0], displacement);
 }
@@ -138,16 +135,17 @@ TEST(CondensedSystem, TractionActsThroughItsHoldingForces) {
       {plate_of(test::random_stiffness(random, 3), 2, 1), plate_of(test::random_stiffness(random, 2), 2, 0), 0},
       test::linear_law(2));
   joint.plates[0].T = Eigen::Vector3d(-0.2, -0.3, -0.4);
+  joint.plates[0].tractions = {"T"};
   joint.plates[0].traction_force = VectorXd::Constant(1, 50);
   joint.plates[0].traction_axis = {0};
-  const CondensedSystem with_traction = condense(joint);
+  const JointEquations with_traction = make_equations(joint);
+  const VectorXd F = linear_solution(joint, 2);
   // Only the external can carry a load of its own: the part of T f on it.
   joint.plates[0].T = Eigen::Vector3d(0, 0, -0.4);
-  const VectorXd part = condense(joint).q;
+  const VectorXd part = make_equations(joint).q;
   joint.plates[0].traction_force[0] = 0;
   joint.plates[0].external_force[0] = 0.4 * 50;
-  EXPECT_LT((condense(joint).q - part).norm(), 1e-14 * part.norm());
-  const VectorXd F = linear_solution(with_traction, 2);
+  EXPECT_LT((make_equations(joint).q - part).norm(), 1e-14 * part.norm());
   joint.plates[0].T = Eigen::Vector3d(-0.2, -0.3, -0.4);
   joint.plates[0].external_force[0] = 0;
   joint.plates[0].traction_force[0] = 50;
@@ -189,12 +187,12 @@ Theory theory(const formats::PlateMatrices& a, const formats::PlateMatrices& b, 
   return {S_a * sum * S_b, -S_b * sum * P_a};
 }
 
-struct FrictionCase {
+struct JointWithFriction {
   const char* name;
   bool floating;
   bool mixed_signs;
 };
-class Friction : public testing::TestWithParam<FrictionCase> {};
+class Friction : public testing::TestWithParam<JointWithFriction> {};
 
 TEST_P(Friction, IsThatOfTheTheory) {
   std::mt19937 random(6);
@@ -211,27 +209,26 @@ TEST_P(Friction, IsThatOfTheTheory) {
   for (Index j = 0; j < n; ++j)
     if (mu[j] > 0) test::set_friction(joint, j, mu[j]);
 
-  const CondensedSystem system = condense(joint);
-  const LinearForces forces = linear_forces(system, VectorXd::Constant(n, 1.0 / 300), 1);
+  const JointEquations equations = make_equations(joint);
+  const LinearForces forces = linear_forces(equations, VectorXd::Constant(n, 1.0 / 300), 1);
   ASSERT_TRUE(forces.consistent);
   const bool both_ways = forces.F.minCoeff() < 0 && forces.F.maxCoeff() > 0;
   EXPECT_EQ(both_ways, GetParam().mixed_signs);
   const Theory expected = theory(a, b, mu, 100, forces.F);
   const VectorXd residual = forces.F + expected.S_ud * forces.F / 300 - expected.q;
   EXPECT_LT(residual.norm(), 1e-12 * expected.q.norm());
-  EXPECT_LT(joint_state(joint, system, {1, forces.F, forces.F / 300, 1, 0, {}}).out_of_balance, 1e-13);
+  PathStep step{1, forces.F, forces.F / 300, 1, 0, {}};
+  step.Lambda = contact_state(equations, forces.F + equations.system->stiffness.cwiseProduct(step.delta)).Lambda;
+  EXPECT_LT(joint_state(joint, equations, step).out_of_balance, 1e-13);
   // It matters: without friction the same joint has other forces.
-  EXPECT_GT(
-      (linear_forces(condense(test::joint_of({a, b, 100}, test::linear_law(300))), VectorXd::Constant(n, 1.0 / 300), 1)
-           .F -
-       forces.F)
-          .norm(),
-      1e-3 * forces.F.norm());
+  const VectorXd without = linear_solution(test::joint_of({a, b, 100}, test::linear_law(300)), 300);
+  EXPECT_GT((without - forces.F).norm(), 1e-3 * forces.F.norm());
 }
 
 INSTANTIATE_TEST_SUITE_P(Each, Friction,
-                         testing::Values(FrictionCase{"definite", false, false}, FrictionCase{"both_ways", false, true},
-                                         FrictionCase{"floating", true, true}),
+                         testing::Values(JointWithFriction{"definite", false, false},
+                                         JointWithFriction{"both_ways", false, true},
+                                         JointWithFriction{"floating", true, true}),
                          [](const auto& test) { return test.param.name; });
 
 TEST(CondensedSystem, TakesAnyStackOfPlates) {
@@ -243,11 +240,10 @@ TEST(CondensedSystem, TakesAnyStackOfPlates) {
   joint.plates.push_back(make_plate("s", "s.h5", test::spring_plate(2, 0, {{0, 1, k}}), 8));
   joint.fasteners[0].holes[1] = {2, 0, 0, {}};
   test::add_fastener(joint, {{2, 1}, {1, 0}}, test::linear_law(K));
-  const CondensedSystem system = condense(joint);
-  const VectorXd F = linear_solution(system, K);
+  const VectorXd F = linear_solution(joint, K);
   EXPECT_NEAR(F[0], P, 1e-13 * P);
   EXPECT_NEAR(F[1], P, 1e-13 * P);
-  EXPECT_NEAR(system.displacements(F, F / K, 1)[1], P * (3 / k + 2 / K), 1e-13);
+  EXPECT_NEAR(test::displacements_of(joint, F / K)[1], P * (3 / k + 2 / K), 1e-13);
 }
 
 TEST(CondensedSystem, NamesThePlatesThatCanMove) {
@@ -274,9 +270,8 @@ TEST(CondensedSystem, IsHeldByAnImposedDisplacement) {
       test::joint_of({test::chain(2, 1, 1000, {{1, 2, 1000}}), test::chain(2, 0, 1000, {}), 0}, test::linear_law(1));
   joint.plates[0].external_displacement[0] = 0.1;
   // All go along, without force.
-  const CondensedSystem system = condense(joint);
-  EXPECT_EQ(system.q.norm(), 0) << "rounding must not become the largest force";
-  const VectorXd D = system.displacements(VectorXd::Zero(2), VectorXd::Zero(2), 1);
+  EXPECT_EQ(make_equations(joint).q.norm(), 0) << "rounding must not become the largest force";
+  const VectorXd D = test::displacements_of(joint, VectorXd::Zero(2));
   EXPECT_LT((D.array() - 0.1).abs().maxCoeff(), 1e-13);
 }
 

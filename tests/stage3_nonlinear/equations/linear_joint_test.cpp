@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include "stage3_nonlinear/equations/first_guesses.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/exact_path.hpp"
@@ -83,19 +84,21 @@ TEST(LinearJoint, FrictionIsTakenOnTheSidesThatBear) {
 }
 
 TEST(LinearJoint, FrictionThatOutweighsItsForceHasNoConsistentSigns) {
-  // One fastener whose friction outweighs its force, H- = -3 and H+ = 3 by hand: F > 0 needs F (1 + 3) = q,
-  // but without friction F = q < 0 and with it F (1 - 3) = q turns round again.
-  CondensedSystem system{.q = VectorXd::Constant(1, -1),
-                         .S_ud = Eigen::MatrixXd::Zero(1, 1),
-                         .friction = {{0, 0, 0}},
-                         .E = Eigen::MatrixXd::Identity(1, 1),
-                         .H_plus = Eigen::MatrixXd::Constant(1, 1, 3),
-                         .H_minus = Eigen::MatrixXd::Constant(1, 1, 3),
-                         .D_load = {},
-                         .D_delta = {},
-                         .D_plus = {},
-                         .D_minus = {}};
-  EXPECT_FALSE(linear_forces(system, VectorXd::Constant(1, 1.0), 1).consistent);
+  // One fastener whose friction outweighs its force: a column of H of -4 on one side and 4 on the other makes F > 0
+  // need F (1 + 4 mu / c) = q, but without friction F = q < 0, and with it F turns round again.
+  auto lap = test::Lap{test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, ground, 1000}}), -1};
+  std::mt19937 random(3);
+  test::add_friction(lap.a, random);
+  test::add_friction(lap.b, random);
+  auto joint = test::joint_of(lap, test::linear_law(1));
+  test::set_friction(joint, 0, 0.3);
+  auto system = condense(joint);
+  const FrictionLayout& layout = system.friction;
+  for (const RubbingHole& hole : layout.rubbing[0])
+    for (const Side side : {plus_side, minus_side}) system.H(0, hole.sides[side].column) = 1e3;
+  const auto equations =
+      make_equations(joint, std::make_shared<const CondensedSystem>(std::move(system)), parameters_of(joint));
+  EXPECT_FALSE(linear_forces(equations, VectorXd::Constant(1, 1.0), 1).consistent);
 }
 
 }  // namespace

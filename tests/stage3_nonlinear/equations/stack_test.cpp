@@ -155,7 +155,9 @@ TEST(Stack, OfEqualStrapsIsOneStrapOfTwiceTheStiffness) {
 
 /// R mu / c of the one hole of a plate, by sign of the bearing force.
 double friction_at(const JointModel& joint, Index plate, double bearing) {
-  return joint.fasteners[0].holes[plate].friction[0][bearing < 0 ? minus_side : plus_side].load[0];
+  const HoleModel& hole = joint.fasteners[0].holes[plate];
+  const FrictionCase& its = hole.friction[0][bearing < 0 ? minus_side : plus_side];
+  return joint.plates[plate].R(0, its.column) * hole.mu / its.unit_force;
 }
 
 /// Equations of three plates of one disc each: k D + r |b| = b + P with b = -F1, F1 - F2, F2, and D_a - D_b = F1 / K1,
@@ -197,6 +199,8 @@ TEST(Stack, FrictionOfAMiddlePlateIsThatOfTheNetBearingForce) {
       plate.R = rubbing.R_df[0];
       plate.friction_unit_force = rubbing.friction_unit_force;
       plate.friction_resultant = rubbing.friction_resultant;
+      plate.friction_hole = rubbing.friction_hole;
+      plate.friction_bearing = rubbing.friction_bearing;
     }
     test::set_friction(joint, 0, 0.3);
     const auto expected = by_hand(joint, k, P, K);

@@ -51,7 +51,7 @@ TEST_F(ContactJoint, HaveAConvexFunction) {
     const auto gradient = [&](const VectorXd& at) { return problem.gradient(problem.residual(at)); };
     const auto slope = [&](double side) { return gradient(x + side * step * direction); };
     const VectorXd difference = (slope(1) - slope(-1)) / (2 * step);
-    const MatrixXd J = tangent(equations.system, contact_state(equations, x));
+    const MatrixXd J = tangent(*equations.system, contact_state(equations, x));
     MatrixXd H(n, n);
     for (Index j = 0; j < n; ++j) H.col(j) = problem.gradient(J.col(j));
     EXPECT_LT((H * direction - difference).norm(), 1e-4 * (H * direction).norm()) << "joint " << i;
@@ -198,7 +198,7 @@ TEST_F(ContactJoint, TheTangentKnowsFriction) {
     const VectorXd direction = VectorXd::NullaryExpr(equations.n_unknowns(), random);
     const VectorXd difference =
         (problem.residual(x + step * direction) - problem.residual(x - step * direction)) / (2 * step);
-    const VectorXd slope = tangent(equations.system, contact_state(equations, x)) * direction;
+    const VectorXd slope = tangent(*equations.system, contact_state(equations, x)) * direction;
     EXPECT_LT((slope - difference).norm(), 1e-4 * slope.norm()) << "joint " << i;
   }
 }
@@ -214,7 +214,7 @@ TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
     const SolvedPoint point(equations, 1, c);
     const TangentCheck& check = point.check();
     if (check.mechanism) continue;
-    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(equations.system, point.beyond()));
+    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(*equations.system, point.beyond()));
     EXPECT_EQ(check.unstable, (values.real().array() < -1e-10).count()) << "joint " << i;
     if (check.unstable > 0) ++unstable;
   }

@@ -130,10 +130,8 @@ TEST(Events, CornersOfFourStagesAreNamed) {
 TEST(Events, LostContactIsAnEventToo) {
   constexpr double s = 1000, Q = 100, r = 0.2, K = 1e6, g1 = 0.02, g2 = 0.006;
   for (const auto& law : {test::linear_law(100), test::power_law(100, 0.8)}) {
-    CondensedSystem system;
-    system.q = Q * Eigen::Vector2d(1, -r);
-    system.S_ud = s * Eigen::Matrix2d{{2, -1}, {-1, 2}};
-    const JointEquations equations = make_equations(system, {{test::linear_law(K), g1}, {law, g2}});
+    const JointEquations equations = test::equations_of(
+        s * Eigen::Matrix2d{{2, -1}, {-1, 2}}, Q * Eigen::Vector2d(1, -r), {{test::linear_law(K), g1}, {law, g2}});
     const LoadPath path = follow_events(equations, tight);
     ASSERT_EQ(path.steps.size(), 4U);
     EXPECT_THAT(path.steps[0].events, ElementsAre(closes(1)));
@@ -233,10 +231,8 @@ TEST(Events, OfPiecewiseLinearJointsAreTheCornersOfTheExactPath) {
 TEST(Events, ClearanceOfDiscsWithTwoDirectionsIsACircle) {
   constexpr double s_x = 1000, s_y = 500, q_x = 30, q_y = 40, g = 0.05;
   for (const auto& law : {test::linear_law(2000), test::power_law(300, 0.5)}) {
-    CondensedSystem system;
-    system.q = Eigen::Vector2d(q_x, q_y);
-    system.S_ud = Eigen::Vector2d(s_x, s_y).asDiagonal();
-    const LoadPath path = follow_events(make_equations(system, {{law, g}}), tight);
+    const Eigen::Matrix2d S_ud = Eigen::Vector2d(s_x, s_y).asDiagonal();
+    const LoadPath path = follow_events(test::equations_of(S_ud, Eigen::Vector2d(q_x, q_y), {{law, g}}), tight);
     ASSERT_EQ(path.steps.size(), 2U);
     EXPECT_THAT(path.steps[0].events, ElementsAre(closes(0)));
     EXPECT_NEAR(path.steps[0].load_factor, g / std::hypot(q_x / s_x, q_y / s_y), 1e-10);
@@ -249,14 +245,13 @@ TEST(Events, OfDiscsWithTwoDirectionsAreOnTheSideThatBears) {
   std::mt19937 random(31);
   std::uniform_real_distribution<double> number(0.1, 1);
   for (int i = 0; i < 100; ++i) {
-    CondensedSystem system;
-    system.q = 100 * Eigen::Vector2d(number(random), number(random));
-    system.S_ud = 1000 * Eigen::Vector2d(number(random), number(random)).asDiagonal();
-    const JointEquations equations = make_equations(system, {{test::linear_law(3000), 0.05 * number(random)}});
+    const Eigen::Vector2d q = 100 * Eigen::Vector2d(number(random), number(random));
+    const Eigen::Matrix2d S_ud = 1000 * Eigen::Vector2d(number(random), number(random)).asDiagonal();
+    const JointEquations equations = test::equations_of(S_ud, q, {{test::linear_law(3000), 0.05 * number(random)}});
     const LoadPath path = follow_events(equations, tight);
     if (path.steps.size() < 2) continue;
     const double k = equations.contacts[0].stiffness;
-    EXPECT_NEAR(contact_state(equations, path.steps[0].c).dF.along[0], 3000 / (3000 + k), 1e-12) << i;
+    EXPECT_NEAR(contact_state(equations, path.steps[0].c).along(&Response::dF, 0), 3000 / (3000 + k), 1e-12) << i;
   }
 }
 

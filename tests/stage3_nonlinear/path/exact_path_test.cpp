@@ -21,8 +21,8 @@ const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 500}};
 
 /// Largest residual of all laws at a load factor, relative to the load.
 double residual(const JointEquations& equations, const ExactPath& path, double load_factor) {
-  const auto state = contact_state(equations.contacts, path.at(load_factor));
-  return equations.system.residual(state.F, state.delta, load_factor).cwiseAbs().maxCoeff() / force_scale(equations, 1);
+  const auto state = contact_state(equations, path.at(load_factor));
+  return equations.residual(state, load_factor).cwiseAbs().maxCoeff() / force_scale(equations, 1);
 }
 
 /// The joint of load_path_test.cpp: contact at P* = g / (1/K + f).
@@ -37,7 +37,7 @@ TEST(ExactPath, CornerIsTheContactOfTheClosedForm) {
     EXPECT_EQ(path.sign, sign);
     EXPECT_NEAR(100 * path.pieces[0].end, g / (1 / K + f), 1e-11);
     EXPECT_EQ(path.reach(), 1);
-    const VectorXd F = contact_state(equations.contacts, path.at(sign)).F;
+    const VectorXd F = contact_state(equations, path.at(sign)).F;
     EXPECT_NEAR(F[1], sign * (100 - g / (1 / K + f)) / 2, 1e-11);
   }
 }
@@ -53,7 +53,7 @@ TEST(ExactPath, EqualGapsOfASymmetricJointCloseTogether) {
   const ExactPath path = exact_path(make_equations(joint), 1);
   ASSERT_EQ(path.pieces.size(), 1U);
   const JointEquations equations = make_equations(joint);
-  const auto state = contact_state(equations.contacts, path.at(1));
+  const auto state = contact_state(equations, path.at(1));
   for (const double F : state.F) EXPECT_NEAR(F, 100, 1e-10);
   for (const double delta : state.delta) EXPECT_NEAR(delta, gap + 100 / K, 1e-13);
 
@@ -81,7 +81,7 @@ TEST(ExactPath, PlasticFastenersMoveTheirLoadToTheNeighbour) {
   const ExactPath path = exact_path(equations, 1);
   ASSERT_EQ(path.pieces.size(), 2U);
   EXPECT_NEAR(100 * path.pieces[0].end, 2 * F_y, 1e-3) << "to K / rigid";
-  const VectorXd F = contact_state(equations.contacts, path.at(1)).F;
+  const VectorXd F = contact_state(equations, path.at(1)).F;
   EXPECT_NEAR(F[0], F_y, 1e-9);
   EXPECT_NEAR(F[1], 100 - F_y, 1e-6);
 }
@@ -141,7 +141,7 @@ TEST_P(RandomPaths, EqualWhatTheSolversFind) {
       const LoadPath solved = follow(equations, factors, tight);
       EXPECT_FALSE(solved.failure) << "joint " << i;
       for (const auto& step : solved.steps) {
-        const auto state = contact_state(equations.contacts, path.at(step.load_factor));
+        const auto state = contact_state(equations, path.at(step.load_factor));
         const double scale = force_scale(equations, 1);
         EXPECT_LT((state.F - step.F).cwiseAbs().maxCoeff(), 1e-9 * scale) << "joint " << i;
       }
@@ -189,7 +189,7 @@ TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
       const LoadPath solved = follow(equations, {0.3 * sign, 0.7 * sign, sign}, tight);
       EXPECT_FALSE(solved.failure) << "joint " << i;
       for (const auto& step : solved.steps) {
-        const auto state = contact_state(equations.contacts, path.at(step.load_factor));
+        const auto state = contact_state(equations, path.at(step.load_factor));
         EXPECT_LT((state.F - step.F).cwiseAbs().maxCoeff(), 1e-9 * force_scale(equations, 1)) << "joint " << i;
       }
     }

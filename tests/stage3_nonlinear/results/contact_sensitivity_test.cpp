@@ -49,8 +49,8 @@ TEST_F(ContactJoint, HaveTheStiffnessOfDifferences) {
     const LoadPath path = follow(equations, {1, 1 - change, 1 + change, 1 - change / 2, 1 + change / 2}, tight);
     ASSERT_FALSE(path.failure);
     const auto between = [&](std::size_t low, std::size_t high) {
-      const PlateState a = joint_state(joint, equations.system, path.steps[low]).plates[0];
-      const PlateState b = joint_state(joint, equations.system, path.steps[high]).plates[0];
+      const PlateState a = joint_state(joint, equations, path.steps[low]).plates[0];
+      const PlateState b = joint_state(joint, equations, path.steps[high]).plates[0];
       return (b.Pe[0] - a.Pe[0]) / (b.De[0] - a.De[0]);
     };
     const double stiffness = tangent_stiffness(joint, test::point_of(equations, path.steps[0])).at(0).stiffness;
@@ -80,11 +80,10 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {1}, options);
     ASSERT_FALSE(path.failure);
-    const Sensitivity by =
-        sensitivity(joint_numbers(joint, equations.system), test::point_of(equations, path.steps[0]));
+    const Sensitivity by = test::sensitivity_at(joint_numbers(joint), test::point_of(equations, path.steps[0]));
     const MatrixXd& by_gap = by.gap;
-    EXPECT_EQ(names_of_numbers(joint).n_derivatives(), 1 + by.clearance.cols() + by.law.cols() + by.mu.cols() +
-                                                           by.force.cols() + by.displacement.cols() + by_gap.cols());
+    EXPECT_EQ(joint_numbers(joint).n_derivatives(), 1 + by.clearance.cols() + by.law.cols() + by.mu.cols() +
+                                                        by.force.cols() + by.displacement.cols() + by_gap.cols());
     ASSERT_EQ(by_gap.cols(), 2 * std::ssize(joint.fasteners));
     for (Index rim = 0; rim < by_gap.cols(); ++rim) {
       const Index n = std::ssize(joint.fasteners);

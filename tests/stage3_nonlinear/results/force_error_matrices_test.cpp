@@ -69,6 +69,7 @@ stage3::JointModel joint_of(const Errors& errors, bool exact) {
   for (auto* matrix : {&a.S_ed, &a.S_ee, &a.R_ef, &a.T_e})
     at_all(*matrix, MatrixXd::Zero((*matrix)[0].rows(), (*matrix)[0].cols()));
   auto joint = test::joint_of(lap, test::linear_law(400));
+  joint.plates[0].tractions = {"T"};
   joint.plates[0].traction_force = VectorXd::Constant(1, 50);
   for (Eigen::Index j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
   return joint;
@@ -83,7 +84,7 @@ VectorXd bars_over_errors(const Errors& errors) {
   const auto exact = stage3::follow(stage3::make_equations(joint_of(errors, true)), {1}, tight);
   const auto bars =
       stage3::ForceErrors(joint, equations)
-          .at(test::point_of(equations, path.steps.at(0)), stage3::joint_state(joint, equations.system, path.steps[0]));
+          .at(test::point_of(equations, path.steps.at(0)), stage3::joint_state(joint, equations, path.steps[0]));
   return bars.cwiseQuotient((path.steps[0].F - exact.steps.at(0).F).cwiseAbs());
 }
 

@@ -41,7 +41,7 @@ std::optional<VectorXd> errors_of(const stage3::JointModel& joint, const stage3:
   const stage3::ForceErrors errors(joint, equations);
   if (!errors.are_known()) return std::nullopt;
   const auto& step = path.steps.at(0);
-  return errors.at(test::point_of(equations, step), stage3::joint_state(joint, equations.system, step));
+  return errors.at(test::point_of(equations, step), stage3::joint_state(joint, equations, step));
 }
 
 Solution solve(const test::Lap& lap, double displacement = pull) {

@@ -16,7 +16,7 @@ TEST(LoadStiffness, OfALinearJointIsItsSecant) {
   const auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
   const JointEquations equations = make_equations(joint);
   const LoadPath path = follow(equations, {0, 0.5, -1}, {});
-  const double moved = joint_state(joint, equations.system, path.steps[1]).plates[0].De[0];
+  const double moved = joint_state(joint, equations, path.steps[1]).plates[0].De[0];
   for (const auto& step : path.steps) {
     const auto stiffness = tangent_stiffness(joint, test::point_of(equations, step));
     ASSERT_EQ(stiffness.size(), 1U) << "Q of no plate has a load";
@@ -28,8 +28,8 @@ TEST(LoadStiffness, OfALinearJointIsItsSecant) {
 /// dP / du at plate a's external by joints solved a little below and above, with this change of the load factor.
 double difference(const JointModel& joint, const JointEquations& equations, double change) {
   const LoadPath path = follow(equations, {1, 1 - change, 1 + change}, {{}, {.tolerance = 1e-13}});
-  const PlateState below = joint_state(joint, equations.system, path.steps.at(1)).plates[0];
-  const PlateState above = joint_state(joint, equations.system, path.steps.at(2)).plates[0];
+  const PlateState below = joint_state(joint, equations, path.steps.at(1)).plates[0];
+  const PlateState above = joint_state(joint, equations, path.steps.at(2)).plates[0];
   return (above.Pe[0] - below.Pe[0]) / (above.De[0] - below.De[0]);
 }
 

@@ -82,7 +82,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
     const JointModel joint = test::random_stack(random, 2 + i % 4, 1 + i % 3, 2);
     const auto [A, load] = test::loose_plates(joint);
     const PathStep step = test::solved(joint);
-    const VectorXd u = condense(joint).displacements(step.F, step.delta, 1);
+    const VectorXd u = test::displacements_of(joint, step.delta);
     VectorXd balance = A * u - load;
     for (Index j = 0; j < joint.n_planes(); ++j) {
       const ShearPlane& plane = joint.planes[j];
@@ -172,15 +172,16 @@ void rub(JointModel& joint, std::mt19937& random, double mu) {
   std::uniform_real_distribution<double> number(-0.1, 0.1);
   for (auto& fastener : joint.fasteners)
     for (auto& hole : fastener.holes) {
-      const Index m = joint.plates[hole.plate].n_discs();
+      PlateModel& plate = joint.plates[hole.plate];
       hole.mu = mu;
       hole.friction.resize(2);
       for (Index d = 0; d < 2; ++d)
         for (const Side side : {plus_side, minus_side}) {
-          const double resultant = 2 / std::numbers::pi * mu;
-          VectorXd load = VectorXd::NullaryExpr(m, [&] { return resultant * number(random); });
+          constexpr double resultant = 2 / std::numbers::pi;
+          VectorXd load = VectorXd::Zero(plate.n_unknowns());
+          for (Index i = 0; i < plate.n_discs(); ++i) load[i] = resultant * number(random);
           load[hole.disc + d] -= (side == plus_side ? 0.7 : -0.7) * resultant;
-          hole.friction[d][side] = {load, resultant, 0, 0};
+          hole.friction[d][side] = test::add_case(plate, hole, d, side, load, resultant);
         }
     }
 }
@@ -208,13 +209,15 @@ void add_friction(JointModel& joint, Index plate, const MatrixXd& R, double mu) 
   model.R = R;
   model.friction_unit_force = VectorXd::Constant(4, c);
   model.friction_resultant = Eigen::Vector4d(1, -1, 1, -1) * 2 / std::numbers::pi * c;
+  model.friction_hole.assign(4, model.holes[0]);
+  model.friction_bearing = {"+x", "-x", "+y", "-y"};
   HoleModel& hole = joint.fasteners[0].holes[plate];
   hole.mu = mu;
   hole.friction.resize(2);
   for (Index direction = 0; direction < 2; ++direction)
     for (const Side side : {plus_side, minus_side}) {
       const Index column = 2 * direction + side;
-      hole.friction[direction][side] = {R.col(column) * mu / c, 2 / std::numbers::pi * mu, column, mu / c};
+      hole.friction[direction][side] = {column, c, 2 / std::numbers::pi * c};
     }
 }
 

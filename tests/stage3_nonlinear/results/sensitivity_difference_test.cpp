@@ -33,7 +33,7 @@ struct Number {
 std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
   const Index a = c.size() / std::ssize(equations.contacts);
   std::vector<Index> result;
-  const VectorXd lengths = amounts(c, a), F = contact_state(equations.contacts, c).F;
+  const VectorXd lengths = amounts(c, a), F = contact_state(equations, c).F;
   for (Index j = 0; j < std::ssize(lengths); ++j) {
     const Contact& contact = equations.contacts[j];
     const auto corners = contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
@@ -42,8 +42,15 @@ std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
     result.push_back(F.segment(j * a, a).isZero(0));
     if (a == 1) result.push_back(lengths[j] < 0);
   }
-  if (!equations.system.has_friction()) return result;
-  for (const double b : VectorXd(equations.system.E * F)) result.push_back(b < 0);
+  const auto& rubbing = equations.system->friction.rubbing;
+  for (std::size_t i = 0; i < rubbing.size(); ++i)
+    for (const RubbingHole& hole : rubbing[i]) {
+      const auto& [interface, row, friction] = equations.interfaces[i];
+      const auto of_plane = [&](Index plane) {
+        return plane < 0 || plane * a >= interface->size() ? 0 : F[row + plane * a + hole.direction];
+      };
+      result.push_back(of_plane(hole.hole - 1) < of_plane(hole.hole));  // the side that bears
+    }
   return result;
 }
 
@@ -89,7 +96,7 @@ class Differences {
     const Root root = newton_root(root_problem(equations, changed.load_factor, scale), c_ / scale, {1e-14, 50});
     if (!(root.residual.cwiseAbs().maxCoeff() < 1e-12)) return std::nullopt;
     const VectorXd c = scale * root.x;
-    return Solution{amounts(contact_state(equations.contacts, c).F, changed.model.n_directions()), piece(equations, c)};
+    return Solution{amounts(contact_state(equations, c).F, changed.model.n_directions()), piece(equations, c)};
   }
 
   NamedJoint joint_;
@@ -103,10 +110,17 @@ PlateModel& plate_of(NamedJoint& joint, const std::string& external) {
   return *std::find_if(joint.model.plates.begin(), joint.model.plates.end(), is_it);
 }
 
+HoleModel& hole_of(JointModel& joint, const std::string& name) {
+  for (auto& fastener : joint.fasteners)
+    for (auto& hole : fastener.holes)
+      if (joint.name(hole) == name) return hole;
+  throw std::logic_error(name);
+}
+
 std::vector<Number> Differences::numbers() const {
   constexpr double small = 0.02;  // so that the error of differences is seen
-  const JointNumbers names = joint_numbers(joint_.model, equations_.system);
-  const Sensitivity by = sensitivity(names, test::point_of(equations_, path_.steps[0]));
+  const JointNumbers names = joint_numbers(joint_.model);
+  const Sensitivity by = test::sensitivity_at(names, test::point_of(equations_, path_.steps[0]));
   const double length = path_.steps[0].delta.cwiseAbs().maxCoeff();
   std::vector<Number> all{{"load factor", small, [](NamedJoint& j, double h) { j.load_factor += h; }, by.load_factor}};
   for (Index i = 0; i < std::ssize(joint_.model.planes); ++i) {
@@ -124,12 +138,10 @@ std::vector<Number> Differences::numbers() const {
                    by.law.col(i)});
   }
   for (Index i = 0; i < by.mu.cols(); ++i) {
-    const FrictionHole& hole = names.friction[i];
-    const double mu = joint_.model.fasteners[hole.fastener].holes[hole.hole].mu;
-    all.push_back({"mu " + hole.name, small * mu,
-                   [at = hole.fastener, of = hole.hole](NamedJoint& j, double h) {
-                     test::add_to_mu(j.model.fasteners[at], of, h);
-                   },
+    NamedJoint copy(joint_);
+    const double mu = hole_of(copy.model, names.friction[i]).mu;
+    all.push_back({"mu " + names.friction[i], small * mu,
+                   [name = names.friction[i]](NamedJoint& j, double h) { hole_of(j.model, name).mu += h; },
                    by.mu.col(i)});
   }
   for (Index i = 0; i < by.force.cols(); ++i) {

@@ -30,9 +30,9 @@ struct Solved {
 
 Solved solved(const JointModel& joint, const std::vector<double>& load_factors) {
   const JointEquations equations = make_equations(joint);
-  Solved result{follow(equations, load_factors, tight), joint_numbers(joint, equations.system), {}};
+  Solved result{follow(equations, load_factors, tight), joint_numbers(joint), {}};
   for (const auto& step : result.path.steps)
-    result.by.push_back(sensitivity(result.numbers, test::point_of(equations, step)));
+    result.by.push_back(test::sensitivity_at(result.numbers, test::point_of(equations, step)));
   return result;
 }
 
@@ -78,11 +78,11 @@ TEST_F(TwoFastenerLap, AtFirstContactIsOfTheSideThatBears) {
   // Exact in binary, so that the state is at the corner to the last bit.
   const JointModel model = joint();
   const JointEquations equations = make_equations(model);
-  const JointNumbers numbers = joint_numbers(model, equations.system);
+  const JointNumbers numbers = joint_numbers(model);
   const PathStep at = at_contact(equations);
   const double k = equations.contacts[1].stiffness;
-  ASSERT_EQ(contact_state(equations.contacts, Vector2d(k, k * g)).F[1], 0);
-  const Sensitivity by = sensitivity(numbers, test::point_of(equations, at));
+  ASSERT_EQ(contact_state(equations, Vector2d(k, k * g)).F[1], 0);
+  const Sensitivity by = test::sensitivity_at(numbers, test::point_of(equations, at));
   EXPECT_LT((by.load_factor - Vector2d(P / 2, P / 2)).norm(), 1e-10);
   const double by_g = 1 / (1 / K + f) / 2;
   EXPECT_LT((by.clearance.col(1) - Vector2d(by_g, -by_g)).norm(), 1e-10 * by_g);
@@ -97,7 +97,7 @@ TEST_F(TwoFastenerLap, SaysTheSameWithPowerAndCubicLawsAtFirstContact) {
     model.planes[1].law_name = "other";
     const JointEquations equations = make_equations(model);
     const PathStep at = at_contact(equations);
-    const Sensitivity by = sensitivity(joint_numbers(model, equations.system), test::point_of(equations, at));
+    const Sensitivity by = test::sensitivity_at(joint_numbers(model), test::point_of(equations, at));
     EXPECT_NEAR(by.clearance(1, 1) * (1 / K + 2 * f + flexibility), -1, 1e-12);
     EXPECT_NEAR(by.load_factor[1] * (1 / K + 2 * f + flexibility), P * (1 / K + f), 1e-9);
     EXPECT_TRUE(by.law.allFinite());
@@ -110,48 +110,15 @@ TEST_F(TwoFastenerLap, WithoutLoadAClearanceChangesNothing) {
   EXPECT_EQ(a.by[0].clearance.norm() + a.by[0].law.norm() + a.by[0].force.norm(), 0);
 }
 
-TEST(JointNumbers, LoadsAddUpToQ) {
-  std::mt19937 random(71);
-  for (int i = 0; i < 100; ++i) {
-    const auto joint = test::named_joint(random, i % test::n_kinds).model;
-    const CondensedSystem system = condense(joint);
-    const JointNumbers loads = joint_numbers(joint, system);
-    VectorXd q = VectorXd::Zero(system.q.size());
-    Index force = 0, displacement = 0;
-    for (const auto& plate : joint.plates) {
-      for (Index e = 0; e < std::ssize(plate.externals); ++e) {
-        if (const auto& given = plate.external_displacement[e]) {
-          EXPECT_EQ(loads.displacement.at(displacement), plate.name + ":P");
-          q += *given * loads.q_displacement.col(displacement++);
-        } else {
-          q += plate.external_force[e] * loads.q_force.col(force++);
-        }
-      }
-      for (const double f : plate.traction_force) q += f * loads.q_force.col(force++);
-    }
-    EXPECT_EQ(force, loads.q_force.cols());
-    EXPECT_EQ(displacement, loads.q_displacement.cols());
-    EXPECT_LE((q - system.q).norm(), 1e-10 * system.q.norm()) << "joint " << i;
-  }
-}
-
-/// What a run needs of memory follows from the names of the numbers, without a derivative.
-TEST(JointNumbers, AreCountedByTheirNames) {
+TEST(JointNumbers, HaveAColumnForEachDerivative) {
   std::mt19937 random(74);
   for (int i = 0; i < 30; ++i) {
     auto joint = test::named_joint(random, i % test::n_kinds);
     static_cast<void>(joint.equations());
     const Solved a = solved(joint.model, {0});
-    const JointNumbers names = names_of_numbers(joint.model);
     const Sensitivity& by = a.by.at(0);
-    EXPECT_EQ(names.n_derivatives(), by.load_factor.cols() + by.clearance.cols() + by.law.cols() + by.mu.cols() +
-                                         by.force.cols() + by.displacement.cols() + by.gap.cols());
-    EXPECT_EQ(names.force, a.numbers.force);
-    EXPECT_EQ(names.displacement, a.numbers.displacement);
-    ASSERT_EQ(names.friction.size(), a.numbers.friction.size());
-    for (std::size_t hole = 0; hole < names.friction.size(); ++hole)
-      EXPECT_EQ(names.friction[hole].name, a.numbers.friction[hole].name);
-    EXPECT_EQ(names.q_force.size(), 0) << "no derivatives";
+    EXPECT_EQ(a.numbers.n_derivatives(), by.load_factor.cols() + by.clearance.cols() + by.law.cols() + by.mu.cols() +
+                                             by.force.cols() + by.displacement.cols() + by.gap.cols());
   }
 }
 
@@ -271,20 +238,19 @@ TEST_F(FreeDoubler, WouldFlyUnderALoadOfItsOwn) {
 
 /// Force-controlled, the peak of a law is a limit point.
 TEST(Sensitivity, AtALimitPointIsInfinite) {
-  JointEquations equations;
-  equations.contacts = {{.law = test::cubic_law({1.0, 2.0, 4.0}, {3.0, 4.0, 0.001})}};
-  ASSERT_FALSE(equations.contacts[0].law->rises());
-  equations.system.q = VectorXd::Constant(1, 4);
-  equations.system.E = MatrixXd::Zero(0, 1);
-  JointNumbers numbers{{}, {}, {0}, {}, MatrixXd(1, 0), {}, MatrixXd(1, 0)};
-  // S_ud takes back all that the law gains.
-  const Branch on = equations.contacts[0].law->at(3, 1, 0);
-  equations.system.S_ud = MatrixXd::Constant(1, 1, -on.dF);
+  // One plate alone on the ground, whose stiffness takes back all that the law gains.
+  const auto law = test::cubic_law({1.0, 2.0, 4.0}, {3.0, 4.0, 0.001});
+  ASSERT_FALSE(law->rises());
+  constexpr double delta = 3;
+  const Branch on = law->at(delta, 1, 0);
   ASSERT_LT(on.dF, 0);
-  for (const auto& parameter : equations.contacts[0].law->parameters()) numbers.law.emplace_back("law", parameter);
-  PathStep at{1, VectorXd::Constant(1, on.F), VectorXd::Constant(1, 3), 0, 0, {}};
-  at.c = at.delta;
-  const Sensitivity by = sensitivity(numbers, test::point_of(equations, at));
+  const test::Lap lap{test::spring_plate(1, 1, {{0, ground, -2 * on.dF}, {0, 1, 1e3}}),
+                      test::spring_plate(1, 0, {{0, ground, -2 * on.dF}}), 4};
+  const JointModel joint = test::joint_of(lap, law);
+  const JointEquations equations = make_equations(joint);
+  ASSERT_NEAR(equations.system->S_ud(0, 0), -on.dF, 1e-12) << "two equal springs in series";
+  const SolvedPoint point(equations, 1, VectorXd::Constant(1, equations.contacts[0].stiffness * delta));
+  const Sensitivity by = test::sensitivity_at(joint_numbers(joint), point);
   EXPECT_THAT(by.load_factor, ElementsAre(infinity));
   EXPECT_EQ(by.law(0, 0), infinity);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/equations/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/rim_contact.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Friction of a rim of contact: against integrals summed over points, its slopes against differences.
-#include "stage3_nonlinear/equations/rim_friction.hpp"
+#include "stage3_nonlinear/interfaces/rim_friction.hpp"
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "stage3_nonlinear/equations/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/rim_contact.hpp"
 
 namespace fastjoint::stage3 {
 

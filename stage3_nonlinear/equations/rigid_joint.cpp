@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/equations/rigid_joint.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "common/errors.hpp"
+#include "common/matrices/decompositions.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using SparseMatrix = RigidJoint::SparseMatrix;
+
+/// Stage 2's rounding leaves a floating plate about 1e-12 of its stiffness; a long chain of fasteners needs 1e-6, a
+/// floating plate the stiffness of what holds it over its own.
+constexpr double singular = 1e-10;
+
+/// First unknown of a disc in the joint's list.
+Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset(hole.plate) + hole.disc; }
+
+/// Stiffness of the stiffest disc of a plate.
+double own_stiffness(const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); }
+
+/// Hole of a fastener that the others lie behind: that in the stiffest plate, or the ground, which is behind the last.
+Index reference(const JointModel& joint, const FastenerModel& fastener) {
+  if (fastener.grounded) return std::ssize(fastener.holes);
+  const auto own = [&](const HoleModel& hole) { return own_stiffness(joint.plates[hole.plate]); };
+  return std::ranges::max_element(fastener.holes, {}, own) - fastener.holes.begin();
+}
+
+SparseMatrix behind_planes(const JointModel& joint) {
+  std::vector<Eigen::Triplet<double>> Y;
+  for (Index at = 0; at < joint.n_planes(); ++at) {
+    const ShearPlane& plane = joint.planes[at];
+    const auto& holes = joint.fasteners[plane.fastener].holes;
+    const bool beyond = reference(joint, joint.fasteners[plane.fastener]) > plane.first;
+    for (Index d = 0; d < joint.n_directions(); ++d)
+      for (Index hole = 0; hole < std::ssize(holes); ++hole)
+        if ((hole <= plane.first) == beyond)
+          Y.emplace_back(disc(joint, holes[hole]) + d, at * joint.n_directions() + d, beyond ? 1 : -1);
+  }
+  Index column = joint.n_planes() * joint.n_directions();
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (Index unknown = joint.plates[i].first_moment(); unknown < joint.plates[i].n_unknowns(); ++unknown)
+      Y.emplace_back(joint.offset(i) + unknown, column++, 1);
+  SparseMatrix result(joint.n_unknowns(), column);
+  result.setFromTriplets(Y.begin(), Y.end());
+  return result;
+}
+
+/// Gives each free unknown that follows no other its column of Z, and those of a fastener that of its stiffest plate;
+/// the ground has none.
+SparseMatrix free_unknowns(const JointModel& joint) {
+  const Index N = joint.n_unknowns();
+  std::vector<Index> leader(N);
+  std::iota(leader.begin(), leader.end(), Index{0});
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    for (Index e = 0; e < plate.n_externals(); ++e)
+      if (plate.external_displacement[e]) leader[joint.offset(i) + plate.n_discs() + e] = -1;
+    for (Index unknown = plate.first_moment(); unknown < plate.n_unknowns(); ++unknown)
+      leader[joint.offset(i) + unknown] = -1;
+  }
+  for (const auto& fastener : joint.fasteners) {
+    const Index at = reference(joint, fastener);
+    for (const auto& hole : fastener.holes)
+      for (Index d = 0; d < joint.n_directions(); ++d)
+        leader[disc(joint, hole) + d] = fastener.grounded ? -1 : disc(joint, fastener.holes[at]) + d;
+  }
+  std::vector<Index> column(N, -1);
+  Index r = 0;
+  for (Index i = 0; i < N; ++i)
+    if (leader[i] == i) column[i] = r++;
+  std::vector<Eigen::Triplet<double>> Z;
+  for (Index i = 0; i < N; ++i)
+    if (leader[i] >= 0) Z.emplace_back(i, column[leader[i]], 1);
+  SparseMatrix result(N, r);
+  result.setFromTriplets(Z.begin(), Z.end());
+  return result;
+}
+
+/// Motions of a scaled stiffness that meet no stiffness, (z, their number).
+MatrixXd motions_without_stiffness(const MatrixXd& S_z) {
+  // A little above the limit of what is held, whose rcond is an estimate in another norm.
+  constexpr double small = 1e3 * singular;
+  const auto eigen = matrices::symmetric_eigen(S_z);
+  const auto n = (eigen.values.array() <= small * eigen.values.maxCoeff()).count();
+  return eigen.vectors.leftCols(n);
+}
+
+[[noreturn]] void fail_as_mechanism(const JointModel& joint, const MatrixXd& motions) {
+  constexpr double moves = 1e-3;  // of the largest displacement of the motion
+  std::vector<std::string> names;
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const auto of_plate = motions.middleRows(joint.offset(i), joint.plates[i].n_unknowns()).cwiseAbs();
+    if ((of_plate.colwise().maxCoeff().array() > moves * motions.cwiseAbs().colwise().maxCoeff().array()).any())
+      names.push_back(fmt::format("\"{}\"", joint.plates[i].name));
+  }
+  throw NumericalError(
+      fmt::format("{}: the joint is a mechanism: plate {} can move freely even with rigid fasteners, nothing "
+                  "holds the joint there; give a plate a support (stage 1), hold an external with "
+                  "\"displacement\": 0, or a fastener by the \"ground\"",
+                  joint.file, fmt::join(names, " with plate ")));
+}
+
+}  // namespace
+
+RigidJoint::RigidJoint(const JointModel& joint, const MatrixXd& S)
+    : Z_(free_unknowns(joint)), Y_(behind_planes(joint)), scale_(VectorXd::Zero(Z_.cols())) {
+  VectorXd own(joint.n_unknowns());  // of the stiffest plate at each unknown
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(own_stiffness(joint.plates[i]));
+  for (Index j = 0; j < Z_.outerSize(); ++j)
+    for (SparseMatrix::InnerIterator at(Z_, j); at; ++at) scale_[j] = std::max(scale_[j], own[at.row()]);
+  MatrixXd S_z = Z_.transpose() * MatrixXd(S * Z_);
+  for (Index i = 0; i < scale_.size(); ++i) {
+    const double at = std::max(S_z(i, i), singular * scale_[i]);
+    scale_[i] = 1 / std::sqrt(at > 0 ? at : 1.0);
+  }
+  S_z = scale_.asDiagonal() * S_z * scale_.asDiagonal();
+  factor_.compute(S_z);
+  if (factor_.info() != Eigen::Success || !(factor_.rcond() > singular))
+    fail_as_mechanism(joint, Z_ * MatrixXd(scale_.asDiagonal() * motions_without_stiffness(S_z)));
+}
+
+MatrixXd RigidJoint::half_solve(const MatrixXd& f) const {
+  return factor_.matrixL().solve(scale_.asDiagonal() * MatrixXd(Z_.transpose() * f));
+}
+
+MatrixXd RigidJoint::restore(const MatrixXd& half) const {
+  return Z_ * MatrixXd(scale_.asDiagonal() * factor_.matrixU().solve(half));
+}
+
+}  // namespace fastjoint::stage3

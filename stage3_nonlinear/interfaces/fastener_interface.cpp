@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/interfaces/fastener_interface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace fastjoint::stage3 {
+namespace {
+
+/// Unit vector along v; the first axis where v = 0.
+VectorXd along(const VectorXd& v) {
+  const double length = v.norm();
+  return length > 0 ? VectorXd(v / length) : VectorXd(VectorXd::Unit(v.size(), 0));
+}
+
+Branch branch(const Contact& contact, const VectorXd& c) {
+  const double length = c.norm(), k = contact.stiffness;
+  return contact.is_pulled_open(c) ? Branch::open(length, k) : contact.law->at(length, k, contact.clearance);
+}
+
+/// Matrix with an eigenvalue along e and another across.
+MatrixXd along_and_across(const VectorXd& e, double along, double across) {
+  MatrixXd A = (along - across) * e * e.transpose();
+  A.diagonal().array() += across;
+  return A;
+}
+
+}  // namespace
+
+FastenerInterface::FastenerInterface(std::vector<Contact> planes, Place place)
+    : planes_(std::move(planes)), place_(std::move(place)) {
+  for (const auto& hole : place_.rubbing) {
+    auto& sides = sides_.emplace_back();
+    for (const Side side : {plus_side, minus_side}) {
+      const auto& its = hole.sides[side];
+      if (its.column < 0) continue;
+      const double peak = place_.mu[hole.hole] / its.unit_force;
+      sides[side] = {peak, its.resultant * peak, 1, its.across * peak};
+    }
+  }
+  balance();
+}
+
+void FastenerInterface::balance() {
+  for (Index i = 0; i < std::ssize(sides_); ++i)
+    for (const Side side : {plus_side, minus_side}) {
+      const auto& [hole, direction, cases, disc, other] = place_.rubbing[i];
+      double transferred = 1;
+      for (Index of = 0; of < n_holes() && !place_.law_includes_friction; ++of)
+        transferred += part_of_mean_share(of, hole, direction, side);
+      Rubbing& rubbing = sides_[i][side];
+      const double change = transferred / (1 + rubbing.share());
+      for (double* each : {&rubbing.resultant, &rubbing.peak, &rubbing.bearing, &rubbing.across}) *each *= change;
+    }
+}
+
+Index FastenerInterface::rubbing_at(Index hole, Index direction) const {
+  const auto found = std::ranges::find_if(
+      place_.rubbing, [&](const RubbingHole& each) { return each.hole == hole && each.direction == direction; });
+  return found == place_.rubbing.end() ? -1 : found - place_.rubbing.begin();
+}
+
+double FastenerInterface::part_of_mean_share(Index of, Index hole, Index direction, Side side) const {
+  const Index at = rubbing_at(of, direction);
+  if (at < 0) return 0;
+  const auto& sides = sides_[at];
+  const double n = double(n_holes());
+  if (planes_.size() == 1) return sides[of == hole ? side : 1 - side].share() / n;
+  const auto bears = std::ranges::count_if(place_.rubbing[at].sides, [](const auto& each) { return each.column >= 0; });
+  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / double(bears) / n;
+}
+
+double FastenerInterface::bearing(const VectorXd& F, Index hole, Index direction) const {
+  const Index a = place_.n_directions;
+  double force = 0;
+  if (hole < std::ssize(planes_)) force -= F[hole * a + direction];
+  if (hole > 0) force += F[(hole - 1) * a + direction];
+  return force;
+}
+
+VectorXd FastenerInterface::friction(const VectorXd& F) const {
+  VectorXd Lambda = VectorXd::Zero(place_.n_columns);
+  for (Index i = 0; i < std::ssize(sides_); ++i) {
+    const RubbingHole& hole = place_.rubbing[i];
+    const double b = bearing(F, hole.hole, hole.direction);
+    const Side side = b < 0 ? minus_side : plus_side;
+    const Rubbing& rubbing = sides_[i][side];
+    if (hole.sides[side].column >= 0) Lambda[hole.sides[side].column] = rubbing.peak * std::abs(b);
+    Lambda[hole.disc] += (1 - rubbing.bearing) * b;
+    if (hole.other_disc) Lambda[*hole.other_disc] += rubbing.across * std::abs(b);
+  }
+  return Lambda;
+}
+
+MatrixXd FastenerInterface::friction_by_force(const VectorXd& F) const {
+  if (place_.n_columns == 0) return {};
+  MatrixXd slopes = MatrixXd::Zero(place_.n_columns, F.size());
+  const Index a = place_.n_directions;
+  for (Index i = 0; i < std::ssize(sides_); ++i) {
+    const RubbingHole& hole = place_.rubbing[i];
+    const bool minus = bearing(F, hole.hole, hole.direction) < 0;
+    const Rubbing& rubbing = sides_[i][minus ? minus_side : plus_side];
+    const double sign = minus ? -1 : 1;
+    for (const Index plane : {hole.hole - 1, hole.hole}) {
+      if (plane < 0 || plane >= std::ssize(planes_)) continue;
+      auto column = slopes.col(plane * a + hole.direction);
+      const double by = plane == hole.hole ? -1 : 1;  // of the plane on the force of bearing
+      if (const Index at = hole.sides[minus ? minus_side : plus_side].column; at >= 0)
+        column[at] += sign * by * rubbing.peak;
+      column[hole.disc] += by * (1 - rubbing.bearing);
+      if (hole.other_disc) column[*hole.other_disc] += sign * by * rubbing.across;
+    }
+  }
+  return slopes;
+}
+
+Response FastenerInterface::respond(const VectorXd& c, const History& /*history*/) const {
+  const Index n = c.size(), a = place_.n_directions;
+  Response response{VectorXd(n), VectorXd(n), {}, MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), {}};
+  for (Index j = 0; j < std::ssize(planes_); ++j) {
+    const VectorXd here = c.segment(j * a, a), e = along(here);
+    const double length = here.norm();
+    const Branch on = branch(planes_[j], here);
+    if (on.spent) response.spent = j * a;
+    response.F.segment(j * a, a) = on.F * e;
+    response.delta.segment(j * a, a) = on.delta * e;
+    // Across, at c = 0, the limits of F / |c| and delta / |c|.
+    response.dF.block(j * a, j * a, a, a) = along_and_across(e, on.dF, length > 0 ? on.F / length : on.dF);
+    response.ddelta.block(j * a, j * a, a, a) =
+        along_and_across(e, on.ddelta, length > 0 ? on.delta / length : on.ddelta);
+  }
+  response.Lambda = friction(response.F);
+  response.dLambda = place_.n_columns == 0 ? MatrixXd(0, n) : MatrixXd(friction_by_force(response.F) * response.dF);
+  return response;
+}
+
+/// The trace is of open and yielded fasteners: without it the Jacobian is singular where such fasteners alone hold a
+/// plate.
+void FastenerInterface::add_trace(double trace, Response& response) const {
+  const Index a = place_.n_directions;
+  for (Index j = 0; j < std::ssize(planes_); ++j) {
+    auto dF = response.dF.block(j * a, j * a, a, a), ddelta = response.ddelta.block(j * a, j * a, a, a);
+    const Contact& contact = planes_[j];
+    const VectorXd e = response.delta.segment(j * a, a).isZero(0) ? VectorXd(VectorXd::Unit(a, 0))
+                                                                  : along(response.delta.segment(j * a, a));
+    const auto raise = [&](const VectorXd& direction) {
+      const double slope = direction.dot(dF * direction);
+      if (std::abs(slope) >= trace) return;
+      dF += (trace - slope) * direction * direction.transpose();
+      if (!contact.law->rises()) return;
+      const double moved = (1 - trace) / contact.stiffness - direction.dot(ddelta * direction);
+      ddelta += moved * direction * direction.transpose();
+    };
+    raise(e);
+    if (a > 1) raise(Eigen::Vector2d(-e[1], e[0]));
+  }
+}
+
+VectorXd FastenerInterface::coordinates(const VectorXd& F) const {
+  const Index a = place_.n_directions;
+  VectorXd c = F;
+  for (Index j = 0; j < std::ssize(planes_); ++j) {
+    const Contact& contact = planes_[j];
+    const VectorXd here = F.segment(j * a, a);
+    const double force = here.norm();
+    if (force > 0 && !contact.is_pulled_open(here))
+      c.segment(j * a, a) = along(here) * contact.law->coordinate(force, contact.stiffness, contact.clearance);
+  }
+  return c;
+}
+
+std::vector<Change> FastenerInterface::changes(const VectorXd& c, const Response& response) const {
+  std::vector<Change> result;
+  add_law_changes(c, friction_by_force(response.F), result);
+  for (Index hole = 0; hole < n_holes(); ++hole)
+    if (place_.mu[hole] > 0 && rubbing_at(hole, 0) >= 0) result.push_back(change_by_mu(hole, response.F));
+  return result;
+}
+
+void FastenerInterface::add_law_changes(const VectorXd& c, const MatrixXd& by_force,
+                                        std::vector<Change>& result) const {
+  const Index a = place_.n_directions;
+  for (Index j = 0; j < std::ssize(planes_); ++j) {
+    const Contact& contact = planes_[j];
+    const VectorXd here = c.segment(j * a, a), e = along(here);
+    if (here.isZero(0) || contact.is_pulled_open(here)) continue;
+    const auto slopes = contact.law->slopes(here.norm(), contact.stiffness, contact.clearance);
+    for (Index i = 0; i < std::ssize(slopes); ++i) {
+      Change change{i == 0 ? NumberKind::clearance : NumberKind::law,
+                    place_.first_plane + j,
+                    std::max<Index>(i - 1, 0),
+                    VectorXd::Zero(c.size()),
+                    VectorXd::Zero(c.size()),
+                    VectorXd::Zero(place_.n_columns)};
+      change.F.segment(j * a, a) = slopes[i].F * e;
+      change.delta.segment(j * a, a) = slopes[i].delta * e;
+      if (place_.n_columns > 0) change.Lambda = by_force * change.F;
+      result.push_back(std::move(change));
+    }
+  }
+}
+
+/// By the logarithms of the bearing forces: what friction in one hole adds, the others of its fastener share.
+Change FastenerInterface::change_by_mu(Index hole, const VectorXd& F) const {
+  const VectorXd none = VectorXd::Zero(F.size());
+  Change change{NumberKind::mu, place_.first_hole + hole, 0, none, none, VectorXd::Zero(place_.n_columns)};
+  const double mu = place_.mu[hole];
+  for (Index i = 0; i < std::ssize(sides_); ++i) {
+    const RubbingHole& its = place_.rubbing[i];
+    const double b = bearing(F, its.hole, its.direction);
+    const Side side = b < 0 ? minus_side : plus_side;
+    const Rubbing& rubbing = sides_[i][side];
+    const double transferred = rubbing.bearing + rubbing.resultant;
+    double relative = its.hole == hole ? -rubbing.resultant / transferred / mu : 0;  // d ln bearing / d mu
+    if (!place_.law_includes_friction)
+      relative += part_of_mean_share(hole, its.hole, its.direction, side) / transferred / mu;
+    const double rises = relative + (its.hole == hole ? 1 / mu : 0);
+    if (its.sides[side].column >= 0) change.Lambda[its.sides[side].column] += rises * rubbing.peak * std::abs(b);
+    change.Lambda[its.disc] -= relative * rubbing.bearing * b;
+    if (its.other_disc) change.Lambda[*its.other_disc] += rises * rubbing.across * std::abs(b);
+  }
+  return change;
+}
+
+VectorXd FastenerInterface::transferred(const VectorXd& F, Index side) const {
+  const Index a = place_.n_directions;
+  VectorXd result = F;
+  for (Index j = 0; j < std::ssize(planes_); ++j)
+    for (Index d = 0; d < a; ++d) {
+      const Index hole = std::min(j + side, n_holes() - 1);  // the ground gets what leaves the last hole
+      const Index at = rubbing_at(hole, d);
+      if (at < 0) continue;
+      const Rubbing& rubbing = sides_[at][bearing(F, hole, d) < 0 ? minus_side : plus_side];
+      result[j * a + d] *= rubbing.bearing + rubbing.resultant;
+    }
+  return result;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "stage3_nonlinear/interfaces/interface.hpp"
+#include "stage3_nonlinear/laws/law.hpp"
+#include "stage3_nonlinear/model/joint_model.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Law of a shear plane as a map from its contact coordinate c, a vector in force units with one entry for each
+/// direction of the joint's discs: F and delta are along c, and their amounts those of the law at |c|. With one
+/// direction the law is odd; with two the clearance is a circle.
+struct Contact {
+  LawPointer law;
+  double clearance = 0;    ///< length
+  double stiffness = 1;    ///< k, force / length: of the plates at this plane, so that F and k delta balance
+  bool one_sided = false;  ///< open for every c < 0; one direction only
+
+  /// True if it is one-sided and c, shape (a), is on its other side.
+  [[nodiscard]] bool is_pulled_open(const VectorXd& c) const { return one_sided && c[0] < 0; }
+};
+
+/// A hole of a fastener with friction, in one of the joint's directions, with the friction columns of the interface.
+struct RubbingHole {
+  Index hole;  ///< of the fastener
+  Index direction;
+  std::array<FrictionCase, 2> sides;  ///< by Side; their columns are the interface's
+  Index disc;                         ///< column of the force on the disc along the direction
+  std::optional<Index> other_disc;    ///< and along the other one, of discs with two
+};
+
+/// A fastener through its holes: the laws of its shear planes, and the cosine friction on the rims, which follows from
+/// the bearing forces (docs/theory.md, sections 6.5 and 7.4).
+///
+/// The rows are the planes, directions inner. Each hole bears with the force with which bearing and friction together
+/// transfer the load of the plane, so that a fastener with unlike friction in its holes is in equilibrium.
+class FastenerInterface : public Interface {
+ public:
+  /// Friction of a hole for one side that bears, per unit of the law's force there.
+  struct Rubbing {
+    double peak = 0;       ///< stress Lambda of the case, 1 / length^2
+    double resultant = 0;  ///< force of friction on the rim
+    double bearing = 1;    ///< force of bearing on the rim; what differs from 1 has been put into friction
+    double across = 0;     ///< force that the disc takes across
+
+    /// Force of friction over that of bearing.
+    [[nodiscard]] double share() const { return resultant / bearing; }
+  };
+  /// Place and friction of the fastener in a joint.
+  struct Place {
+    Index first_plane = 0, first_hole = 0;  ///< of all of the joint
+    Index n_directions = 1;
+    bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
+    std::vector<double> mu{};            ///< (h) of each hole
+    std::vector<RubbingHole> rubbing{};  ///< empty without friction
+    Index n_columns = 0;                 ///< of friction
+  };
+
+  FastenerInterface(std::vector<Contact> planes, Place place);
+
+  [[nodiscard]] Index size() const override { return std::ssize(planes_) * place_.n_directions; }
+  [[nodiscard]] Index n_friction() const override { return place_.n_columns; }
+  [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
+  void add_trace(double trace, Response& response) const override;
+  [[nodiscard]] MatrixXd friction_by_force(const VectorXd& F) const override;
+  [[nodiscard]] VectorXd coordinates(const VectorXd& F) const override;
+  [[nodiscard]] VectorXd transferred(const VectorXd& F, Index side) const override;
+  [[nodiscard]] std::vector<Change> changes(const VectorXd& c, const Response& response) const override;
+
+ private:
+  [[nodiscard]] Index n_holes() const { return std::ssize(place_.mu); }
+  /// The law's force on a plate in a hole along a direction.
+  [[nodiscard]] double bearing(const VectorXd& F, Index hole, Index direction) const;
+  [[nodiscard]] VectorXd friction(const VectorXd& F) const;
+  /// Part that friction in the hole `of` adds to the mean share of friction, where `hole` bears on `side`. The two
+  /// holes of a single plane bear on opposite sides; of several planes each may bear on any, and its sides count alike.
+  [[nodiscard]] double part_of_mean_share(Index of, Index hole, Index direction, Side side) const;
+  void balance();
+  /// Entry of the rubbing hole, or -1.
+  [[nodiscard]] Index rubbing_at(Index hole, Index direction) const;
+  void add_law_changes(const VectorXd& c, const MatrixXd& by_force, std::vector<Change>& result) const;
+  [[nodiscard]] Change change_by_mu(Index hole, const VectorXd& F) const;
+
+  std::vector<Contact> planes_;
+  Place place_;
+  std::vector<std::array<Rubbing, 2>> sides_;  ///< of each of Place::rubbing
+};
+
+}  // namespace fastjoint::stage3

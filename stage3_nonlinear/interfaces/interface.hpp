@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace fastjoint::stage3 {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+/// What an interface keeps of the path that has led to a state. No kind of today keeps anything: it is empty.
+using History = VectorXd;
+
+/// Answer of an interface to its n contact coordinates c, with derivatives by c.
+struct Response {
+  VectorXd F, delta;    ///< (n) forces between the bodies, and their relative displacements; force, length
+  VectorXd Lambda;      ///< (t) amounts of what friction adds (FrictionColumn)
+  MatrixXd dF, ddelta;  ///< (n, n) symmetric; dimensionless, length / force
+  MatrixXd dLambda;     ///< (t, n) per force
+  Index spent = -1;     ///< a row past all that the interface can carry, if there is one
+};
+
+/// Kind of a number of the input.
+enum class NumberKind { clearance, law, mu, rim_mu, gap };
+
+/// Change of a response with a number of the input, c and the history being fixed.
+struct Change {
+  NumberKind kind;
+  Index at;          ///< plane of a clearance or a law, hole of mu, rim of contact of the rest; of all of the joint
+  Index number = 0;  ///< of a law
+  VectorXd F, delta, Lambda;
+};
+
+/// What acts between bodies of a joint at some rows of its equations: it answers contact coordinates with forces and
+/// displacements, and with amounts of friction on the bodies.
+class Interface {
+ public:
+  virtual ~Interface() = default;
+
+  /// Number n of its rows.
+  [[nodiscard]] virtual Index size() const = 0;
+  /// Number t of its friction columns.
+  [[nodiscard]] virtual Index n_friction() const { return 0; }
+  /// @param c Contact coordinates, (n), force.
+  [[nodiscard]] virtual Response respond(const VectorXd& c, const History& history) const = 0;
+  /// The history once the joint has come to rest at c.
+  [[nodiscard]] virtual History commit(const VectorXd& /*c*/, const History& history) const { return history; }
+  /// Gives a response whose slopes vanish a trace of stiffness (docs/theory.md, section 8.5).
+  virtual void add_trace(double trace, Response& response) const = 0;
+  /// Derivatives of Lambda by F, (t, n), where friction follows from the forces alone, on the sides that bear under F;
+  /// empty if it does not.
+  [[nodiscard]] virtual MatrixXd friction_by_force(const VectorXd& /*F*/) const { return {}; }
+  /// Coordinates at which the forces are F, or about that, (n), force.
+  [[nodiscard]] virtual VectorXd coordinates(const VectorXd& F) const = 0;
+  /// Load that each shear plane passes on, friction included, by that of its first (0) or its second (1) hole, (n).
+  [[nodiscard]] virtual VectorXd transferred(const VectorXd& F, Index /*side*/) const { return F; }
+  /// Changes with all numbers that it knows.
+  [[nodiscard]] virtual std::vector<Change> changes(const VectorXd& c, const Response& response) const = 0;
+};
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/model/parameters.hpp"
+
+namespace fastjoint::stage3 {
+
+std::vector<Load> loads_of(const JointModel& joint) {
+  std::vector<Load> loads;
+  for (Index i = 0; i < std::ssize(joint.plates); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    for (Index at = 0; at < plate.n_externals(); ++at)
+      loads.push_back({i, at, false, plate.external_displacement[at].has_value()});
+    for (Index at = 0; at < std::ssize(plate.tractions); ++at)
+      if (!plate.is_other_side(at)) loads.push_back({i, at, true, false});
+  }
+  return loads;
+}
+
+std::vector<LoadCase> load_cases(const JointModel& joint) {
+  std::vector<LoadCase> cases;
+  const auto loads = loads_of(joint);
+  for (Index load = 0; load < std::ssize(loads); ++load) {
+    const auto& [at_plate, first, is_traction, is_displacement] = loads[load];
+    const PlateModel& plate = joint.plates[at_plate];
+    Index at = first;
+    do {
+      cases.push_back({load, at_plate, at, is_traction, is_displacement, is_traction ? plate.sense(at) : 0});
+    } while (is_traction && plate.is_other_side(++at));
+  }
+  return cases;
+}
+
+VectorXd load_rates(const std::vector<LoadCase>& cases, const VectorXd& load, double load_factor) {
+  VectorXd rates(std::ssize(cases));
+  for (Index i = 0; i < rates.size(); ++i) {
+    const double amount = load[cases[i].load];
+    rates[i] = acts(cases[i].sense, amount, load_factor) ? amount : 0;
+  }
+  return rates;
+}
+
+Parameters parameters_of(const JointModel& joint) {
+  Parameters all;
+  const auto loads = loads_of(joint);
+  all.load.resize(std::ssize(loads));
+  for (Index i = 0; i < all.load.size(); ++i) {
+    const auto& [plate, at, is_traction, is_displacement] = loads[i];
+    const PlateModel& its = joint.plates[plate];
+    all.load[i] = is_traction       ? its.traction_force[at]
+                  : is_displacement ? *its.external_displacement[at]
+                                    : its.external_force[at];
+  }
+  all.clearance.resize(joint.n_planes());
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    all.law.push_back(joint.planes[j].law);
+    all.clearance[j] = joint.planes[j].clearance;
+  }
+  std::vector<double> mu, gap;
+  for (const auto& fastener : joint.fasteners)
+    for (const auto& hole : fastener.holes) mu.push_back(hole.mu), gap.push_back(hole.gap);
+  all.mu = VectorXd::Map(mu.data(), std::ssize(mu));
+  all.gap = VectorXd::Map(gap.data(), std::ssize(gap));
+  return all;
+}
+
+std::vector<RimPlace> rim_places(const JointModel& joint) {
+  std::vector<RimPlace> places;
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (Index at = 0; at < std::ssize(joint.plates[i].contact); ++at) {
+      RimPlace& place = places.emplace_back(RimPlace{i, at});
+      Index hole = 0;
+      for (const auto& fastener : joint.fasteners)
+        for (const auto& its : fastener.holes) {
+          if (its.plate == i && joint.plates[i].hole_of(its.disc) == joint.plates[i].contact[at].hole)
+            place.hole = hole;
+          ++hole;
+        }
+    }
+  return places;
+}
+
+}  // namespace fastjoint::stage3
