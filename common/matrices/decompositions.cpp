@@ -72,6 +72,34 @@ std::optional<MatrixXd> inverse_of_positive(MatrixXd A) {
   return A;
 }
 
+Lu::Lu(MatrixXd A) : factors_(std::move(A)), pivots_(static_cast<std::size_t>(factors_.rows())) {
+  if (factors_.size() == 0) return;
+  norm_ = factors_.cwiseAbs().colwise().sum().maxCoeff();
+  const lapack_int n = size_of(factors_.rows());
+  lapack_int info = 0;  // a pivot of 0 shows in the factor
+  LAPACK_dgetrf(&n, &n, factors_.data(), &n, pivots_.data(), &info);
+}
+
+MatrixXd Lu::solved(const char* which, MatrixXd b) const {
+  if (b.size() == 0) return b;
+  const lapack_int n = size_of(factors_.rows()), columns = size_of(b.cols());
+  lapack_int info = 0;
+  LAPACK_dgetrs(which, &n, &columns, factors_.data(), &n, pivots_.data(), b.data(), &n, &info);
+  return b;
+}
+
+double Lu::rcond() const {
+  if (factors_.size() == 0) return 1;
+  if ((factors_.diagonal().array() == 0).any() || !factors_.allFinite()) return 0;
+  const lapack_int n = size_of(factors_.rows());
+  std::vector<double> work(4 * pivots_.size());
+  std::vector<lapack_int> integers(pivots_.size());
+  double result = 0;
+  lapack_int info = 0;
+  LAPACK_dgecon("1", &n, factors_.data(), &n, &norm_, &result, work.data(), integers.data(), &info);
+  return result;
+}
+
 VectorXd symmetric_eigenvalues(MatrixXd A) { return symmetric("N", A); }
 
 SymmetricEigen symmetric_eigen(MatrixXd A) {

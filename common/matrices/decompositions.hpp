@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <utility>
+#include <vector>
 
 /// Decompositions of dense matrices by LAPACK, which, unlike Eigen's, take no time to compile.
 /// Values are NaN where LAPACK's iteration does not converge, as for a matrix that holds a NaN.
@@ -14,6 +16,30 @@ namespace fastjoint::matrices {
 /// Inverse of a symmetric positive definite matrix, (n, n), whose lower triangle is read; empty if Cholesky's method
 /// meets a pivot that is not positive. By LAPACK it takes half as long as Eigen's solution for the identity.
 [[nodiscard]] std::optional<Eigen::MatrixXd> inverse_of_positive(Eigen::MatrixXd A);
+
+/// Factors P A = L U of a square matrix, with rows exchanged for the largest pivots.
+class Lu {
+ public:
+  Lu() = default;
+  /// @param A (n, n).
+  explicit Lu(Eigen::MatrixXd A);
+
+  /// Solution x of A x = b, (n, columns); not finite where a pivot is 0.
+  [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd b) const { return solved("N", std::move(b)); }
+  /// Solution x of A^T x = b, (n, columns).
+  [[nodiscard]] Eigen::MatrixXd solve_transposed(Eigen::MatrixXd b) const { return solved("T", std::move(b)); }
+  /// Largest sum of amounts in a column of A.
+  [[nodiscard]] double norm() const { return norm_; }
+  /// Reciprocal condition number in that norm, estimated; 0 where a pivot is 0.
+  [[nodiscard]] double rcond() const;
+
+ private:
+  [[nodiscard]] Eigen::MatrixXd solved(const char* which, Eigen::MatrixXd b) const;
+
+  Eigen::MatrixXd factors_;
+  std::vector<int> pivots_;
+  double norm_ = 0;
+};
 
 /// Eigenvalues of a symmetric matrix, (n, n), whose lower triangle is read: (n), from the smallest on.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(Eigen::MatrixXd A);

@@ -80,11 +80,6 @@ VectorXd without_rounding(const VectorXd& q, double largest_load) {
   return (q.array().abs() > rounding * largest_load).select(q, 0);
 }
 
-double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A) {
-  if ((lu.matrixLU().diagonal().array() == 0).any()) return 0;
-  return lu.rcond() * std::min(1.0, A.cwiseAbs().colwise().sum().maxCoeff());
-}
-
 void set_reference(CondensedSystem& system, const VectorXd& own) {
   constexpr double nothing = 1e-13;  // of what a plate that one fastener alone holds resists
   constexpr double more = 1.05, negligible = 1e-9, rounding = 1e-12;

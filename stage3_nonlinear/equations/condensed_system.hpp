@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <vector>
 
 #include "stage3_nonlinear/equations/rigid_joint.hpp"
@@ -44,11 +43,6 @@ struct CondensedSystem {
 /// Forces q with zero instead of the rounding of a load that does not reach a fastener: forces are sought relative to
 /// the largest.
 [[nodiscard]] VectorXd without_rounding(const VectorXd& q, double largest_load);
-
-/// Reciprocal condition number, in the 1-norm and estimated, of a matrix that is of order 1, and so singular also if
-/// all of it is small; 0 if a pivot is 0, where Eigen's estimate divides by it and may then drop the infinity that it
-/// meets.
-[[nodiscard]] double least_stretch(const Eigen::PartialPivLU<MatrixXd>& lu, const MatrixXd& A);
 
 /// Sets stiffness and metric.
 /// @param own Stiffness of the plates themselves at each plane, (n).

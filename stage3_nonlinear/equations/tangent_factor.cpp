@@ -6,9 +6,6 @@
 #include <numeric>
 #include <utility>
 
-#include "common/matrices/decompositions.hpp"
-#include "stage3_nonlinear/equations/condensed_system.hpp"
-
 namespace fastjoint::stage3 {
 namespace {
 
@@ -51,7 +48,7 @@ MatrixXd surely_corrected(const Solve& solve, const Matrix& J, const MatrixXd& b
   constexpr double enough = 1e-10;
   MatrixXd x = corrected(solve, J, b);
   if ((b - J * x).norm() <= enough * b.norm()) return x;
-  return MatrixXd(J).partialPivLu().solve(b);
+  return matrices::Lu(J).solve(b);
 }
 
 }  // namespace
@@ -75,15 +72,15 @@ TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims) : J_(st
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto& rim = short_waves_[i];
     const Index n = rim.end - rim.first, n_before = rim.first - rim.first_long;
-    rim.own.compute(J_.block(rim.first, rim.first, n, n));
+    rim.own = matrices::Lu(J_.block(rim.first, rim.first, n, n));
     rim.by_long = rim.own.solve(J_.block(rim.first, rim.first_long, n, n_before));
     rim.on_kept = J_(kept_, Eigen::seqN(rim.first, n));
     small_.middleCols(columns[i], n_before) -= rim.on_kept * rim.by_long;
   }
-  lu_.compute(small_);
+  lu_ = matrices::Lu(small_);
 }
 
-double TangentFactor::least_stretch() const { return stage3::least_stretch(lu_, small_); }
+double TangentFactor::least_stretch() const { return lu_.rcond() * std::min(1.0, lu_.norm()); }
 
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve(b);
@@ -92,7 +89,7 @@ MatrixXd TangentFactor::solve(const MatrixXd& b) const {
 }
 
 MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
-  if (short_waves_.empty()) return lu_.transpose().solve(b);
+  if (short_waves_.empty()) return lu_.solve_transposed(b);
   return surely_corrected([this](const MatrixXd& f) { return by_factor_transposed(f); }, J_.transpose(), b);
 }
 
@@ -125,7 +122,7 @@ MatrixXd TangentFactor::by_factor(const MatrixXd& b, const Solve& solve) const {
   MatrixXd x = b, rest = b(kept_, Eigen::all);
   for (const auto& rim : short_waves_) {
     auto its = x.middleRows(rim.first, rim.end - rim.first);
-    its = rim.own.solve(its).eval();
+    its = rim.own.solve(its);
     rest -= rim.on_kept * its;
   }
   x(kept_, Eigen::all) = solve(rest);
@@ -140,12 +137,12 @@ MatrixXd TangentFactor::by_factor_transposed(const MatrixXd& b) const {
   for (const auto& rim : short_waves_)
     x.middleRows(rim.first_long, rim.first - rim.first_long) -=
         rim.by_long.transpose() * b.middleRows(rim.first, rim.end - rim.first);
-  const MatrixXd kept = lu_.transpose().solve(x(kept_, Eigen::all).eval());
+  const MatrixXd kept = lu_.solve_transposed(x(kept_, Eigen::all));
   x(kept_, Eigen::all) = kept;
   for (const auto& rim : short_waves_) {
     auto its = x.middleRows(rim.first, rim.end - rim.first);
     its -= rim.on_kept.transpose() * kept;
-    its = rim.own.transpose().solve(its).eval();
+    its = rim.own.solve_transposed(its);
   }
   return x;
 }

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
 #include <vector>
+
+#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::stage3 {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
+using Eigen::VectorXd;
 
 /// Factor of the tangent J of a joint, (r, r).
 ///
@@ -25,7 +27,8 @@ class TangentFactor {
   [[nodiscard]] MatrixXd solve(const MatrixXd& b) const;
   /// Solution x of J^T x = b, (r, columns).
   [[nodiscard]] MatrixXd solve_transposed(const MatrixXd& b) const;
-  /// Least stretch of the small matrix, which is singular where J is.
+  /// Reciprocal condition number of the small matrix, which is singular where J is, as one that is of order 1, and so
+  /// singular also if all of it is small.
   [[nodiscard]] double least_stretch() const;
   /// Motions that a singular J does not resist, (r, n), n >= 1.
   /// @param least Singular value of the small matrix up to which it is none.
@@ -45,10 +48,10 @@ class TangentFactor {
  private:
   /// Short waves of a rim.
   struct ShortWaves {
-    Index first_long, first, end;       ///< unknowns of the rim: long waves, then short ones
-    Eigen::PartialPivLU<MatrixXd> own;  ///< of their block
-    MatrixXd by_long;                   ///< (short, long) inverse of the block times what they take from long waves
-    MatrixXd on_kept;                   ///< (kept, short) what the kept rows take from them
+    Index first_long, first, end;  ///< unknowns of the rim: long waves, then short ones
+    matrices::Lu own;              ///< of their block
+    MatrixXd by_long;              ///< (short, long) inverse of the block times what they take from long waves
+    MatrixXd on_kept;              ///< (kept, short) what the kept rows take from them
   };
   /// Solutions with the factor alone, whose small matrix `solve` solves.
   template <typename Solve>
@@ -62,7 +65,7 @@ class TangentFactor {
   std::vector<Index> kept_;  ///< planes and long waves
   std::vector<ShortWaves> short_waves_;
   MatrixXd small_;
-  Eigen::PartialPivLU<MatrixXd> lu_;  ///< of small
+  matrices::Lu lu_;  ///< of small
 };
 
 }  // namespace fastjoint::stage3

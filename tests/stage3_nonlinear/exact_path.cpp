@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/stage3_nonlinear/exact_path.hpp"
 
-#include <Eigen/LU>
 #include <Eigen/QR>
 #include <algorithm>
 #include <cassert>
@@ -10,6 +9,8 @@
 #include <limits>
 #include <optional>
 #include <set>
+
+#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -114,8 +115,8 @@ class Tracer {
   [[nodiscard]] std::optional<Line> line_in_cell() {
     constexpr double singular = 1e-13;
     const auto [J, offset] = joint_.equations(cell_);
-    const Eigen::PartialPivLU<MatrixXd> lu(J);
-    if (least_stretch(lu, J) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
+    const matrices::Lu lu(J);
+    if (lu.rcond() * std::min(1.0, lu.norm()) > singular) return Line{lu.solve(-offset), lu.solve(q_)};
     return line_without_stiffness(J);
   }
 

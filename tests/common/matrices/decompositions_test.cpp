@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <complex>
 #include <limits>
@@ -38,6 +40,25 @@ TEST(Inverse, IsEmptyOfAMatrixThatIsNotPositiveDefinite) {
   A(3, 3) = -1;
   EXPECT_FALSE(inverse_of_positive(A));
   EXPECT_FALSE(inverse_of_positive(MatrixXd::Zero(2, 2)));
+}
+
+TEST(Lu, SolvesAndTellsTheConditionAsEigenDoes) {
+  std::srand(9);
+  for (const Eigen::Index n : {1, 2, 7, 90}) {
+    const MatrixXd A = MatrixXd::Random(n, n), b = MatrixXd::Random(n, 3);
+    const Lu lu(A);
+    const Eigen::PartialPivLU<MatrixXd> eigen(A);
+    EXPECT_LT((A * lu.solve(b) - b).norm(), 1e-10 * b.norm()) << n;
+    EXPECT_LT((A.transpose() * lu.solve_transposed(b) - b).norm(), 1e-10 * b.norm()) << n;
+    EXPECT_NEAR(lu.rcond() / eigen.rcond(), 1, 0.5) << n << ": two estimates";
+    EXPECT_DOUBLE_EQ(lu.norm(), A.cwiseAbs().colwise().sum().maxCoeff());
+  }
+  EXPECT_EQ(Lu(MatrixXd::Zero(3, 3)).rcond(), 0);
+  MatrixXd singular = MatrixXd::Random(4, 4);
+  singular.col(2) = singular.col(1);
+  EXPECT_LT(Lu(singular).rcond(), 1e-15);
+  singular(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(Lu(singular).rcond(), 0);
 }
 
 TEST(Decompositions, OfASymmetricMatrixGiveItBackFromItsLowerTriangle) {
