@@ -26,6 +26,26 @@ MatrixXd along_and_across(const VectorXd& e, double along, double across) {
   return A;
 }
 
+std::vector<Corner> corners_of(const Contact& contact) {
+  constexpr double equal = 1e-9;
+  const Law& law = *contact.law;
+  const double k = contact.stiffness;
+  const double gap = law.gap(contact.clearance);
+  std::vector<Corner> result;
+  const auto corners = law.corners(k, contact.clearance);
+  // Among the corners of a law that is linear between them is that of its gap.
+  if (corners ? gap == 0 && contact.one_sided : gap > 0 || contact.one_sided)
+    result.push_back({k * gap, CornerKind::contact});
+  for (const double c : corners.value_or(std::vector<double>{})) {
+    const double delta = law.at(c, k, contact.clearance).delta;
+    const CornerKind kind = std::abs(delta - gap) <= equal * gap ? CornerKind::contact
+                            : delta < gap                        ? CornerKind::slip
+                                                                 : CornerKind::yield;
+    result.push_back({c, kind});
+  }
+  return result;
+}
+
 }  // namespace
 
 FastenerInterface::FastenerInterface(std::vector<Contact> planes, Place place)
@@ -155,6 +175,24 @@ void FastenerInterface::add_trace(double trace, Response& response) const {
     raise(e);
     if (a > 1) raise(Eigen::Vector2d(-e[1], e[0]));
   }
+}
+
+std::vector<std::vector<Corner>> FastenerInterface::corners() const {
+  std::vector<std::vector<Corner>> all;
+  for (const Contact& plane : planes_) all.push_back(corners_of(plane));
+  return all;
+}
+
+double FastenerInterface::position(const VectorXd& c, Index entry) const {
+  const Index a = place_.n_directions;
+  return a == 1 ? c[entry] : c.segment(entry * a, a).norm();
+}
+
+VectorXd FastenerInterface::slope(const VectorXd& c, Index entry) const {
+  const Index a = place_.n_directions;
+  VectorXd result = VectorXd::Zero(c.size());
+  result.segment(entry * a, a) = a == 1 ? VectorXd::Ones(1) : VectorXd(c.segment(entry * a, a).normalized());
+  return result;
 }
 
 VectorXd FastenerInterface::coordinates(const VectorXd& F) const {

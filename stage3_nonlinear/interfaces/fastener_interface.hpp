@@ -67,6 +67,10 @@ class FastenerInterface : public Interface {
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
   void add_trace(double trace, Response& response) const override;
   [[nodiscard]] MatrixXd friction_by_force(const VectorXd& F) const override;
+  [[nodiscard]] std::vector<std::vector<Corner>> corners() const override;
+  [[nodiscard]] double position(const VectorXd& c, Index entry) const override;
+  [[nodiscard]] VectorXd slope(const VectorXd& c, Index entry) const override;
+  [[nodiscard]] bool is_one_sided(Index entry) const override { return planes_[entry].one_sided; }
   [[nodiscard]] VectorXd coordinates(const VectorXd& F) const override;
   [[nodiscard]] VectorXd transferred(const VectorXd& F, Index side) const override;
   [[nodiscard]] std::vector<Change> changes(const VectorXd& c, const Response& response) const override;

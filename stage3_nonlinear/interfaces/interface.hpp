@@ -22,6 +22,16 @@ struct Response {
   Index spent = -1;     ///< a row past all that the interface can carry, if there is one
 };
 
+/// Kind of a corner: before the rim of a fastener bears, where it begins to, after; or of a rim of contact: where it
+/// begins to touch its disc anywhere, and ceases to touch it all around.
+enum class CornerKind { slip, contact, yield, touch, part };
+
+/// Place at which something happens to an interface.
+struct Corner {
+  double at;  ///< Interface::position, or its amount where the interface bears both ways; >= 0, force
+  CornerKind kind;
+};
+
 /// Kind of a number of the input.
 enum class NumberKind { clearance, law, mu, rim_mu, gap };
 
@@ -52,6 +62,14 @@ class Interface {
   /// Derivatives of Lambda by F, (t, n), where friction follows from the forces alone, on the sides that bear under F;
   /// empty if it does not.
   [[nodiscard]] virtual MatrixXd friction_by_force(const VectorXd& /*F*/) const { return {}; }
+  /// Corners of each of its entries, ascending: a fastener has one entry for each plane, a rim of contact one for
+  /// touching and one for parting.
+  [[nodiscard]] virtual std::vector<std::vector<Corner>> corners() const = 0;
+  /// Position of an entry between its corners, force, and its derivative by c, (n).
+  [[nodiscard]] virtual double position(const VectorXd& c, Index entry) const = 0;
+  [[nodiscard]] virtual VectorXd slope(const VectorXd& c, Index entry) const = 0;
+  /// True if positions below zero are no mirror image of those above.
+  [[nodiscard]] virtual bool is_one_sided(Index /*entry*/) const { return true; }
   /// Coordinates at which the forces are F, or about that, (n), force.
   [[nodiscard]] virtual VectorXd coordinates(const VectorXd& F) const = 0;
   /// Load that each shear plane passes on, friction included, by that of its first (0) or its second (1) hole, (n).

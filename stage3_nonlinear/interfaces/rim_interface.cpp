@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/interfaces/rim_interface.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "stage3_nonlinear/interfaces/rim_friction.hpp"
 
 namespace fastjoint::stage3 {
+namespace {
+
+/// Sign of the depth in the position of an entry.
+double sign_of(Index entry) { return entry == 0 ? 1 : -1; }
+
+}  // namespace
 
 Response RimInterface::respond(const VectorXd& c, const History& /*history*/) const {
   const Index n = c.size(), t = n_friction();
@@ -21,6 +28,22 @@ Response RimInterface::respond(const VectorXd& c, const History& /*history*/) co
   }
   response.dF = std::move(touching.share);
   return response;
+}
+
+/// A loose bolt lies anywhere, and touches where it presses by more than the little force that a solution leaves.
+std::vector<std::vector<Corner>> RimInterface::corners() const {
+  constexpr double little = 1e-6;  // of the gap
+  return {{{little * rim_.stiffness() * std::max(rim_.gap(), 0.0), CornerKind::touch}}, {{0, CornerKind::part}}};
+}
+
+/// The depth of the disc where it is largest, or minus that where it is least, times the stiffness.
+double RimInterface::position(const VectorXd& c, Index entry) const {
+  return slope(c, entry).dot(c) - sign_of(entry) * rim_.stiffness() * rim_.gap();
+}
+
+/// The place of an extremum moves along the rim without changing it.
+VectorXd RimInterface::slope(const VectorXd& c, Index entry) const {
+  return sign_of(entry) * rim_.pressures().at(rim_.deepest(c, sign_of(entry)));
 }
 
 /// Shears are proportional to the coefficient where the rim slips, and do not know it where it sticks. The gap acts as

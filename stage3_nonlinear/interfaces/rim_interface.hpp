@@ -19,6 +19,9 @@ class RimInterface : public Interface {
   [[nodiscard]] Index n_friction() const override { return rubs_ ? rim_.pressures().n_shears() : 0; }
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
   void add_trace(double trace, Response& response) const override { response.dF.diagonal().array() += trace; }
+  [[nodiscard]] std::vector<std::vector<Corner>> corners() const override;
+  [[nodiscard]] double position(const VectorXd& c, Index entry) const override;
+  [[nodiscard]] VectorXd slope(const VectorXd& c, Index entry) const override;
   /// Those of springs that also pull.
   [[nodiscard]] VectorXd coordinates(const VectorXd& F) const override { return F; }
   [[nodiscard]] std::vector<Change> changes(const VectorXd& c, const Response& response) const override;

@@ -14,26 +14,6 @@ namespace {
 
 using Eigen::VectorXi;
 
-std::vector<Corner> corners_of(const Contact& contact) {
-  constexpr double equal = 1e-9;
-  const Law& law = *contact.law;
-  const double k = contact.stiffness;
-  const double gap = law.gap(contact.clearance);
-  std::vector<Corner> result;
-  const auto corners = law.corners(k, contact.clearance);
-  // Among the corners of a law that is linear between them is that of its gap.
-  if (corners ? gap == 0 && contact.one_sided : gap > 0 || contact.one_sided)
-    result.push_back({k * gap, CornerKind::contact});
-  for (const double c : corners.value_or(std::vector<double>{})) {
-    const double delta = law.at(c, k, contact.clearance).delta;
-    const CornerKind kind = std::abs(delta - gap) <= equal * gap ? CornerKind::contact
-                            : delta < gap                        ? CornerKind::slip
-                                                                 : CornerKind::yield;
-    result.push_back({c, kind});
-  }
-  return result;
-}
-
 /// Verbs for one fastener and for several, away from the origin and back.
 struct Words {
   CornerKind kind;
@@ -51,35 +31,30 @@ constexpr std::array words{
 }  // namespace
 
 ContactCorners::ContactCorners(const JointEquations& equations, bool interference_alone)
-    : equations_(equations), n_planes_(equations.n_planes()), corners_(n_planes_) {
-  for (Index j = 0; j < n_planes_ && !interference_alone; ++j) corners_[j] = corners_of(equations.contacts[j]);
-  for (const auto& rim : equations.rims)
-    for (const CornerKind kind : {CornerKind::touch, CornerKind::part}) {
-      corners_.emplace_back();
-      if (!interference_alone || (kind == CornerKind::part && rim.gap() < 0)) corners_.back().push_back({0, kind});
+    : n_planes_(equations.n_planes()) {
+  for (const PlacedInterface& placed : equations.interfaces) {
+    auto corners = placed.interface->corners();
+    for (Index entry = 0; entry < std::ssize(corners); ++entry) {
+      const Index rim = (std::ssize(corners_) - n_planes_) / 2;
+      const bool wanted =
+          !interference_alone ||
+          (!corners[entry].empty() && corners[entry][0].kind == CornerKind::part && equations.rims[rim].gap() < 0);
+      corners_.push_back(wanted ? std::move(corners[entry]) : std::vector<Corner>());
+      at_.emplace_back(&placed, entry);
     }
-}
-
-double ContactCorners::position(const VectorXd& c, Index plane) const {
-  const Index a = equations_.n_directions();
-  if (plane < n_planes_) return a == 1 ? c[plane] : c.segment(plane * a, a).norm();
-  const RimContact& rim = rim_of(plane);
-  return slope(c, plane).dot(c) - sign_of(plane) * rim.stiffness() * rim.gap();
-}
-
-VectorXd ContactCorners::slope(const VectorXd& c, Index plane) const {
-  const Index a = equations_.n_directions();
-  VectorXd result = VectorXd::Zero(c.size());
-  if (plane < n_planes_) {
-    result.segment(plane * a, a) = a == 1 ? VectorXd::Ones(1) : VectorXd(c.segment(plane * a, a).normalized());
-    return result;
   }
-  const RimContact& rim = rim_of(plane);
-  Index first = equations_.n_plane_rows();
-  for (const RimContact* before = equations_.rims.data(); before != &rim; ++before) first += before->size();
-  // The place of an extremum moves along the rim without changing it.
-  const double angle = rim.deepest(c.segment(first, rim.size()), sign_of(plane));
-  result.segment(first, rim.size()) = sign_of(plane) * rim.pressures().at(angle);
+}
+
+double ContactCorners::position(const VectorXd& c, Index entry) const {
+  const auto& [placed, number] = at_[entry];
+  return placed->interface->position(c.segment(placed->row, placed->interface->size()), number);
+}
+
+VectorXd ContactCorners::slope(const VectorXd& c, Index entry) const {
+  const auto& [placed, number] = at_[entry];
+  const Index n = placed->interface->size();
+  VectorXd result = VectorXd::Zero(c.size());
+  result.segment(placed->row, n) = placed->interface->slope(c.segment(placed->row, n), number);
   return result;
 }
 
@@ -88,21 +63,16 @@ double ContactCorners::nearness(const VectorXd& c, double at) {
   return of_corner * at + of_largest * c.cwiseAbs().maxCoeff();
 }
 
-double ContactCorners::pressed(Index entry) const {
-  constexpr double little = 1e-6;  // of the gap
-  return little * rim_of(entry).stiffness() * std::max(rim_of(entry).gap(), 0.0);
-}
-
 VectorXi ContactCorners::passed(const VectorXd& c) const {
   VectorXi result = VectorXi::Zero(std::ssize(corners_));
   for (Index j = 0; j < result.size(); ++j) {
     const auto& own = of(j);
     if (own.empty()) continue;
     const double x = this->position(c, j);
-    const bool mirrored = x < 0 && !is_one_sided(j);
+    const bool mirrored = x < 0 && !at_[j].first->interface->is_one_sided(at_[j].second);
     const double position = mirrored ? -x : x;
     const int reached = int(std::count_if(own.begin(), own.end(), [&](const Corner& corner) {
-      if (corner.kind == CornerKind::touch) return x >= pressed(j);
+      if (corner.kind == CornerKind::touch) return x >= corner.at;
       return position >= corner.at - nearness(c, corner.at);
     }));
     result[j] = mirrored ? -reached : reached;
@@ -126,7 +96,7 @@ std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const Vecto
   std::vector<ContactEvent> result;
   for (Index j = 0; j < n_planes_ && !c.isZero(0); ++j) {
     const double x = position(c, j), was = position(before, j);
-    const double sign = x < 0 && !is_one_sided(j) ? -1 : 1;
+    const double sign = x < 0 && !at_[j].first->interface->is_one_sided(at_[j].second) ? -1 : 1;
     for (const Corner& corner : of(j)) {
       const double near = nearness(c, corner.at);
       if (std::abs(sign * x - corner.at) > near || std::abs(sign * was - corner.at) <= near) continue;

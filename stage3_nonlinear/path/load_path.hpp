@@ -6,21 +6,12 @@
 #include <iosfwd>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "stage3_nonlinear/equations/solved_point.hpp"
 
 namespace fastjoint::stage3 {
-
-/// Kind of a corner of a plane's curve: before the rim bears, where it begins to, after; or of a rim of contact: where
-/// it begins to touch its disc anywhere, and ceases to touch it all around.
-enum class CornerKind { slip, contact, yield, touch, part };
-
-/// Place on a plane's curve at which something happens to the fastener.
-struct Corner {
-  double at;  ///< ContactCorners::position, or its amount if the plane bears both ways; >= 0, force
-  CornerKind kind;
-};
 
 /// Passing of a corner by a plane, away from the origin or back.
 struct ContactEvent {
@@ -47,9 +38,6 @@ class ContactCorners {
   [[nodiscard]] double position(const VectorXd& c, Index plane) const;
   /// Derivative of position by c, (r).
   [[nodiscard]] VectorXd slope(const VectorXd& c, Index plane) const;
-  /// Position from which on a rim touches, force: a loose bolt lies anywhere, and touches where it presses by more than
-  /// the little force that a solution leaves.
-  [[nodiscard]] double pressed(Index entry) const;
   /// Number of corners that each plane and each entry of a rim has passed, negative on the negative side, (n + 2 g).
   [[nodiscard]] Eigen::VectorXi passed(const VectorXd& c) const;
   /// Events on the way from one vector of passed() to another.
@@ -60,16 +48,9 @@ class ContactCorners {
   [[nodiscard]] static double nearness(const VectorXd& c, double at);
 
  private:
-  [[nodiscard]] const RimContact& rim_of(Index entry) const { return equations_.rims[(entry - n_planes_) / 2]; }
-  /// Sign of the depth in the position of a rim's entry.
-  [[nodiscard]] double sign_of(Index entry) const { return (entry - n_planes_) % 2 == 0 ? 1 : -1; }
-  [[nodiscard]] bool is_one_sided(Index plane) const {
-    return plane >= n_planes_ || equations_.contacts[plane].one_sided;
-  }
-
-  const JointEquations& equations_;
   Index n_planes_;
-  std::vector<std::vector<Corner>> corners_;
+  std::vector<std::vector<Corner>> corners_;                  ///< of each entry
+  std::vector<std::pair<const PlacedInterface*, Index>> at_;  ///< interface of each entry, and its number there
 };
 
 /// "1, 3 close; 2 yields", empty if nothing happens.

@@ -34,7 +34,7 @@ std::optional<double> TouchSearch::place_between(const Sample& a, const Sample& 
     auto& there = rates[opens ? 0 : 1];
     if (!there) there = rate(equations_, pressed);
     if (!there->allFinite()) return std::nullopt;
-    const double depth = corners_.position(pressed.c, j) - corners_.pressed(j);
+    const double depth = corners_.position(pressed.c, j) - corners_.of(j).front().at;
     const double by = load_from_touch(j, pressed.load, depth / corners_.slope(pressed.c, j).dot(*there));
     const double share = (1 + further) * -by / (loose.load - pressed.load);  // of the way to the loose state
     if (!(share > 0 && share < 1 - at_ends)) return std::nullopt;
