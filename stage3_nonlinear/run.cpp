@@ -118,7 +118,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   program::report_share(0);
   auto [path, increments] = follow_with_results(joint, equations, scene.load_factors, solving,
                                                 {scene.solver.tolerance, with_sensitivities, with_rim_stresses});
-  path.interference = follow_interference(equations, solving, path);
+  path.interference = search_interference(equations, solving, path);
   program::report_share(1);
   warn(log, warnings(joint, equations, path));
   warn(log, implausible_numbers(scene, joint, path));

@@ -62,11 +62,19 @@ void place_rims(const JointModel& joint, JointEquations& equations) {
   }
 }
 
-/// Forces of rigid fasteners per unit load factor of a sign.
-VectorXd rigid_forces(const JointEquations& equations, double sign) {
-  const VectorXd rates = equations.load_rates(sign);
-  return without_rounding(equations.system->Q * rates,
-                          rates.cwiseAbs().cwiseProduct(equations.system->Q_scale).lpNorm<Eigen::Infinity>());
+/// Forces of rigid fasteners by amounts of the load cases, (r).
+VectorXd rigid_forces_by(const CondensedSystem& system, const VectorXd& cases) {
+  return without_rounding(system.Q * cases, cases.cwiseAbs().cwiseProduct(system.Q_scale).lpNorm<Eigen::Infinity>());
+}
+
+/// Values of those load cases that act at a load factor, by a value of each load, (l).
+VectorXd of_acting(const JointEquations& equations, double load_factor, const VectorXd& values) {
+  const auto& cases = equations.system->cases;
+  const VectorXd load = equations.parameters.load_at(load_factor);
+  return VectorXd::NullaryExpr(std::ssize(cases), [&](Index i) {
+    const Index at = cases[i].load;
+    return acts(cases[i].sense, load[at], equations.parameters.load[at]) ? values[at] : 0;
+  });
 }
 
 }  // namespace
@@ -80,8 +88,8 @@ JointEquations make_equations(const JointModel& joint, std::shared_ptr<const Con
   equations.rises = std::ranges::all_of(equations.contacts, [](const Contact& each) { return each.law->rises(); });
   place_fasteners(joint, equations);
   place_rims(joint, equations);
-  equations.q = rigid_forces(equations, 1);
-  equations.q_reversed = rigid_forces(equations, -1);
+  equations.q = rigid_forces_by(*equations.system, equations.load_rates(1));
+  equations.q_reversed = rigid_forces_by(*equations.system, equations.load_rates(-1));
   return equations;
 }
 
@@ -138,8 +146,27 @@ double JointEquations::force_of_gaps() const {
   return force;
 }
 
+VectorXd JointEquations::load_at(double load_factor) const {
+  return of_acting(*this, load_factor, parameters.load_at(load_factor));
+}
+
+VectorXd JointEquations::load_rates(double load_factor) const { return of_acting(*this, load_factor, parameters.load); }
+
+VectorXd JointEquations::load_acting(double load_factor) const {
+  return of_acting(*this, load_factor, VectorXd::Ones(parameters.load.size()));
+}
+
+VectorXd JointEquations::q_at(double load_factor) const {
+  if (starts_unloaded()) return load_factor < 0 ? q_reversed : q;
+  return rigid_forces_by(*system, load_rates(load_factor));
+}
+
+VectorXd JointEquations::rigid_forces(double load_factor) const {
+  return starts_unloaded() ? VectorXd(load_factor * q_at(load_factor)) : rigid_forces_by(*system, load_at(load_factor));
+}
+
 VectorXd JointEquations::residual(const ContactState& state, double load_factor) const {
-  VectorXd r = state.F + system->S_ud * state.delta - load_factor * q_at(load_factor);
+  VectorXd r = state.F + system->S_ud * state.delta - rigid_forces(load_factor);
   if (has_friction()) r += system->H * state.Lambda;  // OpenBLAS complains on stderr about matrices without columns
   return r;
 }
@@ -195,7 +222,7 @@ MatrixXd hessian(const JointEquations& equations, const ContactState& state) {
 RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
                          const ContactState* frozen) {
   const CondensedSystem& system = *equations.system;
-  VectorXd load = load_factor * equations.q_at(load_factor);
+  VectorXd load = equations.rigid_forces(load_factor);
   const bool friction = equations.has_friction() && !frozen;
   if (equations.has_friction() && frozen) load -= system.H * frozen->Lambda;
   RootProblem problem;

@@ -23,7 +23,7 @@ struct JointEquations {
   std::vector<Contact> contacts;            ///< (n)
   std::vector<RimContact> rims;             ///< (g)
   std::vector<PlacedInterface> interfaces;  ///< fastener after fastener, then rim after rim
-  VectorXd q, q_reversed;                   ///< (r) forces of rigid fasteners per unit load factor > 0, and < 0; force
+  VectorXd q, q_reversed;                   ///< (r) q_at of load factors > 0, and < 0, from no load on; force
   bool rises = true;                        ///< no law falls
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
@@ -52,13 +52,18 @@ struct JointEquations {
   /// springs of its rim, force.
   [[nodiscard]] double force_of_clearances() const;
   [[nodiscard]] double force_of_gaps() const;
-  /// Forces of rigid fasteners per unit load factor, at a load factor, (r).
-  [[nodiscard]] const VectorXd& q_at(double load_factor) const { return load_factor < 0 ? q_reversed : q; }
-  /// Amounts of the load cases per unit load factor, at a load factor, (l).
-  [[nodiscard]] VectorXd load_rates(double load_factor) const {
-    return stage3::load_rates(system->cases, parameters.load, load_factor);
-  }
-  /// F + S_ud delta + H Lambda - lambda q, (r), force.
+  /// What a unit of the load factor adds to the forces of rigid fasteners, at a load factor, (r).
+  [[nodiscard]] VectorXd q_at(double load_factor) const;
+  /// True if there is no load at load factor 0.
+  [[nodiscard]] bool starts_unloaded() const { return parameters.load_before.size() == 0; }
+  /// Forces of rigid fasteners at a load factor, (r), force.
+  [[nodiscard]] VectorXd rigid_forces(double load_factor) const;
+  /// Amounts of the load cases at a load factor, and what a unit of it adds to them there, (l).
+  [[nodiscard]] VectorXd load_at(double load_factor) const;
+  [[nodiscard]] VectorXd load_rates(double load_factor) const;
+  /// 1 of a load case that acts at a load factor, else 0, (l).
+  [[nodiscard]] VectorXd load_acting(double load_factor) const;
+  /// F + S_ud delta + H Lambda less the forces of rigid fasteners, (r), force.
   [[nodiscard]] VectorXd residual(const ContactState& state, double load_factor) const;
   /// Derivative of the forces H Lambda of cosine friction by F on the sides that bear under F, (r, r), dimensionless.
   [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;

@@ -205,7 +205,7 @@ void check_side(const PlateModel& plate, Index traction, const LoadScene& load, 
     bool acts = load.value * factor == 0;
     for (Index i = 0; i < std::ssize(plate.tractions); ++i)
       acts = acts || (plate.tractions[i] == plate.tractions[traction] &&
-                      fastjoint::stage3::acts(plate.sense(i), load.value, factor));
+                      fastjoint::stage3::acts(plate.sense(i), factor * load.value));
     if (!acts)
       refuse(load.external.where,
              fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "

@@ -29,15 +29,6 @@ std::vector<LoadCase> load_cases(const JointModel& joint) {
   return cases;
 }
 
-VectorXd load_rates(const std::vector<LoadCase>& cases, const VectorXd& load, double load_factor) {
-  VectorXd rates(std::ssize(cases));
-  for (Index i = 0; i < rates.size(); ++i) {
-    const double amount = load[cases[i].load];
-    rates[i] = acts(cases[i].sense, amount, load_factor) ? amount : 0;
-  }
-  return rates;
-}
-
 Parameters parameters_of(const JointModel& joint) {
   Parameters all;
   const auto loads = loads_of(joint);

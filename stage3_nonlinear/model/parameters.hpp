@@ -25,21 +25,23 @@ struct LoadCase {
 };
 [[nodiscard]] std::vector<LoadCase> load_cases(const JointModel& joint);
 
-/// True if a case of a sense acts under an amount of its load at a load factor. One of 0 counts as positive.
-[[nodiscard]] inline bool acts(int sense, double amount, double load_factor) {
-  return sense != ((amount < 0) == (load_factor < 0) ? -1 : 1);
+/// True if a case of a sense acts under an amount of its load, of which 0 has the sign of how it grows.
+[[nodiscard]] inline bool acts(int sense, double amount, double rate = 0) {
+  return sense != (amount < 0 || (amount == 0 && rate < 0) ? 1 : -1);
 }
-
-/// Amount of each case per unit of the load factor, at a load factor, (cases).
-/// @param load Amounts of the loads at load factor 1.
-[[nodiscard]] VectorXd load_rates(const std::vector<LoadCase>& cases, const VectorXd& load, double load_factor);
 
 /// Numbers of a run of a joint, by index: all that may change while its condensed system stays.
 struct Parameters {
-  VectorXd load;                ///< of each of loads_of at load factor 1, force or length
+  VectorXd load;                ///< what a unit of the load factor adds to each of loads_of, force or length
   std::vector<LawPointer> law;  ///< (n) of each plane
   VectorXd clearance;           ///< (n) length
   VectorXd mu, gap;             ///< of each fastener in each of its holes, fastener after fastener; gap: length
+  VectorXd load_before = {};    ///< loads at load factor 0, force or length; empty: none
+
+  /// Loads at a load factor.
+  [[nodiscard]] VectorXd load_at(double load_factor) const {
+    return load_before.size() > 0 ? VectorXd(load_before + load_factor * load) : VectorXd(load_factor * load);
+  }
 };
 
 /// The numbers that JOINT.json gives.

@@ -47,14 +47,13 @@ class Search {
   Search(const JointEquations& equations, const ContactCorners& corners, Walk& walk)
       : equations_(equations), corners_(corners), walk_(walk), touches_(equations, corners) {}
 
-  /// @param last Load factor at which the search ends.
-  FoundEvents run(double last = 1) {
-    constexpr int intervals = 8;
+  /// @param loads Load factors, ascending, that are solved first; the search ends at the last.
+  FoundEvents run(const std::vector<double>& loads) {
     const auto first = solved(first_load_factor);
     if (!first) return std::move(found_);
     Sample here = *first;
-    for (int i = 1; i <= intervals; ++i) {
-      const auto next = solved(last * double(i) / intervals);
+    for (const double load : loads) {
+      const auto next = solved(load);
       if (!next || !between(here, *next, 0)) break;
       walk_.put({next->load, next->c}, 0);
       here = *next;
@@ -245,7 +244,11 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   LoadPath path{.steps = {}, .failure = {}};
   Walk walk(equations, options);
   const ContactCorners corners(equations);
-  const auto [events, failed] = Search(equations, corners, walk).run();
+  path.assembled = walk.assemble();
+  constexpr int intervals = 8;
+  std::vector<double> loads;
+  for (int i = 1; i <= intervals; ++i) loads.push_back(double(i) / intervals);
+  const auto [events, failed] = Search(equations, corners, walk).run(loads);
   const bool ends_there = !failed && !events.empty() && events.back().place.load_factor >= at_end;
   path.n_increments = events.size() + (ends_there ? 0 : 1);
   if (failed) path.failure = walk.failure(events.size(), *failed);
@@ -264,21 +267,24 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   return path;
 }
 
-std::optional<Interference> follow_interference(const JointEquations& equations, const PathOptions& options,
+std::optional<Interference> search_interference(const JointEquations& equations, const PathOptions& options,
                                                 const LoadPath& path) {
-  Walk walk(equations, options);
-  if (!equations.has_interference() || !walk.reach(0)) return std::nullopt;
+  if (!path.assembled) return std::nullopt;
   const ContactCorners corners(equations, true);
-  double last = 0;
-  for (const auto& step : path.steps) last = std::max(last, step.load_factor);
-  const VectorXd moments = contact_state(equations, walk.here().c).delta;
-  Interference result{moments.tail(moments.size() - equations.n_plane_rows()), VectorXd(std::ssize(equations.rims)),
-                      last};
+  std::vector<double> loads;  // that the path has gone up to
+  for (const auto& step : path.steps)
+    if (step.load_factor > (loads.empty() ? first_load_factor : loads.back())) loads.push_back(step.load_factor);
+  const Index planes = equations.n_plane_rows();
+  Interference result{contact_state(equations, *path.assembled).delta.tail(equations.n_unknowns() - planes),
+                      VectorXd(std::ssize(equations.rims)), loads.empty() ? 0 : loads.back()};
   result.lost.setConstant(std::numeric_limits<double>::infinity());
-  if (last <= first_load_factor) return result;
+  if (loads.empty()) return result;
+  PathOptions from_there = options;
+  from_there.start = path.assembled;
+  Walk walk(equations, from_there);
   walk.reach(first_load_factor);
   const VectorXi parted = corners.passed(walk.here().c);
-  const auto found = Search(equations, corners, walk).run(last);
+  const auto found = Search(equations, corners, walk).run(loads);
   if (found.failed) result.followed = found.events.empty() ? 0 : found.events.back().place.load_factor;
   for (auto event = found.events.rbegin(); event != found.events.rend(); ++event)
     for (const auto& each : event->events)

@@ -117,14 +117,15 @@ struct Interference {
   /// Load factor at which each rim with interference first loses full contact, 0 of one that has none below
   /// first_load_factor, infinite if it is not lost up to `followed`, and of other rims, (g).
   VectorXd lost;
-  double followed;  ///< largest load factor of the path's increments, or as far as the joint could be followed
+  double followed;  ///< largest load factor of the path's increments, or as far as the search went
 };
 
 struct LoadPath {
   Index n_increments = 0;  ///< asked for
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
-  std::optional<PathLeft> left = {};  ///< the first such place; only where the solution may be one of several
+  std::optional<PathLeft> left = {};       ///< the first such place; only where the solution may be one of several
+  std::optional<VectorXd> assembled = {};  ///< (r) contact coordinates of a joint with interference at no load, force
   std::optional<Interference> interference = {};
 };
 
@@ -134,6 +135,7 @@ struct PathOptions {
   std::ostream* log = nullptr;  ///< gets a line for each iteration of each try
   /// Takes each increment with the tangent of its solution; the path ends before one of which it returns something.
   std::function<std::optional<Imbalance>(SolvedPoint, const PathStep&)> each = {};
+  std::optional<VectorXd> start = {};  ///< (r) contact coordinates at load factor 0, force; none: those of no load
 };
 
 /// Follows the load factors, each increment from the last: the chosen solver in the contact coordinates from the last
@@ -156,9 +158,23 @@ inline constexpr double first_load_factor = 1e-6;
 /// whose interval is halved where the order of events is in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);
 
-/// Follows a joint with interference at no load, and to the largest load factor of its path for the events at which
-/// full contact is lost, as follow_events finds them. Empty without interference, and if no load cannot be solved.
-[[nodiscard]] std::optional<Interference> follow_interference(const JointEquations& equations,
+/// Searches between the increments of a path of a joint with interference for the events at which full contact is lost,
+/// as follow_events does, up to the largest load factor. Empty without interference, and if no load was not solved.
+[[nodiscard]] std::optional<Interference> search_interference(const JointEquations& equations,
                                                               const PathOptions& options, const LoadPath& path);
+
+/// A straight part of a path through the loads of a joint.
+struct Segment {
+  VectorXd load;                     ///< (l) at its end, as Parameters has them; at its begin those of the one before
+  std::vector<double> load_factors;  ///< of its increments, from 0 at its begin to 1 at its end; none: at every event
+};
+
+/// Follows a joint from no load through segments, each from where the one before has ended; the last is the first that
+/// fails.
+/// @param parameters Of all segments, but for the loads.
+[[nodiscard]] std::vector<LoadPath> follow_segments(const JointModel& joint,
+                                                    const std::shared_ptr<const CondensedSystem>& system,
+                                                    const Parameters& parameters, const std::vector<Segment>& segments,
+                                                    PathOptions options);
 
 }  // namespace fastjoint::stage3

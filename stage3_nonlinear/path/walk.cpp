@@ -15,8 +15,8 @@
 namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
   constexpr double of_gaps = 1e-4;  // rounding of their displacements stays far below a solver's tolerance of it
-  const double scale = std::max(std::abs(load_factor) * equations.q_at(load_factor).lpNorm<Eigen::Infinity>(),
-                                of_gaps * equations.force_of_gaps());
+  const double load = equations.rigid_forces(load_factor).lpNorm<Eigen::Infinity>();
+  const double scale = std::max(load, (load == 0 ? 1 : of_gaps) * equations.force_of_gaps());
   return scale > 0 ? scale : 1;
 }
 
@@ -26,7 +26,7 @@ Walk::Walk(const JointEquations& equations, const PathOptions& options)
       solver_(iterative_method(options.solver.method, equations.n_unknowns()) == Method::damped_newton ? newton_root
                                                                                                        : hybridsj_root),
       may_snap_(!planes_that_may_snap(equations).empty()),
-      here_{0, VectorXd::Zero(equations.n_unknowns())} {
+      here_{0, options.start.value_or(VectorXd::Zero(equations.n_unknowns()))} {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
   rounding_ = rounding * std::max(equations.force_of_clearances(), equations.force_of_gaps());
 }
@@ -44,7 +44,7 @@ bool Walk::reach(double target) {
     if (solve_from_here(std::copysign(just_below * limit(target)->factor, target))) return false;
   }
   const Place before = here_;
-  const bool started = may_snap_ || here_.load_factor != 0;
+  const bool started = may_snap_ || here_.load_factor != 0 || !equations_.starts_unloaded();
   if (started && follow(target, max_halvings)) return true;
   const Place furthest = std::exchange(here_, before);
   if (!guess(target, max_halvings)) {
@@ -103,7 +103,7 @@ PathFailure Walk::failure(Index increment, double load_factor) {
 
 std::optional<double> Walk::locking(double load_factor) const {
   const auto last = self_locking(equations_, contact_state(equations_, here_.c).F);
-  const auto rigid = self_locking(equations_, load_factor * equations_.q_at(load_factor));
+  const auto rigid = self_locking(equations_, equations_.rigid_forces(load_factor));
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
 
@@ -140,18 +140,23 @@ bool Walk::guess(double target, int halvings_left) {
 
 bool Walk::solve_from_here(double target) { return begin(target) || solve_from({here_.c}, target); }
 
+std::optional<VectorXd> Walk::assemble() {
+  if (!equations_.has_interference() || !equations_.starts_unloaded() || !reach(0)) return std::nullopt;
+  return here_.c;
+}
+
 bool Walk::begin(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
   target_ = target;
   scale_ = force_scale(equations_, target);
-  if (target != 0 || equations_.has_interference()) return false;
+  if (target != 0 || equations_.has_interference() || !equations_.starts_unloaded()) return false;
   here_ = {0, VectorXd::Zero(equations_.n_unknowns())};  // the joint as it was built is in equilibrium, exactly
   return true;
 }
 
 bool Walk::solve_from_guesses(double target) {
   auto starts = first_guesses(equations_, options_.initial, target);
-  starts.insert(here_.load_factor != 0 ? starts.begin() : starts.end(), here_.c);
+  starts.insert(here_.load_factor != 0 || !here_.c.isZero(0) ? starts.begin() : starts.end(), here_.c);
   if (const auto place = loose_without_friction(starts.front(), target)) starts.insert(starts.begin(), *place);
   if (may_snap_)  // far out, where nothing else has led to any of several solutions
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
@@ -288,6 +293,7 @@ void Walk::note_failure(const Root& root) {
 LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors, const PathOptions& options) {
   LoadPath path{.n_increments = std::ssize(load_factors), .steps = {}, .failure = {}};
   Walk walk(equations, options);
+  path.assembled = walk.assemble();
   const ContactCorners corners(equations);
   for (Index i = 0; i < std::ssize(load_factors); ++i) {
     program::report_share(double(i) / double(load_factors.size()));
@@ -300,6 +306,26 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   }
   path.left = walk.left();
   return path;
+}
+
+std::vector<LoadPath> follow_segments(const JointModel& joint, const std::shared_ptr<const CondensedSystem>& system,
+                                      const Parameters& parameters, const std::vector<Segment>& segments,
+                                      PathOptions options) {
+  std::vector<LoadPath> paths;
+  VectorXd before = VectorXd::Zero(parameters.load.size());
+  for (const Segment& segment : segments) {
+    Parameters its = parameters;
+    its.load = segment.load - before;
+    if (!before.isZero(0)) its.load_before = before;
+    const JointEquations equations = make_equations(joint, system, std::move(its));
+    paths.push_back(segment.load_factors.empty() ? follow_events(equations, options)
+                                                 : follow(equations, segment.load_factors, options));
+    if (paths.back().failure || paths.back().steps.empty()) break;
+    const PathStep& last = paths.back().steps.back();
+    before += last.load_factor * (segment.load - before);
+    options.start = last.c;
+  }
+  return paths;
 }
 
 }  // namespace fastjoint::stage3

@@ -26,6 +26,8 @@ class Walk {
 
   /// Goes to a load factor, as load_path.hpp says; false if nothing led there.
   bool reach(double target);
+  /// Goes to no load where discs are larger than their holes; contact coordinates there, (r), if that was solved.
+  std::optional<VectorXd> assemble();
   [[nodiscard]] const Place& here() const { return here_; }
   /// Goes on from a solution found elsewhere by so many iterations.
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
@@ -94,9 +96,9 @@ class Walk {
   std::array<std::optional<std::optional<LimitLoad>>, 2> limits_;  ///< of negative and positive load factors, if asked
 };
 
-/// Force against which residuals count: the largest |q| at a load factor, of given displacements too, but no less than
-/// a small part of what gaps of rims would take, whose rounding does not vanish with the load; 1 if nothing reaches the
-/// fasteners.
+/// Force against which residuals count: the largest force of rigid fasteners at a load factor, of given displacements
+/// too, but no less than a small part of what gaps of rims would take, whose rounding does not vanish with the load,
+/// and without any load no less than that itself; 1 if nothing reaches the fasteners.
 [[nodiscard]] double force_scale(const JointEquations& equations, double load_factor);
 
 }  // namespace fastjoint::stage3

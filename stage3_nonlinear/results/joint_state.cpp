@@ -188,7 +188,7 @@ void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateS
 
 JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
   const CondensedSystem& system = *equations.system;
-  const VectorXd load = step.load_factor * equations.load_rates(step.load_factor);
+  const VectorXd load = equations.load_at(step.load_factor);
   const VectorXd D = displacements(joint, system, load, step.all_delta(), step.Lambda);
   const VectorXd on_discs = forces_on_discs(joint, equations, step);
   JointState state;

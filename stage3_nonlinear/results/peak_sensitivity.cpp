@@ -58,7 +58,7 @@ class NearbyStates {
         numbers_(numbers),
         slopes_(slopes),
         state_(point.state()),
-        load_(point.load_factor() * equations_.load_rates(point.load_factor())),
+        load_(equations_.load_at(point.load_factor())),
         D_(displacements(joint, *equations_.system, load_, state_.delta, state_.Lambda)),
         dD_(displacements(joint, *equations_.system, slopes.load, slopes.delta, slopes.Lambda)),
         holes_(std::move(holes)) {

@@ -10,9 +10,9 @@ MatrixXd load_changes(const JointNumbers& numbers, const SolvedPoint& point) {
   const auto& cases = equations.system->cases;
   MatrixXd changes = MatrixXd::Zero(std::ssize(cases), numbers.n_derivatives());
   changes.col(0) = equations.load_rates(point.load_factor());
+  const VectorXd acting = equations.load_acting(point.load_factor());
   for (Index i = 0; i < std::ssize(cases); ++i)
-    if (acts(cases[i].sense, equations.parameters.load[cases[i].load], point.load_factor()))
-      changes(i, numbers.of_load[cases[i].load]) = point.load_factor();
+    changes(i, numbers.of_load[cases[i].load]) = point.load_factor() * acting[i];
   return changes;
 }
 

@@ -5,6 +5,7 @@
 
 #include <memory>
 
+#include "stage3_nonlinear/results/joint_state.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 #include "tests/stage3_nonlinear/named_laws.hpp"
@@ -67,12 +68,39 @@ TEST_F(ContactJoint, TakeOtherGapsAndFrictionWhileTheCondensedJointStays) {
 }
 
 TEST(LoadCases, OfAHoleActOnTheSideThatTheForcePointsTo) {
-  const std::vector<LoadCase> cases{{0, 0, 0, false, false, 0}, {1, 0, 0, true, false, 1}, {1, 0, 1, true, false, -1}};
-  const auto rates = [&](double force, double factor) { return load_rates(cases, Eigen::Vector2d(7, force), factor); };
-  EXPECT_EQ(rates(5, 1), Eigen::Vector3d(7, 5, 0));
-  EXPECT_EQ(rates(5, -1), Eigen::Vector3d(7, 0, 5));
-  EXPECT_EQ(rates(-5, 1), Eigen::Vector3d(7, 0, -5));
-  EXPECT_EQ(rates(-5, -1), Eigen::Vector3d(7, -5, 0));
+  for (const int sense : {1, -1}) {
+    EXPECT_EQ(acts(sense, 5), sense == 1);
+    EXPECT_EQ(acts(sense, -5), sense == -1);
+    EXPECT_EQ(acts(sense, 0, 3), sense == 1) << "what comes";
+    EXPECT_EQ(acts(sense, 0, -3), sense == -1);
+  }
+  for (const double amount : {5.0, -5.0, 0.0}) EXPECT_TRUE(acts(0, amount)) << "an edge";
+}
+
+/// Without memory the forces do not know by which loads a joint has come to them.
+TEST(Segments, EndAtTheForcesOfTheirLoads) {
+  std::mt19937 random(42);
+  for (int i = 0; i < 2 * test::n_kinds; ++i) {
+    auto named = test::named_joint(random, i % test::n_kinds);
+    static_cast<void>(named.equations());
+    const JointModel& joint = named.model;
+    const auto system = std::make_shared<const CondensedSystem>(condense(joint));
+    Parameters parameters = parameters_of(joint);
+    const VectorXd end = parameters.load;
+    const VectorXd middle =
+        VectorXd::NullaryExpr(end.size(), [&](Index at) { return uniform(random, 0.2, 1) * end[at]; });
+    const auto paths = follow_segments(joint, system, parameters, {{middle, {0.5, 1}}, {end, {0.3, 1}}}, tight);
+    const LoadPath direct = follow(make_equations(joint, system, parameters), {1}, tight);
+    if (direct.failure || paths.size() < 2 || paths[1].failure) continue;
+    const VectorXd &F = paths[1].steps.back().F, &expected = direct.steps[0].F;
+    EXPECT_LT((F - expected).norm(), 1e-9 * expected.norm() + 1e-12) << "joint " << i;
+    const JointEquations last = [&] {
+      parameters.load = end - middle;
+      parameters.load_before = middle;
+      return make_equations(joint, system, parameters);
+    }();
+    EXPECT_LT(joint_state(joint, last, paths[1].steps[0]).out_of_balance, 1e-9) << "joint " << i;
+  }
 }
 
 }  // namespace

