@@ -253,8 +253,6 @@ Index JointModel::n_moments() const {
   return n;
 }
 
-double JointModel::gap(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).gap; }
-
 double JointModel::mu(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).mu; }
 
 std::vector<std::string> JointModel::rims() const {

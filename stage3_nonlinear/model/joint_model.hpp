@@ -190,9 +190,7 @@ struct JointModel {
   [[nodiscard]] const HoleModel& second_hole(const ShearPlane& plane) const {
     return fasteners[plane.fastener].holes[plane.first + 1];
   }
-  /// Radial gap of the fastener in a hole of a plate, length; 0 without a fastener.
-  [[nodiscard]] double gap(Index plate, const std::string& hole) const;
-  /// Its coefficient of friction there; 0 without a fastener.
+  /// Coefficient of friction of the fastener in a hole of a plate; 0 without a fastener.
   [[nodiscard]] double mu(Index plate, const std::string& hole) const;
   /// Holes of the plane: the first alone if it is to the ground.
   [[nodiscard]] std::span<const HoleModel> holes(const ShearPlane& plane) const {

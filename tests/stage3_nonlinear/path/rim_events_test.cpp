@@ -2,6 +2,10 @@
 // Events of rims that push but do not pull.
 #include <gtest/gtest.h>
 
+#include <limits>
+
+#include <algorithm>
+
 #include <cmath>
 #include <optional>
 
@@ -76,6 +80,32 @@ TEST_F(ContactJoint, TellWhatTheirRimsHaveDoneByAnIncrement) {
   const ContactEvent touches{joint.n_planes() + 2, CornerKind::touch, false}, opens{0, CornerKind::contact, true};
   const ContactEvent parts{joint.n_planes() + 1, CornerKind::part, false};
   EXPECT_EQ(event_text(joint, {touches, opens, parts}), "a:2 touches; a:1 loses full contact; 1 opens");
+}
+
+/// The search for loss of full contact goes as far as the increments, and finds what increments at events find.
+TEST_F(ContactJoint, LoseFullContactAtTheEventsUpToTheirLargestIncrement) {
+  int lost = 0, kept = 0;
+  for (int i = 0; i < 60; ++i) {
+    const JointEquations equations = make_equations(random_contact_joint(random_, kind(i)));
+    const LoadPath path = follow(equations, {0.2, 0.4, 0.1}, {}), events = follow_events(equations, {});
+    const auto found = search_interference(equations, {}, path);
+    ASSERT_EQ(found.has_value(), equations.has_interference()) << i;
+    if (!found || path.failure || events.failure) continue;
+    EXPECT_EQ(found->followed, 0.4) << i;
+    for (Index rim = 0; rim < found->lost.size(); ++rim) {
+      const ContactEvent parts{equations.n_planes() + 2 * rim + 1, CornerKind::part, false};
+      double first = std::numeric_limits<double>::infinity();
+      for (const auto& step : events.steps)
+        if (std::ranges::find(step.events, parts) != step.events.end()) first = std::min(first, step.load_factor);
+      const double at = found->lost[rim];
+      if (equations.rims[rim].gap() >= 0 || at == 0) continue;
+      if (first > 0.4) first = std::numeric_limits<double>::infinity();
+      std::isinf(at) ? ++kept : ++lost;
+      EXPECT_TRUE(at == first || std::abs(at - first) < 1e-6) << i << ": " << at << " and " << first;
+    }
+  }
+  EXPECT_GT(lost, 10);
+  EXPECT_GT(kept, 10);
 }
 
 }  // namespace
