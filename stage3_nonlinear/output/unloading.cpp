@@ -29,6 +29,13 @@ class Largest {
   VectorXd most_;
 };
 
+/// First hole of a plane among all holes of fasteners.
+Index first_hole(const JointModel& joint, const ShearPlane& plane) {
+  Index first = plane.first;
+  for (Index i = 0; i < plane.fastener; ++i) first += std::ssize(joint.fasteners[i].holes);
+  return first;
+}
+
 }  // namespace
 
 void warn_of_turning_friction(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
@@ -39,8 +46,9 @@ void warn_of_turning_friction(const JointModel& joint, const JointEquations& equ
   for (const PathStep& step : path.steps) {
     std::vector<Index> turned;
     for (Index j = 0; j < std::ssize(most); ++j) {
-      const auto holes = joint.holes(joint.planes[j]);
-      const bool rubs = std::ranges::any_of(holes, [](const HoleModel& hole) { return hole.mu > 0; });
+      const ShearPlane& plane = joint.planes[j];
+      const Index n_holes = std::ssize(joint.holes(plane));
+      const bool rubs = equations.parameters.mu.segment(first_hole(joint, plane), n_holes).maxCoeff() > 0;
       if (rubs && most[j].falls_short(step.F.segment(j * a, a), rounding * step.scale)) turned.push_back(j);
     }
     if (turned.empty()) continue;

@@ -23,20 +23,21 @@ const PathStep* first_step(const LoadPath& path, Is is) {
 }
 
 /// Warns of each plane at the first increment at which it happens.
-void warn_beyond_last_point(const JointModel& joint, const LoadPath& path, std::vector<program::Warning>& result) {
+void warn_beyond_last_point(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                            std::vector<program::Warning>& result) {
   std::vector<Doubt> beyond;
   for (Index j = 0; j < std::ssize(joint.planes); ++j) {
-    const ShearPlane& plane = joint.planes[j];
-    const double last = plane.law->last_delta(plane.clearance);
+    const Contact& contact = equations.contacts[j];
+    const double last = contact.law->last_delta(contact.clearance);
     const auto delta = [&](const PathStep& step) { return amounts(step.delta, joint.n_directions())[j]; };
     const auto is_beyond = [&](const PathStep& step) {
-      return std::abs(delta(step)) > last && !(plane.one_sided && delta(step) < 0);
+      return std::abs(delta(step)) > last && !(contact.one_sided && delta(step) < 0);
     };
     if (const PathStep* step = first_step(path, is_beyond))
       beyond.emplace_back(std::abs(delta(*step)) / last,
                           fmt::format("{}: delta = {:.6g} at {} is beyond the last point {:.6g} of its law (gap "
                                       "included), which is extrapolated there",
-                                      joint.name(plane), delta(*step), increment_text(path, *step), last));
+                                      joint.name(joint.planes[j]), delta(*step), increment_text(path, *step), last));
   }
   add_worst(result, "beyond-last-point", beyond);
 }
@@ -183,7 +184,7 @@ std::vector<program::Warning> warnings(const JointModel& joint, const JointEquat
   std::vector<program::Warning> result;
   warn_of_soft_plates(joint, result);
   warn_of_bearing_twice(joint, result);
-  warn_beyond_last_point(joint, path, result);
+  warn_beyond_last_point(joint, equations, path, result);
   warn_of_mechanisms(joint, path, result);
   warn_of_other_solutions(joint, equations, path, result);
   warn_of_locking(path, result);

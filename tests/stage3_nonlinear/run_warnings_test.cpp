@@ -210,10 +210,10 @@ TEST(Warnings, SayNothingOfUnloadingWithinAGap) {
 }
 
 TEST(Warnings, TellThatFrictionDoesNotTurn) {
-  JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
-  const JointEquations equations = make_equations(joint);
+  const JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
+  JointEquations equations = make_equations(joint);
   EXPECT_THAT(warnings(joint, equations, path_of(equations, {50, 40}, {0.05, 0.04})), IsEmpty());
-  joint.fasteners[1].holes[0].mu = 0.2;
+  equations.parameters.mu[2] = 0.2;  // of the second fastener in its first hole
   EXPECT_THAT(warnings(joint, equations, path_of(equations, {40, 50}, {0.04, 0.05})), IsEmpty());
   EXPECT_THAT(
       warnings(joint, equations, path_of(equations, {50, 40}, {0.05, 0.04})),
