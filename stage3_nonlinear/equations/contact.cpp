@@ -8,14 +8,16 @@ VectorXd amounts(const VectorXd& vectors, Index n_directions) {
   return vectors.reshaped(n_directions, vectors.size() / n_directions).colwise().norm().transpose();
 }
 
-ContactState contact_state(const std::vector<PlacedInterface>& interfaces, Index n_directions, Index n_planes,
-                           const VectorXd& c) {
+ContactState contact_state(const std::vector<PlacedInterface>& interfaces, const std::vector<History>& history,
+                           Index n_directions, Index n_planes, const VectorXd& c) {
   ContactState state{VectorXd(c.size()), VectorXd(c.size()), {}, {}, MatrixXd(n_directions, n_planes), {}};
   if (!interfaces.empty()) state.Lambda.resize(interfaces.back().friction + interfaces.back().interface->n_friction());
   state.parts.reserve(interfaces.size());
-  for (const auto& [interface, row, friction] : interfaces) {
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    const auto& [interface, row, friction] = interfaces[i];
     const Index n = interface->size();
-    const Response& part = state.parts.emplace_back(interface->respond(c.segment(row, n), History()));
+    const Response& part =
+        state.parts.emplace_back(interface->respond(c.segment(row, n), history.empty() ? History() : history[i]));
     state.F.segment(row, n) = part.F;
     state.delta.segment(row, n) = part.delta;
     state.Lambda.segment(friction, part.Lambda.size()) = part.Lambda;

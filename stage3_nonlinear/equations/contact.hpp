@@ -37,9 +37,11 @@ struct ContactState {
   [[nodiscard]] MatrixXd friction_by(const MatrixXd& dc) const;
 };
 
-/// @param n_directions a. @param n_planes n. @param c Contact coordinates, shape (r), force.
-[[nodiscard]] ContactState contact_state(const std::vector<PlacedInterface>& interfaces, Index n_directions,
-                                         Index n_planes, const VectorXd& c);
+/// @param history Of each interface, or none. @param n_directions a. @param n_planes n.
+/// @param c Contact coordinates, shape (r), force.
+[[nodiscard]] ContactState contact_state(const std::vector<PlacedInterface>& interfaces,
+                                         const std::vector<History>& history, Index n_directions, Index n_planes,
+                                         const VectorXd& c);
 
 /// Lengths of vectors in a directions, row plane * a + direction, or with one direction the entries with their signs,
 /// (n).

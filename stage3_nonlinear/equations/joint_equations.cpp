@@ -146,6 +146,14 @@ double JointEquations::force_of_gaps() const {
   return force;
 }
 
+void JointEquations::commit(const VectorXd& c) {
+  history.resize(interfaces.size());
+  for (std::size_t i = 0; i < interfaces.size(); ++i) {
+    const auto& [interface, row, friction] = interfaces[i];
+    history[i] = interface->commit(c.segment(row, interface->size()), history[i]);
+  }
+}
+
 VectorXd JointEquations::load_at(double load_factor) const {
   return of_acting(*this, load_factor, parameters.load_at(load_factor));
 }
@@ -183,7 +191,7 @@ MatrixXd JointEquations::friction_matrix(const VectorXd& F) const {
 }
 
 ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
-  return contact_state(equations.interfaces, equations.n_directions(), equations.n_planes(), c);
+  return contact_state(equations.interfaces, equations.history, equations.n_directions(), equations.n_planes(), c);
 }
 
 MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) {

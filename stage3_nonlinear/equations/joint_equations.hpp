@@ -25,6 +25,7 @@ struct JointEquations {
   std::vector<PlacedInterface> interfaces;  ///< fastener after fastener, then rim after rim
   VectorXd q, q_reversed;                   ///< (r) q_at of load factors > 0, and < 0, from no load on; force
   bool rises = true;                        ///< no law falls
+  std::vector<History> history = {};        ///< of each interface, at the begin of the increment; none: nothing yet
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
   /// Number a of directions.
@@ -54,6 +55,8 @@ struct JointEquations {
   [[nodiscard]] double force_of_gaps() const;
   /// What a unit of the load factor adds to the forces of rigid fasteners, at a load factor, (r).
   [[nodiscard]] VectorXd q_at(double load_factor) const;
+  /// Makes the interfaces remember a solution of an increment, with the contact coordinates c, (r).
+  void commit(const VectorXd& c);
   /// True if there is no load at load factor 0.
   [[nodiscard]] bool starts_unloaded() const { return parameters.load_before.size() == 0; }
   /// Forces of rigid fasteners at a load factor, (r), force.

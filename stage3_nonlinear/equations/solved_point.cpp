@@ -48,38 +48,38 @@ VectorXd beyond_corners(const JointEquations& equations, const ContactState& sta
 
 }  // namespace
 
-SolvedPoint::SolvedPoint(const JointEquations& equations, double load_factor, VectorXd c)
-    : equations_(&equations),
+SolvedPoint::SolvedPoint(JointEquations equations, double load_factor, VectorXd c)
+    : equations_(std::move(equations)),
       load_factor_(load_factor),
       c_(std::move(c)),
-      state_(contact_state(equations, c_)),
-      beyond_(contact_state(equations, beyond_corners(equations, state_, c_))) {
+      state_(contact_state(equations_, c_)),
+      beyond_(contact_state(equations_, beyond_corners(equations_, state_, c_))) {
   factorise();
-  if (equations.has_friction() && state_.F.isZero(0)) bear();
-  if (factor_) check_ = check_tangent(equations, beyond_, *factor_, scale_);
+  if (equations_.has_friction() && state_.F.isZero(0)) bear();
+  if (factor_) check_ = check_tangent(equations_, beyond_, *factor_, scale_);
 }
 
 Index SolvedPoint::n_factorised() { return factorised; }
 
 void SolvedPoint::factorise() {
   ++factorised;
-  inverse_ = inverse_tangent(*equations_, beyond_);
+  inverse_ = inverse_tangent(equations_, beyond_);
   if (inverse_) return;
-  MatrixXd J = tangent(*equations_->system, beyond_);
+  MatrixXd J = tangent(*equations_.system, beyond_);
   scale_ = scale_columns(J);
-  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_->rim_sizes());
+  factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.rim_sizes());
 }
 
 /// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
 /// friction acts.
 void SolvedPoint::bear() {
   constexpr int most_tries = 8;
-  for (int i = 0; i < most_tries && equations_->has_cosine_friction(); ++i) {
-    const MatrixXd before = equations_->friction_matrix(beyond_.F);
-    beyond_.F = slopes(-equations_->q).F;
-    if (i > 0 && equations_->friction_matrix(beyond_.F) == before) return;
+  for (int i = 0; i < most_tries && equations_.has_cosine_friction(); ++i) {
+    const MatrixXd before = equations_.friction_matrix(beyond_.F);
+    beyond_.F = slopes(-equations_.q).F;
+    if (i > 0 && equations_.friction_matrix(beyond_.F) == before) return;
     for (Index at = 0; at < std::ssize(beyond_.parts); ++at) {
-      const auto& [interface, row, friction] = equations_->interfaces[at];
+      const auto& [interface, row, friction] = equations_.interfaces[at];
       const MatrixXd by_force = interface->friction_by_force(beyond_.F.segment(row, interface->size()));
       if (by_force.size() > 0) beyond_.parts[at].dLambda = by_force * beyond_.parts[at].dF;
     }
@@ -96,7 +96,7 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   if (!(factor_->least_stretch() > singular_tangent))
     return slopes_of_singular(-residual.value_or(MatrixXd::Identity(r, r)));
   if (!residual) {  // from the few forces back
-    const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_->n_plane_rows(), r), &Response::dF);
+    const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), r), &Response::dF);
     const MatrixXd back = factor_->solve_transposed(scale_.cwiseInverse().asDiagonal() * F_c.transpose());
     return {-back.transpose(), {}, {}, {}};
   }

@@ -21,11 +21,10 @@ struct Slopes {
 /// solution is, and derivatives by whatever the residual depends on.
 class SolvedPoint {
  public:
-  /// @param equations Outlives this.
-  /// @param c         Contact coordinates, (r), force.
-  SolvedPoint(const JointEquations& equations, double load_factor, VectorXd c);
+  /// @param equations With the history at the begin of the increment. @param c Contact coordinates, (r), force.
+  SolvedPoint(JointEquations equations, double load_factor, VectorXd c);
 
-  [[nodiscard]] const JointEquations& equations() const { return *equations_; }
+  [[nodiscard]] const JointEquations& equations() const { return equations_; }
   [[nodiscard]] double load_factor() const { return load_factor_; }
   [[nodiscard]] const VectorXd& c() const { return c_; }
   /// Forces and displacements.
@@ -50,7 +49,7 @@ class SolvedPoint {
   void bear();
   [[nodiscard]] Slopes slopes_of_singular(const MatrixXd& rhs) const;
 
-  const JointEquations* equations_;
+  JointEquations equations_;
   double load_factor_;
   VectorXd c_;
   ContactState state_, beyond_;

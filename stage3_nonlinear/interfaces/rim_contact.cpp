@@ -13,9 +13,11 @@ RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double
   constexpr double points_per_wave = 8;
   const double waves = std::max(1.0, pressures.highest * pressures.sweep / rim::full_turn);
   const auto n = static_cast<Index>(std::ceil(points_per_wave * waves)) + 1;
-  angles_ = VectorXd::LinSpaced(n, pressures.start, pressures.start + pressures.sweep);
-  samples_.resize(n, pressures.size());
-  for (Index i = 0; i < n; ++i) samples_.row(i) = pressures.at(angles_[i]).transpose();
+  auto samples = std::make_shared<Samples>();
+  samples->angles = VectorXd::LinSpaced(n, pressures.start, pressures.start + pressures.sweep);
+  samples->distributions.resize(n, pressures.size());
+  for (Index i = 0; i < n; ++i) samples->distributions.row(i) = pressures.at(samples->angles[i]).transpose();
+  samples_ = std::move(samples);
 }
 
 double RimContact::end_between(const VectorXd& m, double low, double high, bool rises) const {
@@ -26,9 +28,10 @@ double RimContact::end_between(const VectorXd& m, double low, double high, bool 
 }
 
 double RimContact::extremum(const VectorXd& m, double angle, double sign) const {
-  const double step = angles_[1] - angles_[0];
+  const double step = samples_->angles[1] - samples_->angles[0];
   double low = angle - step, high = angle + step;
-  if (!pressures_.is_whole()) low = std::max(low, angles_[0]), high = std::min(high, angles_[angles_.size() - 1]);
+  if (!pressures_.is_whole())
+    low = std::max(low, samples_->angles[0]), high = std::min(high, samples_->angles[samples_->angles.size() - 1]);
   constexpr int halvings = 50;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
@@ -40,15 +43,15 @@ double RimContact::extremum(const VectorXd& m, double angle, double sign) const 
 std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const VectorXd& depth) const {
   const Index n = depth.size(), last = n - 1;
   std::vector<Point> points;
-  for (Index i = 0; i < n; ++i) points.push_back({angles_[i], depth[i]});
+  for (Index i = 0; i < n; ++i) points.push_back({samples_->angles[i], depth[i]});
   for (Index i = pressures_.is_whole() ? 0 : 1; i < last; ++i) {
     const double sign = depth[i] > 0 ? -1 : 1, here = sign * depth[i];
     const double before = sign * depth[i > 0 ? i - 1 : last - 1], after = sign * depth[i + 1];
     // Between the samples it rises above the highest of three by less than that is above the lowest.
     if (before > here || after > here || 2 * here < std::min(before, after)) continue;
-    double angle = extremum(m, angles_[i], sign);
+    double angle = extremum(m, samples_->angles[i], sign);
     const double there = this->depth(m, angle);
-    if (angle < angles_[0]) angle += pressures_.sweep;
+    if (angle < samples_->angles[0]) angle += pressures_.sweep;
     if (sign * there > 0) points.push_back({angle, there});
   }
   std::ranges::sort(points, {}, &Point::angle);
@@ -56,7 +59,7 @@ std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const Vecto
 }
 
 Touching RimContact::touching(const VectorXd& m) const {
-  const VectorXd depth = samples_ * m - VectorXd::Constant(samples_.rows(), gap_);
+  const VectorXd depth = samples_->distributions * m - VectorXd::Constant(samples_->angles.size(), gap_);
   const auto all = points(m, depth);
   Touching result{{}, MatrixXd::Zero(size(), size())};
   if (std::ranges::all_of(all, [](const Point& at) { return at.depth >= 0; })) {
@@ -82,8 +85,8 @@ VectorXd RimContact::forces(const Touching& at, const VectorXd& m) const {
 
 double RimContact::deepest(const VectorXd& m, double sign) const {
   Index at = 0;
-  (sign * (samples_ * m)).maxCoeff(&at);
-  return extremum(m, angles_[at], sign);
+  (sign * (samples_->distributions * m)).maxCoeff(&at);
+  return extremum(m, samples_->angles[at], sign);
 }
 
 }  // namespace fastjoint::stage3

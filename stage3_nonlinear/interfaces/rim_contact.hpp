@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "common/rim/harmonics.hpp"
@@ -28,7 +29,7 @@ class RimContact {
   /// @param stiffness K A: modulus of the springs times area of the rim, force / length. @param mu Friction.
   RimContact(const rim::Harmonics& pressures, double stiffness, double gap, double mu = 0);
 
-  [[nodiscard]] Index size() const { return samples_.cols(); }
+  [[nodiscard]] Index size() const { return pressures_.size(); }
   [[nodiscard]] double stiffness() const { return stiffness_; }
   [[nodiscard]] double gap() const { return gap_; }
   [[nodiscard]] double mu() const { return mu_; }
@@ -57,8 +58,12 @@ class RimContact {
 
   rim::Harmonics pressures_;
   double stiffness_, gap_, mu_;
-  VectorXd angles_;   ///< (points) places close enough to see every wave
-  MatrixXd samples_;  ///< (points, size) distributions there
+  /// Places close enough to see every wave.
+  struct Samples {
+    VectorXd angles;         ///< (points)
+    MatrixXd distributions;  ///< (points, size)
+  };
+  std::shared_ptr<const Samples> samples_;  ///< of all copies
 };
 
 }  // namespace fastjoint::stage3

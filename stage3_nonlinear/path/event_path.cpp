@@ -248,7 +248,7 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   constexpr int intervals = 8;
   std::vector<double> loads;
   for (int i = 1; i <= intervals; ++i) loads.push_back(double(i) / intervals);
-  const auto [events, failed] = Search(equations, corners, walk).run(loads);
+  const auto [events, failed] = Search(walk.equations(), corners, walk).run(loads);
   const bool ends_there = !failed && !events.empty() && events.back().place.load_factor >= at_end;
   path.n_increments = events.size() + (ends_there ? 0 : 1);
   if (failed) path.failure = walk.failure(events.size(), *failed);
@@ -284,7 +284,7 @@ std::optional<Interference> search_interference(const JointEquations& equations,
   Walk walk(equations, from_there);
   walk.reach(first_load_factor);
   const VectorXi parted = corners.passed(walk.here().c);
-  const auto found = Search(equations, corners, walk).run(loads);
+  const auto found = Search(walk.equations(), corners, walk).run(loads);
   if (found.failed) result.followed = found.events.empty() ? 0 : found.events.back().place.load_factor;
   for (auto event = found.events.rbegin(); event != found.events.rend(); ++event)
     for (const auto& each : event->events)

@@ -34,7 +34,8 @@ std::vector<LoadPath> follow_segments(const JointModel& joint, const std::shared
     Parameters its = parameters;
     its.load = segment.load - before;
     if (!before.isZero(0)) its.load_before = before;
-    const JointEquations equations = make_equations(joint, system, std::move(its));
+    JointEquations equations = make_equations(joint, system, std::move(its));
+    if (!paths.empty()) equations.history = paths.back().history;
     paths.push_back(segment.load_factors.empty() ? follow_events(equations, options)
                                                  : follow(equations, segment.load_factors, options));
     if (paths.back().failure || paths.back().steps.empty()) break;

@@ -127,6 +127,7 @@ struct LoadPath {
   std::optional<PathLeft> left = {};       ///< the first such place; only where the solution may be one of several
   std::optional<VectorXd> assembled = {};  ///< (r) contact coordinates of a joint with interference at no load, force
   std::optional<Interference> interference = {};
+  std::vector<History> history = {};  ///< of each interface, behind the last increment
 };
 
 struct PathOptions {

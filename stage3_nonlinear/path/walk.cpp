@@ -78,6 +78,8 @@ bool Walk::record(LoadPath& path, std::vector<ContactEvent> events) {
   step.events = std::move(events);
   auto unbalanced = options_.each ? options_.each(std::move(point), step) : std::nullopt;
   if (!unbalanced) {
+    equations_.commit(here_.c);
+    path.history = equations_.history;
     path.steps.push_back(std::move(step));
     return true;
   }
@@ -148,7 +150,9 @@ bool Walk::begin(double target) {
   worst_residual_ = std::numeric_limits<double>::infinity();
   target_ = target;
   scale_ = force_scale(equations_, target);
-  if (target != 0 || equations_.has_interference() || !equations_.starts_unloaded()) return false;
+  const bool remembers =
+      std::ranges::any_of(equations_.history, [](const History& history) { return history.size() > 0; });
+  if (target != 0 || remembers || equations_.has_interference() || !equations_.starts_unloaded()) return false;
   here_ = {0, VectorXd::Zero(equations_.n_unknowns())};  // the joint as it was built is in equilibrium, exactly
   return true;
 }

@@ -33,7 +33,9 @@ class Walk {
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }
 
   [[nodiscard]] PathStep step() const { return step(SolvedPoint(equations_, here_.load_factor, here_.c)); }
-  /// Appends the place to a path as its next increment; false if the taker of increments ends the path.
+  [[nodiscard]] const JointEquations& equations() const { return equations_; }
+  /// Appends the place to a path as its next increment, which interfaces then remember; false if the taker of
+  /// increments ends the path.
   bool record(LoadPath& path, std::vector<ContactEvent> events);
   [[nodiscard]] PathFailure failure(Index increment, double load_factor);
 
@@ -80,7 +82,7 @@ class Walk {
   /// True if the best try has ended where laws allow no more force and nothing else holds the joint.
   [[nodiscard]] bool gives_way() const;
 
-  const JointEquations& equations_;
+  JointEquations equations_;  ///< with the history of the increments before
   const PathOptions& options_;
   SolveFunction solver_;
   double rounding_ = 0;  ///< residual that rounding of wide gaps leaves, force

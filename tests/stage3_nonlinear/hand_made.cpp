@@ -208,7 +208,7 @@ stage3::JointEquations equations_of(const MatrixXd& S_ud, const Eigen::VectorXd&
 
 stage3::ContactState state_of(const std::vector<stage3::Contact>& contacts, const Eigen::VectorXd& c) {
   const Index n = std::ssize(contacts), a = c.size() / n;
-  return contact_state(interfaces_of(contacts, a), a, n, c);
+  return contact_state(interfaces_of(contacts, a), {}, a, n, c);
 }
 
 Eigen::VectorXd linear_solution(const stage3::JointModel& joint, double k) {

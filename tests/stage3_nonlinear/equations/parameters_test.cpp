@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 
 #include "stage3_nonlinear/results/joint_state.hpp"
@@ -75,6 +77,59 @@ TEST(LoadCases, OfAHoleActOnTheSideThatTheForcePointsTo) {
     EXPECT_EQ(acts(sense, 0, -3), sense == -1);
   }
   for (const double amount : {5.0, -5.0, 0.0}) EXPECT_TRUE(acts(0, amount)) << "an edge";
+}
+
+/// A spring that yields and keeps what it has yielded: F = k (delta - set), and no more than `most`.
+class YieldingSpring : public Interface {
+ public:
+  YieldingSpring(double k, double most, double reference) : k_(k), most_(most), reference_(reference) {}
+
+  [[nodiscard]] Index size() const override { return 1; }
+  [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override {
+    const double set = history.size() > 0 ? history[0] : 0;
+    const double elastic = k_ * (c[0] - reference_ * set) / (k_ + reference_);  // of c = F + reference delta
+    const bool yields = std::abs(elastic) > most_;
+    const double F = std::clamp(elastic, -most_, most_);
+    const auto number = [](double value) { return VectorXd::Constant(1, value); };
+    const double dF = yields ? 0 : k_ / (k_ + reference_);
+    return {number(F), number((c[0] - F) / reference_), {}, number(dF), number((1 - dF) / reference_), MatrixXd(0, 1)};
+  }
+  [[nodiscard]] History commit(const VectorXd& c, const History& history) const override {
+    const Response at = respond(c, history);
+    return VectorXd::Constant(1, at.delta[0] - at.F[0] / k_);
+  }
+  void add_trace(double trace, Response& response) const override {
+    response.dF.array() = response.dF.array().max(trace);
+    response.ddelta = (1 - response.dF.array()) / reference_;
+  }
+  [[nodiscard]] std::vector<std::vector<Corner>> corners() const override { return {{}}; }
+  [[nodiscard]] double position(const VectorXd& c, Index /*entry*/) const override { return c[0]; }
+  [[nodiscard]] VectorXd slope(const VectorXd& /*c*/, Index /*entry*/) const override { return VectorXd::Ones(1); }
+  [[nodiscard]] VectorXd coordinates(const VectorXd& F) const override { return F; }
+  [[nodiscard]] std::vector<Change> changes(const VectorXd& /*c*/, const Response& /*at*/) const override { return {}; }
+
+ private:
+  double k_, most_, reference_;
+};
+
+/// What an increment leaves behind is there in the next: F + s delta = lambda q beside a spring s of the plates.
+TEST(History, GoesFromIncrementToIncrement) {
+  constexpr double s = 100, k = 400, most = 30, q = 60;
+  JointEquations equations =
+      test::equations_of(Eigen::MatrixXd::Constant(1, 1, s), VectorXd::Constant(1, q), {{test::linear_law(k)}});
+  equations.interfaces[0].interface = std::make_shared<YieldingSpring>(k, most, equations.contacts[0].stiffness);
+  const LoadPath path = follow(equations, {0.5, 1, 0, 1, -1}, tight);
+  ASSERT_FALSE(path.failure);
+  EXPECT_NEAR(path.steps[0].F[0], 0.5 * q * k / (k + s), 1e-10) << "elastic";
+  EXPECT_NEAR(path.steps[1].F[0], most, 1e-10);
+  EXPECT_NEAR(path.steps[1].delta[0], (q - most) / s, 1e-12);
+  const double set = (q - most) / s - most / k;
+  EXPECT_NEAR(path.steps[2].delta[0], set * k / (k + s), 1e-12) << "no load: the spring pushes its set against s";
+  EXPECT_NEAR(path.steps[3].F[0], most, 1e-10) << "elastic again, up to where it was";
+  EXPECT_NEAR(path.steps[3].delta[0], (q - most) / s, 1e-12);
+  EXPECT_NEAR(path.steps[4].F[0], -most, 1e-10);
+  ASSERT_EQ(path.history.size(), 1U);
+  EXPECT_NEAR(path.history[0][0], -set, 1e-12) << "as far to the other side";
 }
 
 /// Without memory the forces do not know by which loads a joint has come to them.
