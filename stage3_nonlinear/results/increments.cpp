@@ -29,7 +29,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
   StateSlopes slopes;
   options.each = [&](SolvedPoint point, const PathStep& step) -> std::optional<Imbalance> {
     JointState state = joint_state(joint, equations, step);
-    if (const auto found = imbalance(state, wanted.tolerance)) return found;
+    if (auto found = imbalance(state, wanted.tolerance)) return found;
     if (errors.are_known()) F_error.push_back(errors.at(point, state));
     all.stiffness.push_back(tangent_stiffness(joint, point));
     if (wanted.sensitivities) {
