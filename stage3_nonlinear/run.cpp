@@ -59,7 +59,7 @@ double matrices_need(const JointScene& scene) {
 void require_memory(const JointScene& scene, const JointModel& joint, bool with_csv, bool with_sensitivities,
                     bool with_rim_stresses) {
   using program::bytes_text;
-  const JointNumbers numbers = joint_numbers(joint);  // their derivatives take as long as a run
+  const JointNumbers numbers = joint_numbers(joint);
   const double n = double(joint.n_planes());
   double of_plane = with_csv ? 64 : 12;
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
@@ -74,13 +74,12 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
     of_step += of_plate + unknowns + cases + of_rim * n_rims;
     if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;
   }
-  if (with_sensitivities) {  // loads of friction, and displacements by each number
+  if (with_sensitivities) {  // displacements, and the loads of friction, by each number
     const bool has_peaks =
         std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
-    constexpr double of_friction = 4, of_peaks = 4;
-    solving +=
-        number * double(joint.n_unknowns()) *
-        (of_friction * double(numbers.friction.size()) + (has_peaks ? of_peaks * double(numbers.n_derivatives()) : 0));
+    constexpr double of_forces = 3, of_peaks = 4;
+    const double each = of_forces + (has_peaks ? of_peaks : 0);
+    solving += number * double(joint.n_unknowns()) * each * double(numbers.n_derivatives());
   }
   const double read = matrices_need(scene);
   const Index n_steps = std::max<Index>(std::ssize(scene.load_factors), 1);  // how many events is not known yet

@@ -2,7 +2,6 @@
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "common/matrices/decompositions.hpp"

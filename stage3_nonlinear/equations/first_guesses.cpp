@@ -11,7 +11,7 @@ LinearForces linear_forces(const JointEquations& equations, const VectorXd& flex
   MatrixXd A = equations.system->S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
   const VectorXd rhs = equations.rigid_forces(load_factor);
-  LinearForces result{TangentFactor(A, rims).solve(rhs), 1, !equations.has_cosine_friction()};
+  LinearForces result{TangentFactor(A, rims).solve(rhs), 1, !equations.has_cosine_friction};
   while (!result.consistent && result.solves < most_tries) {
     const MatrixXd friction = equations.friction_matrix(result.F);
     result.F = TangentFactor(A + friction, rims).solve(rhs);

@@ -4,6 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
@@ -20,6 +21,15 @@ void add_trace(const JointEquations& equations, double residual, ContactState& s
   const double trace = std::clamp(share * residual, least, share);
   for (Index i = 0; i < std::ssize(state.parts); ++i)
     equations.interfaces[i].interface->add_trace(trace, state.parts[i]);
+}
+
+/// Throws where something would rub that has no friction in the condensed joint.
+void check_friction(const JointModel& joint, const Parameters& parameters) {
+  Index at = 0;
+  for (const auto& fastener : joint.fasteners)
+    for (const auto& hole : fastener.holes)
+      if (parameters.mu[at++] != 0 && hole.mu == 0)
+        throw std::logic_error("make_equations: friction in a hole that has none in the condensed joint");
 }
 
 /// Appends an interface behind the others.
@@ -39,6 +49,7 @@ void place_fasteners(const JointModel& joint, JointEquations& equations) {
     const FastenerModel& fastener = joint.fasteners[i];
     const Index n_planes = fastener.n_planes(), n_holes = std::ssize(fastener.holes);
     const VectorXd mu = equations.parameters.mu.segment(hole, n_holes);
+    equations.has_cosine_friction = equations.has_cosine_friction || (layout.n_columns[i] > 0 && !mu.isZero(0));
     place(std::make_shared<FastenerInterface>(
               std::vector(equations.contacts.begin() + plane, equations.contacts.begin() + plane + n_planes),
               FastenerInterface::Place{plane, hole, joint.n_directions(), fastener.law_includes_friction,
@@ -57,6 +68,7 @@ void place_rims(const JointModel& joint, JointEquations& equations) {
     const auto& rim = joint.plates[plate].contact[at];
     const double gap = hole < 0 ? 0 : equations.parameters.gap[hole], mu = hole < 0 ? 0 : equations.parameters.mu[hole];
     equations.rims.emplace_back(rim.pressures, rim.modulus * rim.area, gap, mu);
+    equations.has_friction = equations.has_friction || mu != 0;
     place(std::make_shared<RimInterface>(equations.rims.back(), rim.area, i, equations.system->friction.rim_rubs[i]),
           equations.interfaces);
   }
@@ -73,7 +85,8 @@ VectorXd of_acting(const JointEquations& equations, double load_factor, const Ve
   const VectorXd load = equations.parameters.load_at(load_factor);
   return VectorXd::NullaryExpr(std::ssize(cases), [&](Index i) {
     const Index at = cases[i].load;
-    return acts(cases[i].sense, load[at], equations.parameters.load[at]) ? values[at] : 0;
+    const double rate = equations.parameters.load[at];  // a load that is not there would grow as a positive one
+    return acts(cases[i].sense, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
   });
 }
 
@@ -86,8 +99,10 @@ JointEquations make_equations(const JointModel& joint, std::shared_ptr<const Con
     equations.contacts.push_back({equations.parameters.law[j], equations.parameters.clearance[j],
                                   equations.system->stiffness[j], joint.planes[j].one_sided});
   equations.rises = std::ranges::all_of(equations.contacts, [](const Contact& each) { return each.law->rises(); });
+  check_friction(joint, equations.parameters);
   place_fasteners(joint, equations);
   place_rims(joint, equations);
+  equations.has_friction = equations.has_friction || equations.has_cosine_friction;
   equations.q = rigid_forces_by(*equations.system, equations.load_rates(1));
   equations.q_reversed = rigid_forces_by(*equations.system, equations.load_rates(-1));
   return equations;
@@ -123,10 +138,6 @@ VectorXd JointEquations::rim_stiffness() const {
 
 bool JointEquations::has_interference() const {
   return std::ranges::any_of(rims, [](const RimContact& rim) { return rim.gap() < 0; });
-}
-
-bool JointEquations::has_cosine_friction() const {
-  return std::ranges::any_of(system->friction.n_columns, [](Index n) { return n > 0; });
 }
 
 const MatrixXd& JointEquations::metric() const {
@@ -175,7 +186,7 @@ VectorXd JointEquations::rigid_forces(double load_factor) const {
 
 VectorXd JointEquations::residual(const ContactState& state, double load_factor) const {
   VectorXd r = state.F + system->S_ud * state.delta - rigid_forces(load_factor);
-  if (has_friction()) r += system->H * state.Lambda;  // OpenBLAS complains on stderr about matrices without columns
+  if (has_friction) r += system->H * state.Lambda;  // OpenBLAS complains on stderr about matrices without columns
   return r;
 }
 
@@ -231,8 +242,8 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
                          const ContactState* frozen) {
   const CondensedSystem& system = *equations.system;
   VectorXd load = equations.rigid_forces(load_factor);
-  const bool friction = equations.has_friction() && !frozen;
-  if (equations.has_friction() && frozen) load -= system.H * frozen->Lambda;
+  const bool friction = equations.has_friction && !frozen;
+  if (equations.has_friction && frozen) load -= system.H * frozen->Lambda;
   RootProblem problem;
   const auto residual = [&system, load, scale, friction](const ContactState& state) -> VectorXd {
     VectorXd r = state.F + system.S_ud * state.delta - load;

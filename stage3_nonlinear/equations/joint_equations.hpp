@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "stage3_nonlinear/equations/condensed_system.hpp"
@@ -25,6 +24,8 @@ struct JointEquations {
   std::vector<PlacedInterface> interfaces;  ///< fastener after fastener, then rim after rim
   VectorXd q, q_reversed;                   ///< (r) q_at of load factors > 0, and < 0, from no load on; force
   bool rises = true;                        ///< no law falls
+  bool has_friction = false;                ///< something rubs
+  bool has_cosine_friction = false;         ///< friction follows from the bearing forces of a fastener
   std::vector<History> history = {};        ///< of each interface, at the begin of the increment; none: nothing yet
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
@@ -42,10 +43,6 @@ struct JointEquations {
   [[nodiscard]] VectorXd rim_stiffness() const;
   /// True if a disc is larger than the rim of contact around it.
   [[nodiscard]] bool has_interference() const;
-  /// True if something rubs.
-  [[nodiscard]] bool has_friction() const { return system->n_friction() > 0; }
-  /// True if friction follows from the bearing forces of a fastener.
-  [[nodiscard]] bool has_cosine_friction() const;
   /// With the metric the solution is where a convex function is least (docs/theory.md, section 8.4); empty if a law
   /// falls.
   [[nodiscard]] const MatrixXd& metric() const;

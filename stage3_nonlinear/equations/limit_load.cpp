@@ -21,7 +21,7 @@ MatrixXd free_motions(const JointEquations& equations) {
 }  // namespace
 
 std::optional<LimitLoad> limit_load(const JointEquations& equations, double sign) {
-  if (equations.has_cosine_friction() || !equations.starts_unloaded()) return std::nullopt;
+  if (equations.has_cosine_friction || !equations.starts_unloaded()) return std::nullopt;
   const Index n = equations.n_planes(), a = equations.n_directions();
   VectorXd most(n);
   for (Index j = 0; j < n; ++j) most[j] = equations.contacts[j].law->most_force();

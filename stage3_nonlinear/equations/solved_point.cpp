@@ -23,7 +23,7 @@ VectorXd scale_columns(MatrixXd& A) {
 /// H, without friction, rims of contact and laws that fall, and H is surely regular.
 std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
   constexpr double surely_regular = 1e3 * singular_tangent;
-  if (!equations.rises || equations.has_friction() || !equations.rims.empty()) return std::nullopt;
+  if (!equations.rises || equations.has_friction || !equations.rims.empty()) return std::nullopt;
   const MatrixXd H = hessian(equations, state);
   const auto inverse = matrices::inverse_of_positive(H);
   const auto norm = [](const MatrixXd& A) { return A.cwiseAbs().colwise().sum().maxCoeff(); };
@@ -55,7 +55,7 @@ SolvedPoint::SolvedPoint(JointEquations equations, double load_factor, VectorXd 
       state_(contact_state(equations_, c_)),
       beyond_(contact_state(equations_, beyond_corners(equations_, state_, c_))) {
   factorise();
-  if (equations_.has_friction() && state_.F.isZero(0)) bear();
+  if (equations_.has_friction && state_.F.isZero(0)) bear();
   if (factor_) check_ = check_tangent(equations_, beyond_, *factor_, scale_);
 }
 
@@ -74,7 +74,7 @@ void SolvedPoint::factorise() {
 /// friction acts.
 void SolvedPoint::bear() {
   constexpr int most_tries = 8;
-  for (int i = 0; i < most_tries && equations_.has_cosine_friction(); ++i) {
+  for (int i = 0; i < most_tries && equations_.has_cosine_friction; ++i) {
     const MatrixXd before = equations_.friction_matrix(beyond_.F);
     beyond_.F = slopes(-equations_.q).F;
     if (i > 0 && equations_.friction_matrix(beyond_.F) == before) return;

@@ -12,13 +12,14 @@ namespace fastjoint::stage3 {
 
 /// Derivatives of the bearing forces as vectors, one column for each number (docs/theory.md, section 10).
 struct Slopes {
-  MatrixXd F;                            ///< (r, columns); of the planes alone by an unnamed residual
-  MatrixXd c;                            ///< (r, columns) of the contact coordinates
+  MatrixXd F;  ///< (r, columns); of the planes alone where the residual is not given and the tangent is regular
+  MatrixXd c;  ///< (r, columns) of the contact coordinates
   std::vector<Index> no_column, no_row;  ///< columns and rows of F that have no derivative
 };
 
 /// Solution of the equations with its tangent, which is factorised once for all that is asked of it: how stable the
-/// solution is, and derivatives by whatever the residual depends on.
+/// solution is, and derivatives by whatever the residual depends on. Without load, where cosine friction must first
+/// find the sides that bear, it is factorised for each trial of them.
 class SolvedPoint {
  public:
   /// @param equations With the history at the begin of the increment. @param c Contact coordinates, (r), force.

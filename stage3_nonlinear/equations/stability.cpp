@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/stability.hpp"
 
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "common/matrices/decompositions.hpp"
 
@@ -51,7 +48,7 @@ MatrixXd square_root(const MatrixXd& A) {
 /// Eigenvalues of the tangent whose real part is less than `least`.
 Index soft_modes(const JointEquations& equations, const ContactState& state, double least) {
   const CondensedSystem& system = *equations.system;
-  if (equations.has_friction()) return (matrices::eigenvalues(tangent(system, state)).real().array() < least).count();
+  if (equations.has_friction) return (matrices::eigenvalues(tangent(system, state)).real().array() < least).count();
   // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
   ContactState root = state;
   for (Response& part : root.parts) part.ddelta = square_root(part.ddelta);
@@ -76,7 +73,7 @@ bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
 
 /// A norm of the derivatives of friction's forces by c: of cosine friction by the forces, which rise no faster than c.
 double shares_of_friction(const JointEquations& equations, const ContactState& state) {
-  if (!equations.has_friction()) return 0;
+  if (!equations.has_friction) return 0;
   MatrixXd friction = equations.friction_matrix(state.F);
   for (Index i = 0; i < std::ssize(equations.interfaces); ++i) {
     const auto& [interface, row, at] = equations.interfaces[i];
@@ -87,14 +84,17 @@ double shares_of_friction(const JointEquations& equations, const ContactState& s
   return friction_norm(friction);
 }
 
-/// Takes away what the force of a plane rises along c.
-void lower(ContactState& state, Index plane) {
+/// Takes away what the force of a plane rises along c, and its friction with it.
+void lower(const JointEquations& equations, ContactState& state, Index plane) {
   const Index a = state.direction.rows();
   Index row = plane * a;
-  for (Response& part : state.parts) {
+  for (Index i = 0; i < std::ssize(state.parts); ++i) {
+    Response& part = state.parts[i];
     if (row < part.F.size()) {
       const double rise = std::max(state.along(&Response::dF, plane), 0.0);
       part.dF.block(row, row, a, a) -= rise * state.direction.col(plane) * state.direction.col(plane).transpose();
+      const MatrixXd by_force = equations.interfaces[i].interface->friction_by_force(part.F);
+      if (by_force.size() > 0) part.dLambda = by_force * part.dF;
       return;
     }
     row -= part.F.size();
@@ -104,7 +104,7 @@ void lower(ContactState& state, Index plane) {
 }  // namespace
 
 std::optional<double> self_locking(const JointEquations& equations, const VectorXd& F) {
-  if (!equations.has_cosine_friction()) return std::nullopt;
+  if (!equations.has_cosine_friction) return std::nullopt;
   const MatrixXd H = equations.friction_matrix(F);
   if (friction_norm(H) < 1) return std::nullopt;
   constexpr double real = 1e-9;  // imaginary part of a real eigenvalue, by rounding
@@ -152,7 +152,7 @@ std::vector<Index> level_planes(const JointEquations& equations, const VectorXd&
     });
     if (spent != j && (open || state.along(&Response::dF, j) > nearly_level || rises_again)) continue;
     level.push_back(j);
-    lower(state, j);
+    lower(equations, state, j);
   }
   if (state.spent || soft_modes(equations, state, nearly_singular) > 0) return level;
   return {};

@@ -42,7 +42,7 @@ inline constexpr double singular_tangent = 1e-10;
 /// Friction reserve of the sides that bear under the forces F, (r).
 [[nodiscard]] std::optional<double> self_locking(const JointEquations& equations, const VectorXd& F);
 
-/// Planes that at the contact coordinates c, (n a), carry all that their laws allow, if nothing else holds the joint.
+/// Planes that at the contact coordinates c, (r), carry all that their laws allow, if nothing else holds the joint.
 [[nodiscard]] std::vector<Index> level_planes(const JointEquations& equations, const VectorXd& c);
 
 /// Planes whose laws may fall more steeply than the plates hold against: S_ud + diag(least slopes) is not positive

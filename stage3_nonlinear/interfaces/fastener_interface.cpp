@@ -81,6 +81,12 @@ Index FastenerInterface::rubbing_at(Index hole, Index direction) const {
   return found == place_.rubbing.end() ? -1 : found - place_.rubbing.begin();
 }
 
+bool FastenerInterface::has_case(Index hole) const {
+  return std::ranges::any_of(place_.rubbing, [&](const RubbingHole& each) {
+    return each.hole == hole && (each.sides[plus_side].column >= 0 || each.sides[minus_side].column >= 0);
+  });
+}
+
 double FastenerInterface::part_of_mean_share(Index of, Index hole, Index direction, Side side) const {
   const Index at = rubbing_at(of, direction);
   if (at < 0) return 0;
@@ -212,7 +218,7 @@ std::vector<Change> FastenerInterface::changes(const VectorXd& c, const Response
   std::vector<Change> result;
   add_law_changes(c, friction_by_force(response.F), result);
   for (Index hole = 0; hole < n_holes(); ++hole)
-    if (place_.mu[hole] > 0 && rubbing_at(hole, 0) >= 0) result.push_back(change_by_mu(hole, response.F));
+    if (place_.mu[hole] > 0 && has_case(hole)) result.push_back(change_by_mu(hole, response.F));
   return result;
 }
 

@@ -84,6 +84,8 @@ class FastenerInterface : public Interface {
   /// holes of a single plane bear on opposite sides; of several planes each may bear on any, and its sides count alike.
   [[nodiscard]] double part_of_mean_share(Index of, Index hole, Index direction, Side side) const;
   void balance();
+  /// True if the hole has cosine friction; one of a rim of contact has none, whatever its coefficient.
+  [[nodiscard]] bool has_case(Index hole) const;
   /// Entry of the rubbing hole, or -1.
   [[nodiscard]] Index rubbing_at(Index hole, Index direction) const;
   void add_law_changes(const VectorXd& c, const MatrixXd& by_force, std::vector<Change>& result) const;

@@ -30,7 +30,8 @@ struct LoadCase {
   return sense != (amount < 0 || (amount == 0 && rate < 0) ? 1 : -1);
 }
 
-/// Numbers of a run of a joint, by index: all that may change while its condensed system stays.
+/// Numbers of a run of a joint, by index: all that may change while its condensed system stays. Friction may act where
+/// it does in JOINT.json; planes that share a law there share it in a run, and its numbers keep their names.
 struct Parameters {
   VectorXd load;                ///< what a unit of the load factor adds to each of loads_of, force or length
   std::vector<LawPointer> law;  ///< (n) of each plane

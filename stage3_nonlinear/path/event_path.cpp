@@ -138,7 +138,8 @@ class Search {
     double load = (1 - share) * a.load + share * b.load;
     int iterations = 0;
     for (const bool again : {false, true}) {  // relative to the full load, then if need be to its own
-      unit = force_scale(equations_, again ? load : 1);
+      unit =
+          again ? force_scale(equations_, load) : std::max(force_scale(equations_, 1), force_scale(equations_, a.load));
       VectorXd start(rows + 1);
       start << c / unit, load;
       const Root root = newton_root(problem, start, {again ? enough : tolerance, most_iterations});

@@ -149,12 +149,13 @@ struct PathOptions {
 [[nodiscard]] LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors,
                               const PathOptions& options);
 
-/// Least load factor that is searched for events: what happens below is there from the start.
+/// Least load factor that is searched for events: from no load on what happens below is there from the start.
 inline constexpr double first_load_factor = 1e-6;
 
 /// Follows the joint to load factor 1 with an increment at every load factor in (0, 1] at which a fastener passes a
 /// corner of its law (ContactCorners), and one at 1.
 ///
+/// Interfaces remember at increments alone: all events are sought with what they remember at load factor 0.
 /// The load factor becomes an unknown of Newton's method while the fastener stays on its corner, between solved states
 /// whose interval is halved where the order of events is in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);

@@ -168,7 +168,7 @@ bool Walk::solve_from_guesses(double target) {
 
 std::optional<VectorXd> Walk::loose_without_friction(const VectorXd& start, double target) {
   const bool loose = std::ranges::all_of(equations_.rims, [](const RimContact& rim) { return rim.gap() > 0; });
-  if (equations_.rims.empty() || !loose || !equations_.has_friction() || !equations_.rises) return std::nullopt;
+  if (equations_.rims.empty() || !loose || !equations_.has_friction || !equations_.rises) return std::nullopt;
   const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
   const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);
   if (!root.converged) return std::nullopt;
@@ -201,7 +201,7 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
       if (solver != newton_root) continue;
       note_failure(root);  // it descends: where it ends is where the joint gives way
       // Without friction it ends there from wherever it starts.
-      if (is_too_much(target) || (!equations_.has_friction() && gives_way())) return false;
+      if (is_too_much(target) || (!equations_.has_friction && gives_way())) return false;
     }
     return false;
   };
@@ -212,7 +212,7 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
 /// converge where friction changes the forces by less than themselves.
 bool Walk::solve_by_turns(double target) {
   constexpr int most_turns = 50;
-  if (!equations_.has_friction() || !equations_.rises) return false;
+  if (!equations_.has_friction || !equations_.rises) return false;
   const auto problem = root_problem(equations_, target, scale_);
   VectorXd c = here_.c;
   for (int turn = 0; turn < most_turns; ++turn) {

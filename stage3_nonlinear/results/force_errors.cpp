@@ -37,8 +37,8 @@ std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const Condensed
 }
 
 /// Part of a plate in the errors of all forces, (n).
-/// @param A  (n, n a) change of each force per rise of the residual of each plane; w = A D^T.
-/// @param D  (m + e, n a) rows of D_delta. @param dS The plate's stiffness_changes.
+/// @param A  (n, r) change of each force per rise of the residual of each row; w = A D^T.
+/// @param D  (m + e + k, r) rows of D_delta. @param dS The plate's stiffness_changes.
 VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::Ref<const MatrixXd>& D,
                       const MatrixXd& dS, const PlateState& state) {
   VectorXd u(plate.n_unknowns());

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "common/count.hpp"
 #include "common/rim/angles.hpp"
 
 namespace fastjoint::stage3 {

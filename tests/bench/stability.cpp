@@ -48,7 +48,7 @@ class Promises {
   explicit Promises(const RootOptions& options) : options_(options) {}
 
   void check(const RandomJoint& joint) {
-    const bool friction = joint.equations.has_friction();
+    const bool friction = joint.equations.has_friction;
     auto trials = try_guesses(joint, stage3::newton_root, Coordinate::contact, options_);
     auto& iterations = iterations_[joint.family];
     for (const auto& trial : trials) {

@@ -52,7 +52,7 @@ TEST(Instability, CountsWithFrictionToo) {
   auto joint = test::joint_of(lap, falling());
   for (const Index fastener : {0, 1}) test::set_friction(joint, fastener, 1e-6);
   const JointEquations equations = make_equations(joint);
-  ASSERT_TRUE(equations.has_friction());
+  ASSERT_TRUE(equations.has_friction);
   EXPECT_EQ(unstable(equations, 7.9), 0);
   EXPECT_EQ(unstable(equations, 8.1), 2);
 }
