@@ -43,8 +43,8 @@ struct JointEquations {
   [[nodiscard]] VectorXd rim_stiffness() const;
   /// True if a disc is larger than the rim of contact around it.
   [[nodiscard]] bool has_interference() const;
-  /// With the metric the solution is where a convex function is least (docs/theory.md, section 8.4); empty if a law
-  /// falls.
+  /// CondensedSystem::metric, which makes the solution the place where a convex function is least (docs/theory.md,
+  /// section 8.4); empty if a law falls.
   [[nodiscard]] const MatrixXd& metric() const;
   /// Force that the greatest clearance would take of the plates beside it, and the greatest gap or interference of the
   /// springs of its rim, force.
@@ -63,6 +63,8 @@ struct JointEquations {
   [[nodiscard]] VectorXd load_rates(double load_factor) const;
   /// 1 of a load case that acts at a load factor, else 0, (l).
   [[nodiscard]] VectorXd load_acting(double load_factor) const;
+  /// F + S_ud delta and, with friction, H Lambda, (r), force.
+  [[nodiscard]] VectorXd asked(const ContactState& state, bool friction) const;
   /// F + S_ud delta + H Lambda less the forces of rigid fasteners, (r), force.
   [[nodiscard]] VectorXd residual(const ContactState& state, double load_factor) const;
   /// Derivative of the forces H Lambda of cosine friction by F on the sides that bear under F, (r, r), dimensionless.

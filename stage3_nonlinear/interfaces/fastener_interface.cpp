@@ -245,7 +245,7 @@ void FastenerInterface::add_law_changes(const VectorXd& c, const MatrixXd& by_fo
   }
 }
 
-/// By the logarithms of the bearing forces: what friction in one hole adds, the others of its fastener share.
+/// Bearing forces change by their logarithms: what friction in one hole adds, the others of its fastener share.
 Change FastenerInterface::change_by_mu(Index hole, const VectorXd& F) const {
   const VectorXd none = VectorXd::Zero(F.size());
   Change change{NumberKind::mu, place_.first_hole + hole, 0, none, none, VectorXd::Zero(place_.n_columns)};

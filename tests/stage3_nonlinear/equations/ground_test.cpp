@@ -143,7 +143,7 @@ TEST(Ground, BearsWithFrictionInThePlatesAlone) {
       joint.fasteners[j].law_includes_friction = i % 2 == 1;
       test::set_friction(joint, j, 0.05 + 0.05 * double(j) + 0.001 * i);
     }
-    // Of a wall's hole, without friction, the mean friction of its fastener's holes would know.
+    // A wall's hole, without friction, would lower the mean friction of its fastener's holes.
     if (i % 2 == 1) expect_same(joint, with_wall(joint, 5000), fmt::format("joint {}", i));
     const PathStep step = test::solved(joint);
     const JointState state = test::state_of(joint, step);
