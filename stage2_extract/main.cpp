@@ -127,7 +127,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
     return write_matrices(arguments, std::move(plate), timings);
   }
   timings.phase("integrate");
-  stage2::take_all_waves(plate);
+  stage2::take_waves_of_field(plate);
   stage2::FieldSolver solver(plate, arguments.input);
   require_memory(arguments.input, field_need(solver, size));
   write_field(arguments, solver, request, timings);

@@ -24,7 +24,7 @@ STAGES = {
         "laws": ["input", "program", ""],
         "scene": ["input", "program", ""],
         "model": ["formats", "matrices", "rim", ""],
-        "interfaces": ["rim", ""],
+        "interfaces": ["matrices", "rim", ""],
         "solvers": [],
         "equations": ["matrices", "rim", ""],
         "path": ["program"],

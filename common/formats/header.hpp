@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -51,6 +52,14 @@ struct WaveRim {
   /// Number of pressures, then shears.
   [[nodiscard]] Eigen::Index size() const { return waves.size() + waves.n_shears(); }
 };
+
+/// Waves of a rim of contact by which fields are made: elements hardly follow shorter ones.
+[[nodiscard]] inline rim::Harmonics waves_of_field(const ContactRim& rim, const WaveRim& carried) {
+  constexpr int hardly_followed = 16;
+  rim::Harmonics waves = rim.pressures;
+  waves.highest = std::min(waves.highest, std::max(carried.waves.highest, hardly_followed));
+  return waves;
+}
 
 /// A plate with its degrees and unit cases, as PLATE.h5 and MATRICES.h5 both have it: np degrees, e rigid externals,
 /// m discs (hole x direction), k loaded waves (rim of contact; pressures, then shears), h friction cases (hole,

@@ -78,24 +78,29 @@ class Multiples {
 Eigen::MatrixXd integrals(const std::vector<Wave>& rows, const std::vector<Wave>& columns, double unit, double a,
                           double b) {
   const int most = rows.back().multiple + columns.back().multiple;
-  Eigen::VectorXd cosine(most + 1), sine(most + 1);  // integrals of cos(j phase) and sin(j phase)
+  // Integrals of cos(j phase) and sin(j phase), j = -most..most.
+  Eigen::VectorXd cosines(2 * most + 1), sines(2 * most + 1);
+  double *cosine = cosines.data() + most, *sine = sines.data() + most;
   cosine[0] = b - a, sine[0] = 0;
   const Multiples half_width((b - a) / 2, most), middle((a + b) / 2, most);
   for (int j = 1; j <= most; ++j) {
     const double width = 2.0 / j * half_width.sine(j);
-    cosine[j] = width * middle.cosine(j);
+    cosine[j] = cosine[-j] = width * middle.cosine(j);
     sine[j] = width * middle.sine(j);
+    sine[-j] = -sine[j];
   }
   Eigen::MatrixXd result(std::ssize(rows), std::ssize(columns));
-  for (Eigen::Index k = 0; k < result.rows(); ++k)
-    for (Eigen::Index l = 0; l < result.cols(); ++l) {
-      const Wave &row = rows[k], &column = columns[l];
+  for (Eigen::Index l = 0; l < result.cols(); ++l) {
+    const Wave& column = columns[l];
+    const double scale = column.amplitude / 2 / unit, sign = column.is_sine ? -1 : 1;
+    for (Eigen::Index k = 0; k < result.rows(); ++k) {
+      const Wave& row = rows[k];
       const int sum = row.multiple + column.multiple, difference = row.multiple - column.multiple;
-      const double of_difference = std::copysign(1.0, difference) * sine[std::abs(difference)];
-      double integral = sine[sum] + (row.is_sine ? of_difference : -of_difference);
-      if (row.is_sine == column.is_sine) integral = cosine[std::abs(difference)] + (row.is_sine ? -1 : 1) * cosine[sum];
-      result(k, l) = row.amplitude * column.amplitude / 2 / unit * integral;
+      result(k, l) = scale * row.amplitude *
+                     (row.is_sine == column.is_sine ? cosine[difference] + sign * cosine[sum]
+                                                    : sine[sum] + sign * sine[difference]);
     }
+  }
   return result;
 }
 
@@ -137,6 +142,23 @@ Eigen::VectorXd Harmonics::slope(double angle) const {
   const Multiples all(unit(*this) * (angle - start), most(*this));
   return Eigen::VectorXd::NullaryExpr(
       size(), [&](Eigen::Index k) { return unit(*this) * all.slope(pressure_wave(*this, static_cast<int>(k))); });
+}
+
+std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& amounts, double angle) const {
+  const double phase = unit(*this) * (angle - start);
+  const double c = std::cos(phase), s = std::sin(phase);
+  double re = 0, im = 0, slope_re = 0, slope_im = 0;  // of sum z_j e^(i j phase), by Horner's rule
+  for (int j = most(*this); j >= 1; --j) {
+    const double cosine = is_whole() ? amounts[2 * j - 1] : amounts[j], sine = is_whole() ? amounts[2 * j] : 0;
+    const auto turned = [&](double& x, double& y, double more_x, double more_y) {
+      const double sum_x = x + more_x, sum_y = y + more_y;
+      x = c * sum_x - s * sum_y;
+      y = s * sum_x + c * sum_y;
+    };
+    turned(re, im, cosine, -sine);
+    turned(slope_re, slope_im, j * cosine, -j * sine);
+  }
+  return {amounts[0] + std::numbers::sqrt2 * re, -std::numbers::sqrt2 * unit(*this) * slope_im};
 }
 
 Eigen::VectorXd Harmonics::shears_at(double angle) const {

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/rim/angles.hpp"
@@ -34,6 +35,8 @@ struct Harmonics {
   [[nodiscard]] Eigen::VectorXd at(double angle) const;
   /// Their derivatives by the angle, (size).
   [[nodiscard]] Eigen::VectorXd slope(double angle) const;
+  /// A sum of pressures at an angle and its derivative there, by amounts of each, (size).
+  [[nodiscard]] std::pair<double, double> sum_at(const Eigen::VectorXd& amounts, double angle) const;
   /// Values of all shears at an angle, (n_shears).
   [[nodiscard]] Eigen::VectorXd shears_at(double angle) const;
   /// Means over the whole circle, or over the part that the model has along its line of symmetry, of pressures times

@@ -48,13 +48,16 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     const bool in_contact = hole.spring && hole.spring->compression_only;
     const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[i]));
     if (in_contact) check_contact(scene, plate, i, pieces.size());
-    rim::Harmonics shape{in_contact ? hole.spring->harmonics : rim::most_harmonics};
+    rim::Harmonics shape{rim::most_harmonics};
     if (!pieces.empty()) shape.start = pieces[0].from, shape.sweep = pieces[0].to - pieces[0].from;
     const bool is_linked = hole.spring && hole.spring->link > 0;
     if (!(rim_compliance(scene, plate, i)(0, 0) > 0 && shape.repeats())) {
+      constexpr int carried_alone = 16;
+      shape.highest = in_contact ? hole.spring->harmonics.value_or(carried_alone) : 0;
       if (in_contact) waves = {shape, true};
       continue;
     }
+    if (in_contact) shape.highest = hole.spring->harmonics.value_or(default_harmonics);
     if (!in_contact && (!hole.stresses || is_linked)) continue;
     const int followed = followed_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
     shape.highest = std::min(shape.highest, hole.waves > 0 ? hole.waves : std::min(wanted[i], followed));

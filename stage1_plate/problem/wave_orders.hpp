@@ -8,6 +8,8 @@
 namespace fastjoint::stage1 {
 
 inline constexpr int lowest_order = 4;
+/// Highest order of the waves of contact, most of which a closed form holds for.
+inline constexpr int default_harmonics = 64;
 
 /// Highest order of waves that elements of degree p follow with so many sides around a whole hole.
 [[nodiscard]] int followed_order(int p, double sides);

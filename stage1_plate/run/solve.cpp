@@ -15,6 +15,7 @@
 #include "common/program/program.hpp"
 #include "common/program/progress.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
+#include "stage1_plate/problem/wave_orders.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -48,7 +49,8 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
                          rim_compliance(scene, plate, i), a.hole_spring[i].acts});
       if (!loaded) continue;
       rim::Harmonics pressures = waves->shape;
-      pressures.highest = scene.holes[i].sprung().harmonics;
+      if (a.waves.back().has_closed_form())
+        pressures.highest = scene.holes[i].sprung().harmonics.value_or(default_harmonics);
       a.contact.push_back({a.hole_id[i], pressures, a.hole_spring[i].modulus, radius, area});
     }
   a.hole_rim = plate.rims;

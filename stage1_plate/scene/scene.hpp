@@ -45,7 +45,9 @@ struct Spring : rim::HoleSpring {
   double disk_E = 0;              ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
   bool has_arc = false;           ///< whether the scene says on which part of the rim they act
   bool compression_only = false;  ///< it pushes but does not pull
-  int harmonics = 16;             ///< rim::Harmonics::highest of a spring that only pushes
+  /// rim::Harmonics::highest of a spring that only pushes; not given: many where a closed form holds for those that the
+  /// elements do not carry
+  std::optional<int> harmonics{};
 };
 
 struct Hole {

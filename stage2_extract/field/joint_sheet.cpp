@@ -55,8 +55,9 @@ int sheet_of_joint(const PlateSolution& plate, const std::string& file, const st
 
 }  // namespace
 
-void take_all_waves(PlateSolution& plate) {
-  for (std::size_t rim = 0; rim < plate.contact.size(); ++rim) plate.waves[rim].waves = plate.contact[rim].pressures;
+void take_waves_of_field(PlateSolution& plate) {
+  for (std::size_t rim = 0; rim < plate.contact.size(); ++rim)
+    plate.waves[rim].waves = formats::waves_of_field(plate.contact[rim], plate.waves[rim]);
 }
 
 std::vector<std::string> case_names(const PlateSolution& plate) { return names_of_cases(plate); }

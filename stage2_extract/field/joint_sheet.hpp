@@ -12,7 +12,7 @@ namespace fastjoint::stage2 {
 
 /// Makes unit cases of all waves of contact that a joint has, where the plate's own end with those that its elements
 /// carry best: a field shows all of the pressure, as far as its elements follow.
-void take_all_waves(formats::PlateSolution& plate);
+void take_waves_of_field(formats::PlateSolution& plate);
 
 /// Names of a plate's unit cases: "external:P", "disc:1:x", "wave:2:0", "friction:1:+x", "traction:T"; shape (n_cases).
 [[nodiscard]] std::vector<std::string> case_names(const formats::PlateSolution& plate);

@@ -79,7 +79,7 @@ VectorXd without_rounding(const VectorXd& q, double largest_load) {
   return (q.array().abs() > rounding * largest_load).select(q, 0);
 }
 
-void set_reference(CondensedSystem& system, const VectorXd& own) {
+void set_reference(CondensedSystem& system, const VectorXd& own, const std::vector<Index>& rims) {
   constexpr double nothing = 1e-13;  // of what a plate that one fastener alone holds resists
   constexpr double more = 1.05, negligible = 1e-9, rounding = 1e-12;
   const Index n = own.size(), a = own.size() == 0 ? 0 : (system.S_ud.rows() - system.n_moments) / n;
@@ -90,17 +90,23 @@ void set_reference(CondensedSystem& system, const VectorXd& own) {
     S.row(i).setZero();
     S.col(i).setZero();
   }
-  const VectorXd rows = more * S.topLeftCorner(n * a, n * a).cwiseAbs().rowwise().sum();
-  const double largest = rows.maxCoeff();
-  system.stiffness = own;
+  const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
+  const double largest = n > 0 ? rows.head(n * a).maxCoeff() : 0;
+  system.stiffness.resize(n + std::ssize(rims));
+  system.stiffness.head(n) = own;
   for (Index j = 0; j < n; ++j) {
     if (largest <= rounding * own[j]) continue;
     const double row = rows.segment(j * a, a).maxCoeff();
     system.stiffness[j] = row > negligible * largest ? row : largest;
   }
-  const auto planes = S.topLeftCorner(n * a, n * a);
-  MatrixXd W = -0.5 * (planes + planes.transpose());
+  MatrixXd W = -0.5 * (S + S.transpose());
   for (Index i = 0; i < n * a; ++i) W(i, i) += system.stiffness[i / a];
+  Index first = n * a;
+  for (Index rim = 0; rim < std::ssize(rims); ++rim) {
+    system.stiffness[n + rim] = rows.segment(first, rims[rim]).maxCoeff();
+    W.diagonal().segment(first, rims[rim]).array() += system.stiffness[n + rim];
+    first += rims[rim];
+  }
   system.metric = matrices::inverse_of_positive(std::move(W)).value();
 }
 
@@ -127,7 +133,7 @@ CondensedSystem condense(const JointModel& joint) {
   system.D_load = given + system.rigid.moved(loads);
   system.friction = friction_layout(joint);
   system.H = friction_matrix(joint, system.friction.columns, system.D_delta);
-  set_reference(system, own_stiffness(joint));
+  set_reference(system, own_stiffness(joint), joint.rim_sizes());
   return system;
 }
 

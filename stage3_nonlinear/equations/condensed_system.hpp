@@ -31,11 +31,11 @@ struct CondensedSystem {
   MatrixXd D_load = {};   ///< (N, l) per unit of each load case at delta = 0
   MatrixXd D_delta = {};  ///< (N, r) per relative displacement, dimensionless
   RigidJoint rigid = {};
-  /// Reference stiffness k of each plane, force / length, a little more than the sum of the amounts in its rows of
-  /// S_ud, so that W = K - S_ud of the planes is positive definite (docs/theory.md, section 8.2). Where S_ud is nothing
-  /// but rounding, the plate's own stiffness takes its place.
+  /// Reference stiffness k of each plane, then of each rim of contact, force / length, a little more than the sum of the
+  /// amounts in its rows of S_ud, so that W = K - S_ud is positive definite (docs/theory.md, section 8.2). Where S_ud of
+  /// a plane is nothing but rounding, the plate's own stiffness takes its place.
   VectorXd stiffness = {};
-  MatrixXd metric = {};  ///< (n a, n a) inverse of W, length / force
+  MatrixXd metric = {};  ///< (r, r) inverse of W, length / force
 
   [[nodiscard]] Index n_friction() const { return H.cols(); }
 };
@@ -45,8 +45,8 @@ struct CondensedSystem {
 [[nodiscard]] VectorXd without_rounding(const VectorXd& q, double largest_load);
 
 /// Sets stiffness and metric.
-/// @param own Stiffness of the plates themselves at each plane, (n).
-void set_reference(CondensedSystem& system, const VectorXd& own);
+/// @param own Stiffness of the plates themselves at each plane, (n). @param rims Numbers of rows of the rims.
+void set_reference(CondensedSystem& system, const VectorXd& own, const std::vector<Index>& rims = {});
 
 /// @throws NumericalError naming the plates that can move if nothing holds them.
 [[nodiscard]] CondensedSystem condense(const JointModel& joint);

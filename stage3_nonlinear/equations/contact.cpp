@@ -58,6 +58,17 @@ MatrixXd ContactState::times(const MatrixXd& A, MatrixXd Response::*slopes) cons
   return result;
 }
 
+MatrixXd ContactState::product(MatrixXd Response::*slopes, const MatrixXd& x) const {
+  MatrixXd result(x.rows(), x.cols());
+  Index first = 0;
+  for (const Response& part : parts) {
+    const MatrixXd& block = part.*slopes;
+    result.middleRows(first, block.rows()).noalias() = block * x.middleRows(first, block.rows());
+    first += block.rows();
+  }
+  return result;
+}
+
 void ContactState::add(double factor, MatrixXd Response::*slopes, MatrixXd& A) const {
   Index first = 0;
   for (const Response& part : parts) {

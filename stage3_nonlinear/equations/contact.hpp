@@ -31,6 +31,8 @@ struct ContactState {
   [[nodiscard]] double along(MatrixXd Response::*slopes, Index plane) const;
   /// Product of A and the block diagonal matrix of derivatives, shape as A, (rows, r).
   [[nodiscard]] MatrixXd times(const MatrixXd& A, MatrixXd Response::*slopes) const;
+  /// Product of that matrix and x, (r, columns).
+  [[nodiscard]] MatrixXd product(MatrixXd Response::*slopes, const MatrixXd& x) const;
   /// Adds a factor times that matrix to A, (r, r).
   void add(double factor, MatrixXd Response::*slopes, MatrixXd& A) const;
   /// Amounts of friction by contact coordinates, (t, columns): the derivative times dc, (r, columns).

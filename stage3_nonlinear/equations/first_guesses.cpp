@@ -24,7 +24,11 @@ LinearForces linear_forces(const JointEquations& equations, const VectorXd& flex
 VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor) {
   const Index n = equations.n_plane_rows();
   VectorXd flexibility = VectorXd::Zero(equations.n_unknowns());
-  flexibility.tail(flexibility.size() - n) = equations.rim_stiffness().cwiseInverse();
+  Index row = n;
+  for (const auto& rim : equations.rims) {
+    flexibility.segment(row, rim->n_long()).setConstant(1 / rim->contact().stiffness());
+    row += rim->n_long();
+  }
   if (initial.guess == Guess::linear) {
     const double K = initial.stiffness.value_or(equations.system->S_ud.diagonal().head(n).mean());
     flexibility.head(n).setConstant(K > 0 ? 1 / K : 0);

@@ -67,9 +67,11 @@ void place_rims(const JointModel& joint, JointEquations& equations) {
     const auto& [plate, at, hole] = places[i];
     const auto& rim = joint.plates[plate].contact[at];
     const double gap = hole < 0 ? 0 : equations.parameters.gap[hole], mu = hole < 0 ? 0 : equations.parameters.mu[hole];
-    equations.rims.emplace_back(rim.pressures, rim.modulus * rim.area, gap, mu);
+    equations.rims.push_back(std::make_shared<const RimProblem>(
+        RimContact(rim.pressures, rim.modulus * rim.area, gap, mu), joint.plates[plate].short_waves[at], rim.area,
+        equations.system->stiffness[equations.n_planes() + i]));
     equations.has_friction = equations.has_friction || mu != 0;
-    place(std::make_shared<RimInterface>(equations.rims.back(), rim.area, i, equations.system->friction.rim_rubs[i]),
+    place(std::make_shared<RimInterface>(equations.rims.back(), i, equations.system->friction.rim_rubs[i]),
           equations.interfaces);
   }
 }
@@ -116,28 +118,23 @@ Index JointEquations::entry_of(Index row) const {
   Index end = n_plane_rows();
   if (row < end) return row / n_directions();
   Index rim = 0;
-  while (row >= (end += rims[rim].size())) ++rim;
+  while (row >= (end += rims[rim]->n_long())) ++rim;
   return n_planes() + rim;
 }
 
 std::vector<Index> JointEquations::rim_sizes() const {
   std::vector<Index> sizes;
-  for (const auto& rim : rims) sizes.push_back(rim.size());
+  for (const auto& rim : rims) sizes.push_back(rim->n_long());
   return sizes;
 }
 
-VectorXd JointEquations::rim_stiffness() const {
-  VectorXd stiffness(system->n_moments);
-  Index first = 0;
-  for (const auto& rim : rims) {
-    stiffness.segment(first, rim.size()).setConstant(rim.stiffness());
-    first += rim.size();
-  }
-  return stiffness;
+VectorXd JointEquations::of_rim(const VectorXd& c, Index rim) const {
+  const PlacedInterface& placed = interfaces[std::ssize(interfaces) - std::ssize(rims) + rim];
+  return c.segment(placed.row, placed.interface->size());
 }
 
 bool JointEquations::has_interference() const {
-  return std::ranges::any_of(rims, [](const RimContact& rim) { return rim.gap() < 0; });
+  return std::ranges::any_of(rims, [](const auto& rim) { return rim->contact().gap() < 0; });
 }
 
 const MatrixXd& JointEquations::metric() const {
@@ -153,7 +150,8 @@ double JointEquations::force_of_clearances() const {
 
 double JointEquations::force_of_gaps() const {
   double force = 0;
-  for (const auto& rim : rims) force = std::max(force, rim.stiffness() * std::abs(rim.gap()));
+  for (const auto& rim : rims) 
+    force = std::max(force, std::max(rim->k(), rim->contact().stiffness()) * std::abs(rim->contact().gap()));
   return force;
 }
 
@@ -210,13 +208,7 @@ ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
 }
 
 MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) {
-  const Index n = equations.n_plane_rows(), k = residuals.rows() - n;
-  MatrixXd g(residuals.rows(), residuals.cols());
-  g.topRows(n) = equations.metric() * residuals.topRows(n);
-  if (k > 0)
-    g.bottomRows(k) = equations.rim_stiffness().cwiseInverse().asDiagonal() *
-                      (residuals.bottomRows(k) + equations.system->S_ud.bottomLeftCorner(k, n) * g.topRows(n));
-  return g;
+  return equations.metric() * residuals;
 }
 
 void add_friction_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J) {

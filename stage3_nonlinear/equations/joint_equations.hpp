@@ -7,20 +7,20 @@
 
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 #include "stage3_nonlinear/equations/contact.hpp"
-#include "stage3_nonlinear/interfaces/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/rim_problem.hpp"
 #include "stage3_nonlinear/scene/joint_scene.hpp"
 #include "stage3_nonlinear/solvers/root.hpp"
 
 namespace fastjoint::stage3 {
 
 /// The nonlinear equations of a joint for the numbers of one run: the condensed system with the interfaces put in, for
-/// the contact coordinates c: those of the n shear planes in a directions, then for each rim of contact its stiffness
-/// times its moments, r in all.
+/// the contact coordinates c = F + k delta: those of the n shear planes in a directions, then those of the long waves of
+/// each rim of contact, r in all.
 struct JointEquations {
   std::shared_ptr<const CondensedSystem> system;
   Parameters parameters;
   std::vector<Contact> contacts;            ///< (n)
-  std::vector<RimContact> rims;             ///< (g)
+  std::vector<std::shared_ptr<const RimProblem>> rims;  ///< (g)
   std::vector<PlacedInterface> interfaces;  ///< fastener after fastener, then rim after rim
   VectorXd q, q_reversed;                   ///< (r) q_at of load factors > 0, and < 0, from no load on; force
   bool rises = true;                        ///< no law falls
@@ -39,8 +39,8 @@ struct JointEquations {
   [[nodiscard]] Index entry_of(Index row) const;
   /// Numbers of moments of the rims, rim after rim.
   [[nodiscard]] std::vector<Index> rim_sizes() const;
-  /// Stiffness of the rims' unknowns, (r - n a), force / length.
-  [[nodiscard]] VectorXd rim_stiffness() const;
+  /// Coordinates of a rim of contact among all, (n_long).
+  [[nodiscard]] VectorXd of_rim(const VectorXd& c, Index rim) const;
   /// True if a disc is larger than the rim of contact around it.
   [[nodiscard]] bool has_interference() const;
   /// CondensedSystem::metric, which makes the solution the place where a convex function is least (docs/theory.md,
@@ -91,7 +91,7 @@ void add_friction_slopes(const CondensedSystem& system, const ContactState& stat
 /// @param friction False: without that of friction.
 [[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
-/// Hessian of that convex function of a joint without rims of contact, symmetric, shape (r, r), length / force:
+/// Hessian of that convex function, symmetric, shape (r, r), length / force:
 /// W^-1 - d delta / dc, and the tangent is W times it (docs/theory.md, section 8.4). To be called where no law falls.
 [[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
 

@@ -90,7 +90,7 @@ void SolvedPoint::bear() {
 Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   if (inverse_) {
     const MatrixXd dc = residual ? *inverse_ * *residual : *inverse_;
-    return {-beyond_.times(dc.transpose(), &Response::dF).transpose(), -dc, {}, {}};  // the blocks are symmetric
+    return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
   }
   const Index r = c_.size();
   if (!(factor_->least_stretch() > singular_tangent))
@@ -101,7 +101,7 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
     return {-back.transpose(), {}, {}, {}};
   }
   const MatrixXd dc = scale_.cwiseInverse().asDiagonal() * factor_->solve(*residual);
-  return {-beyond_.times(dc.transpose(), &Response::dF).transpose(), -dc, {}, {}};
+  return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
 }
 
 /// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "common/matrices/decompositions.hpp"
 
@@ -18,7 +20,7 @@ Mechanism mechanism(const JointEquations& equations, const ContactState& state, 
                     const VectorXd& scale) {
   constexpr double moves = 1e-6, level = 1e-12, far = 1e6;
   const MatrixXd dc = scale.cwiseInverse().asDiagonal() * J.free_motions(singular_tangent);
-  const MatrixXd delta = state.times(dc.transpose(), &Response::ddelta).transpose();  // the blocks are symmetric
+  const MatrixXd delta = state.product(&Response::ddelta, dc);
   Mechanism result{{}, {}, equations.system->D_delta * delta.rightCols(1)};
   const Index a = state.direction.rows();
   for (Index j = 0; j < equations.n_planes(); ++j) {
@@ -64,24 +66,28 @@ double friction_norm(const MatrixXd& H) {
 }
 
 /// True if the tangent J of laws that rise has no eigenvalue that `soft_modes` would count, as it surely has not where
-/// the symmetric part of its product with the metric is positive definite: it is similar to M^1/2 (M^-1 J) M^1/2.
-bool surely_stable(const JointEquations& equations, const MatrixXd& J) {
+/// the symmetric part of d delta/dc^T J is positive definite: that of the tangent stiffness J (d delta/dc)^-1, which the
+/// joint's displacements meet. Planes of rigid laws, along which nothing moves, have no part in it.
+bool surely_stable(const JointEquations& equations, const ContactState& state, const MatrixXd& J) {
   if (!equations.rises) return false;
-  const MatrixXd H = gradient(equations, J + singular_tangent * MatrixXd::Identity(J.rows(), J.cols()));
-  return matrices::is_positive_definite(H + H.transpose());
-}
-
-/// A norm of the derivatives of friction's forces by c: of cosine friction by the forces, which rise no faster than c.
-double shares_of_friction(const JointEquations& equations, const ContactState& state) {
-  if (!equations.has_friction) return 0;
-  MatrixXd friction = equations.friction_matrix(state.F);
-  for (Index i = 0; i < std::ssize(equations.interfaces); ++i) {
-    const auto& [interface, row, at] = equations.interfaces[i];
-    const Index t = interface->n_friction(), n = interface->size();
-    if (t > 0 && interface->friction_by_force(state.F.segment(row, n)).size() == 0)
-      friction.middleCols(row, n) += equations.system->H.middleCols(at, t) * state.parts[i].dLambda;
+  constexpr double rigid = 1e-12;
+  const Index n = J.rows();
+  const MatrixXd ddelta = state.times(MatrixXd::Identity(n, n), &Response::ddelta);
+  std::vector<Index> moves;
+  for (Index i = 0; i < n; ++i) {
+    const Index entry = equations.entry_of(i);
+    if (ddelta(i, i) * equations.system->stiffness[entry] > rigid) {
+      moves.push_back(i);
+    } else if (!ddelta.row(i).isZero(0) || (J.col(i) - VectorXd::Unit(n, i)).lpNorm<Eigen::Infinity>() > rigid) {
+      return false;
+    }
   }
-  return friction_norm(friction);
+  MatrixXd A = ddelta.transpose() * J;
+  A = (A(moves, moves) + A(moves, moves).transpose()).eval();
+  const VectorXd scale = A.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  A = (scale.asDiagonal() * A * scale.asDiagonal()).eval();
+  A.diagonal().array() += singular_tangent;
+  return matrices::is_positive_definite(std::move(A));
 }
 
 /// Takes away what the force of a plane rises along c, and its friction with it.
@@ -126,11 +132,13 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
       return check;
     }
   }
-  // Only large friction makes a joint of rising laws unstable.
+  // Only friction makes a joint of rising laws unstable, cosine friction only where it is large.
   bool falls = false;
   for (Index j = 0; j < equations.n_planes(); ++j) falls = falls || state.along(&Response::dF, j) < 0;
-  if (falls ||
-      (shares_of_friction(equations, state) >= 1 && !surely_stable(equations, factor.matrix() * scale.asDiagonal())))
+  const bool rims_rub = std::ranges::any_of(equations.rims, [](const auto& rim) { return rim->contact().mu() > 0; });
+  const bool in_doubt = rims_rub || (equations.has_cosine_friction &&
+                                     friction_norm(equations.friction_matrix(state.F)) >= 1);
+  if (falls || (in_doubt && !surely_stable(equations, state, factor.matrix() * scale.asDiagonal())))
     check.unstable = soft_modes(equations, state, -singular_tangent);
   check.locking = self_locking(equations, state.F);
   return check;

@@ -38,7 +38,7 @@ FrictionLayout friction_layout(const JointModel& joint) {
     const PlateModel& its = joint.plates[plate];
     const auto& rim = its.contact[at];
     layout.rim_rubs.push_back(joint.mu(plate, rim.hole) != 0);
-    for (Index i = 0; layout.rim_rubs.back() && i < rim.pressures.n_shears(); ++i)
+    for (Index i = 0; layout.rim_rubs.back() && i < its.waves[at].waves.n_shears(); ++i)
       layout.columns.push_back({plate, its.first_shear(rim) + i, 0});
   }
   return layout;

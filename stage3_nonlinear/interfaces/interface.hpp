@@ -17,7 +17,7 @@ using History = VectorXd;
 struct Response {
   VectorXd F, delta;    ///< (n) forces between the bodies, and their relative displacements; force, length
   VectorXd Lambda;      ///< (t) amounts of what friction adds (FrictionColumn)
-  MatrixXd dF, ddelta;  ///< (n, n) symmetric; dimensionless, length / force
+  MatrixXd dF, ddelta;  ///< (n, n), symmetric without friction; dimensionless, length / force
   MatrixXd dLambda;     ///< (t, n) per force
   Index spent = -1;     ///< a row past all that the interface can carry, if there is one
 };

@@ -23,8 +23,11 @@ RimContact::RimContact(const rim::Harmonics& pressures, double stiffness, double
 double RimContact::end_between(const VectorXd& m, double low, double high, bool rises) const {
   const double sign = rises ? 1 : -1;
   return rising_root(
-      [&](double angle) { return std::pair(sign * depth(m, angle), sign * pressures_.slope(angle).dot(m)); }, low,
-      high);
+      [&](double angle) {
+        const auto [w, slope] = pressures_.sum_at(m, angle);
+        return std::pair(sign * (w - gap_), sign * slope);
+      },
+      low, high);
 }
 
 double RimContact::extremum(const VectorXd& m, double angle, double sign) const {
@@ -32,10 +35,23 @@ double RimContact::extremum(const VectorXd& m, double angle, double sign) const 
   double low = angle - step, high = angle + step;
   if (!pressures_.is_whole())
     low = std::max(low, samples_->angles[0]), high = std::min(high, samples_->angles[samples_->angles.size() - 1]);
-  constexpr int halvings = 50;
-  for (int i = 0; i < halvings; ++i) {
-    const double middle = 0.5 * (low + high);
-    (sign * pressures_.slope(middle).dot(m) > 0 ? low : high) = middle;
+  // By the secant, whose older end counts half if the newer one is hit twice (Illinois): the slope falls from low to high.
+  const auto slope = [&](double at) { return sign * pressures_.sum_at(m, at).second; };
+  double at_low = slope(low), at_high = slope(high);
+  if (at_low <= 0 || at_high >= 0) return at_low <= 0 ? low : high;
+  constexpr int most = 60;
+  constexpr double near = 1e-13;
+  int side = 0;
+  for (int i = 0; i < most && high - low > near; ++i) {
+    const double middle = low + (high - low) * at_low / (at_low - at_high), here = slope(middle);
+    if (here == 0) return middle;
+    if (here > 0) {
+      if (side > 0) at_high /= 2;
+      low = middle, at_low = here, side = 1;
+    } else {
+      if (side < 0) at_low /= 2;
+      high = middle, at_high = here, side = -1;
+    }
   }
   return 0.5 * (low + high);
 }
@@ -43,6 +59,7 @@ double RimContact::extremum(const VectorXd& m, double angle, double sign) const 
 std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const VectorXd& depth) const {
   const Index n = depth.size(), last = n - 1;
   std::vector<Point> points;
+  points.reserve(n + 2);
   for (Index i = 0; i < n; ++i) points.push_back({samples_->angles[i], depth[i]});
   for (Index i = pressures_.is_whole() ? 0 : 1; i < last; ++i) {
     const double sign = depth[i] > 0 ? -1 : 1, here = sign * depth[i];
@@ -54,7 +71,7 @@ std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const Vecto
     if (angle < samples_->angles[0]) angle += pressures_.sweep;
     if (sign * there > 0) points.push_back({angle, there});
   }
-  std::ranges::sort(points, {}, &Point::angle);
+  if (std::ssize(points) > n) std::ranges::sort(points, {}, &Point::angle);
   return points;
 }
 

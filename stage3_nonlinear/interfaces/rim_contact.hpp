@@ -29,6 +29,14 @@ class RimContact {
   /// @param stiffness K A: modulus of the springs times area of the rim, force / length. @param mu Friction.
   RimContact(const rim::Harmonics& pressures, double stiffness, double gap, double mu = 0);
 
+  /// The same rim with another gap and friction.
+  [[nodiscard]] RimContact with(double gap, double mu) const {
+    RimContact other = *this;
+    other.gap_ = gap;
+    other.mu_ = mu;
+    return other;
+  }
+
   [[nodiscard]] Index size() const { return pressures_.size(); }
   [[nodiscard]] double stiffness() const { return stiffness_; }
   [[nodiscard]] double gap() const { return gap_; }
@@ -42,7 +50,7 @@ class RimContact {
   /// Place at which sign * w is largest, radians.
   [[nodiscard]] double deepest(const VectorXd& m, double sign = 1) const;
   /// w - gap, length.
-  [[nodiscard]] double depth(const VectorXd& m, double angle) const { return pressures_.at(angle).dot(m) - gap_; }
+  [[nodiscard]] double depth(const VectorXd& m, double angle) const { return pressures_.sum_at(m, angle).first - gap_; }
 
  private:
   /// A place on the rim, radians, and w - gap there, length.

@@ -2,9 +2,8 @@
 #include "stage3_nonlinear/interfaces/rim_interface.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
-
-#include "stage3_nonlinear/interfaces/rim_friction.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -15,47 +14,75 @@ double sign_of(Index entry) { return entry == 0 ? 1 : -1; }
 }  // namespace
 
 Response RimInterface::respond(const VectorXd& c, const History& /*history*/) const {
-  const Index n = c.size(), t = n_friction();
-  const double k = rim_.stiffness();
-  const VectorXd m = c / k;
-  Touching touching = rim_.touching(m);
-  Response response{rim_.forces(touching, m), m, VectorXd::Zero(t), {}, MatrixXd::Identity(n, n) / k, {}};
-  response.dLambda = MatrixXd::Zero(t, n);
-  if (t > 0 && rim_.mu() > 0) {
-    const RimFriction friction = rim_friction(rim_, touching, m);
-    response.Lambda = friction.forces / area_;
-    response.dLambda = friction.slopes / area_;
+  const Index n = size(), t = n_friction();
+  const RimContact& contact = rim_->contact();
+  if (!c.allFinite()) {
+    const VectorXd none = VectorXd::Constant(n, std::numeric_limits<double>::quiet_NaN());
+    return {none, none, VectorXd::Zero(t), MatrixXd::Identity(n, n), MatrixXd::Zero(n, n), MatrixXd::Zero(t, n)};
   }
-  response.dF = std::move(touching.share);
+  const RimSolution& its = rim_->solve(c);
+  Response response{its.forces.head(n), {}, VectorXd::Zero(t), {}, {}, MatrixXd::Zero(t, n)};
+  if (!its.converged) response.F.setConstant(std::numeric_limits<double>::quiet_NaN());
+  response.delta = (c - response.F) / rim_->k();
+  response.dF = contact.stiffness() * its.touching.share.topRows(n) * its.w_by_c;
+  if (t > 0 && contact.mu() > 0) {
+    response.Lambda = its.friction.forces.head(t) / rim_->area();
+    response.dLambda = contact.stiffness() / rim_->area() * its.friction.slopes.topRows(t) * its.w_by_c;
+  } else {
+    response.dF = (0.5 * (response.dF + response.dF.transpose())).eval();
+  }
+  response.ddelta = (MatrixXd::Identity(n, n) - response.dF) / rim_->k();
   return response;
+}
+
+void RimInterface::add_trace(double trace, Response& response) const {
+  response.ddelta *= 1 - trace;
+  response.dF *= 1 - trace;
+  response.dF.diagonal().array() += trace;
 }
 
 /// A loose bolt lies anywhere, and touches where it presses by more than the little force that a solution leaves.
 std::vector<std::vector<Corner>> RimInterface::corners() const {
   constexpr double little = 1e-6;  // of the gap
-  return {{{little * rim_.stiffness() * std::max(rim_.gap(), 0.0), CornerKind::touch}}, {{0, CornerKind::part}}};
+  const RimContact& contact = rim_->contact();
+  return {{{little * contact.stiffness() * std::max(contact.gap(), 0.0), CornerKind::touch}}, {{0, CornerKind::part}}};
 }
 
 /// The depth of the disc where it is largest, or minus that where it is least, times the stiffness.
 double RimInterface::position(const VectorXd& c, Index entry) const {
-  return slope(c, entry).dot(c) - sign_of(entry) * rim_.stiffness() * rim_.gap();
+  const RimContact& contact = rim_->contact();
+  const double sign = sign_of(entry);
+  const VectorXd& w = rim_->solve(c).w;
+  return sign * contact.stiffness() * contact.depth(w, contact.deepest(w, sign));
 }
 
 /// The place of an extremum moves along the rim without changing it.
 VectorXd RimInterface::slope(const VectorXd& c, Index entry) const {
-  return sign_of(entry) * rim_.pressures().at(rim_.deepest(c, sign_of(entry)));
+  const RimContact& contact = rim_->contact();
+  const double sign = sign_of(entry);
+  const RimSolution& its = rim_->solve(c);
+  return sign * contact.stiffness() * its.w_by_c.transpose() * contact.pressures().at(contact.deepest(its.w, sign));
 }
 
+VectorXd RimInterface::coordinates(const VectorXd& F) const { return (1 + rim_->k() / rim_->contact().stiffness()) * F; }
+
 /// Shears are proportional to the coefficient where the rim slips, and do not know it where it sticks. The gap acts as
-/// the first moment does, but for that moment itself.
+/// the first wave does, but for that wave itself.
 std::vector<Change> RimInterface::changes(const VectorXd& c, const Response& response) const {
-  const VectorXd none = VectorXd::Zero(c.size());
-  std::vector<Change> result{{NumberKind::gap, at_, 0, -rim_.stiffness() * response.dF.col(0), none,
-                              -rim_.stiffness() * response.dLambda.col(0)}};
-  if (n_friction() == 0 || rim_.mu() == 0) return result;
-  const VectorXd m = c / rim_.stiffness();
+  const double k = rim_->k();
+  std::vector<Change> result{
+      {NumberKind::gap, at_, 0, -k * response.dF.col(0), response.dF.col(0), -k * response.dLambda.col(0)}};
+  const RimContact& contact = rim_->contact();
+  if (n_friction() == 0 || contact.mu() == 0) return result;
+  const RimSolution& its = rim_->solve(c);
+  const VectorXd none = VectorXd::Zero(size());
   Change by_mu{NumberKind::rim_mu, at_, 0, none, none, VectorXd::Zero(n_friction())};
-  if (rim_friction(rim_, rim_.touching(m), m).slips) by_mu.Lambda = response.Lambda / rim_.mu();
+  if (its.friction.slips) {
+    by_mu.F = contact.stiffness() * its.touching.share.topRows(size()) * its.w_by_mu;
+    by_mu.delta = -by_mu.F / k;
+    by_mu.Lambda = response.Lambda / contact.mu() +
+                   contact.stiffness() / rim_->area() * its.friction.slopes.topRows(n_friction()) * its.w_by_mu;
+  }
   result.push_back(std::move(by_mu));
   return result;
 }

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "common/formats/plate_matrices.hpp"
 
@@ -15,19 +17,19 @@ using Eigen::VectorXd;
 /// Waves of a rim of contact that the finite elements do not carry, in closed form (docs/theory.md, section 6.3).
 ///
 /// p are the waves of the pressure on the sheet, tau those of its shear, w those of the disc's normal displacement
-/// against the sheet. The elements' sheet has springs K at the rim that also resist the short waves of w; what these do
-/// is taken out again: with L the long and s the short waves, and the infinite sheet's compliance D,
-///   w_s = -G p_L - C q_s - G_t tau_L - C_t tau_s,   q_s = p_s - K w_s,
-///   w_L = w_L of the elements - G^T q_s - E tau_s.
+/// against the sheet; L are the long waves, which the elements carry, S the short ones. The joint's sheet is one whose
+/// rim has no springs and no short waves of w; with delta its long waves,
+///   w_L = delta - (M p)_L - (M_tau tau)_L,   w_S = -(M p)_S - (M_tau tau)_S.
+/// The elements' sheet has springs K at the rim, which also resist the short waves: its long waves are
+///   d = w_L + G^T (p - K w)_S + E tau_S,   and   delta = d + C_held p_L + R_held tau_L.
+/// In an isotropic sheet waves of different order are apart: delta = d = w_L.
 struct ShortWaves {
   Index n_long, n;                ///< pressures that the elements carry, and all
   Index n_long_shears, n_shears;  ///< shears likewise
-  MatrixXd D;  ///< (n + n_shears)^2 displacements by tractions, length / stress; empty: no short waves
-  // Waves of twice the order that the joint solves for, which the joint's own leave out: what tractions do to the
-  // normal displacements beyond n, (n_beyond, all pressures and shears), length / stress.
-  rim::Harmonics wider;
-  MatrixXd D_beyond;
-  MatrixXd G, C, G_t, C_t, E;  ///< length / stress
+  MatrixXd D;  ///< (n + n_shears)^2 displacements of an infinite sheet by tractions, length / stress; empty: no short waves
+  MatrixXd G, G_t, E;       ///< length / stress, G_t and G times K what the elements' springs make of short waves
+  MatrixXd C_held, R_held;  ///< (n_long, n_long), (n_long, n_long_shears) length / stress
+  MatrixXd M, M_tau;        ///< (n, n) positive semi-definite, (n, n_shears) length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }
   /// Pressures and shears that the elements carry.
@@ -35,9 +37,13 @@ struct ShortWaves {
 };
 [[nodiscard]] ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried);
 
-/// What rims of contact add to a plate's matrices: with forces F on all their waves of pressure (stress times area),
-/// amounts tau of those of shear (stress), and the means m of the disc's normal displacement in the same waves,
-///   P = S u + B^T F + R tau + ...,   m = B u - C F + R_p tau + R_f Lambda + T f.
+/// The short waves of all rims of contact of a plate; equal rims share them.
+[[nodiscard]] std::vector<std::shared_ptr<const ShortWaves>> short_waves_of(const formats::PlateMatrices& a);
+
+/// What rims of contact add to a plate's matrices, by the waves that the elements carry: with forces F on those of
+/// pressure that are added to what the springs bear (stress times area), amounts tau of those of shear (stress), and
+/// the means d of the disc's normal displacement in the same waves,
+///   P = S u + B^T F + R tau + ...,   d = B u - C F + R_p tau + R_f Lambda + T f.
 struct RimMatrices {
   MatrixXd B;    ///< (k, discs + externals) dimensionless
   MatrixXd C;    ///< (k, k) length / force

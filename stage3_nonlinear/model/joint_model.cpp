@@ -247,6 +247,13 @@ Index JointModel::offset(Index plate) const {
   return offset;
 }
 
+std::vector<Index> JointModel::rim_sizes() const {
+  std::vector<Index> sizes;
+  for (const auto& plate : plates)
+    for (Index i = 0; i < std::ssize(plate.contact); ++i) sizes.push_back(plate.waves[i].waves.size());
+  return sizes;
+}
+
 Index JointModel::n_moments() const {
   Index n = 0;
   for (const auto& plate : plates) n += plate.n_unknowns() - plate.first_moment();

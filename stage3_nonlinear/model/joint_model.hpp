@@ -59,7 +59,7 @@ struct PlateModel {
   formats::PlateStresses stresses;        ///< as the file has them
   std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
   std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
-  std::vector<ShortWaves> short_waves{};  ///< (g) waves beyond those, in closed form
+  std::vector<std::shared_ptr<const ShortWaves>> short_waves{};  ///< (g) waves beyond those, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses
   std::vector<MatrixXd> wave_rows{};         ///< PlateCases::W of all rims at the joint's degree and the one before
   Index file_unit_cases = 0;                 ///< of the file, the columns of wave_rows
@@ -98,7 +98,7 @@ struct PlateModel {
   /// Column of R of the first shear of a rim of contact.
   [[nodiscard]] Index first_shear(const formats::ContactRim& rim) const {
     Index first = std::ssize(friction_hole);
-    for (const auto* before = contact.data(); before != &rim; ++before) first += before->pressures.n_shears();
+    for (Index before = 0; before < &rim - contact.data(); ++before) first += waves[before].waves.n_shears();
     return first;
   }
   /// First unknown of the moments of contact.
@@ -176,7 +176,8 @@ struct JointModel {
 
   [[nodiscard]] Index n_directions() const { return axes.size(); }
   [[nodiscard]] Index n_planes() const { return planes.size(); }
-  /// Number of moments of contact of all plates.
+  /// Number of moments of contact of each rim of contact, plate after plate, and of all.
+  [[nodiscard]] std::vector<Index> rim_sizes() const;
   [[nodiscard]] Index n_moments() const;
   /// "x" or "y": direction d of the discs.
   [[nodiscard]] const char* axis_name(Index d) const { return axis_names[axes[d]]; }

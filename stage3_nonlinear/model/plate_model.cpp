@@ -117,8 +117,8 @@ MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
 void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
   constexpr double little = 1e-3;  // of the largest of the rim
   Index row = 0;
-  for (const auto& rim : a.contact) {
-    const Index k = rim.pressures.size();
+  for (Index i = 0; i < std::ssize(a.contact); ++i) {
+    const Index k = a.waves[i].waves.size();
     const auto eigen = matrices::symmetric_eigen(compliance.block(row, row, k, k));
     const double least = little * eigen.values[k - 1];
     const auto n = (eigen.values.array() < least).count();
@@ -128,20 +128,57 @@ void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
   }
 }
 
+/// Takes the short waves of its rims out of a plate: brings its moments d to those of ShortWaves, delta = d + C_held p +
+/// R_held tau, in which the force on the moments is minus p times the area. In an isotropic sheet both are the same.
+void hold_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ShortWaves>>& rims,
+                      PlateDegrees& degrees) {
+  MatrixXd &S = degrees.S.back(), &R = degrees.R.back(), &T = degrees.T.back();
+  Index k = 0, n_shears = 0;
+  bool nothing = true;
+  for (const auto& rim : rims) {
+    k += rim->n_long;
+    n_shears += rim->n_long_shears;
+    nothing = nothing && rim->C_held.isZero(0) && rim->R_held.isZero(0);
+  }
+  if (nothing) return;
+  MatrixXd C = MatrixXd::Zero(k, k), by_shear = MatrixXd::Zero(k, R.cols());  // by forces, and by all columns of R
+  for (Index i = 0, row = 0, column = R.cols() - n_shears; i < std::ssize(rims); ++i) {
+    C.block(row, row, rims[i]->n_long, rims[i]->n_long) = rims[i]->C_held / a.contact[i].area;
+    by_shear.block(row, column, rims[i]->n_long, rims[i]->n_long_shears) = rims[i]->R_held;
+    row += rims[i]->n_long, column += rims[i]->n_long_shears;
+  }
+  R -= S.rightCols(k) * by_shear;
+  const MatrixXd softened = MatrixXd::Identity(k, k) - S.bottomRightCorner(k, k) * C;
+  const matrices::Lu lu(softened);
+  const MatrixXd of_S = lu.solve(S.bottomRows(k)), of_R = lu.solve(R.bottomRows(k)), of_T = lu.solve(T.bottomRows(k));
+  const Index n = S.rows() - k;
+  degrees.C.back() -= T.bottomRows(k).transpose() * C * of_T;
+  const MatrixXd forward = S.topRightCorner(n, k) * C;
+  S.topRows(n) += forward * of_S;
+  R.topRows(n) += forward * of_R;
+  T.topRows(n) += forward * of_T;
+  S.bottomRows(k) = of_S;
+  R.bottomRows(k) = of_R;
+  T.bottomRows(k) = of_T;
+  S = (0.5 * (S + S.transpose())).eval();
+}
+
 /// Replaces the matrices of a plate with all its springs, in which its rims of contact have pressures q beside them, by
 /// those of the plate with the moments of these rims as unknowns and their springs outside. F = S u + B^T q + R Lambda
 /// + T f and m = B u - C q + R_p Lambda + T_p f give q, and the force on the moments is K A m - q (docs/theory.md,
 /// section 6.3). Behind the friction cases of R stand the shears of these rims.
-void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level, PlateDegrees& degrees) {
+void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level,
+               const std::vector<std::shared_ptr<const ShortWaves>>& short_waves, PlateDegrees& degrees) {
   const Index n = degrees.S.back().rows();
   if (a.contact.empty()) return;
   const RimMatrices rims = rim_matrices(a, level);
   const Index k = rims.C.rows();
   VectorXd springs(k);
   Index row = 0;
-  for (const auto& rim : a.contact) {
-    springs.segment(row, rim.pressures.size()).setConstant(rim.modulus * rim.area);
-    row += rim.pressures.size();
+  for (Index i = 0; i < std::ssize(a.contact); ++i) {
+    const Index n_long = a.waves[i].waves.size();
+    springs.segment(row, n_long).setConstant(a.contact[i].modulus * a.contact[i].area);
+    row += n_long;
   }
   const MatrixXd& B = rims.B;
   MatrixXd compliance = rims.C;
@@ -170,6 +207,7 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose(), -by_motion, stiffness;
   S.diagonal().tail(k) -= springs;
   degrees.S.back() = std::move(S);
+  hold_short_waves(a, short_waves, degrees);
 }
 
 /// Adds to the matrices, of discs of the file, those of directions in which holes have no disc, since a line of
@@ -194,7 +232,8 @@ void add_held_discs(const PlateModel& plate, PlateDegrees& degrees) {
     }
 }
 
-PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level) {
+PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level,
+                           const std::vector<std::shared_ptr<const ShortWaves>>& short_waves) {
   constexpr Index most = 4;  // no estimate looks further back
   const Index n = std::min(level + 1, most), first = level + 1 - n;
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
@@ -203,7 +242,7 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
     degrees.R.push_back(stacked(a.R_df[i], a.R_ef[i]));
     degrees.T.push_back(stacked(a.T_d[i], a.T_e[i]));
     degrees.C.push_back(a.C_t[i]);
-    free_rims(file, a, i, degrees);
+    free_rims(file, a, i, short_waves, degrees);
   }
   degrees.R.erase(degrees.R.begin(), degrees.R.end() - std::min<Index>(std::ssize(degrees.R), 2));
   return degrees;
@@ -247,7 +286,8 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.tractions = a.traction_id;
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
-  plate.degrees = degrees_up_to(file, a, level);
+  plate.short_waves = short_waves_of(a);
+  plate.degrees = degrees_up_to(file, a, level, plate.short_waves);
   add_held_discs(plate, plate.degrees);
   plate.S = plate.degrees.S.back();
   plate.R = plate.degrees.R.back();
@@ -266,7 +306,6 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   plate.contact = a.contact;
   plate.waves = a.waves;
-  for (Index i = 0; i < std::ssize(a.contact); ++i) plate.short_waves.push_back(short_waves(a.contact[i], a.waves[i]));
   plate.file_unit_cases = a.n_cases();
   plate.n_loaded_waves = a.n_loaded_waves();
   plate.traction_hole = a.traction_hole;

@@ -72,14 +72,15 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.D = of_discs(&PlateState::D);
   history.De = rows(&PlateState::De, plate.n_externals());
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
-  Index n_added = 0;
+  Index n_added = 0, n_w = 0;
   for (Index i = 0; i < std::ssize(plate.contact); ++i) {
     history.waves.push_back(plate.waves[i]);
-    history.waves.back().waves = plate.contact[i].pressures;
+    history.waves.back().waves = formats::waves_of_field(plate.contact[i], plate.waves[i]);
     n_added += history.waves.back().size();
+    n_w += plate.contact[i].pressures.size();
   }
   history.amounts = rows(&PlateState::added, n_added);
-  history.w = rows(&PlateState::moments, plate.n_unknowns() - plate.first_moment());
+  history.w = rows(&PlateState::w, n_w);
   history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
   history.traction = rows(&PlateState::traction, std::ssize(plate.tractions));
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};

@@ -150,20 +150,20 @@ void warn_of_locking(const LoadPath& path, std::vector<program::Warning>& result
 void warn_of_sticking(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                       std::vector<program::Warning>& result) {
   std::vector<Doubt> sticking;
-  Index rim = 0, moment = 0;
+  Index rim = 0;
   for (const auto& plate : joint.plates)
     for (const auto& contact : plate.contact) {
-      const RimContact& its = equations.rims[rim++];
+      const RimProblem& problem = *equations.rims[rim];
+      const RimContact& its = problem.contact();
       const auto sticks = [&](const PathStep& step) {
-        const VectorXd m = step.moments.segment(moment, its.size());
-        return its.mu() > 0 && !rim_friction(its, its.touching(m), m).slips;
+        return its.mu() > 0 && !problem.solve(equations.of_rim(step.c, rim)).friction.slips;
       };
       if (const PathStep* step = first_step(path, sticks))
         sticking.emplace_back(its.mu(),
                               fmt::format("at {} the rim of hole \"{}:{}\" sticks: friction {} could carry more "
                                           "than pressure does, and carries as much",
                                           increment_text(path, *step), plate.name, contact.hole, its.mu()));
-      moment += its.size();
+      ++rim;
     }
   add_worst(result, "rim-sticks", sticking);
 }

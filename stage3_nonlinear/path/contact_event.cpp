@@ -38,7 +38,7 @@ ContactCorners::ContactCorners(const JointEquations& equations, bool interferenc
       const Index rim = (std::ssize(corners_) - n_planes_) / 2;
       const bool wanted =
           !interference_alone ||
-          (!corners[entry].empty() && corners[entry][0].kind == CornerKind::part && equations.rims[rim].gap() < 0);
+          (!corners[entry].empty() && corners[entry][0].kind == CornerKind::part && equations.rims[rim]->contact().gap() < 0);
       corners_.push_back(wanted ? std::move(corners[entry]) : std::vector<Corner>());
       at_.emplace_back(&placed, entry);
     }
@@ -92,7 +92,8 @@ std::vector<ContactEvent> ContactCorners::between(const VectorXi& before, const 
   return result;
 }
 
-std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const VectorXd& c) const {
+std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const VectorXi& passed_before,
+                                             const VectorXd& c) const {
   std::vector<ContactEvent> result;
   for (Index j = 0; j < n_planes_ && !c.isZero(0); ++j) {
     const double x = position(c, j), was = position(before, j);
@@ -104,7 +105,7 @@ std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const Vecto
     }
   }
   const VectorXi here = passed(c);
-  VectorXi rims_before = passed(before);
+  VectorXi rims_before = passed_before;
   rims_before.head(n_planes_) = here.head(n_planes_);
   const auto of_rims = between(rims_before, here);
   result.insert(result.end(), of_rims.begin(), of_rims.end());

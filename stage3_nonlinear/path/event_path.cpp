@@ -275,9 +275,7 @@ std::optional<Interference> search_interference(const JointEquations& equations,
   std::vector<double> loads;  // that the path has gone up to
   for (const auto& step : path.steps)
     if (step.load_factor > (loads.empty() ? first_load_factor : loads.back())) loads.push_back(step.load_factor);
-  const Index planes = equations.n_plane_rows();
-  Interference result{contact_state(equations, *path.assembled).delta.tail(equations.n_unknowns() - planes),
-                      VectorXd(std::ssize(equations.rims)), loads.empty() ? 0 : loads.back()};
+  Interference result{VectorXd(std::ssize(equations.rims)), loads.empty() ? 0 : loads.back()};
   result.lost.setConstant(std::numeric_limits<double>::infinity());
   if (loads.empty()) return result;
   PathOptions from_there = options;

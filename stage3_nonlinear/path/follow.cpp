@@ -12,6 +12,7 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   Walk walk(equations, options);
   path.assembled = walk.assemble();
   const ContactCorners corners(equations);
+  Eigen::VectorXi passed = corners.passed(walk.here().c);
   for (Index i = 0; i < std::ssize(load_factors); ++i) {
     program::report_share(double(i) / double(load_factors.size()));
     const VectorXd before = walk.here().c;
@@ -19,7 +20,8 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
       path.failure = walk.failure(i, load_factors[i]);
       break;
     }
-    if (!walk.record(path, corners.at(before, walk.here().c))) break;
+    if (!walk.record(path, corners.at(before, passed, walk.here().c))) break;
+    passed = corners.passed(walk.here().c);
   }
   path.left = walk.left();
   return path;

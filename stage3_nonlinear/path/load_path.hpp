@@ -43,7 +43,9 @@ class ContactCorners {
   /// Events on the way from one vector of passed() to another.
   [[nodiscard]] std::vector<ContactEvent> between(const Eigen::VectorXi& before, const Eigen::VectorXi& after) const;
   /// Events of planes at c, on the corners themselves, coming from `before`, and of rims by then.
-  [[nodiscard]] std::vector<ContactEvent> at(const VectorXd& before, const VectorXd& c) const;
+  /// @param passed_before passed() of `before`.
+  [[nodiscard]] std::vector<ContactEvent> at(const VectorXd& before, const Eigen::VectorXi& passed_before,
+                                             const VectorXd& c) const;
   /// Distance within which c is on a corner at `at`, force.
   [[nodiscard]] static double nearness(const VectorXd& c, double at);
 
@@ -113,7 +115,6 @@ struct PathLeft {
 
 /// Rims of contact of a joint in which some have interference.
 struct Interference {
-  VectorXd moments;  ///< (r - n a) at no load, length
   /// Load factor at which each rim with interference first loses full contact, 0 of one that has none below
   /// first_load_factor, infinite if it is not lost up to `followed`, and of other rims, (g).
   VectorXd lost;

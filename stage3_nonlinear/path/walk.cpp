@@ -167,7 +167,7 @@ bool Walk::solve_from_guesses(double target) {
 }
 
 std::optional<VectorXd> Walk::loose_without_friction(const VectorXd& start, double target) {
-  const bool loose = std::ranges::all_of(equations_.rims, [](const RimContact& rim) { return rim.gap() > 0; });
+  const bool loose = std::ranges::all_of(equations_.rims, [](const auto& rim) { return rim->contact().gap() > 0; });
   if (equations_.rims.empty() || !loose || !equations_.has_friction || !equations_.rises) return std::nullopt;
   const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
   const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);

@@ -21,11 +21,11 @@ std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim:
   return arcs;
 }
 
-/// Writes what a rim does at a step, by all waves of its displacement that are known.
+/// Writes what a rim does at a step.
 /// @param modulus K of its springs.
-void describe(const RimContact& rim, const VectorXd& moments, double modulus, Index step, Index at,
+void describe(const RimContact& rim, const RimSolution& solution, double modulus, Index step, Index at,
               formats::ContactHistory& a) {
-  const auto arcs = joined_arcs(rim, rim.touching(moments).arcs);
+  const auto arcs = joined_arcs(rim, solution.touching.arcs);
   const auto width = [](const rim::AngleRange& arc) { return arc.to - arc.from; };
   double touching = 0;
   for (const auto& arc : arcs) touching += width(arc);
@@ -35,7 +35,7 @@ void describe(const RimContact& rim, const VectorXd& moments, double modulus, In
     a.from(step, at) = in_degrees(widest.from);
     a.to(step, at) = a.from(step, at) + width(widest) / rim::degree;
   }
-  const double deepest = rim.deepest(moments), depth = rim.depth(moments, deepest);
+  const double deepest = rim.deepest(solution.w), depth = rim.depth(solution.w, deepest);
   a.peak_pressure(step, at) = modulus * std::max(depth, 0.0);
   a.peak_angle(step, at) = in_degrees(deepest);
   a.least_gap(step, at) = std::max(-depth, 0.0);
@@ -47,7 +47,7 @@ std::vector<formats::ContactHistory> contact_histories(const JointModel& joint, 
                                                        const LoadPath& path) {
   std::vector<formats::ContactHistory> histories;
   const Index steps = std::ssize(path.steps);
-  Index rim = 0, moment = 0;
+  Index rim = 0;
   for (const auto& plate : joint.plates) {
     const Index g = std::ssize(plate.contact);
     formats::ContactHistory& a = histories.emplace_back();
@@ -57,24 +57,21 @@ std::vector<formats::ContactHistory> contact_histories(const JointModel& joint, 
     for (auto* table : {&a.touching, &a.from, &a.to, &a.peak_pressure, &a.peak_angle, &a.least_gap})
       *table = MatrixXd::Zero(steps, g);
     for (Index at = 0; at < g; ++at, ++rim) {
-      const RimContact& contact = equations.rims[rim];
+      const RimProblem& problem = *equations.rims[rim];
+      const RimContact& contact = problem.contact();
       a.gap[at] = contact.gap();
       if (path.interference) {
-        const VectorXd m = path.interference->moments.segment(moment, contact.size());
+        const VectorXd w = problem.solve(equations.of_rim(*path.assembled, rim)).w;
         const auto pressure = [&](double sign) {
-          return plate.contact[at].modulus * std::max(contact.depth(m, contact.deepest(m, sign)), 0.0);
+          return plate.contact[at].modulus * std::max(contact.depth(w, contact.deepest(w, sign)), 0.0);
         };
         a.no_load_peak[at] = pressure(1);
         a.no_load_least[at] = pressure(-1);
         a.full_until[at] = path.interference->lost[rim];
       }
-      for (Index step = 0; step < steps; ++step) {
-        const VectorXd m = path.steps[step].moments.segment(moment, contact.size());
-        const auto wider = contact_load(contact, plate.short_waves[at], plate.contact[at].area, m, {}).wider;
-        describe({wider.shape, contact.stiffness(), contact.gap(), contact.mu()}, wider.w, plate.contact[at].modulus,
-                 step, at, a);
-      }
-      moment += contact.size();
+      for (Index step = 0; step < steps; ++step)
+        describe(contact, problem.solve(equations.of_rim(path.steps[step].c, rim)), plate.contact[at].modulus, step, at,
+                 a);
     }
   }
   return histories;

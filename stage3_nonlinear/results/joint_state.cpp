@@ -50,10 +50,11 @@ void set_friction(const PlateModel& plate, PlateState& state) {
       state.friction[disc + 1 - d] += entry_or_0(plate.friction_resultant_across, i) * state.Lambda[i];
   }
   for (const auto& rim : plate.contact) {
-    const VectorXd shear = rim.area * state.Lambda.segment(plate.first_shear(rim), rim.pressures.n_shears());
+    const rim::Harmonics& carried = plate.waves[&rim - plate.contact.data()].waves;
+    const VectorXd shear = rim.area * state.Lambda.segment(plate.first_shear(rim), carried.n_shears());
     for (Index disc = 0; disc < plate.n_discs(); ++disc) {
       if (plate.hole_of(disc) != rim.hole) continue;
-      state.friction[disc] = rim.pressures.drag(plate.axis_of(disc)).dot(shear);
+      state.friction[disc] = carried.drag(plate.axis_of(disc)).dot(shear);
       state.bearing[disc] -= state.friction[disc];
     }
   }
@@ -135,7 +136,7 @@ MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, c
 }
 
 std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
-                                    const std::vector<RimContact>& rims, const VectorXd& D, const VectorXd& load,
+                                    const std::vector<ContactLoad>& contacts, const VectorXd& D, const VectorXd& load,
                                     const VectorXd& Lambda) {
   std::vector<PlateState> plates(joint.plates.size());
   for (Index i = 0; i < std::ssize(plates); ++i) {
@@ -159,31 +160,31 @@ std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSyst
   Index first_rim = 0;
   for (Index i = 0; i < std::ssize(plates); ++i) {
     const Index n = std::ssize(joint.plates[i].contact);
-    load_rims(joint.plates[i], std::span(rims).subspan(first_rim, n), plates[i]);
+    load_rims(joint.plates[i], {contacts.begin() + first_rim, contacts.begin() + first_rim + n}, plates[i]);
     first_rim += n;
   }
   return plates;
 }
 
-void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state) {
-  const Index h = std::ssize(plate.friction_hole), n_shears = plate.R.cols() - h;
-  state.waves.resize(plate.n_loaded_waves);
-  state.added.resize(state.moments.size() + n_shears);
-  std::vector<ContactLoad> loads;
-  Index row = 0, shear = h, next = 0, next_added = 0;
-  for (Index i = 0; i < std::ssize(rims); ++i) {
-    const auto& [pressures, modulus, area] =
-        std::tie(plate.contact[i].pressures, plate.contact[i].modulus, plate.contact[i].area);
-    const ShortWaves& waves = plate.short_waves[i];
-    const Index k = pressures.size(), s = pressures.n_shears();
-    loads.push_back(contact_load(rims[i], waves, area, state.moments.segment(row, k), state.Lambda.segment(shear, s)));
-    row += k, shear += s;
-    state.waves.segment(next, waves.n_carried()) = wave_amounts(loads[i], waves, modulus);
-    next += waves.n_carried();
-    state.added.segment(next_added, k + s) << loads[i].pressure - modulus * loads[i].moments, loads[i].shear;
-    next_added += k + s;
+void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state) {
+  std::vector<double> waves, w, added;
+  const auto append = [](const VectorXd& part, std::vector<double>& all) { all.insert(all.end(), part.begin(), part.end()); };
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactLoad& load = contacts[i];
+    const double modulus = plate.contact[i].modulus;
+    const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
+    append(wave_amounts(load, *plate.short_waves[i], modulus), waves);
+    append(load.w, w);
+    append((load.pressure - modulus * load.w).head(of_field.size()), added);
+    append(load.shear.head(of_field.n_shears()), added);
   }
-  if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_amounts(plate, state), loads);
+  const auto vector = [](const std::vector<double>& list) -> VectorXd {
+    return Eigen::Map<const VectorXd>(list.data(), std::ssize(list));
+  };
+  state.waves = vector(waves);
+  state.w = vector(w);
+  state.added = vector(added);
+  if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_amounts(plate, state), contacts);
 }
 
 JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
@@ -192,7 +193,10 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   const VectorXd D = displacements(joint, system, load, step.all_delta(), step.Lambda);
   const VectorXd on_discs = forces_on_discs(joint, equations, step);
   JointState state;
-  state.plates = plate_loads(joint, system, equations.rims, D, load, step.Lambda);
+  std::vector<ContactLoad> contacts;
+  for (Index i = 0; i < std::ssize(equations.rims); ++i)
+    contacts.push_back(contact_load(*equations.rims[i], equations.rims[i]->solve(equations.of_rim(step.c, i)).w));
+  state.plates = plate_loads(joint, system, contacts, D, load, step.Lambda);
   state.transferred_first = transferred(equations, step.F, 0);
   state.transferred_second = transferred(equations, step.F, 1);
   state.largest_force = std::max(step.F.lpNorm<Eigen::Infinity>(), step.scale);

@@ -16,9 +16,10 @@ namespace fastjoint::stage3 {
 struct PlateState {
   VectorXd D;                  ///< (m) disc displacements, length
   VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
-  VectorXd moments;            ///< (k) of the rims of contact, length
+  VectorXd moments;            ///< (k) long waves of the rims of contact, length
+  VectorXd w;                  ///< all waves of the disc's normal displacement at the rims of contact, length
   VectorXd waves;              ///< amount of each loaded wave of its file, stress
-  VectorXd added;              ///< the same of all waves of contact, as their pressures and shears are, stress
+  VectorXd added;              ///< the same of all waves of contact by which fields are made, stress
   VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
@@ -46,10 +47,10 @@ struct JointState {
   std::optional<double> plates_out_of_balance;
 };
 
-/// Sets what the loads on a plate make of its rims, `waves`, `added` and `loaded`, by its displacements, moments,
-/// Lambda and tractions.
-/// @param rims Those of contact.
-void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateState& state);
+/// Sets what the loads on a plate make of its rims, `w`, `waves`, `added` and `loaded`, by its displacements, Lambda
+/// and tractions.
+/// @param contacts Of the rims of contact.
+void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state);
 
 /// Displacements of all unknowns, (N, columns), length, by amounts of the load cases, (l, columns), relative
 /// displacements of planes and moments, (r, columns), and amounts of friction, (t, columns).
@@ -60,7 +61,7 @@ void load_rims(const PlateModel& plate, std::span<const RimContact> rims, PlateS
 /// load_rims adds.
 /// @param rims Of contact, of all plates. @param D (N).
 [[nodiscard]] std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
-                                                  const std::vector<RimContact>& rims, const VectorXd& D,
+                                                  const std::vector<ContactLoad>& contacts, const VectorXd& D,
                                                   const VectorXd& load, const VectorXd& Lambda);
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step);

@@ -74,20 +74,12 @@ Tractions of_contact(double modulus, double gap, const ContactLoad::Contour& con
   };
 }
 
-/// What a rim does under moments of its displacement, with the waves of its pressure, then of its shear, stress.
-struct Response {
-  ContactLoad::Contour contour;
-  VectorXd tractions;
-};
-
-Response respond(const RimContact& rim, double area, const VectorXd& w) {
-  const Touching touching = rim.touching(w);
-  const RimFriction friction = rim_friction(rim, touching, w);
-  Response result{{rim.pressures(), w, rim.mu() / friction.share, friction.direction, {}},
-                  VectorXd(w.size() + friction.forces.size())};
-  result.tractions << rim.forces(touching, w) / area, friction.forces / area;
-  for (const auto& arc : touching.arcs) result.contour.ends.insert(result.contour.ends.end(), {arc.from, arc.to});
-  return result;
+/// @param w Waves of the displacement, as many as the rim's.
+ContactLoad::Contour contour_of(const RimContact& rim, const Touching& touching, const RimFriction& friction,
+                                const VectorXd& w) {
+  ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.share, friction.direction, {}};
+  for (const auto& arc : touching.arcs) contour.ends.insert(contour.ends.end(), {arc.from, arc.to});
+  return contour;
 }
 
 /// Brings the displacement of the elements, whose short waves are those of springs that also pull, to that under the
@@ -97,7 +89,7 @@ void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, Vec
   const Index s = rim.n - rim.n_long, s_t = rim.n_shears - rim.n_long_shears;
   const VectorXd p_s = load.pressure.tail(s), tau_s = load.shear.tail(s_t);
   const VectorXd w_s = -(rim.G * load.pressure.head(rim.n_long) + rim.G_t * load.shear.head(rim.n_long_shears));
-  displacement.head(rim.n_long) -= rim.G.transpose() * (p_s - modulus * load.moments.tail(s)) + rim.E * tau_s;
+  displacement.head(rim.n_long) -= rim.G.transpose() * (p_s - modulus * load.w.tail(s)) + rim.E * tau_s;
   const auto rows = rim.D.middleRows(rim.n, rim.n_long_shears);
   displacement.tail(rim.n_long_shears) -=
       rows.middleCols(rim.n_long, s) * (p_s - modulus * w_s) + rows.rightCols(s_t) * tau_s;
@@ -105,30 +97,27 @@ void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, Vec
 
 }  // namespace
 
-ContactLoad contact_load(const RimContact& rim, const ShortWaves& waves, double area, const VectorXd& moments,
-                         const VectorXd& shear) {
-  const Response own = respond(rim, area, moments);
-  ContactLoad load{moments, own.tractions.head(moments.size()), shear, rim.gap(), own.contour, own.contour};
-  if (waves.D_beyond.size() == 0) return load;
-  // The waves that are left out follow by turns: where all touches each wave n is 1 / (1 + K c_n) of what a step makes.
-  const RimContact wider(waves.wider, rim.stiffness(), rim.gap(), rim.mu());
-  const double modulus = rim.stiffness() / area;
-  const VectorXd damping = (1 + modulus * waves.D_beyond.diagonal(waves.n).array()).inverse();
-  VectorXd w = VectorXd::Zero(wider.size());
-  w.head(waves.n) = moments;
-  constexpr int steps = 4;
-  for (int i = 0; i < steps; ++i) {
-    const VectorXd made = -waves.D_beyond * respond(wider, area, w).tractions;
-    w.tail(made.size()) += damping.cwiseProduct(made - w.tail(made.size()));
-  }
-  load.wider = respond(wider, area, w).contour;
-  return load;
+ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
+  const RimContact& contact = rim.contact();
+  const Touching touching = contact.touching(w);
+  const RimFriction friction = rim_friction(contact, touching, w);
+  rim::Harmonics fewer = contact.pressures();
+  fewer.highest = std::max(fewer.highest / 2, 1);
+  const RimContact half(fewer, contact.stiffness(), contact.gap(), contact.mu());
+  const VectorXd w_half = w.head(half.size());
+  const Touching of_half = half.touching(w_half);
+  return {w,
+          contact.forces(touching, w) / rim.area(),
+          friction.forces / rim.area(),
+          contact.gap(),
+          contour_of(contact, touching, friction, w),
+          contour_of(half, of_half, rim_friction(half, of_half, w_half), w_half)};
 }
 
 VectorXd wave_amounts(const ContactLoad& load, const ShortWaves& rim, double modulus) {
-  VectorXd w = load.moments.head(rim.n_long);
+  VectorXd w = load.w.head(rim.n_long);
   if (!rim.is_empty())
-    w += rim.G.transpose() * (load.pressure - modulus * load.moments).tail(rim.n - rim.n_long) +
+    w += rim.G.transpose() * (load.pressure - modulus * load.w).tail(rim.n - rim.n_long) +
          rim.E * load.shear.tail(rim.n_shears - rim.n_long_shears);
   VectorXd amounts(rim.n_carried());
   amounts << load.pressure.head(rim.n_long) - modulus * w, load.shear.head(rim.n_long_shears);
@@ -179,16 +168,16 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     const KnownLoads known = known_loads(plate, rim.hole, amounts);
     for (const auto& rows : plate.wave_rows) {
       VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
-      if (in_contact) correct(contacts[i], plate.short_waves[i], rim.modulus, displacement);
+      if (in_contact) correct(contacts[i], *plate.short_waves[i], rim.modulus, displacement);
       const Tractions tractions =
-          in_contact ? of_contact(rim.modulus, contacts[i].gap, contacts[i].wider)
+          in_contact ? of_contact(rim.modulus, contacts[i].gap, contacts[i].all)
                      : springs_and(rim, plate.spring_waves[i].get(), displacement.head(rim.waves.size()), known);
       loaded->degrees.push_back({std::move(displacement), tractions});
     }
     if (in_contact) {
-      loaded->kinks = contacts[i].wider.ends;
-      loaded->kinks_by_joints_waves = contacts[i].joints.ends;
-      loaded->by_joints_waves = of_contact(rim.modulus, contacts[i].gap, contacts[i].joints);
+      loaded->kinks = contacts[i].all.ends;
+      loaded->kinks_by_half = contacts[i].half.ends;
+      loaded->by_half = of_contact(rim.modulus, contacts[i].gap, contacts[i].half);
     }
     if (!in_contact && rim.modulus > 0)
       for (const auto& arc : rim.acts) loaded->kinks.insert(loaded->kinks.end(), {arc.from, arc.to});

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "stage3_nonlinear/interfaces/rim_contact.hpp"
+#include "stage3_nonlinear/interfaces/rim_problem.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 #include "stage3_nonlinear/results/hoop_stress.hpp"
 
@@ -24,9 +24,9 @@ struct LoadedRim {
   std::vector<RimWaves> degrees;  ///< the joint's, then the one below if there is one
   bool in_contact;
   std::vector<double> kinks;  ///< places where tractions have kinks or jumps, radians
-  // In contact: tractions and their kinks by the joint's waves alone.
-  Tractions by_joints_waves{};
-  std::vector<double> kinks_by_joints_waves{};
+  // In contact: tractions and their kinks by waves of half the order.
+  Tractions by_half{};
+  std::vector<double> kinks_by_half{};
 
   /// Places one degree apart around the rim, or from end to end of a part of one in equal steps of about that, degrees.
   [[nodiscard]] VectorXd places() const;
@@ -38,14 +38,13 @@ struct LoadedRim {
                                 std::shared_ptr<const TractionWaves> tractions) const;
 };
 
-/// What the rims of contact of a plate bear, each from the moments of its displacement.
+/// What a rim of contact of a plate bears.
 struct ContactLoad {
-  VectorXd moments;   ///< waves of the disc's normal displacement against the sheet, length
-  VectorXd pressure;  ///< waves of the pressure on the sheet, stress
+  VectorXd w;         ///< (n) all waves of the disc's normal displacement against the sheet, length
+  VectorXd pressure;  ///< (n) waves of the pressure on the sheet, stress
   VectorXd shear;     ///< waves of the shear on it, stress; 0 without friction
   double gap;
-  /// The moments, and behind them those of the waves up to twice the order, which the joint leaves out: they follow
-  /// from the pressure in closed form. `shape` is theirs.
+  /// The tractions as functions of the angle, by waves of the displacement up to an order, which is that of `shape`.
   struct Contour {
     rim::Harmonics shape;
     VectorXd w;                ///< length
@@ -53,11 +52,10 @@ struct ContactLoad {
     double direction;          ///< of the force of the pressure on the sheet, radians
     std::vector<double> ends;  ///< of the arcs on which they touch, radians
   };
-  Contour joints, wider;  ///< of the joint's waves, and of more
+  Contour all, half;  ///< by all waves, and by those of half the order, to tell what those beyond may do
 };
-/// @param rim With the moments' stiffness, gap and friction.
-[[nodiscard]] ContactLoad contact_load(const RimContact& rim, const ShortWaves& waves, double area,
-                                       const VectorXd& moments, const VectorXd& shear);
+/// @param w Waves of the displacement, (n), length.
+[[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const VectorXd& w);
 
 /// Amounts of the waves that the elements carry under a load of contact: of pressures those that are added to what the
 /// springs of the base bear, then of shears, (n_carried), stress.

@@ -53,6 +53,7 @@ class NearbyStates {
   NearbyStates(const JointModel& joint, const JointNumbers& numbers, const StateSlopes& slopes,
                const SolvedPoint& point, std::vector<PeakHole> holes)
       : joint_(joint),
+        point_(point),
         equations_(point.equations()),
         numbers_(numbers),
         slopes_(slopes),
@@ -97,22 +98,26 @@ class NearbyStates {
  private:
   /// The plates after a change of a number: their loads and rims.
   [[nodiscard]] std::vector<PlateState> plates_after(Index column, double change) const {
-    return plate_loads(joint_, *equations_.system, rims_after(column, change), D_ + change * dD_.col(column),
+    std::vector<ContactLoad> contacts;
+    for (Index i = 0; i < std::ssize(equations_.rims); ++i) contacts.push_back(contact_after(i, column, change));
+    return plate_loads(joint_, *equations_.system, contacts, D_ + change * dD_.col(column),
                        load_ + change * slopes_.load.col(column), state_.Lambda + change * slopes_.Lambda.col(column));
   }
 
-  [[nodiscard]] std::vector<RimContact> rims_after(Index column, double change) const {
-    std::vector<RimContact> rims = equations_.rims;
-    for (Index i = 0; i < std::ssize(rims); ++i) {
-      const double gap = column == numbers_.first_gap() + i ? change : 0;
-      const double mu = column == numbers_.of_rim[i] ? change : 0;
-      if (gap != 0 || mu != 0)
-        rims[i] = RimContact(rims[i].pressures(), rims[i].stiffness(), rims[i].gap() + gap, rims[i].mu() + mu);
-    }
-    return rims;
+  /// A rim of contact: all its waves change by their derivatives.
+  [[nodiscard]] ContactLoad contact_after(Index i, Index column, double change) const {
+    const RimProblem& rim = *equations_.rims[i];
+    const RimSolution& solution = rim.solve(equations_.of_rim(point_.c(), i));
+    const double gap = column == numbers_.first_gap() + i ? change : 0, mu = column == numbers_.of_rim[i] ? change : 0;
+    const VectorXd dc = equations_.of_rim(slopes_.F.col(column) + rim.k() * slopes_.delta.col(column), i);
+    VectorXd w = solution.w + change * (solution.w_by_c * dc) + mu * solution.w_by_mu - gap * rim.k() * solution.w_by_c.col(0);
+    w[0] += gap;
+    if (gap == 0 && mu == 0) return contact_load(rim, w);
+    return contact_load(rim.with(rim.contact().gap() + gap, rim.contact().mu() + mu), w);
   }
 
   const JointModel& joint_;
+  const SolvedPoint& point_;
   const JointEquations& equations_;
   const JointNumbers& numbers_;
   const StateSlopes& slopes_;

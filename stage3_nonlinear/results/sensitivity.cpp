@@ -54,7 +54,7 @@ StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point) 
                   {},   {}};
   const Slopes slopes = point.slopes(add_changes(numbers, point, all));
   all.F += slopes.F;
-  all.delta += point.beyond().times(slopes.c.transpose(), &Response::ddelta).transpose();  // the blocks are symmetric
+  all.delta += point.beyond().product(&Response::ddelta, slopes.c);
   all.Lambda += point.beyond().friction_by(slopes.c);
   all.none = slopes.no_column;
   all.no_row = slopes.no_row;

@@ -67,7 +67,7 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
         body.contact.emplace_back(formats::ContactRim{body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
     const auto& carried =
         body.waves.emplace_back(formats::WaveRim{rim.hole, rim.pressures, rim.radius, rim.area, rim.modulus});
-    body.short_waves.push_back(short_waves(rim, carried));
+    body.short_waves.push_back(std::make_shared<const ShortWaves>(short_waves(rim, carried)));
     body.n_loaded_waves += carried.size();
   }
   body.on_springs.assign(body.holes.size(), true);

@@ -9,6 +9,8 @@
 
 #include "common/pfem/material.hpp"
 #include "common/rim/rim_compliance.hpp"
+#include "stage3_nonlinear/interfaces/rim_problem.hpp"
+#include "stage3_nonlinear/model/joint_model.hpp"
 
 namespace fastjoint::stage3 {
 namespace contact_rims_test {
@@ -56,17 +58,69 @@ double difference(const MatrixXd& a, const MatrixXd& b) {
   return (a - b).cwiseAbs().maxCoeff() / b.cwiseAbs().maxCoeff();
 }
 
-/// In an infinite sheet the closed form is all there is: however few waves are carried, the joint sees the same rim.
-TEST(ContactRims, OfAnInfiniteSheetDoNotDependOnWhatIsCarried) {
-  const RimMatrices all = rim_matrices(infinite_sheet(highest), 0);
-  ASSERT_EQ(all.C.rows(), 2 * highest + 1);
-  for (const int carried : {3, 4, 5, 8}) {
-    const RimMatrices some = rim_matrices(infinite_sheet(carried), 0);
-    EXPECT_LT(difference(some.B, all.B), 1e-13) << carried;
-    EXPECT_LT(difference(some.C, all.C), 1e-13) << carried;
-    EXPECT_LT(difference(some.R, all.R), 1e-13) << carried;
-    EXPECT_LT(difference(some.R_p, all.R_p), 1e-13) << carried;
+/// The matrices with what make_plate asks for besides: a stiffness of the disc, and nothing else.
+PlateModel plate_of(formats::PlateMatrices a) {
+  a.S_dd = {1e5 * MatrixXd::Identity(2, 2)};
+  a.S_ed = {MatrixXd(0, 2)};
+  a.S_ee = {MatrixXd(0, 0)};
+  a.R_df = {MatrixXd(2, 0)};
+  a.R_ef = {MatrixXd(0, 0)};
+  a.T_d = {MatrixXd(2, 0)};
+  a.T_e = {MatrixXd(0, 0)};
+  a.C_t = {MatrixXd(0, 0)};
+  a.disc_modulus = VectorXd::Constant(2, K);
+  a.S_dd_error = MatrixXd::Zero(2, 2);
+  return make_plate("sheet", "sheet.h5", std::move(a), 8);
+}
+
+/// A state of the disc in the infinite sheet: its displacement, the force on it, and what its rim does.
+struct DiscState {
+  VectorXd u, force, w, pressure;
+};
+
+/// The disc of a plate under contact coordinates c of the first waves.
+DiscState state_of(const PlateModel& plate, double gap, double mu, const Eigen::Vector2d& u) {
+  const Index k = plate.n_unknowns() - 2;
+  const double stiffness = 1.05 * plate.S.bottomRightCorner(k, k).cwiseAbs().rowwise().sum().maxCoeff();
+  const RimProblem rim(RimContact(plate.contact[0].pressures, K * area, gap, mu), plate.short_waves[0], area, stiffness);
+  // The rim's force f and the plate's on the moments, S (u, m) + R tau, add up to nothing: Newton's method for c.
+  VectorXd c = VectorXd::Zero(k);
+  const MatrixXd S = plate.S.bottomRightCorner(k, k), R = plate.R.bottomRows(k);
+  for (int i = 0; i < 50; ++i) {
+    const RimSolution& its = rim.solve(c);
+    const VectorXd f = its.forces.head(k), m = (c - f) / stiffness;
+    const MatrixXd df = K * area * its.touching.share.topRows(k) * its.w_by_c;
+    VectorXd r = f + S * m + plate.S.bottomLeftCorner(k, 2) * u;
+    MatrixXd J = df + S * (MatrixXd::Identity(k, k) - df) / stiffness;
+    if (mu > 0) {
+      r += R * its.friction.forces.head(R.cols()) / area;
+      J += K * R * its.friction.slopes.topRows(R.cols()) * its.w_by_c;
+    }
+    const VectorXd step = J.lu().solve(r);
+    c -= step;
+    if (step.norm() < 1e-13 * c.norm()) break;
   }
+  const RimSolution& its = rim.solve(c);
+  const VectorXd m = (c - its.forces.head(k)) / stiffness;
+  VectorXd force = plate.S.topLeftCorner(2, 2) * u + plate.S.topRightCorner(2, k) * m;
+  if (mu > 0) force += plate.R.topRows(2) * its.friction.forces.head(R.cols()) / area;
+  return {u, force, its.w, its.forces / area};
+}
+
+/// In an infinite sheet the closed form is all there is: however few waves are carried, the rim does the same, with gap
+/// and interference, with friction and without.
+TEST(ContactRims, OfAnInfiniteSheetDoNotDependOnWhatIsCarried) {
+  const Eigen::Vector2d u(0.03, 0.02);
+  for (const double gap : {0.0, 0.01, -0.02})
+    for (const double mu : {0.0, 0.3}) {
+      const DiscState all = state_of(plate_of(infinite_sheet(highest)), gap, mu, u);
+      for (const int carried : {3, 4, 5, 8}) {
+        const DiscState some = state_of(plate_of(infinite_sheet(carried)), gap, mu, u);
+        EXPECT_LT(difference(some.force, all.force), 1e-11) << carried << ", gap " << gap << ", friction " << mu;
+        EXPECT_LT(difference(some.w, all.w), 1e-11) << carried << ", gap " << gap << ", friction " << mu;
+        EXPECT_LT(difference(some.pressure, all.pressure), 1e-11) << carried << ", gap " << gap;
+      }
+    }
 }
 
 TEST(ContactRims, KeepWhatTheFileHasWhereNoClosedFormHolds) {
@@ -79,7 +133,8 @@ TEST(ContactRims, KeepWhatTheFileHasWhereNoClosedFormHolds) {
   EXPECT_TRUE(short_waves(a.contact[0], a.waves[0]).is_empty());
 }
 
-/// What the joint needs of them to be convex: the springs' compliance is more than the sheet's with them.
+/// What the joint needs of it to be convex: the springs' compliance is more than the sheet's with them, and what the
+/// joint sees of a sheet without springs and short waves has no negative eigenvalue.
 TEST(ContactRims, OfASheetAreLessCompliantThanItsSprings) {
   for (const int carried : {3, 4, 8}) {
     const MatrixXd C = area * rim_matrices(infinite_sheet(carried), 0).C;
@@ -87,6 +142,9 @@ TEST(ContactRims, OfASheetAreLessCompliantThanItsSprings) {
     const VectorXd values = Eigen::SelfAdjointEigenSolver<MatrixXd>(C).eigenvalues();
     EXPECT_GT(values.minCoeff(), 0) << carried;
     EXPECT_LT(values.maxCoeff(), 1 / K) << carried;
+    const MatrixXd S = plate_of(infinite_sheet(carried)).S;
+    const Index k = S.rows() - 2;
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<MatrixXd>(S.bottomRightCorner(k, k)).eigenvalues()[0], 0) << carried;
   }
 }
 

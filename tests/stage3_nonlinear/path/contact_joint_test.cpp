@@ -2,9 +2,11 @@
 // Joints whose rims push but do not pull: elastic bodies of random stiffness with discs in their holes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <vector>
 #include <string>
 
 #include "common/matrices/decompositions.hpp"
@@ -141,7 +143,7 @@ TEST_F(ContactJoint, TellWhatEachIterationDoes) {
 
 /// Friction takes few steps more, also where everything is loose at first.
 TEST_F(ContactJoint, OfLooseFastenersTakeFewStepsWithFriction) {
-  int most = 0;
+  std::vector<int> steps;
   for (int i = 0; i < 100; ++i) {
     ContactKind its = kind(i);
     its.mu = 0.2;
@@ -150,10 +152,12 @@ TEST_F(ContactJoint, OfLooseFastenersTakeFewStepsWithFriction) {
       for (auto& hole : fastener.holes) hole.gap = std::abs(hole.gap);
     const LoadPath path = follow(make_equations(joint), {1}, {{}, {.method = Method::damped_newton}});
     ASSERT_FALSE(path.failure) << "joint " << i;
-    most = std::max(most, path.steps[0].iterations);
+    steps.push_back(path.steps[0].iterations);
   }
-  EXPECT_LE(most, 40);
-  RecordProperty("most", most);
+  std::ranges::sort(steps);
+  EXPECT_LE(steps[50], 10);
+  EXPECT_LE(steps[95], 25);
+  EXPECT_LE(steps.back(), 60);
 }
 
 /// Laws that end level: a hundredth of a percent below the bound there is a solution, above it there is none.
@@ -183,7 +187,7 @@ TEST_F(ContactJoint, UnknownsBelongToPlanesAndRims) {
   for (Index plane = 0; plane < 3; ++plane)
     for (Index d = 0; d < 2; ++d) EXPECT_EQ(equations.entry_of(row++), plane);
   for (Index rim = 0; rim < 6; ++rim)
-    for (Index i = 0; i < equations.rims[rim].size(); ++i) EXPECT_EQ(equations.entry_of(row++), 3 + rim);
+    for (Index i = 0; i < equations.rims[rim]->n_long(); ++i) EXPECT_EQ(equations.entry_of(row++), 3 + rim);
   EXPECT_EQ(row, equations.n_unknowns());
 }
 

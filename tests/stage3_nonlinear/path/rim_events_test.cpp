@@ -48,7 +48,7 @@ TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
         ASSERT_TRUE(walk.reach(begin + sample * (step.load_factor - begin) / 10));
         Eigen::VectorXi here = corners.passed(walk.here().c);
         for (Index entry = equations.n_planes(); entry < here.size(); ++entry) {  // a loose bolt lies anywhere
-          const RimContact& rim = equations.rims[(entry - equations.n_planes()) / 2];
+          const RimContact& rim = equations.rims[(entry - equations.n_planes()) / 2]->contact();
           const double near = 1e-4 * rim.stiffness() * std::abs(rim.gap());
           if (passed && std::abs(corners.position(walk.here().c, entry)) < near) here[entry] = (*passed)[entry];
         }
@@ -98,7 +98,7 @@ TEST_F(ContactJoint, LoseFullContactAtTheEventsUpToTheirLargestIncrement) {
       for (const auto& step : events.steps)
         if (std::ranges::find(step.events, parts) != step.events.end()) first = std::min(first, step.load_factor);
       const double at = found->lost[rim];
-      if (equations.rims[rim].gap() >= 0 || at == 0) continue;
+      if (equations.rims[rim]->contact().gap() >= 0 || at == 0) continue;
       if (first > 0.4) first = std::numeric_limits<double>::infinity();
       std::isinf(at) ? ++kept : ++lost;
       EXPECT_TRUE(at == first || std::abs(at - first) < 1e-6) << i << ": " << at << " and " << first;
