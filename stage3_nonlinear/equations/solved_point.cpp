@@ -11,6 +11,9 @@ namespace {
 
 thread_local Index factorised = 0;
 
+/// What a free motion of unknowns may change of a force without leaving it undetermined.
+constexpr double motion_of_force = 1e-6;
+
 /// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
 /// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
 VectorXd scale_columns(MatrixXd& A) {
@@ -94,7 +97,7 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   }
   const Index r = c_.size();
   if (!(factor_->least_stretch() > singular_tangent))
-    return slopes_of_singular(-residual.value_or(MatrixXd::Identity(r, r)));
+    return residual ? slopes_of_singular(-*residual) : back_from_singular();
   if (!residual) {  // from the few forces back
     const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), r), &Response::dF);
     const MatrixXd back = factor_->solve_transposed(scale_.cwiseInverse().asDiagonal() * F_c.transpose());
@@ -102,6 +105,18 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   }
   const MatrixXd dc = scale_.cwiseInverse().asDiagonal() * factor_->solve(*residual);
   return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
+}
+
+/// Forces that the free motions of the unknowns change have no derivative; every column is given one.
+Slopes SolvedPoint::back_from_singular() const {
+  const MatrixXd F_x = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), c_.size()), &Response::dF) *
+                       scale_.cwiseInverse().asDiagonal();
+  const auto [back, free] = factor_->solve_singular_transposed(F_x.transpose(), singular_tangent);
+  Slopes slopes{-back.transpose(), {}, {}, {}};
+  const MatrixXd F_free = F_x * free;
+  for (Index i = 0; i < F_free.rows(); ++i)
+    if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
+  return slopes;
 }
 
 /// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
@@ -116,7 +131,7 @@ Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
   for (Index i = 0; i < rhs.cols(); ++i)
     if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
   for (Index i = 0; i < F_free.rows(); ++i)
-    if (F_free.row(i).norm() > left) slopes.no_row.push_back(i);
+    if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
   return slopes;
 }
 

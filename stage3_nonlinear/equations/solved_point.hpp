@@ -49,6 +49,7 @@ class SolvedPoint {
   void factorise();
   void bear();
   [[nodiscard]] Slopes slopes_of_singular(const MatrixXd& rhs) const;
+  [[nodiscard]] Slopes back_from_singular() const;
 
   JointEquations equations_;
   double load_factor_;

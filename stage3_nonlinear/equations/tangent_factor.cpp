@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <random>
 #include <utility>
 
 namespace fastjoint::stage3 {
@@ -25,6 +27,11 @@ Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index siz
   Index n = size;
   while (n > 0 && most[n - 1] <= hardly * std::abs(diagonal[first + n - 1])) --n;
   return n;
+}
+
+MatrixXd orthonormal(const MatrixXd& A) {
+  const Eigen::HouseholderQR<MatrixXd> qr(A);
+  return qr.householderQ() * MatrixXd::Identity(A.rows(), A.cols());
 }
 
 /// Corrects the solution by a factor until the residual is rounding or does not fall any more.
@@ -90,22 +97,73 @@ MatrixXd TangentFactor::solve(const MatrixXd& b) const {
 
 MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve_transposed(b);
-  return surely_corrected([this](const MatrixXd& f) { return by_factor_transposed(f); }, J_.transpose(), b);
+  const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve_transposed(f); };
+  return surely_corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), b);
 }
 
-MatrixXd TangentFactor::free_motions(double least) const {
-  const auto svd = matrices::singular_values(small_);
-  return extended(svd.V.rightCols(std::max<Index>(1, (svd.values.array() <= least).count())));
+/// The smallest singular values and their vectors by inverse iteration with as many vectors as it takes for one of them
+/// to be none of the null space: a few solutions instead of all singular values.
+TangentFactor::NullSpace TangentFactor::null_space(double share) const {
+  const Index n = small_.rows();
+  constexpr double nearly = 1e-12;  // moved by this much a singular matrix has a factor
+  constexpr int turns = 3, first = 8;
+  const double norm = lu_.norm();
+  MatrixXd moved = small_;
+  moved.diagonal().array() += nearly * std::max(norm, std::numeric_limits<double>::min());
+  const matrices::Lu lu(std::move(moved));
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal;
+  VectorXd x = VectorXd::NullaryExpr(n, [&] { return normal(random); });
+  double largest = 0;  // singular value, by power iteration
+  for (int i = 0; i < 2 * turns && x.norm() > 0; ++i) {
+    x.normalize();
+    x = small_.transpose() * (small_ * x).eval();
+    largest = std::sqrt(x.norm());
+  }
+  const double least = share * std::max(largest, 1.0);
+  NullSpace result;
+  for (Index k = std::min<Index>(first, n);; k = std::min(2 * k, n)) {
+    const MatrixXd start = MatrixXd::NullaryExpr(n, k, [&] { return normal(random); });
+    MatrixXd right = orthonormal(start), left = right;
+    for (int i = 0; i < turns; ++i) {
+      right = orthonormal(lu.solve(lu.solve_transposed(right)));
+      left = orthonormal(lu.solve_transposed(lu.solve(left)));
+    }
+    const auto of_right = matrices::singular_values(small_ * right);
+    const auto of_left = matrices::singular_values(small_.transpose() * left);
+    const Index found = std::max<Index>(1, (of_right.values.array() <= least).count());
+    if (found == k && k < n) continue;
+    result.right = right * of_right.V.rightCols(found);
+    result.left = left * of_left.V.rightCols(found);
+    break;
+  }
+  MatrixXd lifted = small_;
+  lifted.noalias() += std::max(largest, std::numeric_limits<double>::min()) * result.left * result.right.transpose();
+  result.lifted = matrices::Lu(std::move(lifted));
+  return result;
 }
+
+MatrixXd TangentFactor::free_motions(double share) const { return extended(null_space(share).right); }
 
 TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double share) const {
-  const auto svd = matrices::singular_values(small_);
-  if (svd.values[0] < 1)
-    share /= std::max(svd.values[0], std::numeric_limits<double>::min());  // all of it may be small
-  const auto solve = [&](const MatrixXd& f) -> MatrixXd { return svd.solve(f, share); };
-  const MatrixXd free = extended(svd.V.rightCols(small_.cols() - svd.rank(share)));
+  const NullSpace null = null_space(share);
+  const auto solve = [&](const MatrixXd& f) -> MatrixXd {
+    return null.lifted.solve(f - null.left * (null.left.transpose() * f));
+  };
+  const MatrixXd free = extended(null.right);
   if (short_waves_.empty()) return {solve(b), free};
   return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, b), free};
+}
+
+TangentFactor::Singular TangentFactor::solve_singular_transposed(const MatrixXd& b, double share) const {
+  const NullSpace null = null_space(share);
+  const auto solve = [&](const MatrixXd& f) -> MatrixXd {
+    const MatrixXd x = null.lifted.solve_transposed(f);
+    return x - null.left * (null.left.transpose() * x);
+  };
+  const MatrixXd free = extended(null.right);
+  if (short_waves_.empty()) return {solve(b), free};
+  return {corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), b), free};
 }
 
 MatrixXd TangentFactor::extended(const MatrixXd& kept) const {
@@ -132,12 +190,13 @@ MatrixXd TangentFactor::by_factor(const MatrixXd& b, const Solve& solve) const {
   return x;
 }
 
-MatrixXd TangentFactor::by_factor_transposed(const MatrixXd& b) const {
+template <typename Solve>
+MatrixXd TangentFactor::by_factor_transposed(const MatrixXd& b, const Solve& solve) const {
   MatrixXd x = b;
   for (const auto& rim : short_waves_)
     x.middleRows(rim.first_long, rim.first - rim.first_long) -=
         rim.by_long.transpose() * b.middleRows(rim.first, rim.end - rim.first);
-  const MatrixXd kept = lu_.solve_transposed(x(kept_, Eigen::all));
+  const MatrixXd kept = solve(x(kept_, Eigen::all));
   x(kept_, Eigen::all) = kept;
   for (const auto& rim : short_waves_) {
     auto its = x.middleRows(rim.first, rim.end - rim.first);

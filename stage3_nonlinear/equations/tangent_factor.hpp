@@ -31,15 +31,16 @@ class TangentFactor {
   /// singular also if all of it is small.
   [[nodiscard]] double least_stretch() const;
   /// Motions that a singular J does not resist, (r, n), n >= 1.
-  /// @param least Singular value of the small matrix up to which it is none.
-  [[nodiscard]] MatrixXd free_motions(double least) const;
+  /// @param share Of the largest singular value of the small matrix, or of 1 if that is more, up to which one is none.
+  [[nodiscard]] MatrixXd free_motions(double share) const;
 
   /// Solution x of J x = b by least squares, (r, columns), and the motions (r, n) that J does not resist.
   struct Singular {
     MatrixXd x, free;
   };
-  /// @param share Of the largest singular value of the small matrix, or of 1 if that is more, up to which one is none.
   [[nodiscard]] Singular solve_singular(const MatrixXd& b, double share) const;
+  /// The same of J^T, whose motions are those of J still.
+  [[nodiscard]] Singular solve_singular_transposed(const MatrixXd& b, double share) const;
   /// J.
   [[nodiscard]] const MatrixXd& matrix() const { return J_; }
   /// Number of rows of the small matrix.
@@ -56,8 +57,15 @@ class TangentFactor {
   /// Solutions with the factor alone, whose small matrix `solve` solves.
   template <typename Solve>
   [[nodiscard]] MatrixXd by_factor(const MatrixXd& b, const Solve& solve) const;
-  [[nodiscard]] MatrixXd by_factor_transposed(const MatrixXd& b) const;
+  template <typename Solve>
+  [[nodiscard]] MatrixXd by_factor_transposed(const MatrixXd& b, const Solve& solve) const;
 
+  /// What the small matrix does not resist, and a matrix that is regular there and the same elsewhere.
+  struct NullSpace {
+    MatrixXd right, left;  ///< (kept, n) orthonormal; motions, and forces that no motion makes
+    matrices::Lu lifted;   ///< of the small matrix and left right^T times its norm
+  };
+  [[nodiscard]] NullSpace null_space(double share) const;
   /// Motions of the kept unknowns with those of the short waves that follow them.
   [[nodiscard]] MatrixXd extended(const MatrixXd& kept) const;
 
