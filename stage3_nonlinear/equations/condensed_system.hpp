@@ -31,9 +31,9 @@ struct CondensedSystem {
   MatrixXd D_load = {};   ///< (N, l) per unit of each load case at delta = 0
   MatrixXd D_delta = {};  ///< (N, r) per relative displacement, dimensionless
   RigidJoint rigid = {};
-  /// Reference stiffness k of each plane, then of each rim of contact, force / length, a little more than the sum of the
-  /// amounts in its rows of S_ud, so that W = K - S_ud is positive definite (docs/theory.md, section 8.2). Where S_ud of
-  /// a plane is nothing but rounding, the plate's own stiffness takes its place.
+  /// Reference stiffness k of each plane, then of each rim of contact, force / length, a little more than the sum of
+  /// the amounts in its rows of S_ud, so that W = K - S_ud is positive definite (docs/theory.md, section 8.2). Where
+  /// S_ud of a plane is nothing but rounding, the plate's own stiffness takes its place.
   VectorXd stiffness = {};
   MatrixXd metric = {};  ///< (r, r) inverse of W, length / force
 

@@ -150,7 +150,7 @@ double JointEquations::force_of_clearances() const {
 
 double JointEquations::force_of_gaps() const {
   double force = 0;
-  for (const auto& rim : rims) 
+  for (const auto& rim : rims)
     force = std::max(force, std::max(rim->k(), rim->contact().stiffness()) * std::abs(rim->contact().gap()));
   return force;
 }
@@ -207,9 +207,7 @@ ContactState contact_state(const JointEquations& equations, const VectorXd& c) {
   return contact_state(equations.interfaces, equations.history, equations.n_directions(), equations.n_planes(), c);
 }
 
-MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) {
-  return equations.metric() * residuals;
-}
+MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals) { return equations.metric() * residuals; }
 
 void add_friction_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J) {
   Index row = 0, friction = 0;
@@ -263,7 +261,7 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
       const Eigen::LLT<MatrixXd> factor(hessian(equations, state));
       if (factor.info() == Eigen::Success) return factor.solve(gradient(equations, r));
     }
-    return TangentFactor(tangent(*equations.system, state, friction), equations.rim_sizes()).solve(r);
+    return TangentFactor(tangent(*equations.system, state, friction), equations.rim_sizes()).step(r);
   };
   return problem;
 }

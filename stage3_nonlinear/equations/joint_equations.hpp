@@ -14,19 +14,19 @@
 namespace fastjoint::stage3 {
 
 /// The nonlinear equations of a joint for the numbers of one run: the condensed system with the interfaces put in, for
-/// the contact coordinates c = F + k delta: those of the n shear planes in a directions, then those of the long waves of
-/// each rim of contact, r in all.
+/// the contact coordinates c = F + k delta: those of the n shear planes in a directions, then those of the long waves
+/// of each rim of contact, r in all.
 struct JointEquations {
   std::shared_ptr<const CondensedSystem> system;
   Parameters parameters;
-  std::vector<Contact> contacts;            ///< (n)
+  std::vector<Contact> contacts;                        ///< (n)
   std::vector<std::shared_ptr<const RimProblem>> rims;  ///< (g)
-  std::vector<PlacedInterface> interfaces;  ///< fastener after fastener, then rim after rim
-  VectorXd q, q_reversed;                   ///< (r) q_at of load factors > 0, and < 0, from no load on; force
-  bool rises = true;                        ///< no law falls
-  bool has_friction = false;                ///< something rubs
-  bool has_cosine_friction = false;         ///< friction follows from the bearing forces of a fastener
-  std::vector<History> history = {};        ///< of each interface, at the begin of the increment; none: nothing yet
+  std::vector<PlacedInterface> interfaces;              ///< fastener after fastener, then rim after rim
+  VectorXd q, q_reversed;             ///< (r) q_at of load factors > 0, and < 0, from no load on; force
+  bool rises = true;                  ///< no law falls
+  bool has_friction = false;          ///< something rubs
+  bool has_cosine_friction = false;   ///< friction follows from the bearing forces of a fastener
+  std::vector<History> history = {};  ///< of each interface, at the begin of the increment; none: nothing yet
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
   /// Number a of directions.

@@ -124,9 +124,12 @@ Slopes SolvedPoint::back_from_singular() const {
 Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
   constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
   const auto [dx, free] = factor_->solve_singular(rhs, singular_tangent);
-  const MatrixXd F_x = beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), &Response::dF) *
-                       MatrixXd(scale_.cwiseInverse().asDiagonal());
-  Slopes slopes{F_x * dx, scale_.cwiseInverse().asDiagonal() * dx, {}, {}};
+  const MatrixXd F_x =
+      beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), &Response::dF) * scale_.cwiseInverse().asDiagonal();
+  Slopes slopes{beyond_.product(&Response::dF, scale_.cwiseInverse().asDiagonal() * dx),
+                scale_.cwiseInverse().asDiagonal() * dx,
+                {},
+                {}};
   const MatrixXd rest = factor_->matrix() * dx - rhs, F_free = F_x * free;
   for (Index i = 0; i < rhs.cols(); ++i)
     if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);

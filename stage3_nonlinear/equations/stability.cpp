@@ -66,8 +66,8 @@ double friction_norm(const MatrixXd& H) {
 }
 
 /// True if the tangent J of laws that rise has no eigenvalue that `soft_modes` would count, as it surely has not where
-/// the symmetric part of d delta/dc^T J is positive definite: that of the tangent stiffness J (d delta/dc)^-1, which the
-/// joint's displacements meet. Planes of rigid laws, along which nothing moves, have no part in it.
+/// the symmetric part of d delta/dc^T J is positive definite: that of the tangent stiffness J (d delta/dc)^-1, which
+/// the joint's displacements meet. Planes of rigid laws, along which nothing moves, have no part in it.
 bool surely_stable(const JointEquations& equations, const ContactState& state, const MatrixXd& J) {
   if (!equations.rises) return false;
   constexpr double rigid = 1e-12;
@@ -84,7 +84,8 @@ bool surely_stable(const JointEquations& equations, const ContactState& state, c
   }
   MatrixXd A = ddelta.transpose() * J;
   A = (A(moves, moves) + A(moves, moves).transpose()).eval();
-  const VectorXd scale = A.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
+  const VectorXd scale =
+      A.diagonal().cwiseAbs().cwiseMax(std::numeric_limits<double>::min()).cwiseSqrt().cwiseInverse();
   A = (scale.asDiagonal() * A * scale.asDiagonal()).eval();
   A.diagonal().array() += singular_tangent;
   return matrices::is_positive_definite(std::move(A));
@@ -136,8 +137,8 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
   bool falls = false;
   for (Index j = 0; j < equations.n_planes(); ++j) falls = falls || state.along(&Response::dF, j) < 0;
   const bool rims_rub = std::ranges::any_of(equations.rims, [](const auto& rim) { return rim->contact().mu() > 0; });
-  const bool in_doubt = rims_rub || (equations.has_cosine_friction &&
-                                     friction_norm(equations.friction_matrix(state.F)) >= 1);
+  const bool in_doubt =
+      rims_rub || (equations.has_cosine_friction && friction_norm(equations.friction_matrix(state.F)) >= 1);
   if (falls || (in_doubt && !surely_stable(equations, state, factor.matrix() * scale.asDiagonal())))
     check.unstable = soft_modes(equations, state, -singular_tangent);
   check.locking = self_locking(equations, state.F);

@@ -35,13 +35,16 @@ MatrixXd orthonormal(const MatrixXd& A) {
 }
 
 /// Corrects the solution by a factor until the residual is rounding or does not fall any more.
+/// @param norm Of J: where J is nearly singular x is large, and J x has rounding of its own.
+/// @param wanted Residual over b.
 template <typename Solve, typename Matrix>
-MatrixXd corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
+MatrixXd corrected(const Solve& solve, const Matrix& J, double norm, const MatrixXd& b, double wanted) {
   constexpr int most = 8;
-  constexpr double rounding = 1e-14, falls = 0.5;
+  constexpr double of_product = 1e-16, falls = 0.5;
   MatrixXd x = solve(b), residual = b - J * x;
   double before = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < most && residual.norm() > rounding * b.norm() && residual.norm() < falls * before; ++i) {
+  const auto is_left = [&] { return residual.norm() > std::max(wanted * b.norm(), of_product * norm * x.norm()); };
+  for (int i = 0; i < most && is_left() && residual.norm() < falls * before; ++i) {
     before = residual.norm();
     x += solve(residual);
     residual = b - J * x;
@@ -51,16 +54,21 @@ MatrixXd corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
 
 /// The same, and where the residual has not become small, the solution by a factor of the whole matrix.
 template <typename Solve, typename Matrix>
-MatrixXd surely_corrected(const Solve& solve, const Matrix& J, const MatrixXd& b) {
-  constexpr double enough = 1e-10;
-  MatrixXd x = corrected(solve, J, b);
-  if ((b - J * x).norm() <= enough * b.norm()) return x;
+MatrixXd surely_corrected(const Solve& solve, const Matrix& J, double norm, const MatrixXd& b, double wanted,
+                          double enough) {
+  constexpr double of_product = 1e-14;
+  MatrixXd x = corrected(solve, J, norm, b, wanted);
+  if ((b - J * x).norm() <= std::max(enough * b.norm(), of_product * norm * x.norm())) return x;
   return matrices::Lu(J).solve(b);
 }
 
+constexpr double rounding = 1e-14, nearly_rounding = 1e-10;
+constexpr double for_errors = 1e-11;  // J^T is asked for error bars
+
 }  // namespace
 
-TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims) : J_(std::move(J)) {
+TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims)
+    : J_(std::move(J)), norm_(J_.size() > 0 ? J_.cwiseAbs().colwise().sum().maxCoeff() : 0) {
   Index first = J_.rows() - std::accumulate(rims.begin(), rims.end(), Index{0});
   kept_.resize(first);
   std::iota(kept_.begin(), kept_.end(), Index{0});
@@ -92,18 +100,27 @@ double TangentFactor::least_stretch() const { return lu_.rcond() * std::min(1.0,
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve(b);
   const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve(f); };
-  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, b);
+  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, rounding,
+                          nearly_rounding);
+}
+
+VectorXd TangentFactor::step(const VectorXd& b) const {
+  if (short_waves_.empty()) return lu_.solve(b);
+  constexpr double wanted = 1e-6, enough = 1e-3;
+  const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve(f); };
+  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, wanted, enough);
 }
 
 MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve_transposed(b);
   const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve_transposed(f); };
-  return surely_corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), b);
+  return surely_corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), norm_, b,
+                          rounding, nearly_rounding);
 }
 
 /// The smallest singular values and their vectors by inverse iteration with as many vectors as it takes for one of them
 /// to be none of the null space: a few solutions instead of all singular values.
-TangentFactor::NullSpace TangentFactor::null_space(double share) const {
+TangentFactor::NullSpace TangentFactor::find_null_space(double share) const {
   const Index n = small_.rows();
   constexpr double nearly = 1e-12;  // moved by this much a singular matrix has a factor
   constexpr int turns = 3, first = 8;
@@ -143,27 +160,35 @@ TangentFactor::NullSpace TangentFactor::null_space(double share) const {
   return result;
 }
 
+const TangentFactor::NullSpace& TangentFactor::null_space(double share) const {
+  const auto known = null_spaces_.find(share);
+  return known != null_spaces_.end() ? known->second
+                                     : null_spaces_.emplace(share, find_null_space(share)).first->second;
+}
+
 MatrixXd TangentFactor::free_motions(double share) const { return extended(null_space(share).right); }
 
 TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double share) const {
-  const NullSpace null = null_space(share);
+  const NullSpace& null = null_space(share);
   const auto solve = [&](const MatrixXd& f) -> MatrixXd {
     return null.lifted.solve(f - null.left * (null.left.transpose() * f));
   };
   const MatrixXd free = extended(null.right);
   if (short_waves_.empty()) return {solve(b), free};
-  return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, b), free};
+  return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, rounding), free};
 }
 
 TangentFactor::Singular TangentFactor::solve_singular_transposed(const MatrixXd& b, double share) const {
-  const NullSpace null = null_space(share);
+  const NullSpace& null = null_space(share);
   const auto solve = [&](const MatrixXd& f) -> MatrixXd {
     const MatrixXd x = null.lifted.solve_transposed(f);
     return x - null.left * (null.left.transpose() * x);
   };
   const MatrixXd free = extended(null.right);
   if (short_waves_.empty()) return {solve(b), free};
-  return {corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), b), free};
+  return {corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), norm_, b,
+                    for_errors),
+          free};
 }
 
 MatrixXd TangentFactor::extended(const MatrixXd& kept) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <map>
 #include <vector>
 
 #include "common/matrices/decompositions.hpp"
@@ -25,6 +26,8 @@ class TangentFactor {
 
   /// Solution x of J x = b, (r, columns).
   [[nodiscard]] MatrixXd solve(const MatrixXd& b) const;
+  /// The same as far as a step of Newton's method needs it: to a millionth of b.
+  [[nodiscard]] VectorXd step(const VectorXd& b) const;
   /// Solution x of J^T x = b, (r, columns).
   [[nodiscard]] MatrixXd solve_transposed(const MatrixXd& b) const;
   /// Reciprocal condition number of the small matrix, which is singular where J is, as one that is of order 1, and so
@@ -65,15 +68,18 @@ class TangentFactor {
     MatrixXd right, left;  ///< (kept, n) orthonormal; motions, and forces that no motion makes
     matrices::Lu lifted;   ///< of the small matrix and left right^T times its norm
   };
-  [[nodiscard]] NullSpace null_space(double share) const;
+  [[nodiscard]] const NullSpace& null_space(double share) const;
+  [[nodiscard]] NullSpace find_null_space(double share) const;
   /// Motions of the kept unknowns with those of the short waves that follow them.
   [[nodiscard]] MatrixXd extended(const MatrixXd& kept) const;
 
   MatrixXd J_;
+  double norm_;              ///< of J, the largest sum of amounts in a column
   std::vector<Index> kept_;  ///< planes and long waves
   std::vector<ShortWaves> short_waves_;
   MatrixXd small_;
-  matrices::Lu lu_;  ///< of small
+  matrices::Lu lu_;                                  ///< of small
+  mutable std::map<double, NullSpace> null_spaces_;  ///< that were asked for, by share
 };
 
 }  // namespace fastjoint::stage3

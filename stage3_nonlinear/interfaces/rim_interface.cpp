@@ -64,7 +64,9 @@ VectorXd RimInterface::slope(const VectorXd& c, Index entry) const {
   return sign * contact.stiffness() * its.w_by_c.transpose() * contact.pressures().at(contact.deepest(its.w, sign));
 }
 
-VectorXd RimInterface::coordinates(const VectorXd& F) const { return (1 + rim_->k() / rim_->contact().stiffness()) * F; }
+VectorXd RimInterface::coordinates(const VectorXd& F) const {
+  return (1 + rim_->k() / rim_->contact().stiffness()) * F;
+}
 
 /// Shears are proportional to the coefficient where the rim slips, and do not know it where it sticks. The gap acts as
 /// the first wave does, but for that wave itself.

@@ -17,7 +17,11 @@ constexpr int most_steps = 100, most_halvings = 40;
 }  // namespace
 
 RimProblem::RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> waves, double area, double k)
-    : contact_(std::move(contact)), waves_(std::move(waves)), area_(area), k_(k), is_diagonal_(waves_->M.isDiagonal(1e-12)) {
+    : contact_(std::move(contact)),
+      waves_(std::move(waves)),
+      area_(area),
+      k_(k),
+      is_diagonal_(waves_->M.isDiagonal(1e-12)) {
   VectorXd more = VectorXd::Zero(waves_->n);
   more.head(n_long()).setConstant(1 / k);
   if (is_diagonal_) {

@@ -12,12 +12,12 @@ namespace fastjoint::stage3 {
 
 /// Solution of a rim's own problem.
 struct RimSolution {
-  VectorXd w;           ///< (n) all waves of the disc's normal displacement against the sheet, length
-  Touching touching;    ///< where disc and rim touch
-  VectorXd forces;      ///< (n) all waves of the pressure times the area, force
-  RimFriction friction;  ///< of all waves; of no forces if nothing rubs
-  MatrixXd w_by_c;      ///< (n, n_long) derivative by the contact coordinates, length / force
-  VectorXd w_by_mu;     ///< (n) by the coefficient of friction, length; 0 if nothing rubs
+  VectorXd w;             ///< (n) all waves of the disc's normal displacement against the sheet, length
+  Touching touching;      ///< where disc and rim touch
+  VectorXd forces;        ///< (n) all waves of the pressure times the area, force
+  RimFriction friction;   ///< of all waves; of no forces if nothing rubs
+  MatrixXd w_by_c;        ///< (n, n_long) derivative by the contact coordinates, length / force
+  VectorXd w_by_mu;       ///< (n) by the coefficient of friction, length; 0 if nothing rubs
   bool converged = true;  ///< where there is no friction there is one solution, which is always found
 };
 
@@ -51,9 +51,9 @@ class RimProblem {
     RimFriction friction;
     VectorXd residual;  ///< w + M_k f + M_tau tau - b
   };
-  [[nodiscard]] VectorXd forward(const VectorXd& s) const;        ///< root s
-  [[nodiscard]] VectorXd back(const VectorXd& f) const;           ///< root^T f
-  [[nodiscard]] MatrixXd solve_root(const MatrixXd& x) const;     ///< root^-1 x
+  [[nodiscard]] VectorXd forward(const VectorXd& s) const;           ///< root s
+  [[nodiscard]] VectorXd back(const VectorXd& f) const;              ///< root^T f
+  [[nodiscard]] MatrixXd solve_root(const MatrixXd& x) const;        ///< root^-1 x
   [[nodiscard]] MatrixXd curvature(const Touching& touching) const;  ///< 1 + root^T df/dw root
   [[nodiscard]] State frictionless(const VectorXd& b, VectorXd s) const;
   [[nodiscard]] State without_friction(const VectorXd& b, const VectorXd& w) const;

@@ -31,6 +31,8 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.M_tau = MatrixXd::Zero(a.n, a.n_shears);
   if (!carried.has_closed_form() || s == 0) return a;
   a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
+  constexpr double rounding = 1e-13;  // what couples waves of different order in an isotropic sheet
+  a.D = (a.D.array().abs() > rounding * a.D.cwiseAbs().maxCoeff()).select(a.D, 0).eval();
   const MatrixXd nn = a.D.topLeftCorner(a.n, a.n), nt = a.D.topRightCorner(a.n, a.n_shears);
   const MatrixXd own = nn.bottomRightCorner(s, s), to_short = nn.bottomLeftCorner(s, a.n_long);
   const Eigen::PartialPivLU<MatrixXd> softened(MatrixXd::Identity(s, s) + contact.modulus * own);

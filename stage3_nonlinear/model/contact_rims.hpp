@@ -26,7 +26,8 @@ using Eigen::VectorXd;
 struct ShortWaves {
   Index n_long, n;                ///< pressures that the elements carry, and all
   Index n_long_shears, n_shears;  ///< shears likewise
-  MatrixXd D;  ///< (n + n_shears)^2 displacements of an infinite sheet by tractions, length / stress; empty: no short waves
+  MatrixXd
+      D;  ///< (n + n_shears)^2 displacements of an infinite sheet by tractions, length / stress; empty: no short waves
   MatrixXd G, G_t, E;       ///< length / stress, G_t and G times K what the elements' springs make of short waves
   MatrixXd C_held, R_held;  ///< (n_long, n_long), (n_long, n_long_shears) length / stress
   MatrixXd M, M_tau;        ///< (n, n) positive semi-definite, (n, n_shears) length / stress

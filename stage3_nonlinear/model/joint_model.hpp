@@ -59,7 +59,7 @@ struct PlateModel {
   formats::PlateStresses stresses;        ///< as the file has them
   std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
   std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
-  std::vector<std::shared_ptr<const ShortWaves>> short_waves{};  ///< (g) waves beyond those, in closed form
+  std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) waves beyond those, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses
   std::vector<MatrixXd> wave_rows{};         ///< PlateCases::W of all rims at the joint's degree and the one before
   Index file_unit_cases = 0;                 ///< of the file, the columns of wave_rows

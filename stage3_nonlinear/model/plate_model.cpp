@@ -128,8 +128,8 @@ void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
   }
 }
 
-/// Takes the short waves of its rims out of a plate: brings its moments d to those of ShortWaves, delta = d + C_held p +
-/// R_held tau, in which the force on the moments is minus p times the area. In an isotropic sheet both are the same.
+/// Takes the short waves of its rims out of a plate: brings its moments d to those of ShortWaves, delta = d + C_held p
+/// + R_held tau, in which the force on the moments is minus p times the area. In an isotropic sheet both are the same.
 void hold_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ShortWaves>>& rims,
                       PlateDegrees& degrees) {
   MatrixXd &S = degrees.S.back(), &R = degrees.R.back(), &T = degrees.T.back();

@@ -37,8 +37,8 @@ ContactCorners::ContactCorners(const JointEquations& equations, bool interferenc
     for (Index entry = 0; entry < std::ssize(corners); ++entry) {
       const Index rim = (std::ssize(corners_) - n_planes_) / 2;
       const bool wanted =
-          !interference_alone ||
-          (!corners[entry].empty() && corners[entry][0].kind == CornerKind::part && equations.rims[rim]->contact().gap() < 0);
+          !interference_alone || (!corners[entry].empty() && corners[entry][0].kind == CornerKind::part &&
+                                  equations.rims[rim]->contact().gap() < 0);
       corners_.push_back(wanted ? std::move(corners[entry]) : std::vector<Corner>());
       at_.emplace_back(&placed, entry);
     }

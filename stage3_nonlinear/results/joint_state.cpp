@@ -168,7 +168,9 @@ std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSyst
 
 void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state) {
   std::vector<double> waves, w, added;
-  const auto append = [](const VectorXd& part, std::vector<double>& all) { all.insert(all.end(), part.begin(), part.end()); };
+  const auto append = [](const VectorXd& part, std::vector<double>& all) {
+    all.insert(all.end(), part.begin(), part.end());
+  };
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLoad& load = contacts[i];
     const double modulus = plate.contact[i].modulus;

@@ -157,8 +157,7 @@ class PeakSearch {
     const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
     double by_waves = 0;
     if (rim_.in_contact)
-      if (const auto other =
-              top(rim_.hoop(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
+      if (const auto other = top(rim_.hoop(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
         by_waves = std::abs(other->value - peak.value);
     return 2 * by_degree + last * fall / (1 - fall) + 0.5 * by_waves;
   }

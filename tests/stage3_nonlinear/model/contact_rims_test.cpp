@@ -82,7 +82,8 @@ struct DiscState {
 DiscState state_of(const PlateModel& plate, double gap, double mu, const Eigen::Vector2d& u) {
   const Index k = plate.n_unknowns() - 2;
   const double stiffness = 1.05 * plate.S.bottomRightCorner(k, k).cwiseAbs().rowwise().sum().maxCoeff();
-  const RimProblem rim(RimContact(plate.contact[0].pressures, K * area, gap, mu), plate.short_waves[0], area, stiffness);
+  const RimProblem rim(RimContact(plate.contact[0].pressures, K * area, gap, mu), plate.short_waves[0], area,
+                       stiffness);
   // The rim's force f and the plate's on the moments, S (u, m) + R tau, add up to nothing: Newton's method for c.
   VectorXd c = VectorXd::Zero(k);
   const MatrixXd S = plate.S.bottomRightCorner(k, k), R = plate.R.bottomRows(k);

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <vector>
 #include <string>
+#include <vector>
 
 #include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
