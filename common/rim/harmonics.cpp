@@ -149,7 +149,8 @@ std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& amounts, doub
   const double c = std::cos(phase), s = std::sin(phase);
   double re = 0, im = 0, slope_re = 0, slope_im = 0;  // of sum z_j e^(i j phase), by Horner's rule
   for (int j = most(*this); j >= 1; --j) {
-    const double cosine = is_whole() ? amounts[2 * j - 1] : amounts[j], sine = is_whole() ? amounts[2 * j] : 0;
+    const Eigen::Index at = is_whole() ? 2 * Eigen::Index(j) - 1 : j;
+    const double cosine = amounts[at], sine = is_whole() ? amounts[at + 1] : 0;
     const auto turned = [&](double& x, double& y, double more_x, double more_y) {
       const double sum_x = x + more_x, sum_y = y + more_y;
       x = c * sum_x - s * sum_y;
