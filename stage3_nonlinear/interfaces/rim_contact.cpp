@@ -35,7 +35,7 @@ double RimContact::extremum(const VectorXd& m, double angle, double sign) const 
   double low = angle - step, high = angle + step;
   if (!pressures_.is_whole())
     low = std::max(low, samples_->angles[0]), high = std::min(high, samples_->angles[samples_->angles.size() - 1]);
-  // By the secant, whose older end counts half if the newer one is hit twice (Illinois): the slope falls from low to
+  // The secant, whose older end counts half if the newer one is hit twice (Illinois): the slope falls from low to
   // high.
   const auto slope = [&](double at) { return sign * pressures_.sum_at(m, at).second; };
   double at_low = slope(low), at_high = slope(high);
