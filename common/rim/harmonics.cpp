@@ -65,10 +65,6 @@ class Multiples {
   [[nodiscard]] double at(const Wave& wave) const {
     return wave.amplitude * (wave.is_sine ? sine(wave.multiple) : cosine(wave.multiple));
   }
-  /// Derivative by the angle.
-  [[nodiscard]] double slope(const Wave& wave) const {
-    return wave.amplitude * wave.multiple * (wave.is_sine ? cosine(wave.multiple) : -sine(wave.multiple));
-  }
 
  private:
   std::vector<std::complex<double>> turns_;
@@ -136,12 +132,6 @@ Eigen::VectorXd Harmonics::at(double angle) const {
   const Multiples all(unit(*this) * (angle - start), most(*this));
   return Eigen::VectorXd::NullaryExpr(
       size(), [&](Eigen::Index k) { return all.at(pressure_wave(*this, static_cast<int>(k))); });
-}
-
-Eigen::VectorXd Harmonics::slope(double angle) const {
-  const Multiples all(unit(*this) * (angle - start), most(*this));
-  return Eigen::VectorXd::NullaryExpr(
-      size(), [&](Eigen::Index k) { return unit(*this) * all.slope(pressure_wave(*this, static_cast<int>(k))); });
 }
 
 std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& amounts, double angle) const {

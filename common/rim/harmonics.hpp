@@ -33,8 +33,6 @@ struct Harmonics {
   [[nodiscard]] int n_shears() const { return is_whole() ? size() : size() - 1; }
   /// Values of all pressures at an angle, (size).
   [[nodiscard]] Eigen::VectorXd at(double angle) const;
-  /// Their derivatives by the angle, (size).
-  [[nodiscard]] Eigen::VectorXd slope(double angle) const;
   /// A sum of pressures at an angle and its derivative there, by amounts of each, (size).
   [[nodiscard]] std::pair<double, double> sum_at(const Eigen::VectorXd& amounts, double angle) const;
   /// Values of all shears at an angle, (n_shears).

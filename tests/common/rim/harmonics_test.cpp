@@ -21,6 +21,12 @@ Eigen::MatrixXd integral_of_products(const Harmonics& a, double from, double to)
   return sum * (to - from) / n;
 }
 
+/// Derivatives of all pressures by the angle.
+Eigen::VectorXd slopes(const Harmonics& a, double angle) {
+  return Eigen::VectorXd::NullaryExpr(
+      a.size(), [&](Eigen::Index k) { return a.sum_at(Eigen::VectorXd::Unit(a.size(), k), angle).second; });
+}
+
 TEST(Harmonics, AreOrthonormalInTheMeanOverTheirRim) {
   for (const auto& a : kinds) {
     const Eigen::MatrixXd mean = a.products(a.start, a.start + a.sweep) / a.sweep;
@@ -40,7 +46,7 @@ TEST(Harmonics, SlopesAreDerivatives) {
   constexpr double step = 1e-6;
   for (const auto& a : kinds) {
     const Eigen::VectorXd difference = (a.at(1 + step) - a.at(1 - step)) / (2 * step);
-    EXPECT_LT((a.slope(1) - difference).cwiseAbs().maxCoeff(), 1e-8) << a.sweep;
+    EXPECT_LT((slopes(a, 1) - difference).cwiseAbs().maxCoeff(), 1e-8) << a.sweep;
   }
 }
 
@@ -50,7 +56,7 @@ TEST(Harmonics, OfPartsMeetLinesOfSymmetryLevelAndHaveTheWavesOfAWholeRim) {
   EXPECT_EQ(half.size(), 6);
   EXPECT_EQ(quarter.size(), 4);
   for (const auto& a : {half, quarter})
-    for (const double end : {a.start, a.start + a.sweep}) EXPECT_LT(a.slope(end).cwiseAbs().maxCoeff(), 1e-13);
+    for (const double end : {a.start, a.start + a.sweep}) EXPECT_LT(slopes(a, end).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_NEAR(half.at(0.3)[5], std::sqrt(2) * std::cos(5 * (0.3 + full_turn / 4)), 1e-14);
 }
 
