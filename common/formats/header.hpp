@@ -10,6 +10,7 @@
 #include "common/h5/reader.hpp"
 #include "common/h5/writer.hpp"
 #include "common/pfem/shape_functions.hpp"
+#include "common/rim/elastic_disk.hpp"
 #include "common/rim/harmonics.hpp"
 #include "common/units.hpp"
 
@@ -31,9 +32,10 @@ struct Header {
 struct ContactRim {
   std::string hole;
   rim::Harmonics pressures;
-  double modulus;  ///< K of the springs, force / length^3
-  double radius;   ///< length
-  double area;     ///< thickness times length of the rim that the model has, length^2
+  double modulus;           ///< K of the springs, force / length^3
+  double radius;            ///< length
+  double area;              ///< thickness times length of the rim that the model has, length^2
+  rim::ElasticDisk disk{};  ///< that presses in place of the springs; none: the springs do
 };
 
 /// A rim with waves that the finite elements carry: its displacements, and of contact its tractions too.

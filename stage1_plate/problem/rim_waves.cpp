@@ -24,6 +24,10 @@ void check_contact(const PlateScene& scene, const PlateMesh& plate, int hole, st
     if (plate.mesh.thickness[side.element] != plate.mesh.thickness[rim.sides[0].element])
       refuse(fmt::format("the sheet has several thicknesses around hole \"{}\"", scene.holes[hole].id),
              "springs that push but do not pull on a rim of one thickness");
+  if (scene.holes[hole].sprung().disk.is_given() && !ends_on_symmetry(scene, plate, hole))
+    reject(scene, fmt::format("/holes/{}/spring/disk/law", hole),
+           fmt::format("\"elastic\" at hole \"{}\", which ends on a free border", scene.holes[hole].id),
+           "it at a whole hole or at a half one on a line of symmetry, or another law");
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
       rim::Harmonics pressures = waves->shape;
       if (a.waves.back().has_closed_form())
         pressures.highest = scene.holes[i].sprung().harmonics.value_or(default_harmonics);
-      a.contact.push_back({a.hole_id[i], pressures, a.hole_spring[i].modulus, radius, area});
+      a.contact.push_back(
+          {a.hole_id[i], pressures, a.hole_spring[i].modulus, radius, area, scene.holes[i].sprung().disk});
     }
   a.hole_rim = plate.rims;
   a.sections = plate.sections;

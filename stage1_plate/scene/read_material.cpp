@@ -55,16 +55,24 @@ double plane_strain(double E, double nu, double d) { return 2 * E / ((1 - 2 * nu
 /// theta.
 double second_harmonic(double E, double nu, double d) { return 6 * E / ((3 + nu) * d); }
 
-double read_disk(const Value& disk, double radius) {
+/// Sets the modulus of the springs that stand for an elastic disk, and with the law "elastic" the disk itself, which
+/// presses in their place.
+void read_disk(const Value& disk, double radius, Analysis analysis, Spring& spring) {
   disk.only({"E", "nu", "law"});
   std::vector<std::string> names;
   for (const auto& law : spring_laws()) names.push_back(law.name);
+  names.emplace_back("elastic");
   const auto name = disk.find("law");
-  const SpringLaw& law = spring_laws()[name ? index_of(names, name->choice(names)) : 0];
-  const double E = read_quantity(disk.at("E"));
+  std::string word = name ? name->choice(names) : names.front();
+  const bool is_elastic = word == "elastic", in_strain = analysis == Analysis::plane_strain;
+  if (is_elastic) word = in_strain ? "plane strain" : "plane stress";
+  const SpringLaw& law = spring_laws()[index_of(names, word)];
   input::Range range = poisson_range;
   range.high_allowed = law.incompressible_allowed;
-  return law.modulus(E, disk.at("nu").number(range), 2 * radius);
+  const double E = spring.disk_E = read_quantity(disk.at("E")), nu = disk.at("nu").number(range);
+  spring.modulus = law.modulus(E, nu, 2 * radius);
+  if (is_elastic)
+    spring.disk = in_strain ? rim::ElasticDisk{E / (1 - nu * nu), nu / (1 - nu)} : rim::ElasticDisk{E, nu};
 }
 
 /// Degrees, counter-clockwise from x, to radians.
@@ -78,9 +86,13 @@ rim::AngleRange read_arc(const Value& value) {
 
 }  // namespace
 
-Materials read_materials(const Value& root) {
+Analysis read_analysis(const Value& root) {
   const bool stress = root.at("analysis").choice({"plane stress", "plane strain"}) == "plane stress";
-  const Analysis analysis = stress ? Analysis::plane_stress : Analysis::plane_strain;
+  return stress ? Analysis::plane_stress : Analysis::plane_strain;
+}
+
+Materials read_materials(const Value& root) {
+  const Analysis analysis = read_analysis(root);
   Materials materials;
   const Value list = root.at("materials");
   for (const auto& [name, value] : list.members()) {
@@ -99,7 +111,7 @@ const std::vector<SpringLaw>& spring_laws() {
   return laws;
 }
 
-Spring read_spring(const Value& value, double radius) {
+Spring read_spring(const Value& value, double radius, Analysis analysis) {
   value.only({"disk", "modulus", "links", "arc", "compression_only", "harmonics"});
   const auto disk = value.find("disk");
   const auto modulus = value.find("modulus");
@@ -107,10 +119,7 @@ Spring read_spring(const Value& value, double radius) {
   if (disk.has_value() + modulus.has_value() + links.has_value() != 1)
     value.not_allowed("either \"disk\" or \"modulus\" or \"links\"");
   Spring spring;
-  if (disk) {
-    spring.modulus = read_disk(*disk, radius);
-    spring.disk_E = disk->at("E").number();
-  }
+  if (disk) read_disk(*disk, radius, analysis, spring);
   if (modulus) spring.modulus = read_quantity(*modulus, softest_spring);
   if (links) spring.link = read_quantity(*links, softest_spring);
   const auto arc = value.find("arc");
@@ -122,6 +131,8 @@ Spring read_spring(const Value& value, double radius) {
     spring.compression_only = only->boolean();
     if (links || arc) only->fail(links ? "given with \"links\"" : "given with \"arc\"", "with neither of them");
   }
+  if (spring.disk.is_given() && !spring.compression_only)
+    disk->at("law").fail("\"elastic\" without contact", "it with \"compression_only\": true, or another law");
   if (const auto harmonics = value.find("harmonics")) {
     if (!spring.compression_only) harmonics->fail("given of springs that also pull", "with \"compression_only\": true");
     spring.harmonics = harmonics->integer(1, rim::most_harmonics);

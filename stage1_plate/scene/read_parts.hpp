@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/count.hpp"
+#include "common/pfem/material.hpp"
 #include "stage1_plate/scene/scene.hpp"
 
 namespace fastjoint::stage1 {
@@ -17,6 +18,8 @@ struct Materials {
   std::vector<std::string> name;
   std::vector<Eigen::Matrix3d> elasticity;  ///< for the scene's analysis, stress
 };
+
+[[nodiscard]] pfem::Analysis read_analysis(const input::Value& root);
 
 /// Reads "analysis" and "materials" of a scene.
 [[nodiscard]] Materials read_materials(const input::Value& root);
@@ -63,6 +66,6 @@ struct SpringLaw {
 [[nodiscard]] const std::vector<SpringLaw>& spring_laws();
 
 /// Reads "spring" of a hole of that radius: what its stiffness follows from, where on the rim it acts, and how.
-[[nodiscard]] Spring read_spring(const input::Value& value, double radius);
+[[nodiscard]] Spring read_spring(const input::Value& value, double radius, pfem::Analysis analysis);
 
 }  // namespace fastjoint::stage1

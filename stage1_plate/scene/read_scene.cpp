@@ -46,6 +46,7 @@ Units read_units(const Value& root) {
 }
 
 std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::string>& ids) {
+  const pfem::Analysis analysis = read_analysis(root);
   std::vector<Hole> holes;
   for (const auto& item : read_items(root, "holes")) {
     item.only({"id", "center", "radius", "spring", "rings", "waves", "stresses"});
@@ -53,7 +54,7 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     hole.id = read_new_name(item.at("id"), ids);
     hole.center = read_point(item.at("center"));
     hole.radius = read_quantity(item.at("radius"));
-    if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius);
+    if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius, analysis);
     constexpr int most_rings = 20;
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");

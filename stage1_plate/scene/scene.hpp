@@ -13,6 +13,7 @@
 #include "common/input/value.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/pfem/shape_functions.hpp"
+#include "common/rim/elastic_disk.hpp"
 #include "common/rim/rim.hpp"
 #include "common/units.hpp"
 
@@ -43,6 +44,7 @@ struct MeshGeometry {
 struct Spring : rim::HoleSpring {
   Spring() : HoleSpring{.acts = {{-rim::full_turn / 2, rim::full_turn / 2}}} {}
   double disk_E = 0;              ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
+  rim::ElasticDisk disk{};        ///< that presses in place of springs that only push; none: springs do
   bool has_arc = false;           ///< whether the scene says on which part of the rim they act
   bool compression_only = false;  ///< it pushes but does not pull
   /// rim::Harmonics::highest of a spring that only pushes; not given: many where a closed form holds for those that the

@@ -67,9 +67,10 @@ void place_rims(const JointModel& joint, JointEquations& equations) {
     const auto& [plate, at, hole] = places[i];
     const auto& rim = joint.plates[plate].contact[at];
     const double gap = hole < 0 ? 0 : equations.parameters.gap[hole], mu = hole < 0 ? 0 : equations.parameters.mu[hole];
+    const auto& waves = joint.plates[plate].short_waves[at];
+    const double k = equations.system->stiffness[equations.n_planes() + i];
     equations.rims.push_back(std::make_shared<const RimProblem>(
-        RimContact(rim.pressures, rim.modulus * rim.area, gap, mu), joint.plates[plate].short_waves[at], rim.area,
-        equations.system->stiffness[equations.n_planes() + i]));
+        RimContact(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves, rim.area, k));
     equations.has_friction = equations.has_friction || mu != 0;
     place(std::make_shared<RimInterface>(equations.rims.back(), i, equations.system->friction.rim_rubs[i]),
           equations.interfaces);

@@ -16,21 +16,41 @@ constexpr int most_steps = 100, most_halvings = 40;
 
 }  // namespace
 
+double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves, double k) {
+  if (!rim.disk.is_given()) return rim.modulus * rim.area;
+  MatrixXd compliance = waves.M / rim.area;
+  compliance.diagonal().head(waves.n_long).array() += 1 / k;
+  constexpr double enough = 2;  // times what would leave a wave no compliance
+  double stiffness = enough / compliance.diagonal().minCoeff();
+  const auto rest = [&](double yield) {
+    MatrixXd less = compliance;
+    less.diagonal().array() -= yield;
+    return less;
+  };
+  while (!matrices::is_positive_definite(rest(1.5 / stiffness))) stiffness *= enough;
+  return stiffness;
+}
+
 RimProblem::RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> waves, double area, double k)
     : contact_(std::move(contact)),
       waves_(std::move(waves)),
       area_(area),
       k_(k),
-      is_diagonal_(waves_->M.isDiagonal(1e-12)) {
-  VectorXd more = VectorXd::Zero(waves_->n);
-  more.head(n_long()).setConstant(1 / k);
+      is_diagonal_(waves_->M.isDiagonal(1e-12)),
+      more_(VectorXd::Constant(waves_->n, waves_->yield.size() > 0 ? -1 / contact_.stiffness() : 0)) {
+  more_.head(n_long()).array() += 1 / k;
   if (is_diagonal_) {
-    root_ = (waves_->M.diagonal() / area + more).cwiseSqrt();
+    root_ = (waves_->M.diagonal() / area + more_).cwiseSqrt();
   } else {
     MatrixXd M = waves_->M / area;
-    M.diagonal() += more;
+    M.diagonal() += more_;
     root_ = M.llt().matrixL();
   }
+}
+
+VectorXd RimProblem::against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const {
+  if (waves_->yield.size() == 0) return w;
+  return w + waves_->yield.cwiseProduct(pressure) - pressure / modulus() + waves_->yield_by_shear * shear;
 }
 
 RimProblem RimProblem::with(double gap, double mu) const {
@@ -109,19 +129,18 @@ RimProblem::State RimProblem::rubbing(const VectorXd& b, VectorXd w) const {
   at.forces = contact_.forces(at.touching, at.w);
   at.friction = rim_friction(contact_, at.touching, at.w);
   at.residual = at.w - b + (waves_->M * at.forces + waves_->M_tau * at.friction.forces) / area_;
-  at.residual.head(n_long()) += at.forces.head(n_long()) / k_;
+  at.residual += more_.cwiseProduct(at.forces);
   return at;
 }
 
 MatrixXd RimProblem::jacobian(const State& at) const {
-  const double modulus = contact_.stiffness() / area_;
-  MatrixXd J = modulus * waves_->M_tau * at.friction.slopes;
+  MatrixXd J = modulus() * waves_->M_tau * at.friction.slopes;
   if (is_diagonal_) {
-    J += modulus * waves_->M.diagonal().asDiagonal() * at.touching.share;
+    J += modulus() * waves_->M.diagonal().asDiagonal() * at.touching.share;
   } else {
-    J += modulus * waves_->M * at.touching.share;
+    J += modulus() * waves_->M * at.touching.share;
   }
-  J.topRows(n_long()) += contact_.stiffness() / k_ * at.touching.share.topRows(n_long());
+  J += contact_.stiffness() * more_.asDiagonal() * at.touching.share;
   J.diagonal().array() += 1;
   return J;
 }

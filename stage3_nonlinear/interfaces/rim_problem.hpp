@@ -12,7 +12,8 @@ namespace fastjoint::stage3 {
 
 /// Solution of a rim's own problem.
 struct RimSolution {
-  VectorXd w;             ///< (n) all waves of the disc's normal displacement against the sheet, length
+  VectorXd w;             ///< (n) all waves of the disc's normal displacement against the sheet, without what an
+                          ///< elastic disk yields, length
   Touching touching;      ///< where disc and rim touch
   VectorXd forces;        ///< (n) all waves of the pressure times the area, force
   RimFriction friction;   ///< of all waves; of no forces if nothing rubs
@@ -21,10 +22,18 @@ struct RimSolution {
   bool converged = true;  ///< where there is no friction there is one solution, which is always found
 };
 
+/// Stiffness K A of the springs between a rim and its disc, or of those that keep an elastic disk from overlapping,
+/// force / length. @param k Of the rim's contact coordinates, likewise.
+[[nodiscard]] double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves, double k);
+
 /// The problem of a rim of contact of its own: which waves its displacement and pressure have, short ones included, for
 /// given contact coordinates c = F + k delta of its long waves (docs/theory.md, section 6.4),
 ///   w + M_k f + M_tau tau = (c / k, 0),   f = K A <w - g>_+ in waves,   M_k = M / A, and 1 / k more of long waves.
 /// Without friction it is the place at which a strictly convex function is least.
+///
+/// An elastic disk has its own compliance in M_k and yields nothing else: the rims must not overlap. Springs that are
+/// stiffer than any wave of the disk see to that, and what they yield is taken off M_k again (docs/theory.md,
+/// section 6.7).
 class RimProblem {
  public:
   /// @param area Of the rim, length^2. @param k Stiffness of the coordinates, force / length.
@@ -35,6 +44,10 @@ class RimProblem {
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double k() const { return k_; }
   [[nodiscard]] Index n_long() const { return waves_->n_long; }
+  /// Pressure per overlap of the rims, force / length^3.
+  [[nodiscard]] double modulus() const { return contact_.stiffness() / area_; }
+  /// Waves of the disc's normal displacement against the sheet, with what an elastic disk yields, (n), length.
+  [[nodiscard]] VectorXd against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const;
   /// The same rim with another gap and friction.
   [[nodiscard]] RimProblem with(double gap, double mu) const;
 
@@ -66,6 +79,7 @@ class RimProblem {
   std::shared_ptr<const ShortWaves> waves_;
   double area_, k_;
   bool is_diagonal_;  ///< M_k, as in an isotropic sheet
+  VectorXd more_;     ///< (n) what M_k has on its diagonal besides M / A, length / force
   MatrixXd root_;     ///< M_k = root root^T; of a diagonal one its diagonal, (n, 1)
   mutable VectorXd last_c_;
   mutable RimSolution last_;

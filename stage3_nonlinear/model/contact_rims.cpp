@@ -12,7 +12,7 @@ namespace {
 
 bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const formats::ContactRim& b,
           const formats::WaveRim& b_carried) {
-  return a.pressures == b.pressures && a.modulus == b.modulus && a.radius == b.radius &&
+  return a.pressures == b.pressures && a.modulus == b.modulus && a.radius == b.radius && a.disk == b.disk &&
          a_carried.waves == b_carried.waves && a_carried.compliance == b_carried.compliance;
 }
 
@@ -20,7 +20,8 @@ bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const
 
 ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried) {
   const auto& [full, long_waves] = std::tie(contact.pressures, carried.waves);
-  ShortWaves a{long_waves.size(), full.size(), long_waves.n_shears(), full.n_shears(), {}, {}, {}, {}, {}, {}, {}, {}};
+  ShortWaves a{
+      long_waves.size(), full.size(), long_waves.n_shears(), full.n_shears(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
   const Index s = a.n - a.n_long, s_t = a.n_shears - a.n_long_shears;
   a.G = MatrixXd::Zero(s, a.n_long);
   a.G_t = MatrixXd::Zero(s, a.n_long_shears);
@@ -29,6 +30,12 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.R_held = MatrixXd::Zero(a.n_long, a.n_long_shears);
   a.M = MatrixXd::Zero(a.n, a.n);
   a.M_tau = MatrixXd::Zero(a.n, a.n_shears);
+  if (contact.disk.is_given()) {
+    a.yield = contact.disk.yield(contact.radius, full);
+    a.yield_by_shear = contact.disk.yield_by_shear(contact.radius, full);
+    a.M.diagonal() = a.yield;
+    a.M_tau = a.yield_by_shear;
+  }
   if (!carried.has_closed_form() || s == 0) return a;
   a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
   constexpr double rounding = 1e-13;  // what couples waves of different order in an isotropic sheet
@@ -42,12 +49,12 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   const MatrixXd held = own.llt().solve(to_short).transpose();  // long waves by the short ones that pressure holds
   a.C_held = held * a.G;
   a.R_held = held * a.G_t;
-  a.M.bottomRows(s) = nn.bottomRows(s);
-  a.M.topRightCorner(a.n_long, s) = to_short.transpose();
-  a.M.topLeftCorner(a.n_long, a.n_long) = held * to_short;
-  a.M_tau.bottomRows(s) = nt.bottomRows(s);
-  a.M_tau.topRightCorner(a.n_long, s_t) = nt.topRightCorner(a.n_long, s_t);
-  a.M_tau.topLeftCorner(a.n_long, a.n_long_shears) = held * nt.bottomLeftCorner(s, a.n_long_shears);
+  a.M.bottomRows(s) += nn.bottomRows(s);
+  a.M.topRightCorner(a.n_long, s) += to_short.transpose();
+  a.M.topLeftCorner(a.n_long, a.n_long) += held * to_short;
+  a.M_tau.bottomRows(s) += nt.bottomRows(s);
+  a.M_tau.topRightCorner(a.n_long, s_t) += nt.topRightCorner(a.n_long, s_t);
+  a.M_tau.topLeftCorner(a.n_long, a.n_long_shears) += held * nt.bottomLeftCorner(s, a.n_long_shears);
   return a;
 }
 

@@ -23,6 +23,9 @@ using Eigen::VectorXd;
 /// The elements' sheet has springs K at the rim, which also resist the short waves: its long waves are
 ///   d = w_L + G^T (p - K w)_S + E tau_S,   and   delta = d + C_held p_L + R_held tau_L.
 /// In an isotropic sheet waves of different order are apart: delta = d = w_L.
+///
+/// Where an elastic disk presses in place of the springs, M and M_tau also have what its rim yields, and w of these
+/// formulas is less by that: it is the displacement that is left between the two rims.
 struct ShortWaves {
   Index n_long, n;                ///< pressures that the elements carry, and all
   Index n_long_shears, n_shears;  ///< shears likewise
@@ -31,6 +34,8 @@ struct ShortWaves {
   MatrixXd G, G_t, E;       ///< length / stress, G_t and G times K what the elements' springs make of short waves
   MatrixXd C_held, R_held;  ///< (n_long, n_long), (n_long, n_long_shears) length / stress
   MatrixXd M, M_tau;        ///< (n, n) positive semi-definite, (n, n_shears) length / stress
+  VectorXd yield;           ///< (n) of an elastic disk by pressure, length / stress; empty: springs are in its place
+  MatrixXd yield_by_shear;  ///< (n, n_shears) length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }
   /// Pressures and shears that the elements carry.

@@ -22,9 +22,9 @@ std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim:
 }
 
 /// Writes what a rim does at a step.
-/// @param modulus K of its springs.
-void describe(const RimContact& rim, const RimSolution& solution, double modulus, Index step, Index at,
-              formats::ContactHistory& a) {
+void describe(const RimProblem& problem, const VectorXd& c, Index step, Index at, formats::ContactHistory& a) {
+  const RimContact& rim = problem.contact();
+  const RimSolution& solution = problem.solve(c);
   const auto arcs = joined_arcs(rim, solution.touching.arcs);
   const auto width = [](const rim::AngleRange& arc) { return arc.to - arc.from; };
   double touching = 0;
@@ -36,7 +36,7 @@ void describe(const RimContact& rim, const RimSolution& solution, double modulus
     a.to(step, at) = a.from(step, at) + width(widest) / rim::degree;
   }
   const double deepest = rim.deepest(solution.w), depth = rim.depth(solution.w, deepest);
-  a.peak_pressure(step, at) = modulus * std::max(depth, 0.0);
+  a.peak_pressure(step, at) = problem.modulus() * std::max(depth, 0.0);
   a.peak_angle(step, at) = in_degrees(deepest);
   a.least_gap(step, at) = std::max(-depth, 0.0);
 }
@@ -63,15 +63,14 @@ std::vector<formats::ContactHistory> contact_histories(const JointModel& joint, 
       if (path.interference) {
         const VectorXd w = problem.solve(equations.of_rim(*path.assembled, rim)).w;
         const auto pressure = [&](double sign) {
-          return plate.contact[at].modulus * std::max(contact.depth(w, contact.deepest(w, sign)), 0.0);
+          return problem.modulus() * std::max(contact.depth(w, contact.deepest(w, sign)), 0.0);
         };
         a.no_load_peak[at] = pressure(1);
         a.no_load_least[at] = pressure(-1);
         a.full_until[at] = path.interference->lost[rim];
       }
       for (Index step = 0; step < steps; ++step)
-        describe(contact, problem.solve(equations.of_rim(path.steps[step].c, rim)), plate.contact[at].modulus, step, at,
-                 a);
+        describe(problem, equations.of_rim(path.steps[step].c, rim), step, at, a);
     }
   }
   return histories;

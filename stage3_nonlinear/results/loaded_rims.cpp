@@ -67,8 +67,8 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
 }
 
 /// Tractions of contact: what the springs push with, and friction in proportion.
-Tractions of_contact(double modulus, double gap, const ContactLoad::Contour& contour) {
-  return [=](double angle) -> Eigen::Vector2d {
+Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contour) {
+  return [gap = load.gap, modulus = load.modulus, contour](double angle) -> Eigen::Vector2d {
     const double p = modulus * std::max(contour.shape.at(angle).dot(contour.w) - gap, 0.0);
     return {p, -contour.mu * p * sign_of(std::sin(angle - contour.direction))};
   };
@@ -106,10 +106,12 @@ ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
   const RimContact half(fewer, contact.stiffness(), contact.gap(), contact.mu());
   const VectorXd w_half = w.head(half.size());
   const Touching of_half = half.touching(w_half);
-  return {w,
-          contact.forces(touching, w) / rim.area(),
-          friction.forces / rim.area(),
+  const VectorXd pressure = contact.forces(touching, w) / rim.area(), shear = friction.forces / rim.area();
+  return {rim.against_sheet(w, pressure, shear),
+          pressure,
+          shear,
           contact.gap(),
+          rim.modulus(),
           contour_of(contact, touching, friction, w),
           contour_of(half, of_half, rim_friction(half, of_half, w_half), w_half)};
 }
@@ -170,14 +172,14 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
       VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
       if (in_contact) correct(contacts[i], *plate.short_waves[i], rim.modulus, displacement);
       const Tractions tractions =
-          in_contact ? of_contact(rim.modulus, contacts[i].gap, contacts[i].all)
+          in_contact ? of_contact(contacts[i], contacts[i].all)
                      : springs_and(rim, plate.spring_waves[i].get(), displacement.head(rim.waves.size()), known);
       loaded->degrees.push_back({std::move(displacement), tractions});
     }
     if (in_contact) {
       loaded->kinks = contacts[i].all.ends;
       loaded->kinks_by_half = contacts[i].half.ends;
-      loaded->by_half = of_contact(rim.modulus, contacts[i].gap, contacts[i].half);
+      loaded->by_half = of_contact(contacts[i], contacts[i].half);
     }
     if (!in_contact && rim.modulus > 0)
       for (const auto& arc : rim.acts) loaded->kinks.insert(loaded->kinks.end(), {arc.from, arc.to});

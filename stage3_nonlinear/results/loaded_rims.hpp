@@ -40,14 +40,14 @@ struct LoadedRim {
 
 /// What a rim of contact of a plate bears.
 struct ContactLoad {
-  VectorXd w;         ///< (n) all waves of the disc's normal displacement against the sheet, length
-  VectorXd pressure;  ///< (n) waves of the pressure on the sheet, stress
-  VectorXd shear;     ///< waves of the shear on it, stress; 0 without friction
-  double gap;
+  VectorXd w;           ///< (n) all waves of the disc's normal displacement against the sheet, length
+  VectorXd pressure;    ///< (n) waves of the pressure on the sheet, stress
+  VectorXd shear;       ///< waves of the shear on it, stress; 0 without friction
+  double gap, modulus;  ///< radial, length; pressure per overlap of the rims, force / length^3
   /// The tractions as functions of the angle, by waves of the displacement up to an order, which is that of `shape`.
   struct Contour {
     rim::Harmonics shape;
-    VectorXd w;                ///< length
+    VectorXd w;                ///< without what an elastic disk yields, length
     double mu;                 ///< shear over pressure; less than the fastener's where the rim sticks
     double direction;          ///< of the force of the pressure on the sheet, radians
     std::vector<double> ends;  ///< of the arcs on which they touch, radians

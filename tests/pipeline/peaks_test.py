@@ -81,10 +81,10 @@ def near(name, found, truth, allowed, bar=None, absolute=False):
 
 # 1 and 3: pins in wide sheets
 
-def pin_in_a_wide_sheet(folder, material, modulus, lines, analysis="plane stress"):
+def pin_in_a_wide_sheet(folder, material, pin, lines, analysis="plane stress"):
     """A function of the gap over F / E: the state under a force of 1000, of which either end takes half, so that nothing passes by."""
     external = [{"id": side, "on": side, "direction": "x", "kind": "rigid"} for side in ("left", "right")]
-    spring = {"spring": {"modulus": modulus, "compression_only": True}}
+    spring = {"spring": {"compression_only": True, **(pin if isinstance(pin, dict) else {"modulus": pin})}}
     matrices(folder, plate(material, lines, lines, spring, analysis=analysis, external=external))
 
     def solve(gap):
@@ -131,6 +131,25 @@ def plane_strain_pin(folder):
         found = solve(gap * 1000 / E)
         near(f"pin in plane strain, E g t/P = {gap}: hoop stress", found["hoop"][0], stress, 0.01, found["bar"][0])
         near("  peak pressure", found["pressure"][0], peak, 5e-3)
+
+
+def persson_gap(half_angle):
+    """E g t / P of a disk of the sheet's own material that touches so far, degrees: Persson (1964)."""
+    b2 = np.tan(np.radians(half_angle) / 2)**2
+    return (2 * (1 - b2) - np.log(1 + b2) / (1 + b2)) / (np.pi * b2)
+
+
+def elastic_pins(folder):
+    """Disks of the sheet's own material, with the exact peaks of rim.md, section 5, and Persson's closed form."""
+    E, nu = 70e3, 0.3
+    solve = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": E, "nu": nu, "law": "elastic"}}, WIDE)
+    for gap, pressure, hoop in ((0, 1.1993, 0.9066), (1, 1.4092, 1.1490)):
+        found = solve(gap * 1000 / E)
+        near(f"elastic pin, E g t/P = {gap}: hoop stress", found["hoop"][0], 500 * hoop, 5e-3, found["bar"][0])
+        near("  peak pressure", found["pressure"][0], 500 * pressure, 5e-3)
+    for half_angle in (84.9, 75, 61, 45, 30, 20, 10):
+        found = solve(persson_gap(half_angle) * 1000 / E)
+        near("elastic pin: half-angle of contact by Persson, degrees", found["half-angle"][0], half_angle, 0.2, absolute=True)
 
 
 # 2 and 3: edges nearby
@@ -341,7 +360,7 @@ def is_one_pin(scene, joint):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
+    for check in (elastic_pins, isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
                   rate_in_waves, error_bars, *([truths] if SWEEP else [])):
         check(Path(name))
 if missed:

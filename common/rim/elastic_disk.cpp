@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/rim/elastic_disk.hpp"
+
+namespace fastjoint::rim {
+
+// Polynomials of Kolosov and Muskhelishvili, phi = A z^(n+1) and psi = B z^(n-1), with tractions of one order n on the
+// circle give both functions. Orders are those of the whole circle, of which a part that repeats has some.
+
+Eigen::VectorXd ElasticDisk::yield(double radius, const Harmonics& waves) const {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(2 * waves.highest + 1);
+  whole[0] = (1 - nu) * radius / E;
+  for (int n = 2; n <= waves.highest; ++n)
+    whole.segment<2>(2 * n - 1).setConstant((2 * n - 1 + nu) / (double(n) * n - 1) * radius / E);
+  return waves.pressures_of_whole().cwiseAbs2().transpose() * whole;
+}
+
+Eigen::MatrixXd ElasticDisk::yield_by_shear(double radius, const Harmonics& waves) const {
+  const Eigen::Index size = 2 * Eigen::Index(waves.highest) + 1;
+  Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size, size);
+  for (int n = 2; n <= waves.highest; ++n) {
+    const Eigen::Index cosine = 2 * n - 1, sine = 2 * n;
+    whole(cosine, sine) = ((1 - nu) * n - 2) / (double(n) * n - 1) * radius / E;
+    whole(sine, cosine) = -whole(cosine, sine);
+  }
+  return waves.pressures_of_whole().transpose() * whole * waves.shears_of_whole();
+}
+
+}  // namespace fastjoint::rim
