@@ -79,7 +79,8 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
 }
 }  // namespace fastjoint::formats
 , {std::ssize(a)},
-       unit(units, -2, 1), "Young's modulus, of plane stress, of the elastic disk that presses on this rim; 0: springs",
+       unit(units, -2, 1), "Young's modulus, of plane stress, of the elastic disk that presses on this rim in place of the "
+       "springs; 0: springs",
        h5::not_negative.or_else(0));
   file(group + "pressure/disk_nu", Column{a, [](auto& rim) -> auto& { return rim.disk.nu;
   }

@@ -20,14 +20,14 @@ double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves
   if (!rim.disk.is_given()) return rim.modulus * rim.area;
   MatrixXd compliance = waves.M / rim.area;
   compliance.diagonal().head(waves.n_long).array() += 1 / k;
-  constexpr double enough = 2;  // times what would leave a wave no compliance
-  double stiffness = enough / compliance.diagonal().minCoeff();
+  constexpr double enough = 2, margin = 1.5;  // times what would leave a wave no compliance
+  double stiffness = enough * rim.area / waves.least_yield;
   const auto rest = [&](double yield) {
     MatrixXd less = compliance;
     less.diagonal().array() -= yield;
     return less;
   };
-  while (!matrices::is_positive_definite(rest(1.5 / stiffness))) stiffness *= enough;
+  while (!matrices::is_positive_definite(rest(margin / stiffness))) stiffness *= enough;
   return stiffness;
 }
 
@@ -50,7 +50,9 @@ RimProblem::RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> wav
 
 VectorXd RimProblem::against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const {
   if (waves_->yield.size() == 0) return w;
-  return w + waves_->yield.cwiseProduct(pressure) - pressure / modulus() + waves_->yield_by_shear * shear;
+  const VectorXd by_pressure = waves_->yield.cwiseProduct(pressure) - pressure / modulus();
+  if (shear.size() == 0) return w + by_pressure;
+  return w + by_pressure + waves_->yield_by_shear * shear;
 }
 
 RimProblem RimProblem::with(double gap, double mu) const {

@@ -47,6 +47,7 @@ class RimProblem {
   /// Pressure per overlap of the rims, force / length^3.
   [[nodiscard]] double modulus() const { return contact_.stiffness() / area_; }
   /// Waves of the disc's normal displacement against the sheet, with what an elastic disk yields, (n), length.
+  /// @param shear Waves of the shear on the sheet, none without friction.
   [[nodiscard]] VectorXd against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const;
   /// The same rim with another gap and friction.
   [[nodiscard]] RimProblem with(double gap, double mu) const;

@@ -16,12 +16,35 @@ bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const
          a_carried.waves == b_carried.waves && a_carried.compliance == b_carried.compliance;
 }
 
+/// Adds what an elastic disk yields to waves of which D is known, if it is.
+void press_with(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
+  a.M.diagonal() = a.yield = contact.disk.yield(contact.radius, full);
+  a.M_tau = a.yield_by_shear = contact.disk.yield_by_shear(contact.radius, full);
+  VectorXd all = a.yield;
+  if (a.D.size() > 0) all += a.D.diagonal().head(a.n);
+  const Index first = full.is_whole() ? 3 : 2;  // of order 2, of a quarter 4
+  a.least_yield = first < a.n ? all.tail(a.n - first).minCoeff() : all[0];
+}
+
 }  // namespace
 
 ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried) {
   const auto& [full, long_waves] = std::tie(contact.pressures, carried.waves);
-  ShortWaves a{
-      long_waves.size(), full.size(), long_waves.n_shears(), full.n_shears(), {}, {}, {}, {}, {}, {}, {}, {}, {}, {}};
+  ShortWaves a{long_waves.size(),
+               full.size(),
+               long_waves.n_shears(),
+               full.n_shears(),
+               {},
+               {},
+               {},
+               {},
+               {},
+               {},
+               {},
+               {},
+               {},
+               {},
+               0};
   const Index s = a.n - a.n_long, s_t = a.n_shears - a.n_long_shears;
   a.G = MatrixXd::Zero(s, a.n_long);
   a.G_t = MatrixXd::Zero(s, a.n_long_shears);
@@ -30,14 +53,12 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.R_held = MatrixXd::Zero(a.n_long, a.n_long_shears);
   a.M = MatrixXd::Zero(a.n, a.n);
   a.M_tau = MatrixXd::Zero(a.n, a.n_shears);
-  if (contact.disk.is_given()) {
-    a.yield = contact.disk.yield(contact.radius, full);
-    a.yield_by_shear = contact.disk.yield_by_shear(contact.radius, full);
-    a.M.diagonal() = a.yield;
-    a.M_tau = a.yield_by_shear;
+  if (carried.has_closed_form()) a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
+  if (contact.disk.is_given()) press_with(contact, full, a);
+  if (!carried.has_closed_form() || s == 0) {
+    a.D.resize(0, 0);
+    return a;
   }
-  if (!carried.has_closed_form() || s == 0) return a;
-  a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
   constexpr double rounding = 1e-13;  // what couples waves of different order in an isotropic sheet
   a.D = (a.D.array().abs() > rounding * a.D.cwiseAbs().maxCoeff()).select(a.D, 0).eval();
   const MatrixXd nn = a.D.topLeftCorner(a.n, a.n), nt = a.D.topRightCorner(a.n, a.n_shears);

@@ -36,6 +36,7 @@ struct ShortWaves {
   MatrixXd M, M_tau;        ///< (n, n) positive semi-definite, (n, n_shears) length / stress
   VectorXd yield;           ///< (n) of an elastic disk by pressure, length / stress; empty: springs are in its place
   MatrixXd yield_by_shear;  ///< (n, n_shears) length / stress
+  double least_yield = 0;   ///< least of sheet and disk together by any wave of order 2 and more, length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }
   /// Pressures and shears that the elements carry.

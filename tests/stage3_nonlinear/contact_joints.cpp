@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/pfem/material.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
@@ -22,7 +23,7 @@ void add_shears(std::mt19937& random, const MatrixXd& H, const MatrixXd& G, Plat
   motion.bottomRows(1) = Eigen::RowVector2d(1, 0).head(a);
   const MatrixXd to_balance = motion * (motion.transpose() * motion).inverse();
   for (Index i = 0; i < n_holes; ++i) {
-    const auto& pressures = body.contact[i].pressures;
+    const auto& pressures = body.waves[i].waves;
     MatrixXd drag(a, k);
     for (int axis = 0; axis < a; ++axis) drag.row(axis) = pressures.drag(axis).transpose();
     MatrixXd load = MatrixXd::Zero(n, k);
@@ -37,6 +38,15 @@ void add_shears(std::mt19937& random, const MatrixXd& H, const MatrixXd& G, Plat
 /// A body with `n_holes` rims of contact and one external along x. With the moments v of the rims' own displacement and
 /// the external's as unknowns its stiffness P is symmetric and positive definite, or zero for a translation; moments of
 /// the discs against the rims, m = H D - v, make of it that of discs, external and moments.
+/// Isotropic, or a laminate off its axes.
+Eigen::Matrix3d random_sheet(std::mt19937& random) {
+  const double E = decades(random, 300, 3000), nu = uniform(random, 0, 0.4);
+  const double ratio = uniform(random, 0, 1) < 0.5 ? 1 : decades(random, 1, 14);
+  const double G = ratio == 1 ? E / (2 * (1 + nu)) : E * uniform(random, 0.3, 0.6);
+  const pfem::OrthotropicConstants constants{ratio * E, E, E, nu, nu, nu, G};
+  return pfem::elasticity(constants, uniform(random, 0, 3), pfem::Analysis::plane_stress).inverse();
+}
+
 PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool floating) {
   const rim::Harmonics pressures{n_waves};
   const Index k = pressures.size(), n = kind.n_holes * k + 1, a = kind.n_directions, m = kind.n_holes * a;
@@ -63,10 +73,13 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
   PlateModel body;
   for (Index i = 0; i < kind.n_holes; ++i) {
     body.holes.push_back(fmt::format("{}", i + 1));
-    const auto& rim =
-        body.contact.emplace_back(formats::ContactRim{body.holes.back(), pressures, decades(random, 100, 10000), 1, 1});
-    const auto& carried =
-        body.waves.emplace_back(formats::WaveRim{rim.hole, rim.pressures, rim.radius, rim.area, rim.modulus});
+    auto& rim = body.contact.emplace_back(formats::ContactRim{body.holes.back(),
+                                                              rim::Harmonics{kind.short_waves ? 4 * n_waves : n_waves},
+                                                              decades(random, 100, 10000), 1, 1});
+    if (kind.short_waves && uniform(random, 0, 1) < 0.5)
+      rim.disk = {decades(random, 100, 10000), uniform(random, 0, 0.5)};
+    auto& carried = body.waves.emplace_back(formats::WaveRim{rim.hole, pressures, rim.radius, rim.area, rim.modulus});
+    if (kind.short_waves) carried.compliance = random_sheet(random);
     body.short_waves.push_back(std::make_shared<const ShortWaves>(short_waves(rim, carried)));
     body.n_loaded_waves += carried.size();
   }

@@ -19,6 +19,7 @@ struct ContactKind {
   bool floating;  ///< the first plate hangs on its fasteners alone
   double gaps;    ///< their size beside what the load moves
   double mu = 0;
+  bool short_waves = false;  ///< rims have them, and every other one an elastic disk
 };
 
 /// Two elastic bodies of random stiffness, joined through holes whose rims push but do not pull.
@@ -27,7 +28,7 @@ struct ContactKind {
 class ContactJoint : public testing::Test {
  protected:
   std::mt19937 random_{14};
-  ContactKind kind(int i) { return {1 + i % 4, 1 + i % 2, i % 3 == 0, decades(random_, 1e-4, 1e2)}; }
+  ContactKind kind(int i) { return {1 + i % 4, 1 + i % 2, i % 3 == 0, decades(random_, 1e-4, 1e2), 0, i / 4 % 2 == 1}; }
 };
 
 }  // namespace fastjoint::stage3

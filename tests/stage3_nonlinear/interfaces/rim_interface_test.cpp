@@ -18,20 +18,22 @@ Eigen::Matrix3d sheet(bool laminate) {
   return pfem::elasticity({140e3, 10e3, 10e3, 0.3, 0.3, 0.4, 5e3}, 0.4, pfem::Analysis::plane_stress).inverse();
 }
 
-RimProblem rim(bool laminate, double gap, double mu) {
+RimProblem rim(bool laminate, bool elastic, double gap, double mu) {
   const rim::Harmonics all{24}, carried{4};
-  const formats::ContactRim contact{"1", all, K, radius, area};
+  const formats::ContactRim contact{"1",    all,  K,
+                                    radius, area, elastic ? rim::ElasticDisk{50e3, 0.3} : rim::ElasticDisk{}};
   const formats::WaveRim waves{"1", carried, radius, area, K, sheet(laminate)};
-  return {RimContact(all, K * area, gap, mu), std::make_shared<const ShortWaves>(short_waves(contact, waves)), area, k};
+  const auto own = std::make_shared<const ShortWaves>(short_waves(contact, waves));
+  return {RimContact(all, contact_stiffness(contact, *own, k), gap, mu), own, area, k};
 }
 
 TEST(RimInterface, SlopesAndChangesAreDifferences) {
   constexpr double step = 1e-6;
-  for (const bool laminate : {false, true})
+  for (const auto& [laminate, elastic] : {std::pair(false, false), {true, false}, {false, true}, {true, true}})
     for (const double mu : {0.0, 0.3})
       for (const double gap : {0.0, 0.002, -0.002}) {
         const auto interface = [&](double its_gap, double its_mu) {
-          return RimInterface(std::make_shared<const RimProblem>(rim(laminate, its_gap, its_mu)), 0, true);
+          return RimInterface(std::make_shared<const RimProblem>(rim(laminate, elastic, its_gap, its_mu)), 0, true);
         };
         const RimInterface here = interface(gap, mu);
         VectorXd c(9), direction(9);
