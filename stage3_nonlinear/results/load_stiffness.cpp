@@ -23,7 +23,7 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Solv
   const Slopes slopes = point.slopes(-equations.q_at(point.load_factor()));
   const bool gives_way = point.check().at_limit_load() || !slopes.no_column.empty();
   // Rates with the load factor: displacements, and forces on all unknowns as far as they are friction's.
-  const VectorXd delta = point.beyond().times(slopes.c.transpose(), &Response::ddelta).transpose();
+  const VectorXd delta = point.beyond().product(&Response::ddelta, slopes.c);
   const VectorXd Lambda = point.beyond().friction_by(slopes.c);
   const VectorXd D = displacements(joint, system, rates, delta, Lambda);
   const VectorXd friction = friction_loads(joint, system.friction.columns, Lambda);
