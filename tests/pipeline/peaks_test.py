@@ -152,6 +152,24 @@ def elastic_pins(folder):
         near("elastic pin: half-angle of contact by Persson, degrees", found["half-angle"][0], half_angle, 0.2, absolute=True)
 
 
+def pressed_in_disk(folder):
+    """An elastic disk with an interference that keeps it in full contact in a sheet under tension, in closed form: Airy's functions of
+    orders 0 and 2, as (30) and (31) of the paper have them, with the disk's own compliance in the place of the springs'."""
+    E, nu, E_D, nu_D, S, overlap = 70e3, 0.3, 110e3, 0.35, 60.0, 0.004
+    p0 = (overlap - S / E) / ((1 + nu) / E + (1 - nu_D) / E_D)
+    p2 = -2 * S / E / ((5 - nu) / (3 * E) + (3 + nu_D) / (3 * E_D))
+    assert p0 + p2 > 0 and p0 - p2 > 0  # full contact
+    external = [{"id": side, "on": side, "direction": "x", "kind": "rigid"} for side in ("left", "right")]
+    disk = {"compression_only": True, "disk": {"E": E_D, "nu": nu_D, "law": "elastic"}}
+    matrices(folder, plate({"E": E, "nu": nu}, WIDER, WIDER, {"spring": disk}, external=external))
+    force = S * (WIDER[-1] - WIDER[0])
+    found = state(folder, [{"id": "pin", "between": ["sheet:h", "ground"], "law": "law", "gap": -overlap}],
+                  [{"external": "sheet:left", "force": -force}, {"external": "sheet:right", "force": force}])
+    near("elastic disk pressed in, tension: hoop stress", found["hoop"][0], 3 * S + p0 + p2, 1e-5, found["bar"][0])
+    near("  peak pressure", found["pressure"][0], p0 - p2, 1e-5)
+    near("  half-angle of contact, degrees", found["half-angle"][0], 180, 0, absolute=True)
+
+
 # 2 and 3: edges nearby
 
 def column_of_rivets(folder):
@@ -360,7 +378,7 @@ def is_one_pin(scene, joint):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (elastic_pins, isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
+    for check in (elastic_pins, pressed_in_disk, isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
                   rate_in_waves, error_bars, *([truths] if SWEEP else [])):
         check(Path(name))
 if missed:

@@ -3,10 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <cmath>
 #include <complex>
 #include <functional>
 #include <numbers>
+#include <utility>
+
+#include "common/pfem/material.hpp"
+#include "common/rim/rim_compliance.hpp"
 
 namespace fastjoint::rim {
 namespace {
@@ -63,6 +68,19 @@ TEST(ElasticDisk, YieldsAsAFieldInEquilibriumDoes) {
 
 TEST(ElasticDisk, YieldsToEvenPressureByEquation29) {
   EXPECT_NEAR((ElasticDisk{E, nu}.yield(a, {4})[0]), a * (1 - nu) / E, 1e-18);
+}
+
+/// Short waves see a plane border: between bodies of one material shear then opens nothing (Dundurs' second constant is
+/// zero), and what is left is 4 a / (E n^2) of the curved rim.
+TEST(ElasticDisk, OfTheSheetsMaterialFeelsShearAsBordersOfOneMaterialDo) {
+  const Harmonics waves{60};
+  const Eigen::Matrix3d sheet = pfem::elasticity(pfem::isotropic(E, nu), 0, pfem::Analysis::plane_stress).inverse();
+  const Eigen::MatrixXd of_sheet = RimCompliance(sheet, a).displacements(waves).topRightCorner(121, 121);
+  const Eigen::MatrixXd of_disk = ElasticDisk{E, nu}.yield_by_shear(a, waves);
+  for (int n = 2; n <= 60; ++n)
+    for (const auto& [cosine, sine] : {std::pair(2 * n - 1, 2 * n), {2 * n, 2 * n - 1}}) {
+      EXPECT_NEAR(std::abs(of_sheet(cosine, sine) + of_disk(cosine, sine)), 4 * a / (E * (n * n - 1)), 1e-16) << n;
+    }
 }
 
 /// Parts of a rim between lines of symmetry have the waves of the whole that these lines leave.
