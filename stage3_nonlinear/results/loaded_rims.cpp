@@ -179,6 +179,8 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     if (in_contact) {
       loaded->kinks = contacts[i].all.ends;
       loaded->kinks_by_half = contacts[i].half.ends;
+      constexpr double of_root = 1.5;
+      if (plate.short_waves[i]->yield.size() > 0 && contacts[i].all.mu > 0) loaded->beyond_half = of_root;
       loaded->by_half = of_contact(contacts[i], contacts[i].half);
     }
     if (!in_contact && rim.modulus > 0)

@@ -27,6 +27,9 @@ struct LoadedRim {
   // In contact: tractions and their kinks by waves of half the order.
   Tractions by_half{};
   std::vector<double> kinks_by_half{};
+  /// What waves beyond the last may change the peak by, over what the upper half of them does: with friction on an
+  /// elastic disk the peak is that of a root at the end of contact, and comes as N^-1/2.
+  double beyond_half = 0.5;
 
   /// Places one degree apart around the rim, or from end to end of a part of one in equal steps of about that, degrees.
   [[nodiscard]] VectorXd places() const;

@@ -138,7 +138,7 @@ class PeakSearch {
   }
 
   /// Twice the change to the degree below, what the changes by the last two pairs of orders leave for all orders to
-  /// come, and in contact half the change of the peak by the waves beyond half the order (docs/theory.md,
+  /// come, and in contact a share of the change of the peak by the waves beyond half the order (docs/theory.md,
   /// section 11.4).
   [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak,
                              const std::shared_ptr<const TractionWaves>& tractions) const {
@@ -159,7 +159,7 @@ class PeakSearch {
     if (rim_.in_contact)
       if (const auto other = top(rim_.hoop(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
         by_waves = std::abs(other->value - peak.value);
-    return 2 * by_degree + last * fall / (1 - fall) + 0.5 * by_waves;
+    return 2 * by_degree + last * fall / (1 - fall) + rim_.beyond_half * by_waves;
   }
 
   /// Largest difference of two hoop stresses within 45 degrees of a place.
