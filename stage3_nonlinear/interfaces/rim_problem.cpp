@@ -40,6 +40,7 @@ RimProblem::RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> wav
       more_(VectorXd::Constant(waves_->n, waves_->yield.size() > 0 ? -1 / contact_.stiffness() : 0)) {
   more_.head(n_long()).array() += 1 / k;
   if (is_diagonal_) {
+    M_tau_ = waves_->M_tau.sparseView();
     root_ = (waves_->M.diagonal() / area + more_).cwiseSqrt();
   } else {
     MatrixXd M = waves_->M / area;
@@ -136,10 +137,12 @@ RimProblem::State RimProblem::rubbing(const VectorXd& b, VectorXd w) const {
 }
 
 MatrixXd RimProblem::jacobian(const State& at) const {
-  MatrixXd J = modulus() * waves_->M_tau * at.friction.slopes;
+  MatrixXd J;
   if (is_diagonal_) {
+    J = modulus() * (M_tau_ * at.friction.slopes);
     J += modulus() * waves_->M.diagonal().asDiagonal() * at.touching.share;
   } else {
+    J = modulus() * waves_->M_tau * at.friction.slopes;
     J += modulus() * waves_->M * at.touching.share;
   }
   J += contact_.stiffness() * more_.asDiagonal() * at.touching.share;
@@ -169,9 +172,7 @@ bool RimProblem::with_friction(const VectorXd& b, State& at) const {
 
 const RimSolution& RimProblem::solve(const VectorXd& c) const {
   if (last_c_.size() > 0 && last_c_ == c) return last_;
-  VectorXd start;
-  if (last_c_.size() > 0 && last_.converged) start = last_.w + last_.w_by_c * (c - last_c_);
-  last_ = solution(c, start);
+  last_ = solution(c, last_c_.size() > 0 && last_.converged ? last_.w : VectorXd());
   last_c_ = c;
   return last_;
 }

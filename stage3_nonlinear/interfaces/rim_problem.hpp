@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/SparseCore>
 #include <memory>
 
 #include "stage3_nonlinear/interfaces/rim_contact.hpp"
@@ -81,7 +82,8 @@ class RimProblem {
   double area_, k_;
   bool is_diagonal_;  ///< M_k, as in an isotropic sheet
   VectorXd more_;     ///< (n) what M_k has on its diagonal besides M / A, length / force
-  MatrixXd root_;     ///< M_k = root root^T; of a diagonal one its diagonal, (n, 1)
+  Eigen::SparseMatrix<double, Eigen::RowMajor> M_tau_;  ///< of a diagonal M_k, since few entries are not zero
+  MatrixXd root_;                                       ///< M_k = root root^T; of a diagonal one its diagonal, (n, 1)
   mutable VectorXd last_c_;
   mutable RimSolution last_;
 };

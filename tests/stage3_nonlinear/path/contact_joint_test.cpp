@@ -226,5 +226,25 @@ TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
   RecordProperty("unstable", unstable);
 }
 
+/// Of large tangents Krylov's spaces tell whether eigenvalues must be counted: it is never said of an unstable one that
+/// it is stable, and most stable ones are not counted.
+TEST_F(ContactJoint, LargeOnesAreUnstableWhereTheirTangentHasSuchEigenvalues) {
+  int unstable = 0, stable = 0;
+  for (int i = 0; i < 16; ++i) {
+    ContactKind its{24, 2, i % 2 == 0, decades(random_, 1e-4, 1e2), decades(random_, 0.1, 20), i % 4 < 2};
+    const JointEquations equations = make_equations(random_contact_joint(random_, its));
+    ASSERT_GT(equations.n_unknowns(), 400);
+    const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random_, -1, 1); });
+    const SolvedPoint point(equations, 1, c);
+    const TangentCheck& check = point.check();
+    if (check.mechanism) continue;
+    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(*equations.system, point.beyond()));
+    EXPECT_EQ(check.unstable, (values.real().array() < -1e-10).count()) << "joint " << i;
+    (check.unstable > 0 ? unstable : stable) += 1;
+  }
+  EXPECT_GE(unstable, 3);
+  EXPECT_GE(stable, 3);
+}
+
 }  // namespace
 }  // namespace fastjoint::stage3
