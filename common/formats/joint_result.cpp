@@ -26,6 +26,8 @@ constexpr auto quantities = std::to_array<RimQuantity>({
     {"peak_error", &V::peak_error, stress, "estimated error of the largest hoop stress", false, true},
     {"gross_concentration", &V::gross_concentration, ratio, "peak over the stress of the gross section", true},
     {"net_concentration", &V::net_concentration, ratio, "peak over the stress of the net section", true},
+    {"against_slip", &V::against_slip, angle,
+     "part of the contact on which friction acts against the slip that it assumes"},
 });
 
 template <class File, class Rims>

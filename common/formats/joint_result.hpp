@@ -16,6 +16,7 @@ struct RimValues {
   double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
   double bypass_load = 0, bypass_error = 0;
   double peak_hoop = 0, peak_angle = 0, peak_error = 0;
+  double against_slip = 0;                                ///< of contact with friction
   double gross_concentration = 0, net_concentration = 0;  ///< by the larger section force; 0 where there is none
 };
 

@@ -6,12 +6,26 @@ namespace fastjoint::rim {
 // Polynomials of Kolosov and Muskhelishvili, phi = A z^(n+1) and psi = B z^(n-1), with tractions of one order n on the
 // circle give both functions. Orders are those of the whole circle, of which a part that repeats has some.
 
+namespace {
+
+/// Of order 2 and more, on the whole circle.
+Eigen::VectorXd by_own_waves(const ElasticDisk& disk, double radius, int highest) {
+  Eigen::VectorXd whole = Eigen::VectorXd::Zero(2 * Eigen::Index(highest) + 1);
+  for (int n = 2; n <= highest; ++n)
+    whole.segment<2>(2 * n - 1).setConstant((2 * n - 1 + disk.nu) / (double(n) * n - 1) * radius / disk.E);
+  return whole;
+}
+
+}  // namespace
+
 Eigen::VectorXd ElasticDisk::yield(double radius, const Harmonics& waves) const {
-  Eigen::VectorXd whole = Eigen::VectorXd::Zero(2 * waves.highest + 1);
+  Eigen::VectorXd whole = by_own_waves(*this, radius, waves.highest);
   whole[0] = (1 - nu) * radius / E;
-  for (int n = 2; n <= waves.highest; ++n)
-    whole.segment<2>(2 * n - 1).setConstant((2 * n - 1 + nu) / (double(n) * n - 1) * radius / E);
   return waves.pressures_of_whole().cwiseAbs2().transpose() * whole;
+}
+
+Eigen::VectorXd ElasticDisk::give_way(double radius, const Harmonics& waves) const {
+  return waves.shears_of_whole().cwiseAbs2().transpose() * by_own_waves(*this, radius, waves.highest);
 }
 
 Eigen::MatrixXd ElasticDisk::yield_by_shear(double radius, const Harmonics& waves) const {

@@ -22,6 +22,9 @@ struct ElasticDisk {
   /// The same by the shears on the sheet, whose reactions the disk takes, (size, n_shears): a ((1 - nu) n - 2) / (E
   /// (n^2 - 1)) of the cosine by the sine, and minus that of the sine by the cosine.
   [[nodiscard]] Eigen::MatrixXd yield_by_shear(double radius, const Harmonics& waves) const;
+  /// How far the rim of the disk gives way along the shears on it, in each distribution of them, (n_shears), length /
+  /// stress: as to pressure of that order. To pressure it does by the transpose of yield_by_shear.
+  [[nodiscard]] Eigen::VectorXd give_way(double radius, const Harmonics& waves) const;
 };
 
 }  // namespace fastjoint::rim

@@ -20,6 +20,7 @@ bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const
 void press_with(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
   a.M.diagonal() = a.yield = contact.disk.yield(contact.radius, full);
   a.M_tau = a.yield_by_shear = contact.disk.yield_by_shear(contact.radius, full);
+  a.give_way = contact.disk.give_way(contact.radius, full);
   VectorXd all = a.yield;
   if (a.D.size() > 0) all += a.D.diagonal().head(a.n);
   const Index first = full.is_whole() ? 3 : 2;  // of order 2, of a quarter 4
@@ -30,21 +31,9 @@ void press_with(const formats::ContactRim& contact, const rim::Harmonics& full, 
 
 ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRim& carried) {
   const auto& [full, long_waves] = std::tie(contact.pressures, carried.waves);
-  ShortWaves a{long_waves.size(),
-               full.size(),
-               long_waves.n_shears(),
-               full.n_shears(),
-               {},
-               {},
-               {},
-               {},
-               {},
-               {},
-               {},
-               {},
-               {},
-               {},
-               0};
+  ShortWaves a;
+  a.n_long = long_waves.size(), a.n = full.size(), a.n_long_shears = long_waves.n_shears(),
+  a.n_shears = full.n_shears();
   const Index s = a.n - a.n_long, s_t = a.n_shears - a.n_long_shears;
   a.G = MatrixXd::Zero(s, a.n_long);
   a.G_t = MatrixXd::Zero(s, a.n_long_shears);

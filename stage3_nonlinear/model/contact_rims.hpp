@@ -27,8 +27,8 @@ using Eigen::VectorXd;
 /// Where an elastic disk presses in place of the springs, M and M_tau also have what its rim yields, and w of these
 /// formulas is less by that: it is the displacement that is left between the two rims.
 struct ShortWaves {
-  Index n_long, n;                ///< pressures that the elements carry, and all
-  Index n_long_shears, n_shears;  ///< shears likewise
+  Index n_long = 0, n = 0;                ///< pressures that the elements carry, and all
+  Index n_long_shears = 0, n_shears = 0;  ///< shears likewise
   MatrixXd
       D;  ///< (n + n_shears)^2 displacements of an infinite sheet by tractions, length / stress; empty: no short waves
   MatrixXd G, G_t, E;       ///< length / stress, G_t and G times K what the elements' springs make of short waves
@@ -36,6 +36,7 @@ struct ShortWaves {
   MatrixXd M, M_tau;        ///< (n, n) positive semi-definite, (n, n_shears) length / stress
   VectorXd yield;           ///< (n) of an elastic disk by pressure, length / stress; empty: springs are in its place
   MatrixXd yield_by_shear;  ///< (n, n_shears) length / stress
+  VectorXd give_way;        ///< (n_shears) of the disk along shears, length / stress
   double least_yield = 0;   ///< least of sheet and disk together by any wave of order 2 and more, length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }

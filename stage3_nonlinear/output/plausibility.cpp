@@ -123,8 +123,9 @@ struct RimDoubt {
 };
 
 constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
+constexpr double allowed_against = 10;                        // degrees
 
-constexpr std::array<RimDoubt, 6> doubts = {{
+constexpr std::array<RimDoubt, 7> doubts = {{
     {"springs-wrong-arc", [](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
      "the springs of {at} pull the sheet instead of pushing it: they act on the arc that does not bear under these "
      "loads; give the hole's spring the other \"arc\" in PLATE.json"},
@@ -149,6 +150,12 @@ constexpr std::array<RimDoubt, 6> doubts = {{
      "the disc of {at} is held across its one direction by {across:.4g} {force}, beside a bearing force of "
      "{bearing:.4g}, and nothing in the joint gives that; let the discs move: \"disc_directions\": [\"x\", \"y\"] in "
      "all PLATE.json"},
+    {"friction-against-slip",
+     [](const RimState& rim, bool) { return rim.against_slip > allowed_against ? rim.against_slip : 0; },
+     "friction acts against the slip that it makes on {against:.3g} degrees of the contact at {at}: it is taken to "
+     "slip "
+     "everywhere, and sticks there in reality; the loads hardly change, but the peak hoop stress {peak:.4g} {unit} is "
+     "in doubt: compare it with one without friction"},
     {"friction-off-axes", [](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
      "friction acts off the axes, by its components along x and y, at {at}: the loads hold, but peak hoop stresses "
      "there may lack what friction adds to them, most of it at 45 degrees"},
@@ -262,12 +269,12 @@ std::vector<program::Warning> rim_warnings(const JointModel& joint, const std::v
     at += others == 0 ? ")" : fmt::format("; {} other hole{} likewise)", others, others == 1 ? "" : "s");
     using fmt::arg;
     result.push_back(
-        {doubt.code,
-         fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file), arg("at", at),
-                     arg("pull", worst->pull), arg("stress", worst->bearing_stress), arg("peak", worst->peak_hoop),
-                     arg("net", worst->net_concentration), arg("across", std::abs(worst->across)),
-                     arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
-                     arg("force", unit(joint.units, 0, 1)), arg("unit", unit(joint.units, -2, 1)))});
+        {doubt.code, fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file),
+                                 arg("at", at), arg("pull", worst->pull), arg("stress", worst->bearing_stress),
+                                 arg("peak", worst->peak_hoop), arg("net", worst->net_concentration),
+                                 arg("against", worst->against_slip), arg("across", std::abs(worst->across)),
+                                 arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
+                                 arg("force", unit(joint.units, 0, 1)), arg("unit", unit(joint.units, -2, 1)))});
   }
   return result;
 }

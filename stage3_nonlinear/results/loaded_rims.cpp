@@ -95,7 +95,34 @@ void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, Vec
       rows.middleCols(rim.n_long, s) * (p_s - modulus * w_s) + rows.rightCols(s_t) * tau_s;
 }
 
+/// Waves of the disc's displacement along the rim against the sheet, (n_shears).
+/// @param along Long ones, with the disc rigid.
+VectorXd slip_of(const ContactLoad& load, const ShortWaves& rim, const VectorXd& along) {
+  VectorXd slip(rim.n_shears);
+  slip.head(along.size()) = along;
+  const Index s_t = rim.n_shears - rim.n_long_shears;
+  if (s_t > 0) {
+    const auto rows = rim.D.bottomRows(s_t);
+    slip.tail(s_t) = -(rows.leftCols(rim.n) * load.pressure + rows.rightCols(rim.n_shears) * load.shear);
+  }
+  if (rim.yield.size() > 0)
+    slip -= rim.yield_by_shear.transpose() * load.pressure + rim.give_way.cwiseProduct(load.shear);
+  return slip;
+}
+
 }  // namespace
+
+double LoadedRim::against_slip() const {
+  if (slip.size() == 0) return 0;
+  const Index n = std::lround(4 * rim.waves.sweep / rim::degree);
+  Index against = 0;
+  for (Index i = 0; i < n; ++i) {
+    const double angle = rim.waves.start + (double(i) + 0.5) * rim.waves.sweep / double(n);
+    const double shear = degrees[0].tractions(angle).y();
+    if (shear != 0 && shear * all.shears_at(angle).dot(slip) < 0) ++against;
+  }
+  return double(against) * rim.waves.sweep / rim::degree / double(n);
+}
 
 ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
   const RimContact& contact = rim.contact();
@@ -179,6 +206,11 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     if (in_contact) {
       loaded->kinks = contacts[i].all.ends;
       loaded->kinks_by_half = contacts[i].half.ends;
+      if (contacts[i].all.mu > 0) {
+        loaded->all = contacts[i].all.shape;
+        loaded->slip =
+            slip_of(contacts[i], *plate.short_waves[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
+      }
       constexpr double of_root = 1.5;
       if (plate.short_waves[i]->yield.size() > 0 && contacts[i].all.mu > 0) loaded->beyond_half = of_root;
       loaded->by_half = of_contact(contacts[i], contacts[i].half);

@@ -30,6 +30,12 @@ struct LoadedRim {
   /// What waves beyond the last may change the peak by, over what the upper half of them does: with friction on an
   /// elastic disk the peak is that of a root at the end of contact, and comes as N^-1/2.
   double beyond_half = 0.5;
+  VectorXd
+      slip{};  ///< all waves of the disc's displacement along the rim against the sheet, length; none without friction
+  rim::Harmonics all{1};  ///< of which it has the shears
+
+  /// Part of the rim on which friction acts against the slip, degrees.
+  [[nodiscard]] double against_slip() const;
 
   /// Places one degree apart around the rim, or from end to end of a part of one in equal steps of about that, degrees.
   [[nodiscard]] VectorXd places() const;

@@ -96,6 +96,7 @@ class PeakSearch {
     state.peak_hoop = peak->value;
     state.peak_angle = turn(peak->angle / rim::degree);
     state.peak_error = error(hoop, *peak, tractions);
+    state.against_slip = rim_.against_slip();
   }
 
  private:

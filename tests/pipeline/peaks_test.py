@@ -55,7 +55,7 @@ def state(folder, fasteners, loads, laws=RIGID, names=("sheet",)):
     run(folder, "stage3_nonlinear", "joint.json", "-o", "result.h5")
     with h5py.File(folder / "result.h5") as result:
         sheet = result[f"plates/{names[-1]}"]
-        return {"hoop": sheet["rim/peak_hoop"][-1], "bar": sheet["rim/peak_error"][-1], "pressure": sheet["contact/peak_pressure"][-1],
+        return {"against": sheet["rim/against_slip"][-1], "hoop": sheet["rim/peak_hoop"][-1], "bar": sheet["rim/peak_error"][-1], "pressure": sheet["contact/peak_pressure"][-1],
                 "half-angle": sheet["contact/touching"][-1] / 2}
 
 
@@ -165,6 +165,17 @@ def elastic_pins_with_friction(folder):
         near(f"elastic pin with friction {mu}: hoop stress by 64 waves", peak[64], truth, 0.03, bar[64])
         for n in peak:
             assert truth - peak[n] < bar[n], (mu, n, truth, peak, bar)
+
+
+def friction_against_slip(folder):
+    """Degrees on which friction acts against the slip, without gap and with one: none by springs at 0.15, as the paper has it; an elastic disk
+    of the sheet's material slips less, and sticks the more the larger friction is."""
+    E, nu = 70e3, 0.3
+    for law, truths in (("plane stress", {0.15: (0, 0), 0.3: (3.5, 0)}), ("elastic", {0.05: (0, 0), 0.15: (10, 0), 0.3: (42.5, 6)})):
+        for mu, (without, with_gap) in truths.items():
+            solve = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": E, "nu": nu, "law": law}}, WIDE, friction=mu)
+            for gap, truth in ((0, without), (1, with_gap)):
+                near(f"{law}, friction {mu}, E g t/P = {gap}: against the slip, degrees", solve(gap * 1000 / E)["against"][0], truth, 1, absolute=True)
 
 
 def pressed_in_disk(folder):
@@ -393,7 +404,7 @@ def is_one_pin(scene, joint):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (elastic_pins, elastic_pins_with_friction, pressed_in_disk, isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
+    for check in (elastic_pins, elastic_pins_with_friction, friction_against_slip, pressed_in_disk, isotropic_pins, plane_strain_pin, laminate_pins, column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p,
                   rate_in_waves, error_bars, *([truths] if SWEEP else [])):
         check(Path(name))
 if missed:

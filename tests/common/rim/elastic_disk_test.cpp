@@ -63,6 +63,11 @@ TEST(ElasticDisk, YieldsAsAFieldInEquilibriumDoes) {
           disk.yield(a, waves).cwiseProduct(pressure) + disk.yield_by_shear(a, waves) * on_sheet;
       const Eigen::VectorXd truth = waves_of(waves, inward);
       EXPECT_LT((found - truth).norm(), 1e-8 * truth.norm()) << "n = " << n;
+      const Eigen::VectorXd moved =
+          -disk.yield_by_shear(a, waves).transpose() * pressure - disk.give_way(a, waves).cwiseProduct(on_sheet);
+      const Eigen::VectorXd along =
+          waves_of(waves, [&](double angle) { return (u.at(std::polar(a, angle)) * std::polar(1.0, -angle)).imag(); });
+      EXPECT_LT((moved - along).norm(), 1e-8 * along.norm()) << "n = " << n;
     }
 }
 
