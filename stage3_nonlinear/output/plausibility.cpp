@@ -123,7 +123,7 @@ struct RimDoubt {
 };
 
 constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
-constexpr double allowed_against = 10;                        // degrees
+constexpr double allowed_against = 20;                        // degrees
 
 constexpr std::array<RimDoubt, 7> doubts = {{
     {"springs-wrong-arc", [](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },

@@ -44,6 +44,17 @@ TEST(RimWarnings, DoubtAPeakBelowTheNetStressWhereSpringsPull) {
     for (const auto& each : warnings_of(rim)) EXPECT_NE(each.code, "kt-below-one") << each.text;
 }
 
+TEST(RimWarnings, DoubtFrictionAgainstTheSlipItMakes) {
+  RimState rim;
+  rim.against_slip = 25;
+  EXPECT_THAT(warnings_of(rim),
+              testing::Contains(test::is_warning("friction-against-slip",
+                                                 "joint.json: friction acts against the slip that it makes "
+                                                 "on 25 degrees of the contact at hole ")));
+  rim.against_slip = 15;
+  for (const auto& each : warnings_of(rim)) EXPECT_NE(each.code, "friction-against-slip") << each.text;
+}
+
 class Failures : public ContactJoint {
  protected:
   /// What is said of an end at an entry: a plane, or behind the planes a rim.
