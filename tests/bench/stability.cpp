@@ -15,6 +15,7 @@
 #include "stage3_nonlinear/solvers/root.hpp"
 #include "tests/bench/gsl_methods.hpp"
 #include "tests/bench/stability_falling.hpp"
+#include "tests/bench/stability_friction.hpp"
 #include "tests/bench/stability_trial.hpp"
 
 namespace {
@@ -148,11 +149,12 @@ int main(int argc, char** argv) {
   const std::string task = given ? arguments[0] : "";
   const int n = given ? number(arguments[1]) : 0;
   const RootOptions options{tolerance, arguments.size() == 3 ? number(arguments[2]) : 200};
-  if ((task != "check" && task != "chart") || n < 1 || options.max_iterations < 1) {
-    std::cerr << "usage: stability check|chart JOINTS [MAX_ITERATIONS]\n";
+  if ((task != "check" && task != "chart" && task != "friction") || n < 1 || options.max_iterations < 1) {
+    std::cerr << "usage: stability check|chart|friction JOINTS [MAX_ITERATIONS]\n";
     return 2;
   }
   stage3::take_over_gsl_errors();
+  if (task == "friction") return chart_friction(n) ? 0 : 1;
   if (task == "check") return check(n, options) ? 0 : 1;
   chart(n, options);
   return 0;
