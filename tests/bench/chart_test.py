@@ -40,7 +40,7 @@ def main(bin_folder):
     assert f"promises broken: {len(broken)}\n" in few.stdout, few.stdout
 
     usage = subprocess.run(["stability", "check", "many"], capture_output=True, text=True)
-    assert usage.returncode == 2 and usage.stderr == "usage: stability check|chart JOINTS [MAX_ITERATIONS]\n"
+    assert usage.returncode == 2 and usage.stderr == "usage: stability check|chart|friction JOINTS [MAX_ITERATIONS]\n"
 
 
 if __name__ == "__main__":

@@ -81,7 +81,8 @@ struct DiscState {
 /// The disc of a plate under contact coordinates c of the first waves.
 DiscState state_of(const PlateModel& plate, double gap, double mu, const Eigen::Vector2d& u) {
   const Index k = plate.n_unknowns() - 2;
-  constexpr double stiffness = 1e4;  // little, so that the springs which keep a disk from overlapping are always the same
+  constexpr double stiffness =
+      1e4;  // little, so that the springs which keep a disk from overlapping are always the same
   const auto& contact = plate.contact[0];
   const RimProblem rim(
       RimContact(contact.pressures, contact_stiffness(contact, *plate.short_waves[0], stiffness), gap, mu),
