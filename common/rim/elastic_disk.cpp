@@ -32,7 +32,7 @@ Eigen::MatrixXd ElasticDisk::yield_by_shear(double radius, const Harmonics& wave
   const Eigen::Index size = 2 * Eigen::Index(waves.highest) + 1;
   Eigen::MatrixXd whole = Eigen::MatrixXd::Zero(size, size);
   for (int n = 2; n <= waves.highest; ++n) {
-    const Eigen::Index cosine = 2 * n - 1, sine = 2 * n;
+    const Eigen::Index sine = 2 * Eigen::Index(n), cosine = sine - 1;
     whole(cosine, sine) = ((1 - nu) * n - 2) / (double(n) * n - 1) * radius / E;
     whole(sine, cosine) = -whole(cosine, sine);
   }

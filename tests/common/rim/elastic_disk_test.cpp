@@ -13,8 +13,7 @@
 #include "common/pfem/material.hpp"
 #include "common/rim/rim_compliance.hpp"
 
-namespace fastjoint::rim {
-namespace {
+namespace fastjoint::rim::elastic_disk_test {
 
 constexpr double E = 70e3, nu = 0.3, a = 2.5;
 using Complex = std::complex<double>;
@@ -103,5 +102,4 @@ TEST(ElasticDisk, YieldsOnPartsOfARimAsOnTheWhole) {
     }
 }
 
-}  // namespace
-}  // namespace fastjoint::rim
+}  // namespace fastjoint::rim::elastic_disk_test
