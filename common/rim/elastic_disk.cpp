@@ -8,7 +8,7 @@ namespace fastjoint::rim {
 
 namespace {
 
-/// Of order 2 and more, on the whole circle.
+/// What each wave of order 2 and more yields to itself, on the whole circle, length / stress.
 Eigen::VectorXd by_own_waves(const ElasticDisk& disk, double radius, int highest) {
   Eigen::VectorXd whole = Eigen::VectorXd::Zero(2 * Eigen::Index(highest) + 1);
   for (int n = 2; n <= highest; ++n)

@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 ///   d = w_L + G^T (p - K w)_S + E tau_S,   and   delta = d + C_held p_L + R_held tau_L.
 /// In an isotropic sheet waves of different order are apart: delta = d = w_L.
 ///
-/// Where an elastic disk presses in place of the springs, M and M_tau also have what its rim yields, and w of these
+/// An elastic disk that presses in place of the springs adds what its rim yields to M and M_tau, and w of these
 /// formulas is less by that: it is the displacement that is left between the two rims.
 struct ShortWaves {
   Index n_long = 0, n = 0;                ///< pressures that the elements carry, and all

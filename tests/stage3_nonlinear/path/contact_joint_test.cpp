@@ -208,6 +208,18 @@ TEST_F(ContactJoint, TheTangentKnowsFriction) {
   }
 }
 
+/// Number of ways in which a joint is unstable at random coordinates, which is that of all eigenvalues of its tangent;
+/// none of a mechanism.
+std::optional<Index> checked_instability(const JointEquations& equations, std::mt19937& random) {
+  const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random, -1, 1); });
+  const SolvedPoint point(equations, 1, c);
+  const TangentCheck& check = point.check();
+  if (check.mechanism) return std::nullopt;
+  const Eigen::VectorXcd values = matrices::eigenvalues(tangent(*equations.system, point.beyond()));
+  EXPECT_EQ(check.unstable, (values.real().array() < -1e-10).count());
+  return check.unstable;
+}
+
 /// Where friction is large a count of eigenvalues tells of instability, unless the symmetric part rules it out.
 TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
   int unstable = 0;
@@ -215,32 +227,23 @@ TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
     ContactKind its = kind(i);
     its.mu = decades(random_, 0.5, 20);
     const JointEquations equations = make_equations(random_contact_joint(random_, its));
-    const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random_, -1, 1); });
-    const SolvedPoint point(equations, 1, c);
-    const TangentCheck& check = point.check();
-    if (check.mechanism) continue;
-    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(*equations.system, point.beyond()));
-    EXPECT_EQ(check.unstable, (values.real().array() < -1e-10).count()) << "joint " << i;
-    if (check.unstable > 0) ++unstable;
+    const auto found = checked_instability(equations, random_);
+    if (!found) continue;
+    if (*found > 0) ++unstable;
   }
   RecordProperty("unstable", unstable);
 }
 
-/// Of large tangents Krylov's spaces tell whether eigenvalues must be counted: it is never said of an unstable one that
-/// it is stable, and most stable ones are not counted.
+/// Krylov's spaces of large tangents tell whether eigenvalues must be counted; the count is that of all eigenvalues.
 TEST_F(ContactJoint, LargeOnesAreUnstableWhereTheirTangentHasSuchEigenvalues) {
   int unstable = 0, stable = 0;
   for (int i = 0; i < 16; ++i) {
     ContactKind its{24, 2, i % 2 == 0, decades(random_, 1e-4, 1e2), decades(random_, 0.1, 20), i % 4 < 2};
     const JointEquations equations = make_equations(random_contact_joint(random_, its));
     ASSERT_GT(equations.n_unknowns(), 400);
-    const VectorXd c = VectorXd::NullaryExpr(equations.n_unknowns(), [&] { return uniform(random_, -1, 1); });
-    const SolvedPoint point(equations, 1, c);
-    const TangentCheck& check = point.check();
-    if (check.mechanism) continue;
-    const Eigen::VectorXcd values = matrices::eigenvalues(tangent(*equations.system, point.beyond()));
-    EXPECT_EQ(check.unstable, (values.real().array() < -1e-10).count()) << "joint " << i;
-    (check.unstable > 0 ? unstable : stable) += 1;
+    const auto found = checked_instability(equations, random_);
+    if (!found) continue;
+    (*found > 0 ? unstable : stable) += 1;
   }
   EXPECT_GE(unstable, 3);
   EXPECT_GE(stable, 3);
