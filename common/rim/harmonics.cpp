@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <span>
 #include <vector>
 
 namespace fastjoint::rim {
@@ -70,41 +71,71 @@ class Multiples {
   std::vector<std::complex<double>> turns_;
 };
 
-/// Integrals of the products of waves between two angles, (rows, columns).
-Eigen::MatrixXd integrals(const std::vector<Wave>& rows, const std::vector<Wave>& columns, double unit, double a,
-                          double b) {
-  const int most = rows.back().multiple + columns.back().multiple;
-  // Integrals of cos(j phase) and sin(j phase), j = -most..most.
-  Eigen::VectorXd cosines(2 * most + 1), sines(2 * most + 1);
-  double *cosine = cosines.data() + most, *sine = sines.data() + most;
-  cosine[0] = b - a, sine[0] = 0;
-  const Multiples half_width((b - a) / 2, most), middle((a + b) / 2, most);
-  for (int j = 1; j <= most; ++j) {
-    const double width = 2.0 / j * half_width.sine(j);
-    cosine[j] = cosine[-j] = width * middle.cosine(j);
-    sine[j] = width * middle.sine(j);
-    sine[-j] = -sine[j];
-  }
-  Eigen::MatrixXd result(std::ssize(rows), std::ssize(columns));
-  for (Eigen::Index l = 0; l < result.cols(); ++l) {
-    const Wave& column = columns[l];
-    const double scale = column.amplitude / 2 / unit, sign = column.is_sine ? -1 : 1;
-    for (Eigen::Index k = 0; k < result.rows(); ++k) {
-      const Wave& row = rows[k];
-      const int sum = row.multiple + column.multiple, difference = row.multiple - column.multiple;
-      result(k, l) = scale * row.amplitude *
-                     (row.is_sine == column.is_sine ? cosine[difference] + sign * cosine[sum]
-                                                    : sine[sum] + sign * sine[difference]);
-    }
-  }
-  return result;
+/// Adds to a complex number x + i y, then turns it by the angle whose cosine and sine are c and s: a step of Horner's
+/// rule.
+void turn(double& x, double& y, double c, double s, double more_x, double more_y) {
+  const double sum_x = x + more_x, sum_y = y + more_y;
+  x = c * sum_x - s * sum_y;
+  y = s * sum_x + c * sum_y;
 }
 
-template <class WaveOf>
-std::vector<Wave> waves(const Harmonics& a, int n, WaveOf wave_of) {
-  std::vector<Wave> list;
-  for (int k = 0; k < n; ++k) list.push_back(wave_of(a, k));
-  return list;
+/// Waves of one kind and one amplitude in the order of a list of distributions: multiples first, first + 1, ... at
+/// places place, place + stride, ...
+struct WaveGroup {
+  int first, count;
+  bool are_sines;
+  Eigen::Index place, stride;
+  [[nodiscard]] double amplitude() const { return first == 0 ? 1 : std::numbers::sqrt2; }
+};
+
+/// All waves of pressure, or of shear.
+std::vector<WaveGroup> waves_of(const Harmonics& a, bool of_shear) {
+  if (a.is_whole()) return {{0, 1, false, 0, 1}, {1, a.highest, false, 1, 2}, {1, a.highest, true, 2, 2}};
+  if (of_shear) return {{1, a.n_shears(), true, 0, 1}};
+  return {{0, 1, false, 0, 1}, {1, a.size() - 1, false, 1, 1}};
+}
+
+/// Sums over pieces of a rim of the integrals of cos(j phase) and of sin(j phase), j = -most..most at place most + j.
+struct IntegralsOfMultiples {
+  Eigen::ArrayXd cosines, sines;
+  IntegralsOfMultiples(const Harmonics& a, std::span<const SignedRange> pieces, int most)
+      : cosines(Eigen::ArrayXd::Zero(2 * most + 1)), sines(Eigen::ArrayXd::Zero(2 * most + 1)) {
+    for (const auto& piece : pieces) {
+      const double from = unit(a) * (piece.from - a.start), to = unit(a) * (piece.to - a.start);
+      const Multiples half_width((to - from) / 2, most), middle((from + to) / 2, most);
+      cosines[most] += piece.sign * (to - from);
+      for (int j = 1; j <= most; ++j) {
+        const double width = piece.sign * 2.0 / j * half_width.sine(j);
+        cosines[most + j] += width * middle.cosine(j);
+        sines[most + j] += width * middle.sine(j);
+      }
+    }
+    cosines.head(most) = cosines.tail(most).reverse();
+    sines.head(most) = -sines.tail(most).reverse();
+  }
+};
+
+/// Sums over pieces of a rim of the integrals over theta of the products of waves, (rows, columns).
+Eigen::MatrixXd integrals(const Harmonics& a, bool of_shear, std::span<const SignedRange> pieces) {
+  const int most = 2 * (fastjoint::rim::most(a) + 1);
+  const IntegralsOfMultiples of(a, pieces, most);
+  Eigen::MatrixXd result(of_shear ? a.n_shears() : a.size(), a.size());
+  for (const auto& columns : waves_of(a, false))
+    for (int i = 0; i < columns.count; ++i)
+      for (const auto& rows : waves_of(a, of_shear)) {
+        const int column = columns.first + i;
+        const double scale = columns.amplitude() * rows.amplitude() / 2 / unit(a);
+        const Eigen::ArrayXd& kind = rows.are_sines == columns.are_sines ? of.cosines : of.sines;
+        const auto difference = kind.segment(most + rows.first - column, rows.count);
+        const auto sum = kind.segment(most + rows.first + column, rows.count);
+        Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<>> out(&result(rows.place, columns.place + i * columns.stride),
+                                                                rows.count, Eigen::InnerStride<>(rows.stride));
+        if (!rows.are_sines && columns.are_sines)
+          out = scale * (sum - difference);
+        else
+          out = scale * (difference + (columns.are_sines ? -1 : 1) * sum);
+      }
+  return result;
 }
 
 }  // namespace
@@ -141,15 +172,19 @@ std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& amounts, doub
   for (int j = most(*this); j >= 1; --j) {
     const Eigen::Index at = is_whole() ? 2 * Eigen::Index(j) - 1 : j;
     const double cosine = amounts[at], sine = is_whole() ? amounts[at + 1] : 0;
-    const auto turned = [&](double& x, double& y, double more_x, double more_y) {
-      const double sum_x = x + more_x, sum_y = y + more_y;
-      x = c * sum_x - s * sum_y;
-      y = s * sum_x + c * sum_y;
-    };
-    turned(re, im, cosine, -sine);
-    turned(slope_re, slope_im, j * cosine, -j * sine);
+    turn(re, im, c, s, cosine, -sine);
+    turn(slope_re, slope_im, c, s, j * cosine, -j * sine);
   }
   return {amounts[0] + std::numbers::sqrt2 * re, -std::numbers::sqrt2 * unit(*this) * slope_im};
+}
+
+double Harmonics::shear_sum_at(const Eigen::VectorXd& amounts, double angle) const {
+  if (is_whole()) return sum_at(amounts, angle).first;
+  const double phase = unit(*this) * (angle - start);
+  const double c = std::cos(phase), s = std::sin(phase);
+  double re = 0, im = 0;
+  for (Eigen::Index j = amounts.size(); j >= 1; --j) turn(re, im, c, s, 0, -amounts[j - 1]);
+  return std::numbers::sqrt2 * re;
 }
 
 Eigen::VectorXd Harmonics::shears_at(double angle) const {
@@ -172,14 +207,12 @@ Eigen::VectorXd Harmonics::drag(int axis) const {
   return means;
 }
 
-Eigen::MatrixXd Harmonics::products(double from, double to) const {
-  const auto all = waves(*this, size(), pressure_wave);
-  return integrals(all, all, unit(*this), unit(*this) * (from - start), unit(*this) * (to - start));
+Eigen::MatrixXd Harmonics::products(std::span<const SignedRange> pieces) const {
+  return integrals(*this, false, pieces);
 }
 
-Eigen::MatrixXd Harmonics::shear_products(double from, double to) const {
-  return integrals(waves(*this, n_shears(), shear_wave), waves(*this, size(), pressure_wave), unit(*this),
-                   unit(*this) * (from - start), unit(*this) * (to - start));
+Eigen::MatrixXd Harmonics::shear_products(std::span<const SignedRange> pieces) const {
+  return integrals(*this, true, pieces);
 }
 
 std::vector<std::string> friction_cases(std::span<const std::string> directions) {

@@ -14,6 +14,11 @@ namespace fastjoint::rim {
 /// Most waves of a pressure around a hole.
 inline constexpr int most_harmonics = 200;
 
+/// Part of a rim, radians counter-clockwise from x, whose integrals count times a sign.
+struct SignedRange {
+  double from, to, sign = 1;
+};
+
 /// Distributions of pressure and of shear over the part of a hole's circle that the model has, each kind orthonormal in
 /// the mean over it: of a whole circle 1, sqrt(2) cos(j theta), sqrt(2) sin(j theta), j = 1..highest, for both; of the
 /// part from `start` on over `sweep`, whose ends lie on lines of symmetry, 1 and sqrt(2) cos(j pi (theta - start) /
@@ -35,6 +40,8 @@ struct Harmonics {
   [[nodiscard]] Eigen::VectorXd at(double angle) const;
   /// A sum of pressures at an angle and its derivative there, by amounts of each, (size).
   [[nodiscard]] std::pair<double, double> sum_at(const Eigen::VectorXd& amounts, double angle) const;
+  /// A sum of shears at an angle, by amounts of each, (n_shears).
+  [[nodiscard]] double shear_sum_at(const Eigen::VectorXd& amounts, double angle) const;
   /// Values of all shears at an angle, (n_shears).
   [[nodiscard]] Eigen::VectorXd shears_at(double angle) const;
   /// Means over the whole circle, or over the part that the model has along its line of symmetry, of pressures times
@@ -45,10 +52,10 @@ struct Harmonics {
   /// make of a part that repeats: (2 highest + 1, size) and (2 highest + 1, n_shears), with orthonormal columns.
   [[nodiscard]] Eigen::MatrixXd pressures_of_whole() const;
   [[nodiscard]] Eigen::MatrixXd shears_of_whole() const;
-  /// Integrals over theta of the products of pressures between two angles, shape (size, size), radians.
-  [[nodiscard]] Eigen::MatrixXd products(double from, double to) const;
+  /// Sums over pieces of the rim of the integrals over theta of the products of pressures, shape (size, size), radians.
+  [[nodiscard]] Eigen::MatrixXd products(std::span<const SignedRange> pieces) const;
   /// The same of shears with pressures, shape (n_shears, size), radians.
-  [[nodiscard]] Eigen::MatrixXd shear_products(double from, double to) const;
+  [[nodiscard]] Eigen::MatrixXd shear_products(std::span<const SignedRange> pieces) const;
 };
 
 /// Waves of a rim that the finite elements carry: unit pressures and unit shears, and the displacements of the disc

@@ -92,8 +92,9 @@ Touching RimContact::touching(const VectorXd& m) const {
     if (before && !touches) result.arcs.back().to = end_between(m, all[i - 1].angle, all[i].angle, false);
   }
   if (all.back().depth > 0) result.arcs.back().to = all.back().angle;
-  for (const auto& arc : result.arcs) result.share += pressures_.products(arc.from, arc.to);
-  result.share /= pressures_.sweep;
+  std::vector<rim::SignedRange> pieces;
+  for (const auto& arc : result.arcs) pieces.push_back({arc.from, arc.to});
+  if (!pieces.empty()) result.share = pressures_.products(pieces) / pressures_.sweep;
   return result;
 }
 

@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 /// Mean over the rim of the products of shears with pressures where it touches, each times -sign(sin(theta -
 /// direction)).
 MatrixXd signed_share(const rim::Harmonics& pressures, const Touching& at, double direction) {
-  MatrixXd share = MatrixXd::Zero(pressures.n_shears(), pressures.size());
+  std::vector<rim::SignedRange> pieces;
   for (const auto& arc : at.arcs) {
     std::vector<double> ends{arc.from, arc.to};
     for (double turn = rim::wrapped(direction, arc.from); turn < arc.to; turn += std::numbers::pi) ends.push_back(turn);
@@ -23,10 +23,10 @@ MatrixXd signed_share(const rim::Harmonics& pressures, const Touching& at, doubl
     std::ranges::sort(ends);
     for (std::size_t i = 1; i < ends.size(); ++i) {
       const double sign = std::sin(0.5 * (ends[i - 1] + ends[i]) - direction) > 0 ? -1 : 1;
-      share += sign * pressures.shear_products(ends[i - 1], ends[i]);
+      pieces.push_back({ends[i - 1], ends[i], sign});
     }
   }
-  return share / pressures.sweep;
+  return pressures.shear_products(pieces) / pressures.sweep;
 }
 
 }  // namespace

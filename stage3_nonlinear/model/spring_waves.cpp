@@ -19,14 +19,15 @@ SpringWaves make(const formats::WaveRim& rim) {
   const Index n_long = rim.waves.size(), n = full.size(), s = n - n_long;
   if (s == 0) return {full, MatrixXd(0, n_long), MatrixXd(0, quarters), true};
   const MatrixXd D = rim::RimCompliance(rim.compliance, rim.radius).displacements(full).middleRows(n_long, s);
-  MatrixXd sprung = MatrixXd::Zero(n, n);  // K times the mean over the rim of products, where springs act
+  std::vector<rim::SignedRange> sprung_arcs;
   for (const auto& arc : rim.acts)
     for (const int turns : {-1, 0, 1}) {
       const double from = std::max(arc.from + turns * rim::full_turn, full.start);
       const double to = std::min(arc.to + turns * rim::full_turn, full.start + full.sweep);
-      if (from < to) sprung += full.products(from, to);
+      if (from < to) sprung_arcs.push_back({from, to});
     }
-  sprung *= rim.modulus / full.sweep;
+  // K times the mean over the rim of products, where springs act
+  const MatrixXd sprung = rim.modulus / full.sweep * full.products(sprung_arcs);
   MatrixXd shear = MatrixXd::Zero(full.n_shears(), quarters);
   for (int i = 0; i < points; ++i) {
     const double angle = full.start + (i + 0.5) / points * full.sweep;

@@ -24,7 +24,10 @@ bool TouchSearch::make_the_difference(const Sample& a, const Sample& b) const {
 
 std::optional<double> TouchSearch::place_between(const Sample& a, const Sample& b) {
   if (!make_the_difference(a, b)) return std::nullopt;
-  constexpr double further = 0.02, at_ends = 1e-3;
+  constexpr double further = 0.02, at_ends = 1e-3, hardly_less = 0.9;
+  const double length = b.load - a.load, before = std::exchange(last_length_, length);
+  // The rim of a loose bolt can touch by rounding, and then tells nothing.
+  if (length < before && length > hardly_less * before) return std::nullopt;
   std::optional<double> first;
   std::array<std::optional<VectorXd>, 2> rates;
   for (Index j = 0; j < std::ssize(a.passed); ++j) {

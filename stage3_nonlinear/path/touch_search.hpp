@@ -31,7 +31,7 @@ class TouchSearch {
   [[nodiscard]] bool make_the_difference(const Sample& a, const Sample& b) const;
   /// Load factor between two such states by which the first of these rims ceases to touch, and a little more, so that
   /// either state comes much closer: by the rate at which it is pressed in where it touches. A bolt that does not touch
-  /// lies anywhere and tells nothing.
+  /// lies anywhere and tells nothing. None if the last place left nearly the whole interval: then half of it is better.
   [[nodiscard]] std::optional<double> place_between(const Sample& a, const Sample& b);
 
  private:
@@ -41,6 +41,7 @@ class TouchSearch {
 
   const JointEquations& equations_;
   const ContactCorners& corners_;
+  double last_length_ = 0;                           ///< of the interval in which a place was last asked for
   std::map<Index, std::pair<double, double>> last_;  ///< of each rim's entry: load factor and ratio
 };
 

@@ -61,7 +61,7 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
     w << long_w, springs->by_long * long_w + springs->by_friction * by_quarter;
   }
   return [=, modulus = rim.modulus, acts = rim.acts](double angle) -> Eigen::Vector2d {
-    const double pressure = rim::covers(acts, angle) ? modulus * shape.at(angle).dot(w) : 0;
+    const double pressure = rim::covers(acts, angle) ? modulus * shape.sum_at(w, angle).first : 0;
     return known.at(angle) + Eigen::Vector2d(pressure, 0);
   };
 }
@@ -69,7 +69,7 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
 /// Tractions of contact: what the springs push with, and friction in proportion.
 Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contour) {
   return [gap = load.gap, modulus = load.modulus, contour](double angle) -> Eigen::Vector2d {
-    const double p = modulus * std::max(contour.shape.at(angle).dot(contour.w) - gap, 0.0);
+    const double p = modulus * std::max(contour.shape.sum_at(contour.w, angle).first - gap, 0.0);
     return {p, -contour.mu * p * sign_of(std::sin(angle - contour.direction))};
   };
 }
@@ -119,7 +119,7 @@ double LoadedRim::against_slip() const {
   for (Index i = 0; i < n; ++i) {
     const double angle = rim.waves.start + (double(i) + 0.5) * rim.waves.sweep / double(n);
     const double shear = degrees[0].tractions(angle).y();
-    if (shear != 0 && shear * all.shears_at(angle).dot(slip) < 0) ++against;
+    if (shear != 0 && shear * all.shear_sum_at(slip, angle) < 0) ++against;
   }
   return double(against) * rim.waves.sweep / rim::degree / double(n);
 }

@@ -4,19 +4,22 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <vector>
 
 namespace fastjoint::rim {
 namespace {
 
 const Harmonics kinds[] = {{5}, {5, -full_turn / 4, full_turn / 2}, {6, 0, full_turn / 4}, {7, 0.3, 2.1}};
 
-/// Mean over an angle range by the trapezoidal rule, exact to rounding for whole waves, else to 1e-9.
-Eigen::MatrixXd integral_of_products(const Harmonics& a, double from, double to) {
+/// Integral over an angle range of the products of rows with columns by the trapezoidal rule, exact to rounding for
+/// whole waves, else to 1e-9.
+template <class Rows>
+Eigen::MatrixXd integral_of_products(const Harmonics& a, double from, double to, Rows rows) {
   constexpr int n = 100000;
-  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(a.size(), a.size());
+  Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(rows(from).size(), a.size());
   for (int i = 0; i <= n; ++i) {
-    const Eigen::VectorXd phi = a.at(from + (to - from) * i / n);
-    sum += (i == 0 || i == n ? 0.5 : 1.0) * phi * phi.transpose();
+    const double angle = from + (to - from) * i / n;
+    sum += (i == 0 || i == n ? 0.5 : 1.0) * rows(angle) * a.at(angle).transpose();
   }
   return sum * (to - from) / n;
 }
@@ -29,7 +32,7 @@ Eigen::VectorXd slopes(const Harmonics& a, double angle) {
 
 TEST(Harmonics, AreOrthonormalInTheMeanOverTheirRim) {
   for (const auto& a : kinds) {
-    const Eigen::MatrixXd mean = a.products(a.start, a.start + a.sweep) / a.sweep;
+    const Eigen::MatrixXd mean = a.products({{{a.start, a.start + a.sweep}}}) / a.sweep;
     EXPECT_LT((mean - Eigen::MatrixXd::Identity(a.size(), a.size())).cwiseAbs().maxCoeff(), 1e-14) << a.sweep;
   }
 }
@@ -37,9 +40,25 @@ TEST(Harmonics, AreOrthonormalInTheMeanOverTheirRim) {
 TEST(Harmonics, IntegralsOfProductsAreThoseOfAQuadrature) {
   for (const auto& a : kinds)
     for (const double from : {0.0, 0.4}) {
-      const double low = a.start + from, high = a.start + 0.7 * a.sweep;
-      EXPECT_LT((a.products(low, high) - integral_of_products(a, low, high)).cwiseAbs().maxCoeff(), 1e-7) << a.sweep;
+      const double low = a.start + from, middle = a.start + 0.5 * a.sweep, high = a.start + 0.7 * a.sweep;
+      const std::vector<SignedRange> pieces{{low, middle}, {middle, high, -1}};
+      const auto difference = [&](auto rows) {
+        return (integral_of_products(a, low, middle, rows) - integral_of_products(a, middle, high, rows)).eval();
+      };
+      const auto off = [](const Eigen::MatrixXd& x, const Eigen::MatrixXd& y) { return (x - y).cwiseAbs().maxCoeff(); };
+      const auto pressures = [&](double angle) { return a.at(angle); };
+      const auto shears = [&](double angle) { return a.shears_at(angle); };
+      EXPECT_LT(off(a.products(pieces), difference(pressures)), 1e-7) << a.sweep;
+      EXPECT_LT(off(a.shear_products(pieces), difference(shears)), 1e-7) << a.sweep;
     }
+}
+
+TEST(Harmonics, SumsOfShearsAreThoseOfTheirValues) {
+  for (const auto& a : kinds) {
+    const Eigen::VectorXd amounts = Eigen::VectorXd::LinSpaced(a.n_shears(), -1, 2);
+    for (const double angle : {-1.3, 0.2, 2.9})
+      EXPECT_NEAR(a.shear_sum_at(amounts, angle), amounts.dot(a.shears_at(angle)), 1e-13) << a.sweep;
+  }
 }
 
 TEST(Harmonics, SlopesAreDerivatives) {
