@@ -172,7 +172,9 @@ bool RimProblem::with_friction(const VectorXd& b, State& at) const {
 
 const RimSolution& RimProblem::solve(const VectorXd& c) const {
   if (last_c_.size() > 0 && last_c_ == c) return last_;
-  last_ = solution(c, last_c_.size() > 0 && last_.converged ? last_.w : VectorXd());
+  VectorXd start;
+  if (last_c_.size() > 0 && last_.converged) start = last_.w + last_.w_by_c * (c - last_c_);
+  last_ = solution(c, start);
   last_c_ = c;
   return last_;
 }
