@@ -33,7 +33,6 @@ class Setting:
     space: str = None
     rings: int = None
     p: int = None
-    harmonics: int = None
 
     def of(self, sheet):
         """The sheet's PLATE.json with this setting."""
@@ -41,8 +40,6 @@ class Setting:
         for hole in sheet["holes"]:
             if self.rings is not None:
                 hole["rings"] = self.rings
-            if self.harmonics is not None:
-                hole["spring"]["harmonics"] = self.harmonics
         return sheet
 
 
