@@ -21,7 +21,12 @@ const fastjoint::program::Command command{
          "also write how the forces, and at the last increment the peaks, change with every load, clearance, gap, "
          "number of a\n"
          "law and coefficient of friction"},
-        {"--verbose", "", "say on stderr what each iteration of each try does"}}};
+        {"--verbose", "", "say on stderr what each iteration of each try does"},
+        {"--study", "FILE", "solve the joint for all samples of a STUDY.json; -o then is a STUDY.h5"},
+        {"--threads", "N", "of a study: threads; default: as many as there are processors"},
+        {"--slice", "I/N", "of a study: solve only the I-th of N parts of the samples, into the folder of -o's parts"},
+        {"--merge", "", "of a study: solve nothing, make -o from the parts that all slices have left"},
+        {"--sample", "K", "of a study: write the JOINT.json of sample K, counted from 0, to -o"}}};
 
 }  // namespace
 

@@ -15,6 +15,7 @@
 #include "common/program/warning.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/study/run_study.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -97,6 +98,14 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
 }  // namespace
 
 void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
+  if (arguments.flag("--study")) {
+    for (const char* option : {"--csv", "--sensitivities", "--rim-stresses", "--all-stresses", "--verbose"})
+      if (arguments.flag(option))
+        throw InputError(fmt::format("{}: given beside --study; allowed: one of them", option));
+    return run_study(arguments, out, log, timings);
+  }
+  for (const char* option : {"--sample", "--slice", "--merge", "--threads"})
+    if (arguments.flag(option)) throw InputError(fmt::format("{}: given without --study; allowed: both", option));
   timings.phase("read");
   const int p = arguments.integer("--p", 1, formats::highest_degree, 0);
   const std::string csv_file = arguments.text("--csv");

@@ -129,6 +129,37 @@ template void Writer::put(const std::string&, const Shape&, const std::vector<st
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const std::string>>&,
                           const std::string&, const std::string&);
 
+template <class Scalar>
+void Writer::make_rows(const std::string& name, const Shape& shape, const std::string& unit,
+                       const std::string& meaning) {
+  constexpr bool is_integer = std::is_same_v<Scalar, int>;
+  impl_->dataset(name, shape, is_integer ? H5T_STD_I32LE : H5T_IEEE_F64LE,
+                 is_integer ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE, {}, unit, meaning);
+}
+
+template <class Scalar>
+void Writer::rows(const std::string& name, std::size_t first, std::span<const Scalar> values) {
+  const Dataset set(H5Dopen2(impl_->file.get(), name.c_str(), H5P_DEFAULT));
+  if (!set) impl_->fail(name);
+  const Space space(H5Dget_space(set.get()));
+  std::vector<hsize_t> extents(H5Sget_simple_extent_ndims(space.get()));
+  H5Sget_simple_extent_dims(space.get(), extents.data(), nullptr);
+  const std::size_t row = std::accumulate(extents.begin() + 1, extents.end(), std::size_t{1}, std::multiplies<>());
+  if (values.empty()) return;
+  std::vector<hsize_t> start(extents.size(), 0), count = extents;
+  start[0] = first;
+  count[0] = values.size() / row;
+  const Space part(H5Screate_simple(count_of(count), count.data(), nullptr));
+  H5Sselect_hyperslab(space.get(), H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr);
+  const hid_t type = std::is_same_v<Scalar, int> ? H5T_NATIVE_INT : H5T_NATIVE_DOUBLE;
+  if (H5Dwrite(set.get(), type, part.get(), space.get(), H5P_DEFAULT, values.data()) < 0) impl_->fail(name);
+}
+
+template void Writer::make_rows<double>(const std::string&, const Shape&, const std::string&, const std::string&);
+template void Writer::make_rows<int>(const std::string&, const Shape&, const std::string&, const std::string&);
+template void Writer::rows(const std::string&, std::size_t, std::span<const double>);
+template void Writer::rows(const std::string&, std::size_t, std::span<const int>);
+
 std::string Writer::commit() {
   if (!impl_->file.close()) impl_->fail("file");
   std::string found = digest(impl_->target.unfinished_path());

@@ -53,6 +53,14 @@ class Writer {
     return value ? &*value : nullptr;
   }
 
+  /// Makes a dataset of numbers, double or int, whose rows `rows` then writes, so that it need not fit in memory; only
+  /// these may be NaN.
+  template <class Scalar>
+  void make_rows(const std::string& name, const Shape& shape, const std::string& unit, const std::string& meaning);
+  /// Writes rows of it from the first on; values of all columns, row after row.
+  template <class Scalar>
+  void rows(const std::string& name, std::size_t first, std::span<const Scalar> values);
+
   /// Puts the file at its path and returns its digest.
   std::string commit();
 

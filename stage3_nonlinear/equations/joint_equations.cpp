@@ -61,7 +61,9 @@ void place_fasteners(const JointModel& joint, JointEquations& equations) {
 }
 
 /// Rims of contact, each with the gap and the friction of the fastener in it.
-void place_rims(const JointModel& joint, JointEquations& equations) {
+/// @param like Of the same rims with other numbers, if they are made already.
+void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const RimProblem>>& like,
+                JointEquations& equations) {
   const auto places = rim_places(joint);
   for (Index i = 0; i < std::ssize(places); ++i) {
     const auto& [plate, at, hole] = places[i];
@@ -70,7 +72,9 @@ void place_rims(const JointModel& joint, JointEquations& equations) {
     const auto& waves = joint.plates[plate].short_waves[at];
     const double k = equations.system->stiffness[equations.n_planes() + i];
     equations.rims.push_back(std::make_shared<const RimProblem>(
-        RimContact(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves, rim.area, k));
+        !like.empty()
+            ? like[i]->with(gap, mu)
+            : RimProblem(RimContact(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves, rim.area, k)));
     equations.has_friction = equations.has_friction || mu != 0;
     place(std::make_shared<RimInterface>(equations.rims.back(), i, equations.system->friction.rim_rubs[i]),
           equations.interfaces);
@@ -96,7 +100,7 @@ VectorXd of_acting(const JointEquations& equations, double load_factor, const Ve
 }  // namespace
 
 JointEquations make_equations(const JointModel& joint, std::shared_ptr<const CondensedSystem> system,
-                              Parameters parameters) {
+                              Parameters parameters, const std::vector<std::shared_ptr<const RimProblem>>& like) {
   JointEquations equations{std::move(system), std::move(parameters), {}, {}, {}, {}, {}};
   for (Index j = 0; j < joint.n_planes(); ++j)
     equations.contacts.push_back({equations.parameters.law[j], equations.parameters.clearance[j],
@@ -104,7 +108,7 @@ JointEquations make_equations(const JointModel& joint, std::shared_ptr<const Con
   equations.rises = std::ranges::all_of(equations.contacts, [](const Contact& each) { return each.law->rises(); });
   check_friction(joint, equations.parameters);
   place_fasteners(joint, equations);
-  place_rims(joint, equations);
+  place_rims(joint, like, equations);
   equations.has_friction = equations.has_friction || equations.has_cosine_friction;
   equations.q = rigid_forces_by(*equations.system, equations.load_rates(1));
   equations.q_reversed = rigid_forces_by(*equations.system, equations.load_rates(-1));

@@ -72,8 +72,11 @@ struct JointEquations {
 };
 
 /// @param system Of the joint. @param parameters Instead of those that JOINT.json gives.
+/// @param like Rims of equations of the same joint, whose work is taken over; their solutions are where those of these
+/// begin.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint, std::shared_ptr<const CondensedSystem> system,
-                                            Parameters parameters);
+                                            Parameters parameters,
+                                            const std::vector<std::shared_ptr<const RimProblem>>& like = {});
 /// Condenses the joint and takes the numbers that JOINT.json gives.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
 

@@ -59,7 +59,7 @@ VectorXd RimProblem::against_sheet(const VectorXd& w, const VectorXd& pressure, 
 RimProblem RimProblem::with(double gap, double mu) const {
   RimProblem other = *this;
   other.contact_ = contact_.with(gap, mu);
-  other.last_c_.resize(0);
+  other.is_solved_ = false;
   return other;
 }
 
@@ -171,11 +171,12 @@ bool RimProblem::with_friction(const VectorXd& b, State& at) const {
 }
 
 const RimSolution& RimProblem::solve(const VectorXd& c) const {
-  if (last_c_.size() > 0 && last_c_ == c) return last_;
+  if (is_solved_ && last_c_ == c) return last_;
   VectorXd start;
   if (last_c_.size() > 0 && last_.converged) start = last_.w + last_.w_by_c * (c - last_c_);
   last_ = solution(c, start);
   last_c_ = c;
+  is_solved_ = true;
   return last_;
 }
 

@@ -50,7 +50,7 @@ class RimProblem {
   /// Waves of the disc's normal displacement against the sheet, with what an elastic disk yields, (n), length.
   /// @param shear Waves of the shear on the sheet, none without friction.
   [[nodiscard]] VectorXd against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const;
-  /// The same rim with another gap and friction.
+  /// The same rim with another gap and friction, whose first solution begins at the last one of this.
   [[nodiscard]] RimProblem with(double gap, double mu) const;
 
   /// @param c (n_long) force. The last solution is kept, since it is asked for again, and the next one begins there.
@@ -84,6 +84,7 @@ class RimProblem {
   VectorXd more_;     ///< (n) what M_k has on its diagonal besides M / A, length / force
   Eigen::SparseMatrix<double, Eigen::RowMajor> M_tau_;  ///< of a diagonal M_k, since few entries are not zero
   MatrixXd root_;                                       ///< M_k = root root^T; of a diagonal one its diagonal, (n, 1)
+  mutable bool is_solved_ = false;                      ///< of these numbers; else of the rim that this was made of
   mutable VectorXd last_c_;
   mutable RimSolution last_;
 };

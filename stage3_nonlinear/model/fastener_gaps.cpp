@@ -31,6 +31,13 @@ double gap_of(const FastenerScene& fastener, Index at, const PlateModel& plate) 
   return ((fastener.hole_diameter.empty() ? of_sheet : fastener.hole_diameter[at]) - *fastener.diameter) / 2;
 }
 
+void check_gap(const FastenerScene& fastener, const std::string& hole, const PlateModel& plate, double gap) {
+  if (gap != 0 && !plate.is_in_contact(hole))
+    refuse(fastener.where_gap(),
+           fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole, plate.file),
+           "a gap in holes with \"compression_only\", \"clearance\" in others");
+}
+
 std::vector<double> equal_gaps(const std::vector<double>& clearance, const std::vector<bool>& in_contact) {
   // Every gap is offset + sign s, s the first one: neighbours add up to their clearance. The ground counts as a last
   // hole, without a gap.

@@ -10,6 +10,9 @@ namespace fastjoint::stage3 {
 /// Radial gap between a fastener and its hole number `at`, length; infinite if the hole's diameter is not known.
 [[nodiscard]] double gap_of(const FastenerScene& fastener, Index at, const PlateModel& plate);
 
+/// Refuses a gap in a hole whose springs also pull.
+void check_gap(const FastenerScene& fastener, const std::string& hole, const PlateModel& plate, double gap);
+
 /// Radial gaps that let neighbouring sheets move as far as the clearances of a fastener's shear planes do: the gaps of
 /// the two holes of a plane add up to its clearance, and the ground and holes that are not in contact have none.
 ///

@@ -145,10 +145,7 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
            fmt::format("{}", fmt::join(plate.holes, ", ")));
   const double mu = fastener.friction[at];
   HoleModel result{plate_at, index * model.n_directions(), mu, {}, gap_of(fastener, at, plate)};
-  if (result.gap != 0 && !plate.is_in_contact(hole.name))
-    refuse(fastener.where_gap(),
-           fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole.name, plate.file),
-           "a gap in holes with \"compression_only\", \"clearance\" in others");
+  check_gap(fastener, hole.name, plate, result.gap);
   if (directions_at(plate, result.disc) == "x and y") check_rim_all_around(plate, hole.name);
   if (mu == 0) return result;
   if (plate.is_in_contact(hole.name)) return result;
@@ -199,22 +196,6 @@ const HoleModel& fastened(const JointModel& joint, Index plate, const std::strin
   return none;
 }
 
-/// Refuses a force whose side of its hole the model does not have.
-void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
-  for (const double factor : factors) {
-    bool acts = load.value * factor == 0;
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      acts = acts || (plate.tractions[i] == plate.tractions[traction] &&
-                      fastjoint::stage3::acts(plate.sense(i), factor * load.value));
-    if (!acts)
-      refuse(load.external.where,
-             fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
-                         "that would bear",
-                         load.external.name, factor * load.value, factor, plate.file),
-             "a force of the other sign, or a sheet that has the whole hole");
-  }
-}
-
 /// @param factors Load factors that are asked for.
 void apply_load(JointModel& model, const LoadScene& load, const std::vector<double>& factors) {
   const Reference& name = load.external;
@@ -240,6 +221,21 @@ void apply_load(JointModel& model, const LoadScene& load, const std::vector<doub
 }
 
 }  // namespace
+
+void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
+  for (const double factor : factors) {
+    bool acts = load.value * factor == 0;
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+      acts = acts || (plate.tractions[i] == plate.tractions[traction] &&
+                      fastjoint::stage3::acts(plate.sense(i), factor * load.value));
+    if (!acts)
+      refuse(load.external.where,
+             fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
+                         "that would bear",
+                         load.external.name, factor * load.value, factor, plate.file),
+             "a force of the other sign, or a sheet that has the whole hole");
+  }
+}
 
 Index JointModel::offset(Index plate) const {
   Index offset = 0;
@@ -299,8 +295,7 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
-  const std::vector<double> whole{1};  // events are those on the way there
-  for (const auto& load : scene.loads) apply_load(model, load, scene.load_factors.empty() ? whole : scene.load_factors);
+  for (const auto& load : scene.loads) apply_load(model, load, scene.wanted_load_factors());
   return model;
 }
 

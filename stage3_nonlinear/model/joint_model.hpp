@@ -210,6 +210,9 @@ struct JointModel {
   [[nodiscard]] std::string short_name(const ShearPlane& plane) const;
 };
 
+/// Refuses a force whose side of its hole the model does not have. @param factors Load factors that are asked for.
+void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors);
+
 /// Reads the matrices of all plates and resolves every name.
 ///
 /// @param p Degree, or 0 for the highest that all plates have.

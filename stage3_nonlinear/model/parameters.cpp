@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/model/parameters.hpp"
 
+#include "stage3_nonlinear/model/fastener_gaps.hpp"
+
 namespace fastjoint::stage3 {
 
 std::vector<Load> loads_of(const JointModel& joint) {
@@ -50,6 +52,37 @@ Parameters parameters_of(const JointModel& joint) {
     for (const auto& hole : fastener.holes) mu.push_back(hole.mu), gap.push_back(hole.gap);
   all.mu = VectorXd::Map(mu.data(), std::ssize(mu));
   all.gap = VectorXd::Map(gap.data(), std::ssize(gap));
+  return all;
+}
+
+Parameters parameters_of(const JointModel& joint, const JointScene& scene) {
+  Parameters all = parameters_of(joint);
+  Index plane = 0, hole = 0;
+  for (Index i = 0; i < std::ssize(joint.fasteners); ++i) {
+    const FastenerScene& its = scene.fasteners[i];
+    for (Index j = 0; j < std::ssize(its.law); ++j, ++plane) {
+      all.law[plane] = scene.laws.at(its.law[j]).law;
+      all.clearance[plane] = its.clearance[j];
+    }
+    check_clearance(joint, its, joint.fasteners[i]);
+    for (Index j = 0; j < std::ssize(its.between); ++j, ++hole) {
+      const PlateModel& plate = joint.plates[joint.fasteners[i].holes[j].plate];
+      all.mu[hole] = its.friction[j];
+      all.gap[hole] = gap_of(its, j, plate);
+      check_gap(its, its.between[j].name, plate, all.gap[hole]);
+    }
+  }
+  const auto loads = loads_of(joint);
+  for (Index i = 0; i < std::ssize(loads); ++i) {
+    const auto& [plate_at, at, is_traction, is_displacement] = loads[i];
+    const PlateModel& plate = joint.plates[plate_at];
+    const std::string& name = is_traction ? plate.tractions[at] : plate.externals[at];
+    for (const auto& load : scene.loads) {
+      if (load.external.plate != plate.name || load.external.name != name) continue;
+      all.load[i] = load.value;
+      if (is_traction) check_side(plate, at, load, scene.wanted_load_factors());
+    }
+  }
   return all;
 }
 

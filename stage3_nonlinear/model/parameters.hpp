@@ -47,6 +47,8 @@ struct Parameters {
 
 /// The numbers that JOINT.json gives.
 [[nodiscard]] Parameters parameters_of(const JointModel& joint);
+/// Those of a scene that differs from the joint's in numbers alone. Throws InputError where a number is not allowed.
+[[nodiscard]] Parameters parameters_of(const JointModel& joint, const JointScene& scene);
 
 /// Place of a rim of contact.
 struct RimPlace {

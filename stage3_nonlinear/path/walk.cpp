@@ -54,6 +54,12 @@ bool Walk::reach(double target) {
   return true;
 }
 
+bool Walk::jump(const Place& from) {
+  iterations_ = 0;
+  here_ = from;
+  return solve_from_here(from.load_factor);
+}
+
 PathStep Walk::step(const SolvedPoint& point) const {
   const ContactState& state = point.state();
   const VectorXd r = equations_.residual(state, point.load_factor());

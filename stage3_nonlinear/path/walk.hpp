@@ -26,6 +26,9 @@ class Walk {
 
   /// Goes to a load factor, as load_path.hpp says; false if nothing led there.
   bool reach(double target);
+  /// Goes to the load factor of a state of the joint with other numbers, from its contact coordinates and without steps
+  /// between; false if that leads to no solution.
+  bool jump(const Place& from);
   /// Goes to no load where discs are larger than their holes; contact coordinates there, (r), if that was solved.
   std::optional<VectorXd> assemble();
   [[nodiscard]] const Place& here() const { return here_; }

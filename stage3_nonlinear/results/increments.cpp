@@ -4,9 +4,6 @@
 #include <algorithm>
 
 namespace fastjoint::stage3 {
-namespace {
-
-/// Part of a state that is out of balance, if it is by more than is allowed.
 std::optional<Imbalance> imbalance(const JointState& state, double tolerance) {
   const double allowed = std::max(1e-8, 10 * tolerance);
   const auto [worst, what] =
@@ -15,8 +12,6 @@ std::optional<Imbalance> imbalance(const JointState& state, double tolerance) {
   if (worst <= allowed) return std::nullopt;
   return Imbalance{what, worst, allowed};
 }
-
-}  // namespace
 
 std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, const JointEquations& equations,
                                                     const std::vector<double>& load_factors, PathOptions options,

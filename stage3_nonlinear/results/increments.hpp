@@ -32,6 +32,10 @@ struct Increments {
   std::optional<PeakSensitivity> peak = std::nullopt;  ///< at the last increment, if wanted
 };
 
+/// Part of a state that is out of balance, if it is by more than 1e-8 of the largest force or what the solver's
+/// tolerance leaves.
+[[nodiscard]] std::optional<Imbalance> imbalance(const JointState& state, double tolerance);
+
 /// Follows a joint and keeps the results of each increment. The path ends where forces do not balance to 1e-8 of the
 /// largest or to what the solver's tolerance leaves, since rounding errors would count as load.
 /// @param load_factors None: increments at every event (follow_events).

@@ -163,10 +163,6 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
 LoadScene read_load(const Value& value, const JointScene& scene) {
   value.only({"external", "force", "displacement"});
   LoadScene load{.external = read_reference(value.at("external"), scene, "\"plate:external\"")};
-  for (const auto& [before, amount, is_displacement] : scene.loads)
-    if (before.plate == load.external.plate && before.name == load.external.name)
-      refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
-             "one load per external boundary");
   const auto force = value.find("force"), displacement = value.find("displacement");
   if (!force == !displacement)
     value.fail(force ? "both \"force\" and \"displacement\"" : "neither \"force\" nor \"displacement\"",
@@ -174,6 +170,17 @@ LoadScene read_load(const Value& value, const JointScene& scene) {
   load.is_displacement = displacement.has_value();
   load.value = (force ? *force : *displacement).number();
   return load;
+}
+
+void read_loads(const Value& loads, JointScene& scene) {
+  for (const auto& item : loads.items(1)) {
+    const LoadScene load = read_load(item, scene);
+    for (const auto& [before, amount, is_displacement] : scene.loads)
+      if (before.plate == load.external.plate && before.name == load.external.name)
+        refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
+               "one load per external boundary");
+    scene.loads.push_back(load);
+  }
 }
 
 /// "events" gives none.
@@ -225,11 +232,25 @@ JointScene read_joint_scene(const input::Document& document) {
   scene.laws = read_laws(root.at("laws"));
   read_fasteners(root.at("fasteners"), scene);
   scene.warnings = law_doubts(root.at("laws"), scene);
-  for (const auto& item : root.at("loads").items(1)) scene.loads.push_back(read_load(item, scene));
+  read_loads(root.at("loads"), scene);
   if (const auto increments = root.find("increments")) scene.load_factors = read_increments(*increments);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   return scene;
+}
+
+void read_again(const input::Document& document, const SceneParts& parts, JointScene& scene) {
+  const Value root(document);
+  const Value laws = root.at("laws");
+  for (const auto& name : parts.laws) scene.laws.at(name).law = read_law(laws.at(name.c_str()));
+  if (!parts.fasteners.empty()) {
+    const auto fasteners = root.at("fasteners").items();
+    for (const std::size_t at : parts.fasteners) scene.fasteners[at] = read_fastener(fasteners[at], scene);
+  }
+  if (!parts.loads.empty()) {
+    const auto loads = root.at("loads").items();
+    for (const std::size_t at : parts.loads) scene.loads[at] = read_load(loads[at], scene);
+  }
 }
 
 void refuse(const std::string& where, const std::string& found, const std::string& allowed) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -102,11 +103,25 @@ struct JointScene {
   InitialScene initial;
   SolverScene solver;
   std::vector<program::Warning> warnings;
+
+  /// Load factors that are asked for: of increments at every event the whole load, since they are those on the way.
+  [[nodiscard]] std::vector<double> wanted_load_factors() const {
+    return load_factors.empty() ? std::vector{1.0} : load_factors;
+  }
 };
 
 /// Reads types and ranges strictly and checks what one file alone can tell: plates that are named exist and are held,
 /// ids and loads stand once, each hole has one fastener, which goes through each plate once. Throws InputError.
 [[nodiscard]] JointScene read_joint_scene(const input::Document& document);
+
+/// Laws, fasteners and loads of JOINT.json.
+struct SceneParts {
+  std::set<std::string> laws;
+  std::set<std::size_t> fasteners, loads;
+};
+
+/// Reads parts of a scene again from a document in which numbers of theirs alone have changed. Throws InputError.
+void read_again(const input::Document& document, const SceneParts& parts, JointScene& scene);
 
 /// Throws InputError "WHERE: FOUND; allowed: ALLOWED".
 [[noreturn]] void refuse(const std::string& where, const std::string& found, const std::string& allowed);

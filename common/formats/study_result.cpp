@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "common/formats/study_result.hpp"
+
+#include <cmath>
+
+namespace fastjoint::formats {
+namespace {
+
+constexpr const char* format = "study-result";
+constexpr int major = 1, minor = 0;
+
+void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
+  const std::string group = "statistics/" + a.name + "/";
+  const Eigen::Index n = std::ssize(a.of);
+  file(group + "of", a.of, {n}, "1", a.meaning);
+  file(group + "middle", a.middle, {n}, a.unit,
+       "of the joint with every variable in its middle; infinite if not solved");
+  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved");
+  file(group + "deviation", a.deviation, {n}, a.unit, "standard deviation of the samples that were solved");
+  file(group + "by_sensitivities", a.by_sensitivities, {n}, a.unit,
+       "standard deviation by the sensitivities in the middle alone: the root of the sum of squares; infinite if not "
+       "known");
+  file(group + "quantile", a.quantile, {n, 4}, a.unit, "quantiles of 5, 50, 95 and 99 %");
+  file(group + "quantile_low", a.low, {n, 4}, a.unit,
+       "lower limit of their 95 % confidence intervals, for any distribution");
+  file(group + "quantile_high", a.high, {n, 4}, a.unit, "upper limit of their 95 % confidence intervals");
+  file(group + "sensitivity", a.sensitivity, {n, v}, "1",
+       "change with each variable in the middle, in the units of both; infinite if not known");
+  file(group + "rank_correlation", a.correlation, {n, v}, "1", "Spearman's rank correlation with each variable");
+  if (a.governs.size() > 0)
+    file(group + "governs", a.governs, {n}, "1", "share of the samples in which it is the largest");
+  if (!std::isfinite(a.limit)) return;
+  file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json");
+  file(group + "exceeds", a.exceeds, {n}, "1", "share of the samples above the limit");
+  file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");
+  file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval");
+}
+
+}  // namespace
+
+void write(const std::string& path, const StudyResult& a, const std::function<void(h5::Writer&)>& samples) {
+  h5::Writer file(path, format, major, minor);
+  file.attribute("generator", a.header.generator);
+  file.attribute("name", a.header.name);
+  file.attribute("joint", a.origin.joint);
+  file.attribute("study", a.origin.study);
+  file.attribute("seed", a.origin.seed);
+  file.attribute("sampling", a.sampling);
+  file("files/name", a.origin.file, {Eigen::Index(a.origin.file.size())}, "1",
+       "files that the joint and the study name");
+  file("files/digest", a.origin.digest, {Eigen::Index(a.origin.file.size())}, "1", "digest of each");
+  const Eigen::Index v = std::ssize(a.variable);
+  file("variables/name", a.variable, {v}, "1", "variables of the study");
+  file("variables/place", a.place, {v}, "1", "JSON pointers of each into the joint, parted by spaces");
+  file("variables/middle", a.middle, {v}, "1", "value in the middle, in the variable's own unit");
+  file("variables/mean", a.mean, {v}, "1", "mean of all samples");
+  file("variables/deviation", a.deviation, {v}, "1", "standard deviation of all samples");
+  file("statistics/n_status", a.n_status, {4}, "1",
+       "number of samples that were 0 solved, 1 refused, 2 not solved, 3 out of balance");
+  for (const auto& group : a.groups) group_datasets(file, group, v);
+  samples(file);
+  file.commit();
+}
+
+}  // namespace fastjoint::formats

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "common/input/value.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Distribution of a number, by the value below which a share of all lies.
+class Distribution {
+ public:
+  virtual ~Distribution() = default;
+  /// @param share In (0, 1).
+  [[nodiscard]] virtual double at(double share) const = 0;
+};
+
+/// Reads {"type": "uniform" | "normal" | "lognormal" | "triangular" | "discrete", ...}; normal and lognormal ones may
+/// be truncated by "from" and "to". Throws InputError.
+[[nodiscard]] std::shared_ptr<const Distribution> read_distribution(const input::Value& value);
+
+/// Values that come up equally often, in their order.
+[[nodiscard]] std::shared_ptr<const Distribution> discrete(std::vector<double> values);
+
+}  // namespace fastjoint::stage3

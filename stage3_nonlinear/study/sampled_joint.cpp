@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/study/sampled_joint.hpp"
+
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using nlohmann::json;
+
+/// Path of a file that a document names, from where another document stands.
+void turn_path(json& path, const std::filesystem::path& from, const std::filesystem::path& to) {
+  const std::filesystem::path file = path.get<std::string>();
+  if (file.is_absolute()) return;
+  path = std::filesystem::proximate(from / file, to.empty() ? "." : to).string();
+}
+
+}  // namespace
+
+SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study, JointScene scene)
+    : root_(std::make_shared<json>(*joint.root)), document_{joint.file, joint.text, root_}, scene_(std::move(scene)) {
+  for (const auto& variable : study.variables) {
+    use_.push_back(variable.use);
+    auto& targets = targets_.emplace_back();
+    for (const auto& place : variable.places) {
+      const json::json_pointer pointer(place);
+      const bool is_there = root_->contains(pointer);
+      json& number = (*root_)[pointer];
+      targets.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer()});
+      const auto end = place.find('/', 1);
+      const std::string part = place.substr(1, end - 1),
+                        name = json::json_pointer(place.substr(0, place.find('/', end + 1))).back();
+      if (part == "laws")
+        parts_.laws.insert(name);
+      else
+        (part == "fasteners" ? parts_.fasteners : parts_.loads).insert(std::stoul(name));
+    }
+  }
+}
+
+void SampledJoint::put(const std::vector<double>& values) {
+  for (std::size_t i = 0; i < targets_.size(); ++i)
+    for (const auto& [number, before, is_integer] : targets_[i]) {
+      const double value = use_[i] == Use::value    ? values[i]
+                           : use_[i] == Use::factor ? before * values[i]
+                                                    : before + values[i];
+      constexpr double most = 1e15;
+      if (is_integer && value == std::floor(value) && std::abs(value) < most)
+        *number = static_cast<std::int64_t>(value);
+      else
+        *number = value;
+    }
+}
+
+const JointScene& SampledJoint::scene(const std::vector<double>& values) {
+  put(values);
+  read_again(document_, parts_, scene_);
+  return scene_;
+}
+
+std::string SampledJoint::text(const std::vector<double>& values, const std::string& path) {
+  put(values);
+  json result = *root_;
+  const auto from = std::filesystem::path(document_.file).parent_path(), to = std::filesystem::path(path).parent_path();
+  for (auto& plate : result["plates"]) turn_path(plate.is_object() ? plate["file"] : plate, from, to);
+  for (auto& law : result["laws"])
+    if (law.contains("file")) turn_path(law["file"], from, to);
+  return result.dump(2) + "\n";
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace fastjoint::stage3 {
+
+/// Parts of all samples below the quantiles that a study tells, and what is left over on either side of a confidence
+/// limit: each pair holds the true value with 95 %.
+inline constexpr std::array quantile_shares{0.05, 0.5, 0.95, 0.99};
+inline constexpr double beyond_limit = 0.025;
+
+/// Order statistics that give a quantile and its confidence limits, which hold for any distribution: numbers of the
+/// samples in rising order, 1-based; of a limit 0 or one more than all if there are too few samples for it.
+struct QuantileRanks {
+  std::uint64_t at, low, high;
+};
+/// @param failed Samples of which nothing is known: any may be below or above, which the limits allow for.
+[[nodiscard]] QuantileRanks quantile_ranks(double share, std::uint64_t solved, std::uint64_t failed);
+
+/// A share and its exact binomial limits (Clopper and Pearson 1934); failed samples count as either.
+struct Share {
+  double value, low, high;
+};
+[[nodiscard]] Share share_of(std::uint64_t count, std::uint64_t solved, std::uint64_t failed);
+
+/// Mean and deviation of numbers that come one after another (Welford 1962).
+class Moments {
+ public:
+  void add(double x) {
+    const double before = x - mean_;
+    mean_ += before / double(++n_);
+    squares_ += before * (x - mean_);
+  }
+  [[nodiscard]] double mean() const { return mean_; }
+  /// Of a sample: over n - 1.
+  [[nodiscard]] double deviation() const;
+
+ private:
+  std::uint64_t n_ = 0;
+  double mean_ = 0, squares_ = 0;
+};
+
+/// Exact order statistics of numbers that pass by several times, in memory that does not depend on how many there are:
+/// each pass finds eleven more bits of each.
+class Selection {
+ public:
+  static constexpr int n_passes = 6;
+  /// @param ranks 1-based, none beyond the number of numbers.
+  explicit Selection(std::vector<std::uint64_t> ranks);
+  void add(double x);
+  /// Ends a pass.
+  void next();
+  /// Behind the last pass the numbers of the ranks.
+  [[nodiscard]] std::vector<double> found() const;
+
+ private:
+  struct Target {
+    std::uint64_t rank;    ///< among the numbers that begin like it
+    std::uint64_t prefix;  ///< bits that are known, the rest 0
+    std::size_t counts;    ///< which of counts_
+  };
+  void group();
+  std::vector<Target> targets_;
+  std::vector<std::uint64_t> prefixes_;
+  std::vector<std::vector<std::uint64_t>> counts_;  ///< of each prefix, by the next bits
+  int pass_ = 0;
+};
+
+/// Spearman's rank correlation of two lists of equal length; 0 if one of them is constant.
+[[nodiscard]] double rank_correlation(const std::vector<double>& ranks_a, const std::vector<double>& ranks_b);
+/// Ranks of numbers, equal ones with their mean rank.
+[[nodiscard]] std::vector<double> ranks_of(const std::vector<double>& values);
+
+}  // namespace fastjoint::stage3

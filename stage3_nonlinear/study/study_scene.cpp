@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/study/study_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "common/errors.hpp"
+#include "stage3_nonlinear/study/random.hpp"
+#include "stage3_nonlinear/study/sample_table.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using input::Value;
+using nlohmann::json;
+
+constexpr std::uint64_t most_samples = 1000000000;
+constexpr std::size_t most_levels = 1000000;
+
+/// A place in JOINT.json, and the words for its wildcards: the id of a fastener, the name of a law.
+struct Found {
+  std::string pointer, words;
+};
+
+/// Names, or numbers, of the members of a value.
+std::vector<std::string> keys_of(const json& value) {
+  std::vector<std::string> keys;
+  if (value.is_object())
+    for (const auto& [key, member] : value.items()) keys.push_back(key);
+  if (value.is_array())
+    for (std::size_t i = 0; i < value.size(); ++i) keys.push_back(std::to_string(i));
+  return keys;
+}
+
+/// The member of a value by a part of a pointer; null if there is none.
+const json* member_of(const json& value, const std::string& key) {
+  if (value.is_object()) {
+    const auto found = value.find(key);
+    return found == value.end() ? nullptr : &*found;
+  }
+  std::size_t at = 0;
+  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), at);
+  const bool is_index = error == std::errc() && end == key.data() + key.size();
+  return value.is_array() && is_index && at < value.size() ? &value[at] : nullptr;
+}
+
+std::string plain(std::string key) {
+  for (const auto& [from, to] : {std::pair("~1", "/"), std::pair("~0", "~")})
+    for (auto at = key.find(from); at != std::string::npos; at = key.find(from, at + 1)) key.replace(at, 2, to);
+  return key;
+}
+
+std::string escaped(const std::string& key) {
+  std::string result;
+  for (const char c : key) c == '~' ? result += "~0" : c == '/' ? result += "~1" : result += c;
+  return result;
+}
+
+/// Follows the parts of a pointer from the k-th on. The last may be missing from an object, which is then given it.
+void look_up(const json& at, const std::vector<std::string>& parts, std::size_t k, const Found& so_far,
+             std::vector<Found>& found) {
+  if (k == parts.size()) {
+    if (at.is_number()) found.push_back(so_far);
+    return;
+  }
+  const bool any = parts[k] == "*";
+  for (const auto& key : any ? keys_of(at) : std::vector{plain(parts[k])}) {
+    Found next{so_far.pointer + "/" + escaped(key), so_far.words};
+    const json* member = member_of(at, key);
+    if (any && member != nullptr) {
+      const bool has_id = member->is_object() && member->contains("id") && (*member)["id"].is_string();
+      next.words += (next.words.empty() ? "" : " ") + (has_id ? (*member)["id"].get<std::string>() : key);
+    }
+    if (member != nullptr)
+      look_up(*member, parts, k + 1, next, found);
+    else if (k + 1 == parts.size() && at.is_object())
+      found.push_back(next);
+  }
+}
+
+std::vector<Found> places_of(const Value& place, const json& joint) {
+  constexpr const char* allowed =
+      "JSON pointers to numbers of laws, fasteners or loads, such as \"/laws/NAME/k\", \"/fasteners/*/clearance\" or "
+      "\"/loads/0/force\"";
+  const std::string text = place.text();
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at < text.size();) {
+    if (text[at] != '/') place.not_allowed(allowed);
+    const auto end = std::min(text.find('/', at + 1), text.size());
+    parts.push_back(text.substr(at + 1, end - at - 1));
+    at = end;
+  }
+  const std::set<std::string> varied{"laws", "fasteners", "loads"};
+  if (parts.size() < 3 || !varied.contains(parts[0])) place.not_allowed(allowed);
+  std::vector<Found> found;
+  look_up(joint, parts, 0, {}, found);
+  if (found.empty()) place.fail(fmt::format("\"{}\" leads to no number of the joint", text), allowed);
+  return found;
+}
+
+std::vector<double> read_grid(const Value& grid) {
+  grid.only({"from", "to", "n", "spacing"});
+  const int n = grid.at("n").integer(1, most_levels);
+  const auto spacing = grid.find("spacing");
+  const bool by_logarithm = spacing && spacing->choice({"linear", "logarithmic"}) == "logarithmic";
+  const auto range = by_logarithm ? input::positive : input::any_number;
+  const double from = grid.at("from").number(range), to = grid.at("to").number(range);
+  std::vector<double> levels;
+  for (int i = 0; i < n; ++i) {
+    const double share = n == 1 ? 0 : double(i) / (n - 1);
+    levels.push_back(i + 1 == n && n > 1 ? to
+                     : by_logarithm      ? from * std::pow(to / from, share)
+                                         : from + share * (to - from));
+  }
+  return levels;
+}
+
+/// Reads what the variable's numbers are.
+void read_numbers(const Value& value, Variable& variable) {
+  const auto values = value.find("values"), grid = value.find("grid"), table = value.find("table"),
+             distribution = value.find("distribution");
+  if (!!values + !!grid + !!table + !!distribution != 1)
+    value.fail("not one source of its numbers", "one of \"values\", \"grid\", \"table\" and \"distribution\"");
+  if (values) variable.levels = values->numbers(1, most_levels, input::any_number);
+  if (grid) variable.levels = read_grid(*grid);
+  if (distribution) variable.distribution = read_distribution(*distribution);
+  if (!variable.levels.empty()) variable.distribution = discrete(variable.levels);
+  if (table) {
+    table->only({"file", "column"});
+    const auto path = std::filesystem::path(value.file()).parent_path() / table->at("file").text();
+    variable.table = path.string();
+    variable.column = read_column(variable.table, table->at("column").text());
+  }
+}
+
+void read_variable(const Value& value, const json& joint, std::vector<Variable>& variables) {
+  value.only({"name", "at", "each", "use", "values", "grid", "table", "distribution"});
+  Variable variable;
+  variable.where = fmt::format("{}: {}", value.file(), value.pointer());
+  const Value at = value.at("at");
+  std::vector<Found> found;
+  for (const auto& place : at.is_array() ? at.items(1) : std::vector{at})
+    for (auto& each : places_of(place, joint)) found.push_back(std::move(each));
+  if (const auto use = value.find("use")) {
+    const std::vector<std::string> words{"value", "factor", "offset"};
+    variable.use = static_cast<Use>(std::ranges::find(words, use->choice(words)) - words.begin());
+  }
+  const auto name = value.find("name");
+  variable.name = name ? name->text() : found.front().pointer;
+  read_numbers(value, variable);
+  const auto each = value.find("each");
+  if (!each || !each->boolean()) {
+    for (auto& place : found) variable.places.push_back(std::move(place.pointer));
+    variables.push_back(std::move(variable));
+    return;
+  }
+  for (const auto& place : found) {
+    Variable& own = variables.emplace_back(variable);
+    own.places = {place.pointer};
+    own.name = !name ? place.pointer : variable.name + " " + (place.words.empty() ? place.pointer : place.words);
+  }
+}
+
+void check_places(const StudyScene& study, const json& joint) {
+  std::set<std::string> places, names;
+  for (const auto& variable : study.variables) {
+    if (!names.insert(variable.name).second)
+      throw InputError(
+          fmt::format("{}/name: \"{}\" stands twice; allowed: each name once", variable.where, variable.name));
+    for (const auto& place : variable.places) {
+      if (!places.insert(place).second)
+        throw InputError(
+            fmt::format("{}/at: \"{}\" is varied already; allowed: each place once", variable.where, place));
+      if (variable.use != Use::value && !joint.contains(json::json_pointer(place)))
+        throw InputError(fmt::format("{}/at: the joint has no number at \"{}\" to change; allowed: \"use\": \"value\"",
+                                     variable.where, place));
+    }
+  }
+}
+
+Sampling read_sampling(const Value& root, const StudyScene& study) {
+  const std::vector<std::string> words{"grid", "random", "latin hypercube"};
+  const bool all_levels = std::ranges::all_of(study.variables, [](const auto& each) { return !each.levels.empty(); });
+  if (const auto given = root.find("sampling")) {
+    const auto sampling = static_cast<Sampling>(std::ranges::find(words, given->choice(words)) - words.begin());
+    if (sampling == Sampling::grid && !all_levels)
+      given->fail("\"grid\", but not all variables have levels", "\"values\" or \"grid\" for every variable");
+    return sampling;
+  }
+  return all_levels ? Sampling::grid : Sampling::random;
+}
+
+/// Sets the number of samples.
+void read_number(const Value& root, StudyScene& study) {
+  const auto given = root.find("samples");
+  if (study.sampling == Sampling::grid) {
+    if (given) given->fail("given for a grid", "no \"samples\": a grid has as many as its levels make");
+    study.n_samples = 1;
+    for (const auto& variable : study.variables) {
+      study.n_samples *= variable.levels.size();
+      if (study.n_samples > most_samples)
+        root.at("variables").fail("a grid of too many samples", fmt::format("up to {}", most_samples));
+    }
+    return;
+  }
+  std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
+  for (const auto& variable : study.variables)
+    if (!variable.column.empty()) rows = std::min<std::uint64_t>(rows, variable.column.size());
+  const bool has_rows = rows != std::numeric_limits<std::uint64_t>::max();
+  if (!given && has_rows) {
+    study.n_samples = rows;
+    return;
+  }
+  study.n_samples = root.at("samples").integer(1, int(most_samples));
+  if (study.n_samples > rows)
+    given->fail(fmt::format("{}", study.n_samples), fmt::format("up to the {} rows of the table", rows));
+}
+
+}  // namespace
+
+StudyScene read_study_scene(const input::Document& document, const input::Document& joint) {
+  const Value root(document);
+  input::check_format(root, "study");
+  root.only({"$schema", "format", "version", "name", "samples", "seed", "sampling", "variables", "outputs", "limits"});
+  StudyScene study;
+  study.file = document.file;
+  study.text = document.text;
+  if (const auto name = root.find("name")) study.name = name->text();
+  for (const auto& variable : root.at("variables").items(1)) read_variable(variable, *joint.root, study.variables);
+  check_places(study, *joint.root);
+  study.sampling = read_sampling(root, study);
+  read_number(root, study);
+  if (const auto seed = root.find("seed")) study.seed = seed->integer(0, std::numeric_limits<int>::max());
+  if (const auto outputs = root.find("outputs"))
+    for (const auto& output : outputs->items()) {
+      const std::string word = output.choice({"forces", "peaks", "displacements"});
+      study.peaks |= word == "peaks", study.displacements |= word == "displacements";
+    }
+  if (const auto limits = root.find("limits")) {
+    limits->only({"force", "peak"});
+    if (const auto force = limits->find("force")) study.most_force = force->number(input::positive);
+    if (const auto peak = limits->find("peak")) study.most_peak = peak->number(input::positive), study.peaks = true;
+  }
+  return study;
+}
+
+std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, std::uint64_t sample) {
+  std::vector<double> values(study.variables.size());
+  std::uint64_t rest = sample;
+  for (std::size_t i = study.variables.size(); i-- > 0;) {  // of a grid the last variable runs fastest
+    const Variable& variable = study.variables[i];
+    if (!variable.column.empty()) {
+      values[i] = variable.column[sample];
+    } else if (study.sampling == Sampling::grid) {
+      values[i] = variable.levels[rest % variable.levels.size()];
+      rest /= variable.levels.size();
+    } else {
+      double share = random_share(seed, sample, i);
+      if (study.sampling == Sampling::latin_hypercube)
+        share = (double(random_place(seed, sample, i, study.n_samples)) + share) / double(study.n_samples);
+      values[i] = variable.distribution->at(std::clamp(share, 1e-300, 1 - 1e-16));
+    }
+  }
+  return values;
+}
+
+double middle_of(const Variable& variable) {
+  std::vector<double> all = variable.levels.empty() ? variable.column : variable.levels;
+  if (all.empty()) return variable.distribution->at(0.5);
+  std::ranges::nth_element(all, all.begin() + std::ssize(all) / 2);
+  return all[all.size() / 2];
+}
+
+double spread_of(const Variable& variable) {
+  const std::vector<double>& all = variable.levels.empty() ? variable.column : variable.levels;
+  if (all.empty()) return (variable.distribution->at(5.0 / 6) - variable.distribution->at(1.0 / 6)) / 2;
+  const auto [low, high] = std::ranges::minmax(all);
+  return (high - low) / 3;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/study/study_solver.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "common/errors.hpp"
+#include "stage3_nonlinear/path/walk.hpp"
+#include "stage3_nonlinear/results/increments.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+StudyNames names_of(const JointModel& joint, bool peaks, bool displacements) {
+  StudyNames names;
+  for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
+  for (const auto& plate : joint.plates) {
+    if (peaks && plate.stress_level)
+      for (const auto& hole : plate.stresses.rim_hole) names.peak.push_back(plate.name + ":" + hole);
+    if (displacements)
+      for (const auto& external : plate.externals) names.displacement.push_back(plate.name + ":" + external);
+  }
+  return names;
+}
+
+/// Follows a joint from no load to its last increment.
+std::optional<PathStep> last_step(const JointEquations& equations, const std::vector<double>& load_factors,
+                                  const PathOptions& options) {
+  Walk walk(equations, options);
+  (void)walk.assemble();
+  LoadPath path;
+  for (const double factor : load_factors)
+    if (!walk.reach(factor) || !walk.record(path, {})) return std::nullopt;
+  return std::move(path.steps.back());
+}
+
+}  // namespace
+
+StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, bool peaks,
+                         bool displacements)
+    : joint_(joint),
+      load_factors_(scene.wanted_load_factors()),
+      options_{scene.initial, scene.solver},
+      tolerance_(scene.solver.tolerance),
+      system_(std::make_shared<const CondensedSystem>(condense(joint))),
+      names_(names_of(joint, peaks, displacements)) {
+  const JointEquations equations = make_equations(joint, system_, middle);
+  rims_ = equations.rims;
+  const auto step = last_step(equations, load_factors_, options_);
+  middle_ = step ? numbers(equations, *step) : nothing(SampleStatus::not_solved);
+  if (middle_.status != SampleStatus::solved) return;
+  start_ = step->c;
+  (void)contact_state(equations, step->c);  // samples begin with what the rims found last
+}
+
+SampleNumbers StudySolver::nothing(SampleStatus status) const {
+  return {status, VectorXd::Constant(names_.size(), std::numeric_limits<double>::quiet_NaN())};
+}
+
+SampleNumbers StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
+  const JointState state = joint_state(joint_, equations, step);
+  if (imbalance(state, tolerance_)) return nothing(SampleStatus::out_of_balance);
+  SampleNumbers result{SampleStatus::solved, VectorXd(names_.size())};
+  result.all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
+  Index at = joint_.n_planes();
+  if (!names_.peak.empty())
+    for (const auto& plate : state.plates)
+      for (const auto& rim : plate.rims) result.all[at++] = rim.peak_hoop;
+  if (!names_.displacement.empty())
+    for (const auto& plate : state.plates)
+      for (const double each : plate.De) result.all[at++] = each;
+  if (!result.all.allFinite()) return nothing(SampleStatus::out_of_balance);
+  return result;
+}
+
+SampleNumbers StudySolver::solve(const Parameters& parameters) const {
+  try {
+    const JointEquations equations = make_equations(joint_, system_, parameters, rims_);
+    if (start_ && planes_that_may_snap(equations).empty()) {  // else what it comes to depends on the way
+      Walk walk(equations, options_);
+      if (walk.jump({load_factors_.back(), *start_})) return numbers(equations, walk.step());
+    }
+    const auto step = last_step(equations, load_factors_, options_);
+    return step ? numbers(equations, *step) : nothing(SampleStatus::not_solved);
+  } catch (const NumericalError&) {
+    return nothing(SampleStatus::not_solved);
+  }
+}
+
+}  // namespace fastjoint::stage3

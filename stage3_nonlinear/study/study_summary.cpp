@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/study/study_summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/program/program.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+
+std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.5g}", x) : "-"; }
+
+std::string head(const formats::StudyGroup& a) {
+  const bool governs = a.governs.size() > 0, limited = std::isfinite(a.limit);
+  std::string line = fmt::format("  {:<16}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>22}{:>11}", a.name, "middle",
+                                 "mean", "deviation", "by slopes", "5 %", "50 %", "95 %", "95 % lies within", "99 %");
+  if (governs) line += fmt::format("{:>9}", "governs");
+  if (limited) line += fmt::format("{:>30}", fmt::format("P(> {:g})", a.limit));
+  return line + fmt::format("   [{}]\n", a.unit);
+}
+
+std::string row(const formats::StudyGroup& a, Index i) {
+  std::string line = fmt::format("  {:<16}", program::one_line(a.of[i]));
+  for (const double x : {a.middle[i], a.mean[i], a.deviation[i], a.by_sensitivities[i], a.quantile(i, 0),
+                         a.quantile(i, 1), a.quantile(i, 2)})
+    line += fmt::format("{:>11}", number(x));
+  line += fmt::format("{:>22}{:>11}", fmt::format("{}..{}", number(a.low(i, 2)), number(a.high(i, 2))),
+                      number(a.quantile(i, 3)));
+  if (a.governs.size() > 0) line += fmt::format("{:>7.1f} %", 100 * a.governs[i]);
+  if (std::isfinite(a.limit))
+    line += fmt::format("{:>30}",
+                        fmt::format("{:.3g} ({:.2g}..{:.2g})", a.exceeds[i], a.exceeds_low[i], a.exceeds_high[i]));
+  return line + "\n";
+}
+
+/// Rows of a group in the order in which they count: the largest first, no more than a page of them.
+std::string table(const formats::StudyGroup& a) {
+  constexpr Index most = 40;
+  const Index n = std::ssize(a.of);
+  std::vector<Index> order(n);
+  std::iota(order.begin(), order.end(), Index{0});
+  if (n > most) std::ranges::stable_sort(order, std::greater(), [&](Index i) { return a.quantile(i, 2); });
+  std::string text = head(a);
+  for (Index i = 0; i < std::min(n, most); ++i) text += row(a, order[i]);
+  if (n > most) text += fmt::format("  ... and {} more with smaller 95 % quantiles\n", n - most);
+  return text;
+}
+
+/// What the largest of a group depends on most, by rank correlation.
+std::string causes(const formats::StudyResult& result, const formats::StudyGroup& a) {
+  const Index v = std::ssize(result.variable);
+  std::vector<Index> order(v);
+  std::iota(order.begin(), order.end(), Index{0});
+  std::ranges::stable_sort(order, std::greater(), [&](Index k) { return std::abs(a.correlation(0, k)); });
+  std::string text;
+  constexpr Index most = 5;
+  for (Index k = 0; k < std::min(v, most); ++k)
+    text += fmt::format("{}{} {:+.2f}", k == 0 ? "" : ", ", program::one_line(result.variable[order[k]]),
+                        a.correlation(0, order[k]));
+  return fmt::format("  rank correlations of the {}: {}\n", a.of[0], text);
+}
+
+/// Where the sensitivities in the middle do not tell the deviations.
+std::string doubts(const formats::StudyGroup& a) {
+  constexpr double much = 0.2, little = 1e-6;
+  Index worst = -1, n_off = 0;
+  double worst_off = 0;
+  for (Index i = 0; i < std::ssize(a.of); ++i) {
+    if (!std::isfinite(a.by_sensitivities[i]) || a.deviation[i] <= little * std::abs(a.mean[i])) continue;
+    const double off = std::abs(a.by_sensitivities[i] / a.deviation[i] - 1);
+    if (off <= much) continue;
+    ++n_off;
+    if (off > worst_off) worst_off = off, worst = i;
+  }
+  if (n_off == 0) return {};
+  return fmt::format(
+      "  sensitivities in the middle alone miss the deviation of {} of {} numbers of \"{}\" by more than 20 %, that of "
+      "{} by {:+.0f} %: trust the samples\n",
+      n_off, a.of.size(), a.name, program::one_line(a.of[worst]),
+      100 * (a.by_sensitivities[worst] / a.deviation[worst] - 1));
+}
+
+}  // namespace
+
+std::string study_summary(const formats::StudyResult& result, const std::string& failures) {
+  std::string text = fmt::format("{}: {} samples ({}, seed {}) of {} variables\n",
+                                 result.header.name.empty() ? "study" : program::one_line(result.header.name),
+                                 result.n_samples, result.sampling, result.origin.seed, result.variable.size());
+  if (result.n_status[0] < int(result.n_samples))
+    text += fmt::format("  {} samples failed ({} refused, {} not solved, {} out of balance): {}\n",
+                        result.n_samples - result.n_status[0], result.n_status[1], result.n_status[2],
+                        result.n_status[3], failures);
+  for (const auto& group : result.groups) text += table(group);
+  for (const auto& group : result.groups)
+    if (group.name.starts_with("largest")) text += causes(result, group);
+  for (const auto& group : result.groups) text += doubts(group);
+  return text;
+}
+
+}  // namespace fastjoint::stage3
