@@ -37,6 +37,15 @@ std::uint64_t least_with(double probability, double share, std::uint64_t n) {
   return low;
 }
 
+/// Value below which a beta distribution has a probability, by bisection: gsl_cdf_beta_Pinv does not converge for all
+/// large a and b.
+double beta_quantile(double probability, double a, double b) {
+  double low = 0, high = 1;
+  for (double middle = 0.5; middle > low && middle < high; middle = low + (high - low) / 2)
+    (gsl_cdf_beta_P(middle, a, b) < probability ? low : high) = middle;
+  return high;
+}
+
 }  // namespace
 
 QuantileRanks quantile_ranks(double share, std::uint64_t solved, std::uint64_t failed) {
@@ -49,8 +58,8 @@ QuantileRanks quantile_ranks(double share, std::uint64_t solved, std::uint64_t f
 
 Share share_of(std::uint64_t count, std::uint64_t solved, std::uint64_t failed) {
   const double k = double(count), n = double(solved + failed), most = k + double(failed);
-  return {solved == 0 ? 0 : k / double(solved), count == 0 ? 0 : gsl_cdf_beta_Pinv(beyond_limit, k, n - k + 1),
-          most >= n ? 1 : gsl_cdf_beta_Pinv(1 - beyond_limit, most + 1, n - most)};
+  return {solved == 0 ? 0 : k / double(solved), count == 0 ? 0 : beta_quantile(beyond_limit, k, n - k + 1),
+          most >= n ? 1 : beta_quantile(1 - beyond_limit, most + 1, n - most)};
 }
 
 double Moments::deviation() const { return n_ < 2 ? 0 : std::sqrt(squares_ / double(n_ - 1)); }
