@@ -40,10 +40,8 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
 
 void write(const std::string& path, const StudyResult& a, const std::function<void(h5::Writer&)>& samples) {
   h5::Writer file(path, format, major, minor);
-  file.attribute("generator", a.header.generator);
-  file.attribute("name", a.header.name);
-  file.attribute("joint", a.origin.joint);
-  file.attribute("study", a.origin.study);
+  header(file, a.header);
+  file("study", a.origin.study, {}, "1", "JSON text of the study");
   file.attribute("seed", a.origin.seed);
   file.attribute("sampling", a.sampling);
   file("files/name", a.origin.file, {Eigen::Index(a.origin.file.size())}, "1",

@@ -19,6 +19,9 @@
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/processor.hpp"
 #include "common/program/progress.hpp"
+#include "common/program/warning.hpp"
+#include "stage3_nonlinear/output/output.hpp"
+#include "stage3_nonlinear/results/increments.hpp"
 #include "stage3_nonlinear/study/sampled_joint.hpp"
 #include "stage3_nonlinear/study/study_solver.hpp"
 #include "stage3_nonlinear/study/study_statistics.hpp"
@@ -206,6 +209,22 @@ class Samples {
   std::vector<std::unique_ptr<SampledJoint>> spare_;
 };
 
+/// Warnings about the joint whose variables are in the middle, as a run of its own has them.
+std::vector<program::Warning> middle_warnings(const JointModel& joint, const JointScene& scene,
+                                              const Parameters& middle) {
+  const JointEquations equations =
+      make_equations(joint, std::make_shared<const CondensedSystem>(condense(joint)), middle);
+  const PathOptions solving{scene.initial, scene.solver};
+  const auto [path, increments] =
+      follow_with_results(joint, equations, scene.wanted_load_factors(), solving, {scene.solver.tolerance});
+  std::vector<program::Warning> all = scene.warnings;
+  for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
+                           rim_warnings(joint, increments.states)})
+    all.insert(all.end(), some.begin(), some.end());
+  for (auto& each : all) each.text += " (with every variable of the study in its middle)";
+  return all;
+}
+
 /// The first samples that failed, and how to see one.
 std::string failures_text(const StudyBlocks& blocks) {
   constexpr std::size_t most = 5;
@@ -240,11 +259,14 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   }
   JointModel joint =
       load_joint(with_all_friction(study, sampled), arguments.integer("--p", 1, formats::highest_degree, 0));
-  if (!study.scene.peaks)
-    for (auto& plate : joint.plates) plate.stress_level.reset();
   timings.phase("solve");
-  const StudySolver solver(joint, study.joint, parameters_of(joint, sampled.scene(middle_values(study.scene))),
-                           study.scene.peaks, study.scene.displacements);
+  const JointScene middle_scene = sampled.scene(middle_values(study.scene));
+  const Parameters middle = parameters_of(joint, middle_scene);
+  if (slice.is_whole)
+    for (const auto& each : middle_warnings(joint, middle_scene, middle)) program::warn(log, program_name, each);
+  if (!study.scene.peaks)  // which takes time
+    for (auto& plate : joint.plates) plate.stress_level.reset();
+  const StudySolver solver(joint, study.joint, middle, study.scene.peaks, study.scene.displacements);
   const StudyBlocks blocks(arguments.output, origin_of(study, joint, seed), study.scene.n_samples,
                            solver.names().size());
   Samples samples(study, seed, joint, solver);
@@ -273,10 +295,8 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   timings.phase("statistics");
   const StudyContext context{study.scene, seed, solver.names(), joint.units, solver.middle(), samples.sensitivity()};
   auto result = study_statistics(context, blocks);
-  result.header = {program::generator(program_name),
-                   study.scene.name.empty() ? study.joint.name : study.scene.name,
-                   joint.units,
-                   {}};
+  result.header = {program::generator(program_name), study.scene.name.empty() ? study.joint.name : study.scene.name,
+                   joint.units, study.joint_text.text};
   result.origin = origin_of(study, joint, seed);
   result.sampling = sampling_names[std::size_t(study.scene.sampling)];
   timings.phase("write");

@@ -167,7 +167,8 @@ class Statistics {
       each.ranked.clear();
       for (Index k = 0; k < v; ++k) group.correlation(i, k) = rank_correlation(ranks, variables_[k].ranked);
       if (group.governs.size() > 0) group.governs[i] = solved_ > 0 ? double(each.governs) / double(solved_) : 0;
-      const Share share = share_of(each.above, solved_, failed_);
+      Share share = share_of(each.above, solved_, failed_);
+      if (is_grid()) share.low = share.high = share.value;
       group.exceeds[i] = share.value, group.exceeds_low[i] = share.low, group.exceeds_high[i] = share.high;
     }
   }
@@ -204,11 +205,14 @@ class Statistics {
         const auto found = selections[g][i].found();
         for (Index k = 0; k < n; ++k) {
           result_.groups[g].quantile(i, k) = found[3 * k];
+          if (is_grid()) continue;  // nothing is drawn
           if (of_share[k].low >= 1) result_.groups[g].low(i, k) = found[3 * k + 1];
           if (of_share[k].high <= solved_) result_.groups[g].high(i, k) = found[3 * k + 2];
         }
       }
   }
+
+  [[nodiscard]] bool is_grid() const { return a_.study.sampling == Sampling::grid; }
 
   const StudyContext& a_;
   const StudyBlocks& blocks_;

@@ -89,9 +89,11 @@ std::string doubts(const formats::StudyGroup& a) {
 }  // namespace
 
 std::string study_summary(const formats::StudyResult& result, const std::string& failures) {
-  std::string text = fmt::format("{}: {} samples ({}, seed {}) of {} variables\n",
+  const std::string seed = result.sampling == "grid" ? "" : ", seed " + result.origin.seed;
+  std::string text = fmt::format("{}: {} ({}{}) of {}\n",
                                  result.header.name.empty() ? "study" : program::one_line(result.header.name),
-                                 result.n_samples, result.sampling, result.origin.seed, result.variable.size());
+                                 program::counted(result.n_samples, "sample"), result.sampling, seed,
+                                 program::counted(result.variable.size(), "variable"));
   if (result.n_status[0] < int(result.n_samples))
     text += fmt::format("  {} samples failed ({} refused, {} not solved, {} out of balance): {}\n",
                         result.n_samples - result.n_status[0], result.n_status[1], result.n_status[2],
