@@ -17,12 +17,14 @@ from bad_inputs import BAD_INPUTS, MISSING
 from programs import ROOT, Programs
 
 GOOD = sorted((ROOT / "tests/schemas/good").glob("*.json"))
-TESTS_OF_FASTENERS = sorted((ROOT / "tests/schemas/good").glob("*.csv"))
-SCHEMAS = {kind: json.loads((ROOT / f"schemas/{kind}.schema.json").read_text()) for kind in ("plate", "joint")}
+TABLES = sorted((ROOT / "tests/schemas/good").glob("*.csv"))
+SCHEMAS = {kind: json.loads((ROOT / f"schemas/{kind}.schema.json").read_text()) for kind in ("plate", "joint", "study")}
+# The joints that studies vary, by the folder of the study.
+STUDIED = {"good": "joint_laws.json", "three_fasteners": "bare.json"}
 P = 3  # the lowest degree of which all joints converge soon is enough for a verdict
 
 # Places whose loss is a matter of meaning: something else refers to what stood there.
-REFERRED_TO = re.compile(r"/materials/[^/]+|/geometry/mesh/(arcs|edges(/[^/]+)?)|/laws/[^/]+|/plates/[^/]+")
+REFERRED_TO = re.compile(r"/materials/[^/]+|/geometry/mesh/(arcs|edges(/[^/]+)?)|/laws/[^/]+|/plates/[^/]+|/samples")
 # Words that change nothing else: each is tried in one good example.
 EACH_WORD = [("joint", "joint_stack", "/solver/method")]
 
@@ -54,8 +56,8 @@ def related(a, b):
 class Judge:
     """Asks schema and program about documents of one kind in a folder that has what joints refer to."""
 
-    def __init__(self, kind, folder, programs):
-        self.kind, self.folder, self.programs = kind, folder, programs
+    def __init__(self, kind, folder, programs, studied=STUDIED["good"]):
+        self.kind, self.folder, self.programs, self.studied = kind, folder, programs, folder / studied
 
     def schema(self, document):
         """Places that the schema refuses."""
@@ -65,7 +67,11 @@ class Judge:
         """Exit status, place that the program refuses or None, and its message."""
         scene, output = self.folder / "input.json", self.folder / "output.h5"
         scene.write_text(self.with_digest(json.dumps(document)))
-        result = self.programs.plate(scene, output, P) if self.kind == "plate" else self.programs.joint(scene, output)
+        if self.kind == "study":
+            shutil.rmtree(f"{output}.parts", ignore_errors=True)
+            result = self.programs.study(scene, output, self.studied)
+        else:
+            result = self.programs.plate(scene, output, P) if self.kind == "plate" else self.programs.joint(scene, output)
         named = re.search(f"error: {re.escape(str(scene))}: (/.*?): ", result.stderr)
         return result.returncode, named and named[1].rstrip("/"), result.stderr
 
@@ -139,8 +145,10 @@ def check_examples(judge, folder, paths):
         schema = document.get("$schema")
         if schema and (path.parent / schema).resolve() != ROOT / f"schemas/{judge.kind}.schema.json":
             yield f"{path}: $schema does not lead to the schema"
-        if judge.kind == "joint":
-            judge.programs.prepare_joint(folder / path.name, P)
+        if judge.kind != "plate":
+            judge.programs.prepare_joint(folder / path.name if judge.kind == "joint" else judge.studied, P)
+        if "samples" in document:  # few are enough for a verdict
+            document["samples"] = min(document["samples"], 4)
         yield from (f"{path}: {problem}" for problem in judge.good(document))
 
 
@@ -209,7 +217,7 @@ def main():
     programs = Programs(*sys.argv[1:])
     problems = []
     with tempfile.TemporaryDirectory() as name:
-        folder = copied(pathlib.Path(name), GOOD + TESTS_OF_FASTENERS)
+        folder = copied(pathlib.Path(name), GOOD + TABLES)
         for kind, schema in SCHEMAS.items():
             judge = Judge(kind, folder, programs)
             paths = [path for path in GOOD if path.name.startswith(kind)]
@@ -223,7 +231,8 @@ def main():
         if kind in SCHEMAS and path.parent.name != "out":  # what an example's run has left there is none
             with tempfile.TemporaryDirectory() as name:
                 folder = example_copied(pathlib.Path(name), path.parent)
-                problems += check_examples(Judge(kind, folder, programs), folder, [path])
+                studied = STUDIED.get(path.parent.name, "joint.json")
+                problems += check_examples(Judge(kind, folder, programs, studied), folder, [path])
     print("\n".join(problems) or "schemas and programs agree")
     return bool(problems)
 

@@ -24,7 +24,7 @@ def main():
     problems = []
     with tempfile.TemporaryDirectory() as folder:
         subprocess.run([ROOT / "scripts/schema_pages", folder], check=True)
-        for kind in ("plate", "joint"):
+        for kind in ("plate", "joint", "study"):
             page = (ROOT / f"docs/input-{kind}.md").read_text()
             if page != Path(folder, f"input-{kind}.md").read_text():
                 problems.append(f"docs/input-{kind}.md is not what scripts/schema_pages writes")

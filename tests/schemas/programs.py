@@ -24,6 +24,9 @@ class Programs:
     def joint(self, scene, output, *options):
         return run(self.stage3, scene, "-o", output, *options)
 
+    def study(self, scene, output, joint):
+        return run(self.stage3, joint, "--study", scene, "-o", output)
+
     def prepare_joint(self, scene, p):
         """Makes the matrices that a joint names, [FOLDER/]NAME.*.h5, from the NAME.json or else the Makefile beside it."""
         for plate in json.loads(scene.read_text())["plates"].values():
