@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/study_result.hpp"
 
-#include <cmath>
-
 namespace fastjoint::formats {
 namespace {
 
@@ -12,7 +10,7 @@ constexpr int major = 1, minor = 0;
 void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   const std::string group = "statistics/" + a.name + "/";
   const Eigen::Index n = std::ssize(a.of);
-  file(group + "of", a.of, {n}, "1", a.meaning);
+  file(group + "of", a.of, {n}, "1", "fastener, hole or external that each number is of");
   file(group + "middle", a.middle, {n}, a.unit,
        "of the joint with every variable in its middle; infinite if not solved");
   file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved");
@@ -27,11 +25,9 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   file(group + "sensitivity", a.sensitivity, {n, v}, "1",
        "change with each variable in the middle, in the units of both; infinite if not known");
   file(group + "rank_correlation", a.correlation, {n, v}, "1", "Spearman's rank correlation with each variable");
-  if (a.governs.size() > 0)
-    file(group + "governs", a.governs, {n}, "1", "share of the samples in which it is the largest");
-  if (!std::isfinite(a.limit)) return;
-  file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json");
-  file(group + "exceeds", a.exceeds, {n}, "1", "share of the samples above the limit");
+  file(group + "governs", a.governs, {n}, "1", "share of the solved samples in which it is the largest");
+  file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none");
+  file(group + "exceeds", a.exceeds, {n}, "1", "share of the solved samples above the limit");
   file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");
   file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval");
 }

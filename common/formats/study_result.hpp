@@ -15,14 +15,14 @@ namespace fastjoint::formats {
 
 /// Statistics of n numbers of one kind over all samples of a study, which vary v variables.
 struct StudyGroup {
-  std::string name, unit, meaning;           ///< "force", ...
+  std::string name, unit;                    ///< "force", ...
   std::vector<std::string> of;               ///< (n) names
   Eigen::VectorXd middle;                    ///< (n) of the joint whose variables are in the middle
   Eigen::VectorXd mean, deviation;           ///< (n) of the samples that were solved
   Eigen::VectorXd by_sensitivities;          ///< (n) deviation by the sensitivities in the middle alone
   Eigen::MatrixXd quantile, low, high;       ///< (n, 4) and their confidence limits; infinite where samples are too few
   Eigen::MatrixXd sensitivity, correlation;  ///< (n, v) in the middle; Spearman's
-  Eigen::VectorXd governs;                   ///< (n) share of the samples in which it is the largest; empty: no such
+  Eigen::VectorXd governs;                   ///< (n) share of the samples in which it is the largest
   double limit = std::numeric_limits<double>::infinity();  ///< whose exceedance is counted, if it is finite
   Eigen::VectorXd exceeds, exceeds_low, exceeds_high;      ///< (n) share of the samples and its confidence limits
 };

@@ -37,13 +37,15 @@ std::vector<Kind> kinds_of(const StudyContext& a) {
   const Index f = std::ssize(a.names.force), r = std::ssize(a.names.peak), d = std::ssize(a.names.displacement);
   const double most_force = a.study.most_force.value_or(infinite), most_peak = a.study.most_peak.value_or(infinite);
   std::vector<Kind> kinds{
-      {"force", "fastener whose transferred load it is", force, a.names.force, 0, f, false, most_force},
+      {"force", "load that each fastener transfers", force, a.names.force, 0, f, false, most_force},
       {"largest_force", "largest transferred load of all", force, {"largest force"}, 0, f, true, most_force}};
   if (r > 0) {
-    kinds.push_back({"peak", "hole whose largest hoop stress it is", stress, a.names.peak, f, r, false, most_peak});
+    kinds.push_back({"peak", "largest hoop stress at each hole", stress, a.names.peak, f, r, false, most_peak});
     kinds.push_back({"largest_peak", "largest hoop stress of all", stress, {"largest peak"}, f, r, true, most_peak});
   }
-  if (d > 0) kinds.push_back({"displacement", "external that moves", length, a.names.displacement, f + r, d, false});
+  if (d > 0)
+    kinds.push_back(
+        {"displacement", "displacement of each rigid external", length, a.names.displacement, f + r, d, false});
   return kinds;
 }
 
@@ -147,15 +149,14 @@ class Statistics {
     const Kind& kind = kinds_[g];
     const Index n = std::ssize(kind.of), v = std::ssize(variables_);
     formats::StudyGroup& group = result_.groups.emplace_back();
-    group.name = kind.name, group.meaning = kind.meaning, group.unit = kind.unit, group.of = kind.of;
+    group.name = kind.name, group.unit = kind.unit, group.of = kind.of;
     group.limit = kind.limit;
     for (VectorXd* each : {&group.middle, &group.mean, &group.deviation, &group.by_sensitivities, &group.exceeds,
-                           &group.exceeds_low, &group.exceeds_high})
+                           &group.exceeds_low, &group.exceeds_high, &group.governs})
       each->resize(n);
     group.sensitivity.resize(n, v), group.correlation.resize(n, v);
     const bool has_middle = a_.middle.status == SampleStatus::solved;
     group.middle = has_middle ? of_kind(kind, a_.middle.all.transpose()) : VectorXd::Constant(n, infinite);
-    if (n > 1 && std::string_view(kind.name) != "displacement") group.governs.resize(n);
     for (Index i = 0; i < n; ++i) {
       Gathered& each = all_[g][i];
       group.mean[i] = each.moments.mean(), group.deviation[i] = each.moments.deviation();
@@ -166,9 +167,9 @@ class Statistics {
       const auto ranks = ranks_of(each.ranked);
       each.ranked.clear();
       for (Index k = 0; k < v; ++k) group.correlation(i, k) = rank_correlation(ranks, variables_[k].ranked);
-      if (group.governs.size() > 0) group.governs[i] = solved_ > 0 ? double(each.governs) / double(solved_) : 0;
+      group.governs[i] = solved_ > 0 ? double(each.governs) / double(solved_) : 0;
       Share share = share_of(each.above, solved_, failed_);
-      if (is_grid()) share.low = share.high = share.value;
+      if (is_grid() || std::isinf(kind.limit)) share.low = share.high = share.value;
       group.exceeds[i] = share.value, group.exceeds_low[i] = share.low, group.exceeds_high[i] = share.high;
     }
   }
@@ -238,7 +239,7 @@ void write_samples(h5::Writer& file, const StudyContext& a, const StudyBlocks& b
     h5::Shape shape{n};
     if (!kind.is_largest) shape.push_back(kind.n);
     file.make_rows<double>(std::string("samples/") + kind.name, shape, kind.unit,
-                           std::string("of each sample; NaN if it was not solved: ") + kind.meaning);
+                           std::string(kind.meaning) + "; NaN where the sample was not solved");
   }
   for (int block = 0; block < blocks.n_blocks(); ++block) {
     const auto its = blocks.read(block);

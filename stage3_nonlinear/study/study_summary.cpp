@@ -17,7 +17,7 @@ using Eigen::Index;
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.5g}", x) : "-"; }
 
 std::string head(const formats::StudyGroup& a) {
-  const bool governs = a.governs.size() > 0, limited = std::isfinite(a.limit);
+  const bool governs = a.of.size() > 1, limited = std::isfinite(a.limit);
   std::string line = fmt::format("  {:<16}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>22}{:>11}", a.name, "middle",
                                  "mean", "deviation", "by slopes", "5 %", "50 %", "95 %", "95 % lies within", "99 %");
   if (governs) line += fmt::format("{:>9}", "governs");
@@ -32,7 +32,7 @@ std::string row(const formats::StudyGroup& a, Index i) {
     line += fmt::format("{:>11}", number(x));
   line += fmt::format("{:>22}{:>11}", fmt::format("{}..{}", number(a.low(i, 2)), number(a.high(i, 2))),
                       number(a.quantile(i, 3)));
-  if (a.governs.size() > 0) line += fmt::format("{:>7.1f} %", 100 * a.governs[i]);
+  if (a.of.size() > 1) line += fmt::format("{:>7.1f} %", 100 * a.governs[i]);
   if (std::isfinite(a.limit))
     line += fmt::format("{:>30}",
                         fmt::format("{:.3g} ({:.2g}..{:.2g})", a.exceeds[i], a.exceeds_low[i], a.exceeds_high[i]));
@@ -90,10 +90,10 @@ std::string doubts(const formats::StudyGroup& a) {
 
 std::string study_summary(const formats::StudyResult& result, const std::string& failures) {
   const std::string seed = result.sampling == "grid" ? "" : ", seed " + result.origin.seed;
-  std::string text = fmt::format("{}: {} ({}{}) of {}\n",
-                                 result.header.name.empty() ? "study" : program::one_line(result.header.name),
-                                 program::counted(result.n_samples, "sample"), result.sampling, seed,
-                                 program::counted(result.variable.size(), "variable"));
+  std::string text =
+      fmt::format("{}: {} ({}{}) of {}\n", result.header.name.empty() ? "study" : program::one_line(result.header.name),
+                  program::counted(result.n_samples, "sample"), result.sampling, seed,
+                  program::counted(result.variable.size(), "variable"));
   if (result.n_status[0] < int(result.n_samples))
     text += fmt::format("  {} samples failed ({} refused, {} not solved, {} out of balance): {}\n",
                         result.n_samples - result.n_status[0], result.n_status[1], result.n_status[2],

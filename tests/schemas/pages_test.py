@@ -15,7 +15,10 @@ import h5py
 
 from programs import ROOT, Programs, must
 
-TEMPLATES = {"<d>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:]}
+TEMPLATES = {"<d>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:],
+             "<kind>": lambda file: [name for name, item in file["statistics"].items() if isinstance(item, h5py.Group)]}
+UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/length^2", "of largest_peak": "force/length^2",
+         "of displacement": "length"}  # of a study's numbers
 JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
@@ -25,6 +28,8 @@ JOINT = {
     "loads": [{"external": "center:P", "force": 100}],
     "increments": 5,
 }
+STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements"],
+         "variables": [{"at": "/laws/bolt/A", "distribution": {"type": "uniform", "from": 900, "to": 1100}}]}
 
 
 class Page:
@@ -96,7 +101,7 @@ def begins(meaning, description):
 def check_attributes(rows, datasets, labels):
     for path in sorted(rows.keys() & datasets.keys()):
         attributes = datasets[path].attrs
-        unit = re.sub("length|force", lambda match: labels.get(match[0], match[0]), rows[path]["unit"])
+        unit = re.sub("length|force", lambda match: labels.get(match[0], match[0]), UNITS.get(rows[path]["unit"], rows[path]["unit"]))
         if attributes.get("unit") != unit:
             yield f"{path}: unit is {attributes.get('unit')}, the page says {unit}"
         if set(attributes) != {"unit", "description"} or not attributes["description"]:
@@ -160,7 +165,8 @@ def run_plate(programs, source, folder, p):
 
 def main():
     programs = Programs(*sys.argv[1:])
-    pages = solution_page, matrices_page, result_page = [Page(n) for n in ("plate-solution", "plate-matrices", "joint-result")]
+    pages = solution_page, matrices_page, result_page, study_page = [
+        Page(name) for name in ("plate-solution", "plate-matrices", "joint-result", "study-result")]
     problems = [problem for page in pages for problem in check_symbols(page)]
     examples, good = ROOT / "examples/three_fasteners", ROOT / "tests/schemas/good"
     with tempfile.TemporaryDirectory() as name:
@@ -175,8 +181,12 @@ def main():
         result = folder / "joint.h5"
         must(programs.joint(folder / "joint.json", result, "--sensitivities", "--rim-stresses"))
         problems += check(result_page, result, labels)
+        (folder / "study.json").write_text(json.dumps(STUDY))
+        study = folder / "study.h5"
+        must(programs.study(folder / "study.json", study, folder / "joint.json"))
+        problems += check(study_page, study, labels)
         os.chdir(folder)
-        for page, path, reader_name in zip(pages, (solution, matrices, result), ("PLATE.h5", "MATRICES.h5", "RESULT.h5")):
+        for page, path, reader_name in zip(pages, (solution, matrices, result, study), ("PLATE.h5", "MATRICES.h5", "RESULT.h5", "STUDY.h5")):
             problems = problems or list(check_notices(page, path, labels))
             path.rename(reader_name)
             exec(page.example, {})
