@@ -30,6 +30,7 @@ STAGES = {
         "path": ["program"],
         "results": ["formats", "matrices", "rim", ""],
         "output": ["formats", "program", ""],
+        "study": ["formats", "h5", "input", "linalg", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],
     },
 }

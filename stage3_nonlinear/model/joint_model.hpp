@@ -61,9 +61,10 @@ struct PlateModel {
   std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
   std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) waves beyond those, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses
-  std::vector<MatrixXd> wave_rows{};         ///< PlateCases::W of all rims at the joint's degree and the one before
-  Index file_unit_cases = 0;                 ///< of the file, the columns of wave_rows
-  Index n_loaded_waves = 0;                  ///< of which this many are waves of contact
+  std::vector<MatrixXd> wave_rows{};  ///< PlateCases::W of all rims at the joint's degree and the one before
+  bool peaks_alone = false;           ///< of hoop stresses neither errors nor where friction acts against the slip
+  Index file_unit_cases = 0;          ///< of the file, the columns of wave_rows
+  Index n_loaded_waves = 0;           ///< of which this many are waves of contact
   std::vector<std::string> traction_hole{};  ///< (q) hole that each traction presses on, "" for an edge
   VectorXd traction_unit_force{};            ///< (q) force per unit peak of its cosine pressure, length^2
   // Loads at load factor 1.

@@ -4,6 +4,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "common/count.hpp"
@@ -195,7 +196,7 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     const bool in_contact = i < std::ssize(contacts);
     loaded = LoadedRim{rim, {}, in_contact, {}, {}, {}};
     const KnownLoads known = known_loads(plate, rim.hole, amounts);
-    for (const auto& rows : plate.wave_rows) {
+    for (const auto& rows : plate.wave_rows | std::views::take(plate.peaks_alone ? 1 : plate.wave_rows.size())) {
       VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
       if (in_contact) correct(contacts[i], *plate.short_waves[i], rim.modulus, displacement);
       const Tractions tractions =
@@ -206,7 +207,7 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     if (in_contact) {
       loaded->kinks = contacts[i].all.ends;
       loaded->kinks_by_half = contacts[i].half.ends;
-      if (contacts[i].all.mu > 0) {
+      if (contacts[i].all.mu > 0 && !plate.peaks_alone) {
         loaded->all = contacts[i].all.shape;
         loaded->slip =
             slip_of(contacts[i], *plate.short_waves[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));

@@ -264,8 +264,10 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   const Parameters middle = parameters_of(joint, middle_scene);
   if (slice.is_whole)
     for (const auto& each : middle_warnings(joint, middle_scene, middle)) program::warn(log, program_name, each);
-  if (!study.scene.peaks)  // which takes time
-    for (auto& plate : joint.plates) plate.stress_level.reset();
+  for (auto& plate : joint.plates) {  // what takes time and no study tells
+    plate.peaks_alone = true;
+    if (!study.scene.peaks) plate.stress_level.reset();
+  }
   const StudySolver solver(joint, study.joint, middle, study.scene.peaks, study.scene.displacements);
   const StudyBlocks blocks(arguments.output, origin_of(study, joint, seed), study.scene.n_samples,
                            solver.names().size());
