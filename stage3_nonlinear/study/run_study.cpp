@@ -136,14 +136,18 @@ std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& stu
 class Samples {
  public:
   Samples(const Study& study, std::uint64_t seed, const JointModel& joint, const StudySolver& solver)
-      : study_(study), seed_(seed), joint_(joint), solver_(solver) {}
+      : study_(study), seed_(seed), joint_(joint), solver_(solver), middle_(middle_values(study.scene)) {
+    find_slopes();
+  }
+  /// (columns, v) change of each number with each variable in the middle; infinite if not known.
+  [[nodiscard]] const MatrixXd& sensitivity() const { return slopes_; }
 
   /// Numbers of the joint with values of the variables.
   SampleNumbers of_values(const std::vector<double>& values) {
     auto sampled = take();
     SampleNumbers result;
     try {
-      result = solver_.solve(parameters_of(joint_, sampled->scene(values)));
+      result = solver_.solve(parameters_of(joint_, sampled->scene(values)), away(values));
     } catch (const InputError&) {
       result = solver_.nothing(SampleStatus::refused);
     }
@@ -167,27 +171,37 @@ class Samples {
     blocks.write(block, std::move(status), std::move(values));
   }
 
-  /// Change of each number with each variable in the middle, by central differences.
-  MatrixXd sensitivity() {
-    const Index v = std::ssize(study_.scene.variables);
-    MatrixXd slopes(solver_.names().size(), v);
+ private:
+  /// Finds the changes of all numbers, and of the contact coordinates, with each variable in the middle, by central
+  /// differences.
+  void find_slopes() {
+    const Index v = std::ssize(middle_);
+    slopes_.resize(solver_.names().size(), v);
+    MatrixXd c_slopes = MatrixXd::Zero(solver_.middle().c.size(), v);
     linalg::for_each_index(v, [&](std::size_t i) {
       constexpr double part = 1e-3;
+      const Index column = Index(i);
       const double step = part * spread_of(study_.scene.variables[i]);
-      auto values = middle_values(study_.scene);
+      auto values = middle_;
       values[i] += step;
       const auto above = of_values(values);
       values[i] -= 2 * step;
       const auto below = of_values(values);
       const bool known = above.status == SampleStatus::solved && below.status == SampleStatus::solved;
-      slopes.col(Index(i)) = step == 0 ? VectorXd::Zero(slopes.rows())
-                             : known   ? VectorXd((above.all - below.all) / (2 * step))
-                                       : VectorXd::Constant(slopes.rows(), std::numeric_limits<double>::infinity());
+      if (known && step > 0 && c_slopes.rows() > 0) c_slopes.col(column) = (above.c - below.c) / (2 * step);
+      slopes_.col(column) = step == 0 ? VectorXd::Zero(slopes_.rows())
+                            : known   ? VectorXd((above.all - below.all) / (2 * step))
+                                      : VectorXd::Constant(slopes_.rows(), std::numeric_limits<double>::infinity());
     });
-    return slopes;
+    c_slopes_ = std::move(c_slopes);
   }
 
- private:
+  /// Change of the contact coordinates from the middle to values of the variables, by these slopes; empty before.
+  [[nodiscard]] VectorXd away(const std::vector<double>& values) const {
+    if (c_slopes_.size() == 0) return {};
+    return c_slopes_ *
+           (VectorXd::Map(values.data(), std::ssize(values)) - VectorXd::Map(middle_.data(), std::ssize(middle_)));
+  }
   /// A joint for one thread at a time.
   std::unique_ptr<SampledJoint> take() {
     const std::lock_guard lock(mutex_);
@@ -205,6 +219,8 @@ class Samples {
   std::uint64_t seed_;
   const JointModel& joint_;
   const StudySolver& solver_;
+  std::vector<double> middle_;
+  MatrixXd slopes_, c_slopes_;
   std::mutex mutex_;
   std::vector<std::unique_ptr<SampledJoint>> spare_;
 };

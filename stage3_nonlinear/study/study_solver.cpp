@@ -54,13 +54,13 @@ StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const
 }
 
 SampleNumbers StudySolver::nothing(SampleStatus status) const {
-  return {status, VectorXd::Constant(names_.size(), std::numeric_limits<double>::quiet_NaN())};
+  return {status, VectorXd::Constant(names_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
 }
 
 SampleNumbers StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
   const JointState state = joint_state(joint_, equations, step);
   if (imbalance(state, tolerance_)) return nothing(SampleStatus::out_of_balance);
-  SampleNumbers result{SampleStatus::solved, VectorXd(names_.size())};
+  SampleNumbers result{SampleStatus::solved, VectorXd(names_.size()), {}};
   result.all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
   Index at = joint_.n_planes();
   if (!names_.peak.empty())
@@ -70,15 +70,18 @@ SampleNumbers StudySolver::numbers(const JointEquations& equations, const PathSt
     for (const auto& plate : state.plates)
       for (const double each : plate.De) result.all[at++] = each;
   if (!result.all.allFinite()) return nothing(SampleStatus::out_of_balance);
+  result.c = step.c;
   return result;
 }
 
-SampleNumbers StudySolver::solve(const Parameters& parameters) const {
+SampleNumbers StudySolver::solve(const Parameters& parameters, const VectorXd& away) const {
   try {
     const JointEquations equations = make_equations(joint_, system_, parameters, rims_);
     if (start_ && planes_that_may_snap(equations).empty()) {  // else what it comes to depends on the way
       Walk walk(equations, options_);
-      if (walk.jump({load_factors_.back(), *start_})) return numbers(equations, walk.step());
+      const double load_factor = load_factors_.back();
+      if (away.size() > 0 && walk.jump({load_factor, *start_ + away})) return numbers(equations, walk.step());
+      if (walk.jump({load_factor, *start_})) return numbers(equations, walk.step());
     }
     const auto step = last_step(equations, load_factors_, options_);
     return step ? numbers(equations, *step) : nothing(SampleStatus::not_solved);

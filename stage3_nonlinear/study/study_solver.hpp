@@ -19,6 +19,7 @@ enum class SampleStatus { solved, refused, not_solved, out_of_balance };
 struct SampleNumbers {
   SampleStatus status = SampleStatus::solved;
   VectorXd all;  ///< forces, then peaks, then displacements, as StudySolver::names; NaN if it was not solved
+  VectorXd c{};  ///< (r) contact coordinates; none if it was not solved
 };
 
 /// Names of the numbers of a sample.
@@ -43,7 +44,9 @@ class StudySolver {
   [[nodiscard]] const StudyNames& names() const { return names_; }
   /// Numbers of the joint in the middle; NaN if it was not solved.
   [[nodiscard]] const SampleNumbers& middle() const { return middle_; }
-  [[nodiscard]] SampleNumbers solve(const Parameters& parameters) const;
+  /// @param away Change of the contact coordinates from those of the middle to where the search begins, (r); empty:
+  /// none.
+  [[nodiscard]] SampleNumbers solve(const Parameters& parameters, const VectorXd& away = {}) const;
   /// The same where the parameters could not be made.
   [[nodiscard]] SampleNumbers nothing(SampleStatus status) const;
 
