@@ -59,6 +59,7 @@ struct Discrete final : Distribution {
     const auto found = std::upper_bound(sums.begin(), sums.end(), share) - sums.begin();
     return values[std::min<std::size_t>(found, values.size() - 1)];
   }
+  [[nodiscard]] double largest() const override { return std::ranges::max(values); }
 };
 
 std::pair<double, double> limits(const Value& value, double lowest) {

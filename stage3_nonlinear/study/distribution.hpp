@@ -14,6 +14,8 @@ class Distribution {
   virtual ~Distribution() = default;
   /// @param share In (0, 1).
   [[nodiscard]] virtual double at(double share) const = 0;
+  /// The largest number, or one that hardly any exceeds.
+  [[nodiscard]] virtual double largest() const { return at(1 - 1e-15); }
 };
 
 /// Reads {"type": "uniform" | "normal" | "lognormal" | "triangular" | "discrete", ...}; normal and lognormal ones may

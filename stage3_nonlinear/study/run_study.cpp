@@ -76,23 +76,19 @@ std::vector<double> middle_values(const StudyScene& study) {
   return values;
 }
 
-/// The joint with friction wherever a sample has some, which the condensed joint must know of.
+/// The joint with friction wherever a sample may have some, which the condensed joint must know of.
 JointScene with_all_friction(const Study& study, SampledJoint& sampled) {
-  JointScene all = sampled.scene(middle_values(study.scene));
-  constexpr int some = 64;
-  for (int i = 0; i < some; ++i) {
-    std::vector<double> values;
-    for (const auto& variable : study.scene.variables) {
-      const double share = (i + 0.5) / some;
-      values.push_back(variable.column.empty() ? variable.distribution->at(share)
-                                               : variable.column[std::size_t(share * double(variable.column.size()))]);
-    }
+  const std::vector<double> middle = middle_values(study.scene);
+  JointScene all = sampled.scene(middle);
+  for (std::size_t i = 0; i < middle.size(); ++i) {
+    std::vector<double> values = middle;
+    values[i] = largest_of(study.scene.variables[i]);
     try {
       const JointScene& scene = sampled.scene(values);
       for (std::size_t f = 0; f < all.fasteners.size(); ++f)
         for (std::size_t h = 0; h < all.fasteners[f].friction.size(); ++h)
           all.fasteners[f].friction[h] = std::max(all.fasteners[f].friction[h], scene.fasteners[f].friction[h]);
-    } catch (const InputError&) {  // a sample that will be refused
+    } catch (const InputError&) {  // such a sample will be refused
       continue;
     }
   }

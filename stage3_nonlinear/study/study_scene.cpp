@@ -279,6 +279,11 @@ double middle_of(const Variable& variable) {
   return all[all.size() / 2];
 }
 
+double largest_of(const Variable& variable) {
+  const std::vector<double>& all = variable.levels.empty() ? variable.column : variable.levels;
+  return all.empty() ? variable.distribution->largest() : std::ranges::max(all);
+}
+
 double spread_of(const Variable& variable) {
   const std::vector<double>& all = variable.levels.empty() ? variable.column : variable.levels;
   if (all.empty()) return (variable.distribution->at(5.0 / 6) - variable.distribution->at(1.0 / 6)) / 2;

@@ -49,6 +49,8 @@ struct StudyScene {
 
 /// Middle of a variable: the value with as much below as above it.
 [[nodiscard]] double middle_of(const Variable& variable);
+/// Its largest value, or one that hardly any sample exceeds.
+[[nodiscard]] double largest_of(const Variable& variable);
 /// Half of the width within which two thirds of its values lie, or a third of that of all levels or of a column.
 [[nodiscard]] double spread_of(const Variable& variable);
 

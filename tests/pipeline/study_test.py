@@ -247,6 +247,23 @@ def bad_studies(folder):
     assert "table.csv: line 3: \"x\" in column \"a\"" in said, said
 
 
+def rare_friction(folder):
+    """Friction that hardly any sample has, in a joint that has none, is that of runs with it."""
+    row_of_pins(folder, 2, 1e5, "two")
+    variables = [{"at": "/fasteners/1/friction", "distribution": {"type": "discrete", "values": [0.3, 0], "weights": [1, 999]}},
+                 {"at": "/fasteners/0/clearance", **uniform(0, 0.01)}]
+    run(folder, joint_of("two", 2, 30), {"samples": 2000, "seed": 3, "variables": variables})
+    with h5py.File(folder / "study.h5") as study:
+        rubs = np.flatnonzero(study["samples/variable"][:, 0] > 0)
+        force = study["samples/force"][:]
+    assert 0 < len(rubs) < 20
+    for sample in (rubs[0], 0 if 0 not in rubs else 1):
+        run(folder, joint_of("two", 2, 30), {"samples": 2000, "seed": 3, "variables": variables}, "--sample", str(sample), output="one.json")
+        subprocess.run([PROGRAMS / "stage3_nonlinear", "one.json", "-o", "one.h5", "--quiet"], cwd=folder, check=True, capture_output=True)
+        with h5py.File(folder / "one.h5") as one:
+            near(f"rare friction, sample {sample}", np.abs(force[sample] - np.abs(one["transferred"][-1, :, 0])).max() / 15, 0, 1e-10, absolute=True)
+
+
 def grids_and_tables(folder):
     """All combinations, the last variable fastest; and rows of a table."""
     joint = joint_of("two", 2, 30)
@@ -277,7 +294,7 @@ def memory(folder):
 with tempfile.TemporaryDirectory() as name:
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    for check in (closed_forms, numbers_of_numpy, samples_are_runs, same_bytes, kills, failures, bad_studies, grids_and_tables, memory):
+    for check in (closed_forms, numbers_of_numpy, samples_are_runs, same_bytes, kills, failures, bad_studies, rare_friction, grids_and_tables, memory):
         before = time.time()
         check(Path(name))
         print(f"{check.__name__}: {time.time() - before:.1f} s", flush=True)
