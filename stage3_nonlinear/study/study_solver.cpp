@@ -11,18 +11,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-StudyNames names_of(const JointModel& joint, bool peaks, bool displacements) {
-  StudyNames names;
-  for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
-  for (const auto& plate : joint.plates) {
-    if (peaks && plate.stress_level)
-      for (const auto& hole : plate.stresses.rim_hole) names.peak.push_back(plate.name + ":" + hole);
-    if (displacements)
-      for (const auto& external : plate.externals) names.displacement.push_back(plate.name + ":" + external);
-  }
-  return names;
-}
-
 /// Follows a joint from no load to its last increment.
 std::optional<PathStep> last_step(const JointEquations& equations, const std::vector<double>& load_factors,
                                   const PathOptions& options) {
@@ -36,14 +24,25 @@ std::optional<PathStep> last_step(const JointEquations& equations, const std::ve
 
 }  // namespace
 
-StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, bool peaks,
-                         bool displacements)
+StudyNames study_names(const JointModel& joint, bool peaks, bool displacements) {
+  StudyNames names;
+  for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
+  for (const auto& plate : joint.plates) {
+    if (peaks && plate.stress_level)
+      for (const auto& hole : plate.stresses.rim_hole) names.peak.push_back(plate.name + ":" + hole);
+    if (displacements)
+      for (const auto& external : plate.externals) names.displacement.push_back(plate.name + ":" + external);
+  }
+  return names;
+}
+
+StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, StudyNames names)
     : joint_(joint),
       load_factors_(scene.wanted_load_factors()),
       options_{scene.initial, scene.solver},
       tolerance_(scene.solver.tolerance),
       system_(std::make_shared<const CondensedSystem>(condense(joint))),
-      names_(names_of(joint, peaks, displacements)) {
+      names_(std::move(names)) {
   const JointEquations equations = make_equations(joint, system_, middle);
   rims_ = equations.rims;
   const auto step = last_step(equations, load_factors_, options_);

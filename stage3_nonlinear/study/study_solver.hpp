@@ -31,6 +31,8 @@ struct StudyNames {
   [[nodiscard]] Index size() const { return std::ssize(force) + std::ssize(peak) + std::ssize(displacement); }
 };
 
+[[nodiscard]] StudyNames study_names(const JointModel& joint, bool peaks, bool displacements);
+
 /// Solves a joint for other numbers, each time from its solution for the numbers in the middle, so that no result
 /// depends on another sample. Several threads may use it.
 class StudySolver {
@@ -38,8 +40,7 @@ class StudySolver {
   /// @param joint  Outlives this; friction acts where any sample has it.
   /// @param scene  Its load factors and solver.
   /// @param middle Numbers of the middle.
-  StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, bool peaks,
-              bool displacements);
+  StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, StudyNames names);
 
   [[nodiscard]] const StudyNames& names() const { return names_; }
   /// Numbers of the joint in the middle; NaN if it was not solved.

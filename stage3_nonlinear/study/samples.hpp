@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "stage3_nonlinear/study/sampled_joint.hpp"
+#include "stage3_nonlinear/study/study_blocks.hpp"
+#include "stage3_nonlinear/study/study_solver.hpp"
+
+namespace fastjoint::stage3 {
+
+/// The study and the joint that it varies.
+struct Study {
+  input::Document joint_text, study_text;
+  JointScene joint;
+  StudyScene scene;
+};
+
+[[nodiscard]] std::vector<double> middle_values(const StudyScene& study);
+
+/// Samples of a study on all threads, each from the joint in the middle of the variables alone.
+class Samples {
+ public:
+  /// Solves beside the middle for the slopes there. @param study, joint, solver Outlive this.
+  Samples(const Study& study, std::uint64_t seed, const JointModel& joint, const StudySolver& solver);
+
+  /// (columns, v) change of each number with each variable in the middle; infinite if not known.
+  [[nodiscard]] const MatrixXd& sensitivity() const { return slopes_; }
+  /// Solves the samples of a block and writes it.
+  void solve_block(const StudyBlocks& blocks, int block);
+
+ private:
+  /// Numbers of the joint with values of the variables.
+  SampleNumbers of_values(const std::vector<double>& values);
+  /// Finds the changes of all numbers, and of the contact coordinates, with each variable in the middle, by central
+  /// differences.
+  void find_slopes();
+  /// Change of the contact coordinates from the middle to values of the variables, by these slopes; empty before.
+  [[nodiscard]] VectorXd away(const std::vector<double>& values) const;
+  /// A joint for one thread at a time.
+  std::unique_ptr<SampledJoint> take();
+  void give(std::unique_ptr<SampledJoint> sampled);
+
+  const Study& study_;
+  std::uint64_t seed_;
+  const JointModel& joint_;
+  const StudySolver& solver_;
+  std::vector<double> middle_;
+  MatrixXd slopes_, c_slopes_;
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<SampledJoint>> spare_;
+};
+
+}  // namespace fastjoint::stage3
