@@ -35,7 +35,7 @@ std::string row(const formats::StudyGroup& a, Index i) {
   if (a.of.size() > 1) line += fmt::format("{:>7.1f} %", 100 * a.governs[i]);
   if (std::isfinite(a.limit))
     line += fmt::format("{:>30}",
-                        fmt::format("{:.3g} ({:.2g}..{:.2g})", a.exceeds[i], a.exceeds_low[i], a.exceeds_high[i]));
+                        fmt::format("{:.4g} ({:.3g}..{:.3g})", a.exceeds[i], a.exceeds_low[i], a.exceeds_high[i]));
   return line + "\n";
 }
 
