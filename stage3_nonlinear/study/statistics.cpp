@@ -64,7 +64,7 @@ Share share_of(std::uint64_t count, std::uint64_t solved, std::uint64_t failed) 
 
 double Moments::deviation() const { return n_ < 2 ? 0 : std::sqrt(squares_ / double(n_ - 1)); }
 
-Selection::Selection(std::vector<std::uint64_t> ranks) {
+Selection::Selection(const std::vector<std::uint64_t>& ranks) {
   for (const std::uint64_t rank : ranks) targets_.push_back({rank, 0, 0});
   group();
 }

@@ -49,7 +49,7 @@ class Selection {
  public:
   static constexpr int n_passes = 6;
   /// @param ranks 1-based, none beyond the number of numbers.
-  explicit Selection(std::vector<std::uint64_t> ranks);
+  explicit Selection(const std::vector<std::uint64_t>& ranks);
   void add(double x);
   /// Ends a pass.
   void next();

@@ -24,7 +24,7 @@ int block_size(std::uint64_t n_samples) {
 
 }  // namespace
 
-StudyBlocks::StudyBlocks(std::string output, formats::StudyOrigin origin, std::uint64_t n_samples,
+StudyBlocks::StudyBlocks(const std::string& output, formats::StudyOrigin origin, std::uint64_t n_samples,
                          Eigen::Index n_columns)
     : folder_(folder_of(output)),
       origin_(std::move(origin)),

@@ -14,7 +14,7 @@ namespace fastjoint::stage3 {
 class StudyBlocks {
  public:
   /// @param output Path of STUDY.h5. @param n_columns Numbers of each sample.
-  StudyBlocks(std::string output, formats::StudyOrigin origin, std::uint64_t n_samples, Eigen::Index n_columns);
+  StudyBlocks(const std::string& output, formats::StudyOrigin origin, std::uint64_t n_samples, Eigen::Index n_columns);
 
   /// Seed of the blocks that are there, if there are any.
   [[nodiscard]] static std::optional<std::string> seed_in(const std::string& output);
