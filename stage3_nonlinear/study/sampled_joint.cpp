@@ -7,6 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "common/errors.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -48,6 +50,8 @@ void SampledJoint::put(const std::vector<double>& values) {
       const double value = use_[i] == Use::value    ? values[i]
                            : use_[i] == Use::factor ? before * values[i]
                                                     : before + values[i];
+      if (!std::isfinite(value))
+        throw InputError(document_.file + ": a number of the sample is too large; allowed: finite numbers");
       constexpr double most = 1e15;
       if (is_integer && value == std::floor(value) && std::abs(value) < most)
         *number = static_cast<std::int64_t>(value);

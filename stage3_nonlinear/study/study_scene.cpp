@@ -47,9 +47,8 @@ const json* member_of(const json& value, const std::string& key) {
     return found == value.end() ? nullptr : &*found;
   }
   std::size_t at = 0;
-  const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), at);
-  const bool is_index = error == std::errc() && end == key.data() + key.size();
-  return value.is_array() && is_index && at < value.size() ? &value[at] : nullptr;
+  std::from_chars(key.data(), key.data() + key.size(), at);
+  return value.is_array() && key == std::to_string(at) && at < value.size() ? &value[at] : nullptr;
 }
 
 std::string plain(std::string key) {

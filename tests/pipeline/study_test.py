@@ -228,6 +228,11 @@ def bad_studies(folder):
             ({"variables": [{"at": "/plates/sheet", **uniform(0, 1)}]}, "/variables/0/at: \"/plates/sheet\" is not allowed; allowed: JSON pointers"),
             ({"variables": [{"at": "/laws/other/k", **uniform(0, 1)}]}, "leads to no number of the joint"),
             ({"variables": [{"at": "/laws/pin/type", **uniform(0, 1)}]}, "leads to no number of the joint"),
+            ({"variables": [{"at": "/fasteners/00/clearance", **uniform(0, 1)}]}, "leads to no number of the joint"),
+            ({"variables": [{"at": "/fasteners/7/clearance", **uniform(0, 1)}]}, "leads to no number of the joint"),
+            ({"variables": [{"at": "/laws/pin/k", "use": "factor", "values": [1e307]}], "samples": 1, "sampling": "random"}, "too large"),
+            ({"variables": [{"at": "/fasteners/0/clearence", **uniform(0, 1)}]}, "unknown key"),
+            ({"outputs": ["peaks"], "variables": [{"at": "/plates", **uniform(0, 1)}]}, "allowed: JSON pointers"),
             ({"variables": [{"at": "/laws/pin/k"}]}, "one of \"values\", \"grid\", \"table\" and \"distribution\""),
             ({"variables": 2 * good["variables"]}, "stands twice"),
             ({"variables": [good["variables"][0] | {"name": "a"}, good["variables"][0]]}, "is varied already"),
@@ -242,6 +247,8 @@ def bad_studies(folder):
         assert words in said, (words, said)
     for option, words in (("--slice=3/2", "i from 1 to n"), ("--sample=5", "--sample: '5' is not allowed; allowed: an integer from 0 to 4"), ("--csv=x.csv", "given beside --study")):
         assert words in run(folder, joint, good, option, status=2)
+    subprocess.run([PROGRAMS / "stage2_extract", "two.plate.h5", "-o", "two.h5", "--loads-only", "--quiet"], cwd=folder, check=True)
+    assert "no plate's matrices hold stresses" in run(folder, joint, good | {"outputs": ["peaks"]}, status=2)
     (folder / "table.csv").write_text("a\n1000\nx\n")
     said = run(folder, joint, {"variables": [{"at": "/laws/pin/k", "table": {"file": "table.csv", "column": "a"}}]}, status=2)
     assert "table.csv: line 3: \"x\" in column \"a\"" in said, said
