@@ -15,8 +15,9 @@ void datasets(File& file, Block& a) {
   file.attribute("seed", a.origin.seed);
   file.attribute("block", a.number);
   file.attribute("block_size", a.size);
-  file("files/name", a.origin.file, {h5::any}, "1", "files that the joint and the study name");
-  file("files/digest", a.origin.digest, {Eigen::Index(a.origin.file.size())}, "1", "digest of each");
+  file("files/name", a.origin.file, {h5::any}, "1",
+       "files that the joint and the study name, and the polynomial degree");
+  file("files/digest", a.origin.digest, {Eigen::Index(a.origin.file.size())}, "1", "digest of each file; the degree");
   file("status", a.status, {h5::some}, "1",
        "what became of each sample: 0 solved, 1 refused, 2 not solved, 3 out of balance", h5::integers(0, 3));
   file("values", a.values, {Eigen::Index(a.status.size()), File::reads ? h5::some : Eigen::Index(a.values.cols())}, "1",

@@ -15,7 +15,7 @@ struct StudyOrigin {
   std::string joint;                      ///< text of JOINT.json
   std::string study;                      ///< text of STUDY.json
   std::string seed;                       ///< of the random numbers, decimal
-  std::vector<std::string> file, digest;  ///< (f) of each file that these name, as they name it
+  std::vector<std::string> file, digest;  ///< (f) files that these name, and the degree, each with its digest or number
 };
 
 using StudyRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

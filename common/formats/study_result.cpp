@@ -41,8 +41,8 @@ void write(const std::string& path, const StudyResult& a, const std::function<vo
   file.attribute("seed", a.origin.seed);
   file.attribute("sampling", a.sampling);
   file("files/name", a.origin.file, {Eigen::Index(a.origin.file.size())}, "1",
-       "files that the joint and the study name");
-  file("files/digest", a.origin.digest, {Eigen::Index(a.origin.file.size())}, "1", "digest of each");
+       "files that the joint and the study name, and the polynomial degree");
+  file("files/digest", a.origin.digest, {Eigen::Index(a.origin.file.size())}, "1", "digest of each file; the degree");
   const Eigen::Index v = std::ssize(a.variable);
   file("variables/name", a.variable, {v}, "1", "variables of the study");
   file("variables/place", a.place, {v}, "1", "JSON pointers of each into the joint, parted by spaces");

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <filesystem>
 #include <limits>
 #include <ostream>
@@ -36,13 +36,17 @@ struct Slice {
   bool is_whole = true;
 };
 
-/// "3/20"
-Slice read_slice(const std::string& text) {
-  if (text.empty()) return {};
+/// "3/20"; all without the option.
+Slice read_slice(const program::Arguments& arguments) {
+  if (!arguments.flag("--slice")) return {};
+  if (arguments.flag("--merge")) throw InputError("--slice: given beside --merge; allowed: one of them");
+  const std::string text = arguments.text("--slice");
+  const char *at = text.data(), *end = text.data() + text.size();
   Slice slice{0, 0, false};
-  char rest = 0;
-  const bool reads = std::sscanf(text.c_str(), "%d/%d%c", &slice.number, &slice.n, &rest) == 2;
-  if (!reads || slice.n < 1 || slice.number < 1 || slice.number > slice.n)
+  const auto [middle, first] = std::from_chars(at, end, slice.number);
+  const bool parted = first == std::errc() && middle != end && *middle == '/';
+  const auto [last, second] = std::from_chars(parted ? middle + 1 : end, end, slice.n);
+  if (second != std::errc() || last != end || slice.number < 1 || slice.number > slice.n)
     throw InputError(fmt::format("--slice: \"{}\"; allowed: i/n with i from 1 to n", text));
   return slice;
 }
@@ -83,6 +87,8 @@ JointScene with_all_friction(const Study& study, SampledJoint& sampled) {
 formats::StudyOrigin origin_of(const Study& study, const JointModel& joint, std::uint64_t seed) {
   formats::StudyOrigin origin{
       program::generator(program_name), study.joint_text.text, study.study_text.text, std::to_string(seed), {}, {}};
+  origin.file.emplace_back("polynomial degree");
+  origin.digest.push_back(std::to_string(joint.p));
   for (const auto& plate : joint.plates) {
     origin.file.push_back(fmt::format("matrices of plate {}", plate.name));
     origin.digest.push_back(plate.matrices_digest);
@@ -151,9 +157,9 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
       std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
   if (study.scene.peaks && !has_peaks)
     throw InputError(
-        fmt::format("{}: /outputs: \"peaks\", but no plate's matrices hold stresses; allowed: matrices of "
-                    "stage2_extract without --loads-only",
-                    study.scene.file));
+        fmt::format("{}: /outputs: \"peaks\", but no plate's matrices hold stresses at p = {}; allowed: "
+                    "matrices of stage2_extract without --loads-only, at their highest degree",
+                    study.scene.file, joint.p));
   return joint;
 }
 
@@ -199,7 +205,7 @@ std::string merge(const Study& study, const StudyContext& context, const StudyBl
 
 void run_study(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
   timings.phase("read");
-  const Slice slice = read_slice(arguments.text("--slice"));
+  const Slice slice = read_slice(arguments);
   const bool merge_only = arguments.flag("--merge"), one_sample = arguments.flag("--sample");
   const int threads = arguments.integer("--threads", 1, 1024, int(std::max(1U, std::thread::hardware_concurrency())));
   linalg::set_threads(threads);
@@ -216,6 +222,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   const formats::StudyOrigin origin = origin_of(study, joint, seed);
   StudyNames names = study_names(joint, study.scene.peaks, study.scene.displacements);
   const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, names.size());
+  blocks.check();
   if (merge_only) check_all_there(blocks);
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));

@@ -22,6 +22,14 @@ int block_size(std::uint64_t n_samples) {
   return int(std::clamp((n_samples + parts - 1) / parts, least, most));
 }
 
+formats::StudyBlock read_block(const std::string& path) {
+  try {
+    return formats::read_study_block(path);
+  } catch (const FileError& e) {
+    throw FileError(fmt::format("{}; remove this block, and its samples are solved again", e.what()));
+  }
+}
+
 }  // namespace
 
 StudyBlocks::StudyBlocks(const std::string& output, formats::StudyOrigin origin, std::uint64_t n_samples,
@@ -36,7 +44,7 @@ StudyBlocks::StudyBlocks(const std::string& output, formats::StudyOrigin origin,
 std::optional<std::string> StudyBlocks::seed_in(const std::string& output) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder_of(output), none))
-    if (entry.path().extension() == ".h5") return formats::read_study_block(entry.path().string()).origin.seed;
+    if (entry.path().extension() == ".h5") return read_block(entry.path().string()).origin.seed;
   return std::nullopt;
 }
 
@@ -64,6 +72,11 @@ void StudyBlocks::check_origin(const formats::StudyBlock& found, const std::stri
       refuse(fmt::format("another {}", origin_.file[i]));
 }
 
+void StudyBlocks::check() const {
+  for (int block = 0; block < n_blocks_; ++block)
+    if (has(block)) return;
+}
+
 bool StudyBlocks::has(int block) const {
   if (!fs::exists(path(block))) return false;
   (void)read(block);
@@ -72,7 +85,7 @@ bool StudyBlocks::has(int block) const {
 
 formats::StudyBlock StudyBlocks::read(int block) const {
   const std::string at = path(block);
-  auto found = formats::read_study_block(at);
+  auto found = read_block(at);
   check_origin(found, at);
   if (found.number != block || found.size != size_ || found.status.size() != Eigen::Index(end(block) - first(block)) ||
       found.values.cols() != n_columns_)

@@ -24,6 +24,8 @@ class StudyBlocks {
   [[nodiscard]] std::uint64_t end(int block) const { return std::min(first(block + 1), n_samples_); }
   /// Blocks of a slice of n, 1-based, in which blocks follow each other.
   [[nodiscard]] std::pair<int, int> of_slice(int slice, int n) const;
+  /// Throws InputError if a block that is there is of another study: before work that could not be merged with it.
+  void check() const;
   /// True if a block is there. Throws InputError if it is of another study, FileError if it is damaged.
   [[nodiscard]] bool has(int block) const;
   /// A block that is there, checked likewise.

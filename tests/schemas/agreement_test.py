@@ -208,8 +208,12 @@ def copied(folder, paths):
 
 
 def example_copied(root, example):
-    """An example's folder, from which its Makefile finds the scripts."""
+    """An example's folder, from which its Makefile finds the scripts and the other examples."""
     (root / "scripts").symlink_to(ROOT / "scripts")
+    (root / "examples").mkdir()
+    for other in (ROOT / "examples").iterdir():
+        if other != example:
+            (root / "examples" / other.name).symlink_to(other)
     return shutil.copytree(example, root / example.relative_to(ROOT), ignore=shutil.ignore_patterns("out", "*.h5"))
 
 

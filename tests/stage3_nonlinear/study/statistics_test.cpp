@@ -34,7 +34,9 @@ TEST(QuantileRanks, HoldTheQuantileWithNinetyFivePercentAndHardlyMore) {
       EXPECT_LE(below, beyond_limit) << n;
       EXPECT_LE(above, beyond_limit) << n;
       EXPECT_GT(binomial(n, share, 0, int(low)), beyond_limit) << n;
-      if (high <= unsigned(n)) EXPECT_GT(binomial(n, share, int(high) - 1, n), beyond_limit) << n;
+      if (high <= unsigned(n)) {
+        EXPECT_GT(binomial(n, share, int(high) - 1, n), beyond_limit) << n;
+      }
     }
 }
 
@@ -49,8 +51,12 @@ TEST(Share, HasExactBinomialLimits) {
     for (const int k : {0, 1, n / 3, n - 1, n}) {
       const Share share = share_of(k, n, 0);
       EXPECT_EQ(share.value, double(k) / n);
-      if (k > 0) EXPECT_NEAR(binomial(n, share.low, k, n), beyond_limit, 1e-8) << n << " " << k;
-      if (k < n) EXPECT_NEAR(binomial(n, share.high, 0, k), beyond_limit, 1e-8) << n << " " << k;
+      if (k > 0) {
+        EXPECT_NEAR(binomial(n, share.low, k, n), beyond_limit, 1e-8) << n << " " << k;
+      }
+      if (k < n) {
+        EXPECT_NEAR(binomial(n, share.high, 0, k), beyond_limit, 1e-8) << n << " " << k;
+      }
     }
   EXPECT_EQ(share_of(0, 100, 0).low, 0);
   EXPECT_EQ(share_of(100, 100, 0).high, 1);
