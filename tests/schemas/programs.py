@@ -14,6 +14,7 @@ class Programs:
 
     def __init__(self, stage1, stage2, stage3):
         self.stage1, self.stage2, self.stage3 = stage1, stage2, stage3
+        ONE_THREAD["PATH"] = f"{pathlib.Path(stage1).resolve().parent}:{os.environ['PATH']}"  # for Makefiles
 
     def plate(self, scene, output, p):
         return run(self.stage1, scene, "-o", output, "--p", p)
