@@ -60,8 +60,13 @@ Study read_study(const program::Arguments& arguments) {
   study.study_text = input::parse(study_file, input::read_text_file(study_file));
   study.joint = read_joint_scene(study.joint_text);
   study.scene = read_study_scene(study.study_text, study.joint_text);
-  for (const auto& plate : study.joint.plates)
-    program::check_spare("-o", arguments.output, plate.file, fmt::format("a file that {} reads", arguments.input));
+  const auto check = [&](const std::string& file, const std::string& reader) {
+    program::check_spare("-o", arguments.output, file, fmt::format("a file that {} reads", reader));
+    program::check_spare("--timings", arguments.timings, file, fmt::format("a file that {} reads", reader));
+  };
+  for (const auto& plate : study.joint.plates) check(plate.file, arguments.input);
+  for (const auto& [name, law] : study.joint.laws) check(law.law->file(), arguments.input);
+  for (const auto& variable : study.scene.variables) check(variable.table, study_file);
   return study;
 }
 

@@ -35,7 +35,7 @@ class Moments {
     squares_ += before * (x - mean_);
   }
   [[nodiscard]] double mean() const { return mean_; }
-  /// Of a sample: over n - 1.
+  /// The deviation of a sample: the sum of squares over n - 1.
   [[nodiscard]] double deviation() const;
 
  private:

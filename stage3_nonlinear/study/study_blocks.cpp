@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 std::string folder_of(const std::string& output) { return output + ".parts"; }
 
-/// Of all samples a sixtieth, so that little is lost with a block, within what is still quick to write and to read.
+/// A sixty-fourth of all samples, so that little is lost with a block, within what is still quick to write and to read.
 int block_size(std::uint64_t n_samples) {
   constexpr std::uint64_t parts = 64, least = 16, most = 8192;
   return int(std::clamp((n_samples + parts - 1) / parts, least, most));

@@ -66,7 +66,7 @@ std::string causes(const formats::StudyResult& result, const formats::StudyGroup
   return fmt::format("  rank correlations of the {}: {}\n", a.of[0], text);
 }
 
-/// Where the sensitivities in the middle do not tell the deviations.
+/// Tells where the sensitivities in the middle miss the deviations.
 std::string doubts(const formats::StudyGroup& a) {
   constexpr double much = 0.2, little = 1e-6;
   Index worst = -1, n_off = 0;

@@ -291,6 +291,8 @@ def grids_and_tables(folder):
         assert np.allclose(study["samples/variable"][:], [[k, c] for k in (1000, 3000) for c in (0.001, 0.01, 0.1)], rtol=1e-14)
         assert study.attrs["sampling"] == "grid"
     (folder / "table.csv").write_text("k, c\n1000, 0.5\n2000, 0.25\n")
+    tabled = {"variables": [{"at": "/laws/pin/k", "table": {"file": "table.csv", "column": "k"}}]}
+    assert "a file that study.json reads" in run(folder, joint, tabled, output="table.csv", status=2)
     run(folder, joint, {"variables": [{"at": place, "table": {"file": "table.csv", "column": column}} for place, column in
                                       (("/laws/pin/k", "k"), ("/fasteners/1/clearance", "c"))]})
     with h5py.File(folder / "study.h5") as study:
