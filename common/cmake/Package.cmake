@@ -14,8 +14,8 @@ foreach(program stage1_plate stage2_extract stage3_nonlinear)
   list(APPEND programs $<TARGET_FILE:${program}>)
   install(FILES ${completions} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
 endforeach()
-add_custom_command(OUTPUT ${completions} DEPENDS ${programs} scripts/bash_completion VERBATIM
-  COMMAND ${PROJECT_SOURCE_DIR}/scripts/bash_completion ${programs} > ${completions})
+add_custom_command(OUTPUT ${completions} DEPENDS ${programs} common/cmake/bash_completion VERBATIM
+  COMMAND ${PROJECT_SOURCE_DIR}/common/cmake/bash_completion ${programs} > ${completions})
 add_custom_target(pages ALL DEPENDS ${pages} ${completions})
 install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/chart_peaks on the isotropic pin: chart_peaks_test.py BIN_FOLDER."""
+"""scripts/measure/chart_peaks on the isotropic pin: chart_peaks_test.py BIN_FOLDER."""
 import os
 import sys
 import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
+sys.path[:0] = [str(ROOT / "scripts/python"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import calculix_pin  # noqa: E402
 from peak_scenes import PIN  # noqa: E402
 from pin_on_springs import WideSheet, isotropic  # noqa: E402
 from pictures import check_curves, run_and_look  # noqa: E402
 
-NAME = "scripts/chart_peaks"
+NAME = "scripts/measure/chart_peaks"
 COARSEST = 0.15  # error of the peak at p = 3 at most
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/compare_peer, with the peer if it is built and without it: compare_peer_test.py BIN_FOLDER."""
+"""scripts/measure/compare_peer, with the peer if it is built and without it: compare_peer_test.py BIN_FOLDER."""
 import os
 import subprocess
 import sys
@@ -11,7 +11,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def compare(folder, *words):
     path = f"{folder}{os.pathsep}/usr/bin{os.pathsep}/bin"
-    return subprocess.run([ROOT / "scripts/compare_peer", *words], env=os.environ | {"PATH": path}, capture_output=True,
+    return subprocess.run([ROOT / "scripts/measure/compare_peer", *words], env=os.environ | {"PATH": path}, capture_output=True,
                           text=True)
 
 

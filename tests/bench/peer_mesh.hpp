@@ -8,7 +8,7 @@ namespace fastjoint::peer {
 
 inline constexpr unsigned int n_octants = 8;  // cells around a hole
 
-/// The panel that scripts/make_panel prints: nx times ny unit squares, each with a hole and a disc in it.
+/// The panel that scripts/measure/make_panel prints: nx times ny unit squares, each with a hole and a disc in it.
 struct Panel {
   unsigned int nx, ny, rings;
   /// Rigid displacements: the external's, then those of the discs row by row.

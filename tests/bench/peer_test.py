@@ -63,7 +63,7 @@ def rim_by_ours(bin_folder, nx, ny, p, rings):
         scene, plate, matrices, joint, result = (Path(folder) / name for name in
                                                  ("plate.json", "plate.h5", "matrices.h5", "joint.json", "result.h5"))
         words = [nx, ny, "--rings", rings, "--p", f"{p}..{p}", "--space", "product"]
-        panel = json.loads(subprocess.run([ROOT / "scripts/make_panel", *map(str, words)], capture_output=True, check=True).stdout)
+        panel = json.loads(subprocess.run([ROOT / "scripts/measure/make_panel", *map(str, words)], capture_output=True, check=True).stdout)
         for hole in panel["holes"]:
             hole["waves"] = 16  # so that none is missing at all
         scene.write_text(json.dumps(panel))

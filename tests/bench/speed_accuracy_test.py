@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/chart_speed_accuracy on panel(1,1), and the program behind it: speed_accuracy_test.py BIN_FOLDER."""
+"""scripts/measure/chart_speed_accuracy on panel(1,1), and the program behind it: speed_accuracy_test.py BIN_FOLDER."""
 import os
 import re
 import subprocess
@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
+sys.path[:0] = [str(ROOT / "scripts/python"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 from pictures import check_curves, run_and_look  # noqa: E402
 
-NAME = "scripts/chart_speed_accuracy"
+NAME = "scripts/measure/chart_speed_accuracy"
 
 
 def run(*words, status=0, **more):

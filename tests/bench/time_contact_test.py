@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/time_contact on four fasteners, beside the same programs: time_contact_test.py BIN_FOLDER."""
+"""scripts/measure/time_contact on four fasteners, beside the same programs: time_contact_test.py BIN_FOLDER."""
 import os
 import subprocess
 import sys
@@ -7,7 +7,7 @@ import tempfile
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-NAME = "scripts/time_contact"
+NAME = "scripts/measure/time_contact"
 
 
 def cells(line):

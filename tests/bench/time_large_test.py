@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/time_large and scripts/time_solvers on a few holes: time_large_test.py BIN_FOLDER."""
+"""scripts/measure/time_large and scripts/measure/time_solvers on a few holes: time_large_test.py BIN_FOLDER."""
 import os
 import re
 import subprocess
@@ -30,7 +30,7 @@ def kept(page, script):
 
 
 def check_large(folder):
-    script, readme = "scripts/time_large", folder / "README.md"
+    script, readme = "scripts/measure/time_large", folder / "README.md"
     readme.write_text(f"<!-- {script} -->\n<!-- /{script} -->\n")
     printed = run(script, "--quick", "--repeat", 1, "--readme", readme)
     assert readme.read_text() == f"<!-- {script} -->\n{printed}<!-- /{script} -->\n"
@@ -42,9 +42,9 @@ def check_large(folder):
 
 
 def check_chart(folder):
-    block, readme, chart = "scripts/time_large --chart", folder / "README.md", folder / "chart.png"
+    block, readme, chart = "scripts/measure/time_large --chart", folder / "README.md", folder / "chart.png"
     readme.write_text(f"<!-- {block} -->\n<!-- /{block} -->\n")
-    printed = run("scripts/time_large", "--quick", "--repeat", 1, "--chart", chart, "--readme", readme)
+    printed = run("scripts/measure/time_large", "--quick", "--repeat", 1, "--chart", chart, "--readme", readme)
     assert readme.read_text() == f"<!-- {block} -->\n{printed}<!-- /{block} -->\n"
     for what in ("loads only", "with stresses"):
         costs = re.search(rf"Milliseconds per hole, {what} \(holes\): ([\d.e+]+) \(4\), ([\d.e+]+) \(9\)\.", printed)
@@ -54,7 +54,7 @@ def check_chart(folder):
 
 
 def check_solvers():
-    script = "scripts/time_solvers"
+    script = "scripts/measure/time_solvers"
     found = rows(run(script, "--quick", "--repeat", 1))
     assert [row["fasteners"] for row in found] == ["4", "9"], found
     for row in found:

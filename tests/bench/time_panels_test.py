@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""scripts/time_panels on panel(6,6): at least so much faster than the straightforward path in the same run, and the
+"""scripts/measure/time_panels on panel(6,6): at least so much faster than the straightforward path in the same run, and the
 same S and R: time_panels_test.py BIN_FOLDER."""
 import os
 import subprocess
@@ -10,7 +10,7 @@ from importlib.util import module_from_spec, spec_from_loader
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
-NAME = "scripts/time_panels"
+NAME = "scripts/measure/time_panels"
 LEAST_RATIO = 3.5  # half of what was measured, about 7
 
 
@@ -43,7 +43,7 @@ def check_table(folder):
 
 def check_faults():
     """What the script would fail for."""
-    sys.path.insert(0, str(ROOT / "scripts"))
+    sys.path.insert(0, str(ROOT / "scripts/python"))
     sys.dont_write_bytecode = True
     loader = SourceFileLoader("time_panels", str(ROOT / NAME))
     script = module_from_spec(spec_from_loader("time_panels", loader))

@@ -16,7 +16,7 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
+sys.path[:0] = [str(ROOT / "scripts/python"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import pictures  # noqa: E402
 
@@ -152,7 +152,7 @@ def check_picture(script, fields):
 
 def check_field():
     """The field of a sheet of the stack: its hoop stress at rims is near that which stage 3 superposes."""
-    loader = SourceFileLoader("draw_stress", str(ROOT / "scripts/draw_stress"))
+    loader = SourceFileLoader("draw_stress", str(ROOT / "scripts/draw/draw_stress"))
     script = module_from_spec(spec_from_loader("draw_stress", loader))
     loader.exec_module(script)
     check_picture(script, [script.Field(f"{plate}.vtu") for plate in ("front", "web")])

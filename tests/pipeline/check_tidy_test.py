@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which files scripts/check_tidy reads, in a repository of empty ones with tools that only say their last word: check_tidy_test.py."""
+"""Which files scripts/check/check_tidy reads, in a repository of empty ones with tools that only say their last word: check_tidy_test.py."""
 import os
 import shutil
 import subprocess
 import tempfile
 from pathlib import Path
 
-SCRIPT = Path(__file__).resolve().parents[2] / "scripts/check_tidy"
+SCRIPT = Path(__file__).resolve().parents[2] / "scripts/check/check_tidy"
 FILES = ("common/h5/reader.cpp", "common/h5/reader.hpp", "common/input/value.cpp", "common/formats/header.cpp",
          "common/program/program.cpp", "common/pfem/mesh.cpp", "common/pfem/mesh.hpp", "common/errors.hpp",
          "stage1_plate/scene/scene.cpp", "stage2_extract/extract.cpp", "stage3_nonlinear/scene/scene.cpp",
@@ -38,14 +38,14 @@ class Repository:
         self.git("commit", "-q", "--allow-empty", "-m", "more")
 
     def read(self, *words):
-        result = self.run("scripts/check_tidy", *words)
+        result = self.run("scripts/check/check_tidy", *words)
         assert result.returncode == 0, result
         return {line for line in result.stdout.splitlines() if line.endswith("pp")}
 
 
 def make(folder):
-    (folder / "scripts").mkdir()
-    shutil.copy(SCRIPT, folder / "scripts")
+    (folder / "scripts/check").mkdir(parents=True)
+    shutil.copy(SCRIPT, folder / "scripts/check")
     (folder / "tools").mkdir()
     for name, does in (("cmake", ":"), ("clang-tidy-16", 'echo "${!#}"')):
         (folder / "tools" / name).write_text(f"#!/usr/bin/env bash\n{does}\n")
@@ -63,7 +63,7 @@ def main():
         assert repository.read("all") == {each for each in FILES if each.endswith(".cpp")} - {"tests/some_test.cpp"}
         assert repository.read("changed") == READING, "without history"
 
-        missing = repository.run("scripts/check_tidy", "common/pfem/*.cpp", "stage3_nonlinear/laws/read_*.cpp")
+        missing = repository.run("scripts/check/check_tidy", "common/pfem/*.cpp", "stage3_nonlinear/laws/read_*.cpp")
         assert missing.returncode == 2 and "stage3_nonlinear/laws/read_*.cpp matches no file" in missing.stderr, missing
         assert not missing.stdout
 

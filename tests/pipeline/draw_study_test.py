@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The picture and the table of scripts/draw_study have what STUDY.h5 has: draw_study_test.py FOLDER_OF_PROGRAMS."""
+"""The picture and the table of scripts/draw/draw_study have what STUDY.h5 has: draw_study_test.py FOLDER_OF_PROGRAMS."""
 import json
 import os
 import shutil
@@ -77,7 +77,7 @@ def pictures(folder):
     for name, kind, top in (("random", "force", 20), ("random", "peak", 2), ("random", "displacement", 20), ("few", "force", 1),
                             ("grid", "force", 2), ("two", "force", 20), ("one", "force", 20)):
         picture = folder / f"{name}_{kind}.png"
-        done = run_script("draw_study", folder / f"{name}.study.h5", "-o", picture, "--of", kind, "--top", top)
+        done = run_script("draw/draw_study", folder / f"{name}.study.h5", "-o", picture, "--of", kind, "--top", top)
         assert done.returncode == 0 and not done.stderr, done
         with h5py.File(folder / f"{name}.study.h5") as file:
             check_table(done.stdout, file, kind, top)
@@ -86,7 +86,7 @@ def pictures(folder):
 
 def curves(folder):
     """Of a grid of one variable all items are drawn over its values; the marks of the bars are the file's quantiles."""
-    _, panels = run_and_look(ROOT / "scripts/draw_study", folder / "grid.study.h5", "-o", folder / "grid.png")
+    _, panels = run_and_look(ROOT / "scripts/draw/draw_study", folder / "grid.study.h5", "-o", folder / "grid.png")
     assert len(panels) == 3, panels
     with h5py.File(folder / "grid.study.h5") as file:
         for i in range(N):
@@ -96,7 +96,7 @@ def curves(folder):
         order = np.argsort(-quantile[:, 2], kind="stable")
         assert np.array_equal(panels[1]["median"][0], quantile[order, 1])
         assert np.array_equal(panels[1]["99 % are below"][0], quantile[order, 3])
-    _, panels = run_and_look(ROOT / "scripts/draw_study", folder / "random.study.h5", "-o", folder / "random.png")
+    _, panels = run_and_look(ROOT / "scripts/draw/draw_study", folder / "random.study.h5", "-o", folder / "random.png")
     assert len(panels) == 4 and all(any(label.startswith("limit, 45 N") for label in panel) for panel in panels[:2]), [*map(list, panels)]
     with h5py.File(folder / "random.study.h5") as file:
         strongest = np.abs(file["statistics/largest_force/rank_correlation"][0]).argmax()
@@ -114,11 +114,11 @@ def refusals(folder):
                         ((folder / "nowhere.h5",), "nowhere.h5: "), ((folder / "grid.study.h5", "--of", "peak"), 'has no "peak"; allowed: force'),
                         ((folder / "failed.h5",), "300 samples none was solved"), ((folder / "grid.study.h5", "--top", 0), "--top: 0"),
                         ((folder / "grid.study.h5", "--of", "moment"), "invalid choice")):
-        done = run_script("draw_study", *words, "-o", folder / "refused.png")
+        done = run_script("draw/draw_study", *words, "-o", folder / "refused.png")
         last = done.stderr.splitlines()[-1]
         assert done.returncode == 2 and told in last and last.startswith("draw_study: error: "), (words, done)
         assert not done.stdout and not (folder / "refused.png").exists(), words
-    done = run_script("draw_study", folder / "grid.study.h5", "-o", folder / "nowhere/a.png")
+    done = run_script("draw/draw_study", folder / "grid.study.h5", "-o", folder / "nowhere/a.png")
     assert done.returncode == 2 and "nowhere/a.png" in done.stderr and not done.stdout, done
 
 

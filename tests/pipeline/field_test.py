@@ -16,17 +16,17 @@ import meshio
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
+sys.path[:0] = [str(ROOT / "scripts/python"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import stress_field  # noqa: E402
 from scripts import run_script  # noqa: E402
-DRAW = str(ROOT / "scripts/draw_stress")
+DRAW = str(ROOT / "scripts/draw/draw_stress")
 EXAMPLE = ROOT / "examples/three_fasteners"
 
 
 def run(program, *words):
     if program == DRAW:
-        return run_script("draw_stress", *words)
+        return run_script("draw/draw_stress", *words)
     return subprocess.run([program, *words], capture_output=True, text=True)
 
 

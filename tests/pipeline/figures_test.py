@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests/support")]
+sys.path[:0] = [str(ROOT / "scripts/python"), str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 import inclusion  # noqa: E402
 from pictures import check_curves, run_and_look, same_pixels  # noqa: E402
@@ -20,7 +20,7 @@ from pictures import check_curves, run_and_look, same_pixels  # noqa: E402
 def rows(script, folder):
     """The numbers that a figure's script prints, and the curves of its picture."""
     picture = folder / f"{script}.png"
-    printed, (drawn, *_) = run_and_look(ROOT / "scripts" / script, "-o", picture)
+    printed, (drawn, *_) = run_and_look(ROOT / "examples/paper_figures" / f"{script}.py", "-o", picture)
     check_curves(picture, ["C0", "C1"])
     return list(csv.DictReader(printed.splitlines())), drawn
 
@@ -93,7 +93,7 @@ def check_nisida(folder):
     check_curves(example / "out/figure_18.png", ["C0", "C1", "C2", "C3"])
     joints = ("frictionless", "friction", "elastic_frictionless", "elastic_friction")
     files = [example / f"out/{name}.h5" for name in ("sheet.matrices", *joints)]
-    _, (radial, hoop) = run_and_look(ROOT / "scripts/figure_18", *files, "-o", folder / "again.png")
+    _, (radial, hoop) = run_and_look(example / "figure_18.py", *files, "-o", folder / "again.png")
     assert same_pixels(folder / "again.png", example / "out/figure_18.png")
     for row in table:
         check_contact(row, radial[row["sheet"]], hoop[row["sheet"]])

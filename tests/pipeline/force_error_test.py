@@ -23,8 +23,8 @@ def run(*words):
 
 
 def sheet(nx, ny, thickness, directions, pulled):
-    """A panel as scripts/make_panel prints it, with other names and loads; held at the left if it is not pulled."""
-    scene = json.loads(subprocess.run([ROOT / "scripts/make_panel", str(nx), str(ny)], check=True, capture_output=True,
+    """A panel as scripts/measure/make_panel prints it, with other names and loads; held at the left if it is not pulled."""
+    scene = json.loads(subprocess.run([ROOT / "scripts/measure/make_panel", str(nx), str(ny)], check=True, capture_output=True,
                                       text=True).stdout)
     scene["geometry"]["grid"]["thickness"] = thickness
     scene["disc_directions"] = directions

@@ -12,7 +12,7 @@ import h5py
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(ROOT / "scripts"))
+sys.path.insert(0, str(ROOT / "scripts/python"))
 sys.dont_write_bytecode = True
 from stress_field import Field  # noqa: E402
 

@@ -40,7 +40,7 @@ def main():
     os.environ["PATH"] = f"{Path(sys.argv[1]).resolve()}:{os.environ['PATH']}"
     with tempfile.TemporaryDirectory() as folder:
         os.chdir(folder)
-        Path("panel.json").write_text(subprocess.run([ROOT / "scripts/make_panel", "12", "12"], check=True,
+        Path("panel.json").write_text(subprocess.run([ROOT / "scripts/measure/make_panel", "12", "12"], check=True,
                                                      capture_output=True, text=True).stdout)
         Path("plate.h5").write_text("what was there")
         for how in signal.SIGTERM, signal.SIGINT:

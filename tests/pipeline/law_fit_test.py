@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The laws that scripts/law_fit.py fits to tests, their uncertainties, warnings and refusals: law_fit_test.py BIN_FOLDER."""
+"""The laws that scripts/python/law_fit.py fits to tests, their uncertainties, warnings and refusals: law_fit_test.py BIN_FOLDER."""
 import math
 import sys
 from fractions import Fraction
@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 sys.dont_write_bytecode = True
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts"))
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "scripts/python"))
 from law_fit import Failure, fit_cubic, fit_power
 
 # A test of twelve points, its forces rounded.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// scripts/make_panel prints the panels on which the tests and the benchmarks work.
+// scripts/measure/make_panel prints the panels on which the tests and the benchmarks work.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 

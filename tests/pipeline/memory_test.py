@@ -21,7 +21,7 @@ OF_STAGE2 = (r"^stage2_extract: error: plate.h5: this takes about (\d+) MB of me
 
 def panel(n, words):
     scene = Path(f"panel{n}.json")
-    scene.write_text(subprocess.run([ROOT / "scripts/make_panel", str(n), str(n), *words], check=True,
+    scene.write_text(subprocess.run([ROOT / "scripts/measure/make_panel", str(n), str(n), *words], check=True,
                                     capture_output=True, text=True).stdout)
     return scene
 

@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "scripts")]
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "scripts/python")]
 sys.dont_write_bytecode = True
 import strip_with_hole  # noqa: E402
 from cut_mesh import cut_mesh  # noqa: E402

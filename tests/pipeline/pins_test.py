@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "scripts")]
+sys.path[:0] = [str(ROOT / "tests/support"), str(ROOT / "scripts/python")]
 sys.dont_write_bytecode = True
 from one_hole import LAMINATES, WIDE, WIDER, end_if_missed, laminate, matrices, near, plate, state  # noqa: E402
 from pin_on_springs import WideSheet, compliance, isotropic  # noqa: E402

@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 def panel(n):
     scene = Path(f"panel{n}.json")
-    scene.write_text(subprocess.run([ROOT / "scripts/make_panel", str(n), str(n)], check=True, capture_output=True,
+    scene.write_text(subprocess.run([ROOT / "scripts/measure/make_panel", str(n), str(n)], check=True, capture_output=True,
                                     text=True).stdout)
     return scene
 

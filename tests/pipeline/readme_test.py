@@ -138,7 +138,7 @@ def check_numbers(readme, verification, performance):
     assert len(numbers) == 7, numbers
     for number in numbers:
         assert re.search(rf"[| ]{re.escape(number)} ", elsewhere), f"README.md has {number}, which is nowhere else"
-    timed = rows_below(readme, "by `scripts/time_panels`:\n\n")
+    timed = rows_below(readme, "by `scripts/measure/time_panels`:\n\n")
     measured = {row.split(" | ")[0].strip("| "): row.split(" | ")[1:3] for row in performance.splitlines() if row.startswith("| ")}
     assert [name.count("loads only") for name, *_ in timed] == [0, 0, 0, 1, 1], "default settings come first"
     for name, seconds, memory in timed:
@@ -160,12 +160,12 @@ def check_fit(laws):
 def check_table(text, name, timed=None):
     """A block of a page is what its script prints, but for a column of times."""
     shown = text.split(f"<!-- {name} -->\n")[1].split(f"<!-- /{name} -->")[0]
-    printed = output(str(ROOT / f"scripts/{name}_table"))
+    printed = output(str(ROOT / f"scripts/measure/{name}_table"))
 
     def rows(lines):
         return [[cell for i, cell in enumerate(line.split("|")) if i != timed] for line in lines.splitlines()]
 
-    assert rows(shown) == rows(printed), f"docs/verification.md is not what scripts/{name}_table prints:\n{printed}"
+    assert rows(shown) == rows(printed), f"docs/verification.md is not what scripts/measure/{name}_table prints:\n{printed}"
 
 
 def anchors(path):

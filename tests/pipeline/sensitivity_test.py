@@ -113,7 +113,7 @@ def check_lap_joint():
 
 
 def load_draw_loads():
-    loader = SourceFileLoader("draw_loads", str(ROOT / "scripts/draw_loads"))
+    loader = SourceFileLoader("draw_loads", str(ROOT / "scripts/draw/draw_loads"))
     module = module_from_spec(spec_from_loader(loader.name, loader))
     loader.exec_module(module)
     return module
@@ -126,7 +126,7 @@ def times(number, by):
 
 
 def scale(changed, name, by):
-    """Multiplies what a bar of scripts/draw_loads names."""
+    """Multiplies what a bar of scripts/draw/draw_loads names."""
     if name == "load":
         changed["loads"][0]["force"] *= by
     elif name in ("clearances", "friction"):

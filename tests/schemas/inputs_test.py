@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/input-*.md are what scripts/schema_pages makes of the schemas, every key and word of them among it."""
+"""docs/input-*.md are what scripts/check/schema_pages makes of the schemas, every key and word of them among it."""
 import json
 import subprocess
 import sys
@@ -23,11 +23,11 @@ def words(schema):
 def main():
     problems = []
     with tempfile.TemporaryDirectory() as folder:
-        subprocess.run([ROOT / "scripts/schema_pages", folder], check=True)
+        subprocess.run([ROOT / "scripts/check/schema_pages", folder], check=True)
         for kind in ("plate", "joint", "study"):
             page = (ROOT / f"docs/input-{kind}.md").read_text()
             if page != Path(folder, f"input-{kind}.md").read_text():
-                problems.append(f"docs/input-{kind}.md is not what scripts/schema_pages writes")
+                problems.append(f"docs/input-{kind}.md is not what scripts/check/schema_pages writes")
             schema = json.loads((ROOT / f"schemas/{kind}.schema.json").read_text())
             problems += [f"docs/input-{kind}.md: lacks {word}" for word in words(schema) if word.replace("|", "\\|") not in page]
     print("\n".join(problems) or "pages and schemas agree")
