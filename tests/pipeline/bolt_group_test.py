@@ -112,17 +112,22 @@ def check_csv():
 
 def check_picture(script, fields):
     """Forces are arrows from the middle of their holes, as long as they are large; load and support are arrows at their edges, the
-    highest peak is a ring at its place on the rim; colours are stresses of von Mises, up to the highest near a hole."""
+    highest peak is a ring at its place on the rim; colours are larger principal stresses, from 0 to the highest near a hole. No name or number
+    begins on a hole."""
     with h5py.File("joint.h5") as f:
         forces = [script.fastener_forces(field, f, None) for field in fields]
         peaks = [script.highest_peak(field, f, None) for field in fields]
-    picture = script.Picture(fields, "von_mises", forces, peaks)
+        bars = script.fastener_bars(f, None)
+        assert np.array_equal(bars[1], f["transferred"][-1].max(axis=1)) and len(set(bars[0])) == len(bars[0]) == 12
+    picture = script.Picture(fields, "principal_1", forces, peaks, bars)
+    (heights,) = [[bar.get_height() for bar in axis.patches] for axis in picture.figure.get_axes() if axis.get_title() == "load of each fastener"]
+    assert np.array_equal(heights, bars[1])
     scale, near = [], []
     for axis, field, (of_sheet, _), peak, held in zip(picture.axes, fields, forces, peaks, (("15000", -1), ("30000", 1))):
         x, y, xy = (field.points[f"stress_{c}"] for c in ("xx", "yy", "xy"))
         colours = axis.collections[0].get_array()
-        most = np.sqrt(x**2 - x * y + y**2 + 3 * xy**2).max()
-        assert 1 - 1e-9 < colours.max() / most < 1.02 and (colours >= 0).all(), (field.path, colours.max(), most)
+        most = ((x + y) / 2 + np.hypot((x - y) / 2, xy)).max()
+        assert 1 - 1e-9 < colours.max() / most < 1.02, (field.path, colours.max(), most)
         corners = axis.collections[0]._triangulation
         near += [colours[np.hypot(corners.x - center[0], corners.y - center[1]) < 16].max() for center in field.holes().values()]
         arrows = [text for text in axis.texts if not text.get_text()]
@@ -134,15 +139,16 @@ def check_picture(script, fields):
         loaded = {hole: load for hole, load in of_sheet.items() if np.hypot(*load) > 1e-9 * LOAD}
         assert len(black) == len(loaded) >= 5, (field.path, loaded)
         for hole, center in field.holes().items():
-            assert np.array_equal(words[hole], center + [0, 8]), hole
+            beside = [np.abs(text.xy - center) for text in axis.texts if text.get_text() and np.hypot(*(text.xy - center)) < 16]
+            assert len(beside) == 1 + (hole in loaded) and np.allclose(beside, 6), (hole, beside)
+            assert np.hypot(*(words[hole] - center)) < 16, hole
             if hole in loaded:
                 load, shown = loaded[hole], black[tuple(center)]
-                assert any(text.get_text() == f"{np.hypot(*load):.0f}" and np.array_equal(text.xy, center - [0, 8])
-                           for text in axis.texts), hole
+                assert any(text.get_text() == f"{np.hypot(*load):.0f}" and np.hypot(*(text.xy - center)) < 16 for text in axis.texts), hole
                 scale.append(np.hypot(*shown) / np.hypot(*load))
                 assert np.allclose(shown, scale[0] * load, atol=1e-9 * np.hypot(*shown)), (hole, shown, load)
         value, hole, angle = peak
-        assert f"highest hoop stress {value:.4g} N/mm², at hole {hole}" in axis.get_title(), axis.get_title()
+        assert f"highest hoop stress {value:#.4g} N/mm², at hole {hole}" in axis.get_title(), axis.get_title()
         (ring,) = axis.lines
         assert np.allclose(ring.get_xydata()[0], field.holes()[hole] + 8 * np.array([np.cos(angle), np.sin(angle)]))
     assert all(np.allclose(axis.collections[0].get_clim(), (0, max(near))) for axis in picture.axes)

@@ -168,6 +168,7 @@ def check_arrows(script):
     field = script.Field("center.vtu")
     with h5py.File("hand_made.h5", "w") as f:
         f["direction"] = ["x", "y"]
+        f["fastener/id"] = ["1", "3", "3"]
         f["fastener/first"] = ["center:1", "other:3", "center:3"]
         f["fastener/second"] = ["other:1", "center:3", "ground"]
         f["F"] = [[1.0, 2, 0], [5, 2, 0], [5, 0, 1]]

@@ -53,7 +53,7 @@ def check_curves(path, colours, least_width=0.3):
         assert width > least_width and height > 0.1 and area > 3e-4, f"{path}: no curve of {colour}: {width}, {height}, {area}"
 
 
-def check_field(path, colours="viridis"):
+def check_field(path, colours="YlOrRd"):
     """A field is drawn with most colours of its map, those of the least and of the largest value among them."""
     picture = matplotlib.image.imread(path)[:, :, :3]
     drawn = {tuple(colour) for colour in np.rint(255 * picture.reshape(-1, 3)).astype(int)}
