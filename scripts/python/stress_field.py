@@ -97,20 +97,37 @@ class FineField:
             near |= np.hypot(self.mesh.x - x, self.mesh.y - y) < 2 * field.radii()[hole]
         return self.values[near] if near.any() else self.values
 
+    def _sides(self):
+        """Of each side of the cells' grids the coordinates and the stresses along it, (cells, points), and the thickness."""
+        n = int(round(np.sqrt(self.x.shape[1])))
+        grids = [a.reshape(-1, n, n) for a in (self.x, self.y, *self.stress)]
+        for side in (np.s_[:, 0, :], np.s_[:, -1, :], np.s_[:, :, 0], np.s_[:, :, -1]):
+            yield [a[side] for a in grids]
+
+    def hole_force(self, center, radius):
+        """Force on the sheet at the rim of a hole: the integral of the stress along it."""
+        force = np.zeros(2)
+        for x, y, xx, yy, xy in self._sides():
+            x, y = x - center[0], y - center[1]
+            on = np.abs(np.hypot(x, y) - radius).max(axis=1) < 1e-6 * radius
+            angle = np.unwrap(np.arctan2(y[on], x[on]), axis=1)
+            for i, traction in enumerate((xx[on] * x[on] + xy[on] * y[on], xy[on] * x[on] + yy[on] * y[on])):
+                force[i] -= (np.abs(np.diff(angle)) * (traction[:, 1:] + traction[:, :-1]) / 2 * self.thickness[on, None]).sum()
+        return force
+
     def edge_forces(self):
         """Middle, outward normal and force on the sheet of each side of its bounding box that bears a load along straight
         edges: the integral of the stress over them."""
-        n = int(round(np.sqrt(self.x.shape[1])))
-        x, y, *stress = (a.reshape(-1, n, n) for a in (self.x, self.y, *self.stress))
-        size = max(np.ptp(x), np.ptp(y))
-        for normal, coordinate, bound in (((1, 0), x, x.max()), ((-1, 0), x, x.min()), ((0, 1), y, y.max()), ((0, -1), y, y.min())):
+        size = max(np.ptp(self.x), np.ptp(self.y))
+        bounds = (((1, 0), self.x.max()), ((-1, 0), self.x.min()), ((0, 1), self.y.max()), ((0, -1), self.y.min()))
+        for normal, bound in bounds:
             force, ends = np.zeros(2), []
-            along = y if normal[0] else x
-            for side in (np.s_[:, 0, :], np.s_[:, -1, :], np.s_[:, :, 0], np.s_[:, :, -1]):
-                on = np.abs(coordinate[side] - bound).max(axis=1) < 1e-6 * size
+            for x, y, *stress in self._sides():
+                across, along = (x, y) if normal[0] else (y, x)
+                on = np.abs(across - bound).max(axis=1) < 1e-6 * size
                 if not on.any():
                     continue
-                at, (xx, yy, xy) = along[side][on], (a[side][on] for a in stress)
+                at, (xx, yy, xy) = along[on], (a[on] for a in stress)
                 for i, (a, b) in enumerate(((xx, xy), (xy, yy))):
                     traction = (a * normal[0] + b * normal[1]) * self.thickness[on, None]
                     step = np.abs(np.diff(at, axis=1))
