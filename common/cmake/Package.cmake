@@ -1,4 +1,5 @@
 # A Debian package: cmake --preset package && cmake --build --preset package && cpack --preset package
+# An archive to unpack anywhere, with its libraries: the same by the preset "archive".
 # The manual pages and the completions of bash are made from what the programs say with --help.
 find_program(HELP2MAN help2man REQUIRED)
 
@@ -19,11 +20,15 @@ add_custom_command(OUTPUT ${completions} DEPENDS ${programs} common/cmake/bash_c
 add_custom_target(pages ALL DEPENDS ${pages} ${completions})
 install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 
-set(CPACK_GENERATOR DEB)
+if(FASTJOINT_BUNDLE)
+  set(CPACK_GENERATOR TGZ)
+else()
+  set(CPACK_GENERATOR DEB)
+  set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+endif()
 set(CPACK_PACKAGE_CONTACT "The fastjoint developers")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_STRIP_FILES ON)
-set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
