@@ -7,7 +7,7 @@
 
 namespace fastjoint {
 
-/// Number of items of a list as an int, in which nodes, elements, holes and degrees of freedom are counted.
+/// Number of items of a list as an int, the type of all counts of nodes, elements, holes and degrees of freedom.
 template <class List>
 [[nodiscard]] constexpr int count_of(const List& list) {
   return static_cast<int>(std::size(list));

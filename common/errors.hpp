@@ -5,22 +5,22 @@
 
 namespace fastjoint {
 
-/// The user's option, JSON, mesh or joint is wrong: exit status 2.
+/// An invalid option, JSON input, mesh or joint: exit status 2.
 struct InputError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file cannot be read or written, is damaged, or is of the wrong kind or version: exit status 3.
+/// A file that cannot be read or written, is damaged, or is of the wrong kind or version: exit status 3.
 struct FileError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Singular, indefinite or not converged: exit status 4.
+/// A singular or indefinite system, or no convergence: exit status 4.
 struct NumericalError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The same after what converged has been written and summarised.
+/// A numerical error after the converged part of the result has been written and summarised.
 struct IncompleteResult : NumericalError {
   using NumericalError::NumericalError;
 };

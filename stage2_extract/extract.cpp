@@ -91,7 +91,7 @@ Extraction extract(formats::PlateSolution plate, const std::string& generator, b
     levels.C.push_back(each.C_t);
   }
   levels.rounding = plate.probe.rounding;
-  const double fastest = matrices::fastest_rate(plate.elasticity);
+  const double fastest = matrices::max_rate_of(plate.elasticity);
   const Eigen::MatrixXd error = matrices::stiffness_error(levels.S, plate.p, fastest).cwiseMax(levels.rounding);
   const auto e = a.n_externals(), m = a.n_discs();
   a.S_ee_error = error.topLeftCorner(e, e);

@@ -32,6 +32,6 @@ set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-# What the scripts and the examples take beside the programs.
+# Needed by the scripts and the examples in addition to the programs.
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "make, python3-h5py, python3-matplotlib, python3-meshio, python3-scipy")
 include(CPack)

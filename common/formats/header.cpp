@@ -12,7 +12,7 @@
 namespace fastjoint::formats {
 namespace {
 
-/// A hand-made file may have no labels, or some of another form: then they are unknown.
+/// Labels of the units; empty if a hand-made file has none or malformed ones.
 Units labels(const std::string& text) {
   const auto units = nlohmann::json::parse(text, nullptr, false);
   const auto label = [&](const char* key) -> std::string {
@@ -65,8 +65,7 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
        "holes whose springs push but do not pull", h5::or_else(""));
   column(
       "pressure/harmonics", [](auto& rim) -> auto& { return rim.pressures.highest; }, "1",
-      "number of waves around a whole circle of the shortest pressure of contact",
-      h5::integers(1, rim::most_harmonics));
+      "number of waves around a whole circle of the shortest pressure of contact", h5::integers(1, rim::max_harmonics));
   column("pressure/start", [](auto& rim) -> auto& { return rim.pressures.start; }, "rad",
          "where the rim that the model has begins, counter-clockwise from x", {});
   column(
@@ -75,73 +74,70 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
   column("pressure/modulus", &ContactRim::modulus, unit(units, -3, 1), "modulus of the springs", h5::positive);
   column("pressure/radius", &ContactRim::radius, unit(units, 1, 0), "radius of the hole", h5::positive);
   column("pressure/area", &ContactRim::area, unit(units, 2, 0), "area of this rim", h5::positive);
-  file(group + "pressure/disk_E", Column{a, [](auto& rim) -> auto& { return rim.disk.E;
+  column(
+      "pressure/disk_E", [](auto& rim) -> auto& { return rim.disk.E; }, unit(units, -2, 1),
+      "Young's modulus, of plane stress, of the elastic disk that presses on this rim in place of the springs; 0: "
+      "springs",
+      h5::not_negative.or_else(0));
+  column(
+      "pressure/disk_nu", [](auto& rim) -> auto& { return rim.disk.nu; }, "1",
+      "Poisson's ratio, of plane stress, of this disk",
+      h5::Allowed{.text = "numbers from -1 to 1", .low = -1, .high = 1}.or_else(0));
 }
+template void contact_datasets(h5::Writer& file, const std::vector<ContactRim>& a, const Units& units,
+                               const std::string& group);
+template void contact_datasets(h5::Reader& file, std::vector<ContactRim>& a, const Units& units,
+                               const std::string& group);
+
+template <class File, class Waves>
+void wave_datasets(File& file, Waves& a, const Units& units) {
+  using h5::Column;
+  const auto column = [&](const char* name, auto member, const std::string& unit, const char* meaning,
+                          const h5::Allowed& allowed) {
+    file(name, Column{a, member}, {std::ssize(a)}, unit, meaning, allowed);
+  };
+  file("wave/hole", Column{a, &WaveRim::hole}, {h5::any}, "1",
+       "holes around which the elements carry waves: those of contact, whose waves are also loads, then others",
+       h5::or_else(""));
+  column(
+      "wave/order", [](auto& rim) -> auto& { return rim.waves.highest; }, "1",
+      "number of waves around a whole circle of the shortest wave that the elements carry",
+      h5::integers(1, rim::max_harmonics));
+  column("wave/start", [](auto& rim) -> auto& { return rim.waves.start; }, "rad",
+         "where the rim that the model has begins, counter-clockwise from x", {});
+  column(
+      "wave/sweep", [](auto& rim) -> auto& { return rim.waves.sweep; }, "rad", "angle that this rim covers",
+      h5::positive);
+  column("wave/radius", &WaveRim::radius, unit(units, 1, 0), "radius of the hole", h5::positive);
+  column("wave/area", &WaveRim::area, unit(units, 2, 0), "area of this rim", h5::positive);
+  column("wave/modulus", &WaveRim::modulus, unit(units, -3, 1), "modulus of the springs, 0 of an open hole",
+         h5::not_negative);
+  file("wave/compliance", Column{a, &WaveRim::compliance}, {std::ssize(a), 3, 3}, unit(units, 2, -1),
+       "strain (x, y, engineering xy) of the sheet at the rim per stress (x, y, xy); 0 where no closed form holds");
+  if (File::reads && a.empty()) return;  // files from elsewhere have none
+  std::vector<int> owner;
+  std::vector<rim::AngleRange> arcs;
+  if constexpr (!File::reads)
+    for (int i = 0; i < std::ssize(a); ++i)
+      for (const auto& arc : a[i].acts) owner.push_back(i), arcs.push_back(arc);
+  file("wave/sprung", owner, {h5::any}, "1", "index in wave/hole of the rim of each arc on which springs act",
+       h5::index_into(std::ssize(a)));
+  file("wave/arc", Column{arcs, [](auto& arc) { return std::tie(arc.from, arc.to); }}, {std::ssize(owner), 2}, "rad",
+       "start and end of each arc on which springs act, counter-clockwise from x");
+  if constexpr (File::reads)
+    for (std::size_t i = 0; i < owner.size(); ++i) a[owner[i]].acts.push_back(arcs[i]);
+}
+template void wave_datasets(h5::Writer& file, const std::vector<WaveRim>& a, const Units& units);
+template void wave_datasets(h5::Reader& file, std::vector<WaveRim>& a, const Units& units);
+
+h5::Allowed traction_sides() {
+  auto names = side_names;
+  names.emplace_back();
+  return {.text = fmt::format("one of {}, or none", fmt::join(side_names, ", ")), .words = names, .word = ""};
+}
+
+h5::Allowed degrees(int highest) {
+  return {.text = fmt::format("ascending degrees from 1 to {}", highest), .low = 1, .high = double(highest), .step = 1};
+}
+
 }  // namespace fastjoint::formats
-, {std::ssize(a)},
-       unit(units, -2, 1), "Young's modulus, of plane stress, of the elastic disk that presses on this rim in place of the "
-       "springs; 0: springs",
-       h5::not_negative.or_else(0));
-  file(group + "pressure/disk_nu", Column{a, [](auto& rim) -> auto& { return rim.disk.nu;
-  }
-  }, {std::ssize(a)}, "1",
-       "Poisson's ratio, of plane stress, of this disk", h5::Allowed{.text = "numbers from -1 to 1", .low = -1, .high = 1}.or_else(0));
-  }
-  template void contact_datasets(h5::Writer& file, const std::vector<ContactRim>& a, const Units& units,
-                                 const std::string& group);
-  template void contact_datasets(h5::Reader& file, std::vector<ContactRim>& a, const Units& units,
-                                 const std::string& group);
-
-  template <class File, class Waves>
-  void wave_datasets(File& file, Waves& a, const Units& units) {
-    using h5::Column;
-    const auto column = [&](const char* name, auto member, const std::string& unit, const char* meaning,
-                            const h5::Allowed& allowed) {
-      file(name, Column{a, member}, {std::ssize(a)}, unit, meaning, allowed);
-    };
-    file("wave/hole", Column{a, &WaveRim::hole}, {h5::any}, "1",
-         "holes around which the elements carry waves: those of contact, whose waves are also loads, then others",
-         h5::or_else(""));
-    column(
-        "wave/order", [](auto& rim) -> auto& { return rim.waves.highest; }, "1",
-        "number of waves around a whole circle of the shortest wave that the elements carry",
-        h5::integers(1, rim::most_harmonics));
-    column("wave/start", [](auto& rim) -> auto& { return rim.waves.start; }, "rad",
-           "where the rim that the model has begins, counter-clockwise from x", {});
-    column(
-        "wave/sweep", [](auto& rim) -> auto& { return rim.waves.sweep; }, "rad", "angle that this rim covers",
-        h5::positive);
-    column("wave/radius", &WaveRim::radius, unit(units, 1, 0), "radius of the hole", h5::positive);
-    column("wave/area", &WaveRim::area, unit(units, 2, 0), "area of this rim", h5::positive);
-    column("wave/modulus", &WaveRim::modulus, unit(units, -3, 1), "modulus of the springs, 0 of an open hole",
-           h5::not_negative);
-    file("wave/compliance", Column{a, &WaveRim::compliance}, {std::ssize(a), 3, 3}, unit(units, 2, -1),
-         "strain (x, y, engineering xy) of the sheet at the rim per stress (x, y, xy); 0 where no closed form holds");
-    if (File::reads && a.empty()) return;  // files from elsewhere have none
-    std::vector<int> owner;
-    std::vector<rim::AngleRange> arcs;
-    if constexpr (!File::reads)
-      for (int i = 0; i < std::ssize(a); ++i)
-        for (const auto& arc : a[i].acts) owner.push_back(i), arcs.push_back(arc);
-    file("wave/sprung", owner, {h5::any}, "1", "index in wave/hole of the rim of each arc on which springs act",
-         h5::index_into(std::ssize(a)));
-    file("wave/arc", Column{arcs, [](auto& arc) { return std::tie(arc.from, arc.to); }}, {std::ssize(owner), 2}, "rad",
-         "start and end of each arc on which springs act, counter-clockwise from x");
-    if constexpr (File::reads)
-      for (std::size_t i = 0; i < owner.size(); ++i) a[owner[i]].acts.push_back(arcs[i]);
-  }
-  template void wave_datasets(h5::Writer& file, const std::vector<WaveRim>& a, const Units& units);
-  template void wave_datasets(h5::Reader& file, std::vector<WaveRim>& a, const Units& units);
-
-  h5::Allowed traction_sides() {
-    auto names = side_names;
-    names.emplace_back();
-    return {.text = fmt::format("one of {}, or none", fmt::join(side_names, ", ")), .words = names, .word = ""};
-  }
-
-  h5::Allowed degrees(int highest) {
-    return {
-        .text = fmt::format("ascending degrees from 1 to {}", highest), .low = 1, .high = double(highest), .step = 1};
-  }
-
-  }  // namespace fastjoint::formats

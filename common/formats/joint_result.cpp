@@ -72,7 +72,7 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   if constexpr (File::reads) a.waves.resize(g);
   const auto order_of = [](auto& rim) -> decltype(auto) { return (rim.waves.highest); };
   file(group + "wave/order", Column{a.waves, order_of}, {g}, "1", "highest order of the waves of each rim of contact",
-       h5::integers(1, rim::most_harmonics));
+       h5::integers(1, rim::max_harmonics));
   Eigen::Index k = 0, n_w = 0;
   for (Eigen::Index i = 0; i < g; ++i) {
     if constexpr (File::reads) {

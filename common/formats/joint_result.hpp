@@ -11,13 +11,13 @@
 
 namespace fastjoint::formats {
 
-/// Numbers that engineers read off one hole of a plate at one increment; rim_quantities says what each member is.
+/// Engineering quantities of one hole of a plate at one increment; rim_quantities describes each member.
 struct RimValues {
   double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
   double bypass_load = 0, bypass_error = 0;
   double peak_hoop = 0, peak_angle = 0, peak_error = 0;
-  double against_slip = 0;                                ///< of contact with friction
-  double gross_concentration = 0, net_concentration = 0;  ///< by the larger section force; 0 where there is none
+  double against_slip = 0;                                ///< in contact with friction
+  double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
 };
 
 enum class Dimension { force, stress, angle, ratio };
@@ -29,25 +29,25 @@ struct RimQuantity {
   double RimValues::*value;
   Dimension dimension;
   const char* meaning;
-  bool needs_section = false;  ///< not known of a hole without a section across x
-  bool is_error = false;       ///< infinite where one degree alone says nothing
+  bool needs_section = false;  ///< unknown for a hole without a section across x
+  bool is_error = false;       ///< infinite for a single degree, which gives no estimate
 };
 /// All members, in the order of the columns.
 [[nodiscard]] std::span<const RimQuantity> rim_quantities();
 
 /// Stresses of the sheet at points around its holes, one row per increment.
 struct RimStresses {
-  Eigen::VectorXi start;       ///< (r + 1) first point of each rim, and k; a rim without a closed form has none
+  Eigen::VectorXi start;       ///< (r + 1) first point of each rim, and k; rims without a closed form have no points
   Eigen::VectorXd angle;       ///< (k) counter-clockwise from x, degrees
   Eigen::MatrixXd rr, tt, rt;  ///< (steps, k) stress
 };
 
-/// The holes of a plate, open ones included, at every increment.
+/// The holes of a plate, including open ones, at every increment.
 struct RimHistory {
-  std::vector<std::string> hole;               ///< (r); none if the plate's matrices hold no stresses at this degree
-  Eigen::VectorXi sections;                    ///< (r) how many sections across x beside the hole the plate has
+  std::vector<std::string> hole;               ///< (r); empty if the plate's matrices have no stresses at this degree
+  Eigen::VectorXi sections;                    ///< (r) number of sections across x next to the hole
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
-  std::optional<RimStresses> stresses{};       ///< if they were asked for
+  std::optional<RimStresses> stresses{};       ///< if requested
 };
 
 /// Forces of fasteners on the m discs of a plate: resultants on its rims along the discs' directions, force.
@@ -55,63 +55,63 @@ struct DiscForces {
   Eigen::MatrixXd bearing, friction;  ///< (steps, m)
 };
 
-/// Contact at the g rims of a plate whose springs push but do not pull, one row per increment.
+/// Contact at the g rims of a plate with compression-only springs, one row per increment.
 struct ContactHistory {
-  Eigen::VectorXd gap;  ///< (g) radial; interference is negative, length
-  // These three belong to a joint with interference; in others they are 0, 0 and infinite.
-  Eigen::VectorXd no_load_peak, no_load_least;  ///< (g) largest and least pressure at no load, stress
+  Eigen::VectorXd gap;  ///< (g) radial gap, negative for interference, length
+  // The next three are for a joint with interference; in others they are 0, 0 and infinite.
+  Eigen::VectorXd no_load_peak, no_load_least;  ///< (g) maximum and minimum pressure at no load, stress
   /// (g) load factor at which a rim with interference first loses full contact; infinite if it does not up to 1
   Eigen::VectorXd full_until;
-  Eigen::MatrixXd touching;       ///< (steps, g) angle over which disc and rim touch, degrees
-  Eigen::MatrixXd from, to;       ///< (steps, g) ends of the widest arc on which they touch, degrees; 0 without one
+  Eigen::MatrixXd touching;       ///< (steps, g) angle of contact between disc and rim, degrees
+  Eigen::MatrixXd from, to;       ///< (steps, g) ends of the widest arc in contact, degrees; 0 without one
   Eigen::MatrixXd peak_pressure;  ///< (steps, g) stress
-  Eigen::MatrixXd peak_angle;     ///< (steps, g) of that pressure, or of the least gap, degrees
-  Eigen::MatrixXd least_gap;      ///< (steps, g) between disc and rim, 0 where they touch, length
+  Eigen::MatrixXd peak_angle;     ///< (steps, g) angle of that pressure, or of the minimum gap, degrees
+  Eigen::MatrixXd least_gap;      ///< (steps, g) minimum gap between disc and rim, 0 in contact, length
 };
 
 /// Displacements and forces of one plate of a joint, one row per increment.
 struct PlateHistory {
   std::string name;
   std::vector<std::string> disc_hole, disc_direction, external_id, traction_id;
-  std::vector<std::string> traction_bearing{};  ///< (q) as UnitCases has it
+  std::vector<std::string> traction_bearing{};  ///< (q) as in UnitCases
   std::vector<ContactRim> contact{};            ///< (g)
   std::vector<std::string> friction_hole, friction_bearing;
   Eigen::MatrixXd D;             ///< (steps, m) disc displacements, length
   Eigen::MatrixXd De;            ///< (steps, e) displacements of the rigid externals, length
   Eigen::MatrixXd Pe;            ///< (steps, e) forces on them, force
-  std::vector<WaveRim> waves{};  ///< (g) waves of the rims of contact
-  Eigen::MatrixXd amounts{};     ///< (steps, k) amount of each of these waves, stress
-  Eigen::MatrixXd w{};  ///< (steps, sum of sizes) of the disc's normal displacement against the sheet each wave, length
+  std::vector<WaveRim> waves{};  ///< (g) waves of the rims in contact
+  Eigen::MatrixXd amounts{};     ///< (steps, k) amplitude of each of these waves, stress
+  Eigen::MatrixXd w{};  ///< (steps, sum of sizes) waves of the disc's normal displacement relative to the sheet, length
   ContactHistory contacts{};
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
   RimHistory rims;
-  std::optional<DiscForces> disc_forces{};        ///< none in files before version 1.5
-  std::string matrices_digest{}, plate_digest{};  ///< of its MATRICES.h5, and of its PLATE.h5; empty if unknown
+  std::optional<DiscForces> disc_forces{};        ///< missing in files before version 1.5
+  std::string matrices_digest{}, plate_digest{};  ///< digests of its MATRICES.h5 and PLATE.h5; empty if unknown
 };
 
-/// Derivatives of the peak hoop stresses of r holes by the numbers of a SensitivityHistory, at one increment, stress
-/// per unit of the number.
+/// Derivatives of the peak hoop stresses of r holes with respect to the parameters of a SensitivityHistory, at one
+/// increment, stress per unit of the parameter.
 struct PeakSlopes {
   std::vector<std::string> hole;                                 ///< (r) "plate:hole"
   Eigen::VectorXd load_factor;                                   ///< (r)
   Eigen::MatrixXd clearance, law, mu, force, displacement, gap;  ///< (r, n), (r, l), (r, f), (r, u), (r, v), (r, g)
 };
 
-/// Derivatives of the bearing forces F by what the input gives, one matrix of n rows per increment; infinite where the
-/// joint has none.
+/// Derivatives of the bearing forces F with respect to parameters of the input, one matrix of n rows per increment;
+/// infinite where they do not exist.
 struct SensitivityHistory {
-  Eigen::MatrixXd load_factor;                              ///< (steps, n) force
-  std::vector<Eigen::MatrixXd> clearance;                   ///< (steps) (n, n) by that of each plane, force / length
-  std::vector<std::string> mu_hole;                         ///< (f) "plate:hole", each with friction
-  std::vector<Eigen::MatrixXd> mu;                          ///< (steps) (n, f) force
-  std::vector<std::string> law_name, law_number, law_unit;  ///< (l) numbers of the laws; units of the derivatives
+  Eigen::MatrixXd load_factor;             ///< (steps, n) force
+  std::vector<Eigen::MatrixXd> clearance;  ///< (steps) (n, n) by the clearance of each plane, force / length
+  std::vector<std::string> mu_hole;        ///< (f) "plate:hole", each with friction
+  std::vector<Eigen::MatrixXd> mu;         ///< (steps) (n, f) force
+  std::vector<std::string> law_name, law_number, law_unit;  ///< (l) parameters of the laws; units of the derivatives
   std::vector<Eigen::MatrixXd> law;                         ///< (steps) (n, l) law_unit
-  std::vector<std::string> force_external;                  ///< (u) "plate:external", loaded by a force or by none
+  std::vector<std::string> force_external;                  ///< (u) "plate:external" under a force or without load
   std::vector<Eigen::MatrixXd> force;                       ///< (steps) (n, u) by the force at load factor 1
-  std::vector<std::string> displacement_external;           ///< (v) "plate:external" whose displacement is given
+  std::vector<std::string> displacement_external;           ///< (v) "plate:external" with prescribed displacement
   std::vector<Eigen::MatrixXd> displacement;                ///< (steps) (n, v) by it at load factor 1, force / length
-  std::vector<std::string> gap_hole{};                      ///< (g) "plate:hole", each with springs that only push
+  std::vector<std::string> gap_hole{};                      ///< (g) "plate:hole", each with compression-only springs
   std::vector<Eigen::MatrixXd> gap{};                       ///< (steps) (n, g) by its gap, force / length
   PeakSlopes peak{};                                        ///< at the last increment
 };
@@ -120,29 +120,28 @@ struct SensitivityHistory {
 struct JointResult {
   Header header;
   int p = 0;                       ///< degree of the matrices
-  bool complete = false;           ///< every increment asked for converged
+  bool complete = false;           ///< true if every requested increment converged
   Eigen::VectorXd load_factor;     ///< (steps)
   Eigen::VectorXi converged;       ///< (steps) 1
-  Eigen::VectorXi iterations;      ///< (steps) of the nonlinear solver, failed tries included
-  Eigen::VectorXd residual;        ///< (steps) largest, relative to the largest force
-  std::vector<std::string> event;  ///< (steps) what fasteners do exactly there, and rims of contact by then
-  // The n shear planes have one entry each: one plane for each neighbouring pair of a fastener's plates, fastener after
-  // fastener.
+  Eigen::VectorXi iterations;      ///< (steps) of the nonlinear solver, including failed attempts
+  Eigen::VectorXd residual;        ///< (steps) maximum, relative to the maximum force
+  std::vector<std::string> event;  ///< (steps) events of fasteners at this increment, of rims in contact up to it
+  // Each of the n shear planes has one entry. A fastener has one plane for each pair of adjacent plates.
   std::vector<std::string> fastener_id;              ///< (n)
   std::vector<std::string> first_hole, second_hole;  ///< (n) "plate:hole"; "ground" may be second
-  std::vector<std::string> direction;                ///< (a) of the joint's discs: "x", "y"
+  std::vector<std::string> direction;                ///< (a) directions of the joint's discs: "x", "y"
   Eigen::MatrixXd delta;                             ///< (steps, n) relative displacement of the discs, length
   Eigen::MatrixXd F;                                 ///< (steps, n) force of the law at delta
-  std::optional<Eigen::MatrixXd> F_error;            ///< (steps, n) estimated, if the plates' errors are known
-  Eigen::MatrixXd delta_vector, F_vector;            ///< (steps, n a) their components, directions inner
+  std::optional<Eigen::MatrixXd> F_error;            ///< (steps, n) estimated error, if the plates' errors are known
+  Eigen::MatrixXd delta_vector, F_vector;            ///< (steps, n a) their components, direction varying fastest
   Eigen::MatrixXd transferred;  ///< (steps, n 2) F + friction resultant on each plane's first, then second plate
   std::vector<std::string> load_external;  ///< (s) "plate:external" of each load other than zero
-  Eigen::MatrixXd load_stiffness;          ///< (steps, s) dP over du as all loads grow together, force / length
+  Eigen::MatrixXd load_stiffness;          ///< (steps, s) tangent dP/du as all loads grow together, force / length
   std::vector<PlateHistory> plates;
-  std::optional<SensitivityHistory> sensitivity;  ///< if it was asked for
+  std::optional<SensitivityHistory> sensitivity;  ///< if requested
 };
 
-/// Throws FileError; what was at `path` before survives.
+/// Throws FileError; an existing file at `path` is then kept.
 void write(const std::string& path, const JointResult& result);
 [[nodiscard]] JointResult read_joint_result(const std::string& path);
 

@@ -19,7 +19,7 @@ namespace {
   throw FileError(fmt::format("{}:{}: {}, expected {}; run stage1_plate again", file, dataset, found, expected));
 }
 
-/// Refuses elements with a node twice, nodes without an element, and arcs without an edge.
+/// Rejects elements with a repeated node, nodes without an element, and arcs without an edge.
 void check_mesh(const std::string& file, const pfem::Mesh& mesh, const pfem::Edges& edges) {
   std::vector<bool> used(mesh.n_nodes(), false);
   for (int element = 0; element < mesh.n_elements(); ++element) {
@@ -37,7 +37,7 @@ void check_mesh(const std::string& file, const pfem::Mesh& mesh, const pfem::Edg
   }
 }
 
-/// Refuses a rim that is not the one that the mesh has around that hole.
+/// Rejects a rim that differs from that of the mesh around the hole.
 void check_rims(const std::string& file, const PlateSolution& a, const pfem::Edges& edges) {
   const rim::RimFinder find_rim(a.mesh, edges);
   for (int hole = 0; hole < count_of(a.hole_rim); ++hole) {
@@ -49,7 +49,7 @@ void check_rims(const std::string& file, const PlateSolution& a, const pfem::Edg
   }
 }
 
-/// Stage 1 numbers the plate unknowns in the order of the functions, u_x before u_y.
+/// Rejects plate unknowns that are not numbered in the order of the functions, u_x before u_y, as stage 1 does.
 void check_unknowns(const std::string& file, const PlateSolution& a) {
   const int n = a.ndof[a.ndof.size() - 1];
   int next = 0;
@@ -62,8 +62,8 @@ void check_unknowns(const std::string& file, const PlateSolution& a) {
     fail(file, "unknown", fmt::format("holds {} plate unknowns", next), fmt::format("{}, as ndof has them", n));
 }
 
-/// Returns the directions of the discs of each hole, and refuses discs in another order than that of the holes, then of
-/// the points.
+/// Returns the directions of the discs of each hole. Rejects discs that are not in the order of the holes, then of the
+/// points.
 std::vector<std::span<const std::string>> check_discs(const std::string& file, const PlateSolution& a) {
   std::vector<std::span<const std::string>> of_hole;
   int end = 0;
@@ -72,7 +72,7 @@ std::vector<std::span<const std::string>> check_discs(const std::string& file, c
     while (end < count_of(a.disc_hole) && a.disc_hole[end] == id) ++end;
     if (std::ranges::count(a.disc_hole, id) != end - first)
       throw FileError(
-          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one behind the other, in the order "
+          fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one after the other, in the order "
                       "of the holes",
                       file, id));
     of_hole.push_back(std::span(a.disc_direction).subspan(first, end - first));
@@ -85,14 +85,14 @@ std::vector<std::span<const std::string>> check_discs(const std::string& file, c
   for (int point = 0; point < count_of(a.points); ++point)
     if (a.points[point].disc != end++)
       fail(file, "point/disc", fmt::format("holds {}", a.points[point].disc),
-           fmt::format("the discs behind those of holes, from {} on, each once", first));
+           fmt::format("the discs after those of holes, from {} on, each once", first));
   if (end != count_of(a.disc_hole))
     fail(file, "disc/hole", fmt::format("names {} discs", a.disc_hole.size()),
          fmt::format("{}: those of holes, then one for each spring of a point", end));
   return of_hole;
 }
 
-/// Refuses rims of contact and friction cases that are not those of the holes, in their order.
+/// Rejects rims in contact and friction cases that differ from those of the holes or are in another order.
 void check_cases(const std::string& file, const PlateSolution& a,
                  const std::vector<std::span<const std::string>>& directions) {
   std::vector<std::string> cases, expected;

@@ -7,10 +7,10 @@
 
 namespace fastjoint::formats {
 
-/// Refuses a PLATE.h5 whose datasets, each good by itself, do not fit each other: elements, rims, plate unknowns, discs
-/// and unit cases are used as indices later, so each must be there once and in the order that stage 1 gives it.
+/// Rejects a PLATE.h5 with inconsistent datasets: elements, rims, plate unknowns, discs and unit cases are used as
+/// indices later, so each must occur once and in the order of stage 1.
 ///
-/// @param file Its path. Throws FileError with the dataset, what was found and what was expected.
+/// @param file Path of the file. Throws FileError with the dataset, what was found and what was expected.
 void check_consistent(const std::string& file, const PlateSolution& plate);
 
 }  // namespace fastjoint::formats

@@ -50,7 +50,7 @@ template <class File, class Matrices>
 void matrix_datasets(File& file, Matrices& a) {
   const Units& units = a.header.units;
   const std::string area = unit(units, 2, 0), stiffness = unit(units, -1, 1);
-  const auto np = a.p.size(), e = a.n_externals(), m = a.n_discs(), h = a.n_friction_cases(), q = a.n_tractions();
+  const auto n_p = a.p.size(), e = a.n_externals(), m = a.n_discs(), h = a.n_friction_cases(), q = a.n_tractions();
   const h5::Allowed error = h5::not_negative.or_else(h5::infinite);
   file("friction/unit_force", a.friction_unit_force, {h}, area, "bearing force per unit peak contact stress");
   file("traction/unit_force", a.traction_unit_force, {q}, area,
@@ -67,19 +67,19 @@ void matrix_datasets(File& file, Matrices& a) {
          "resultant of a unit friction case along + the other axis");
   across("traction/resultant_across", a.traction_resultant_across, q, "1",
          "force along + the other axis per unit total force on each traction boundary");
-  file("S_ee", a.S_ee, {np, e, e}, stiffness, "force on external i per displacement of external j");
-  file("S_ed", a.S_ed, {np, e, m}, stiffness, "force on external i per displacement of disc j");
-  file("S_dd", a.S_dd, {np, m, m}, stiffness, "force on disc i per displacement of disc j");
+  file("S_ee", a.S_ee, {n_p, e, e}, stiffness, "force on external i per displacement of external j");
+  file("S_ed", a.S_ed, {n_p, e, m}, stiffness, "force on external i per displacement of disc j");
+  file("S_dd", a.S_dd, {n_p, m, m}, stiffness, "force on disc i per displacement of disc j");
   file("S_ee_error", a.S_ee_error, {e, e}, stiffness, "estimated absolute error of S_ee at the highest p", error);
   file("S_ed_error", a.S_ed_error, {e, m}, stiffness, "estimated absolute error of S_ed at the highest p", error);
   file("S_dd_error", a.S_dd_error, {m, m}, stiffness, "estimated absolute error of S_dd at the highest p", error);
-  file("R_ef", a.R_ef, {np, e, h}, area, "force that holds external i per unit friction case j");
-  file("R_df", a.R_df, {np, m, h}, area, "force that holds disc i per unit friction case j");
-  file("T_d", a.T_d, {np, m, q}, "1", "force that holds disc i per unit total force on traction boundary j");
-  file("T_e", a.T_e, {np, e, q}, "1", "force that holds external i per unit total force on traction boundary j");
-  file("C_t", a.C_t, {np, q, q}, unit(units, 1, -1),
+  file("R_ef", a.R_ef, {n_p, e, h}, area, "force that holds external i per unit friction case j");
+  file("R_df", a.R_df, {n_p, m, h}, area, "force that holds disc i per unit friction case j");
+  file("T_d", a.T_d, {n_p, m, q}, "1", "force that holds disc i per unit total force on traction boundary j");
+  file("T_e", a.T_e, {n_p, e, q}, "1", "force that holds external i per unit total force on traction boundary j");
+  file("C_t", a.C_t, {n_p, q, q}, unit(units, 1, -1),
        "mean displacement of traction boundary i per unit total force on j, all else held");
-  file("W", a.W, {np, a.n_loaded_waves(), a.n_cases()}, per_case,
+  file("W", a.W, {n_p, a.n_loaded_waves(), a.n_cases()}, per_case,
        "integral over the rim of the disc's displacement against the sheet times the distribution of each wave of "
        "contact, normal for pressures and tangential for shears, in each unit case");
 }

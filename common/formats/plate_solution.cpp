@@ -35,14 +35,14 @@ void mesh_datasets(File& file, Mesh& a, Index n_materials, const std::string& le
        h5::index_into(n_materials));
 }
 
-/// Item of a list that belongs to another item.
+/// An item of a list, with the index of its owner.
 template <class Item>
 struct Owned {
   int owner;
   Item item;
 };
 
-/// The lists that are members of `owners`, as one.
+/// Concatenates the lists that are members of `owners`.
 template <class Owners, class Owner, class Item>
 std::vector<Owned<Item>> joined(const Owners& owners, std::vector<Item> Owner::*list) {
   std::vector<Owned<Item>> result;
@@ -51,7 +51,7 @@ std::vector<Owned<Item>> joined(const Owners& owners, std::vector<Item> Owner::*
   return result;
 }
 
-/// One dataset of all sides of elements of holes or sections: owner, element, local edge.
+/// One dataset of the sides of elements of all holes or sections: owner, element, local edge.
 template <class File, class Owners, class Owner>
 void side_dataset(File& file, const char* name, Owners& owners, std::vector<pfem::Side> Owner::*sides, int n_elements,
                   const char* meaning) {
@@ -82,7 +82,7 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
        "modulus of the distributed springs, 0 if none");
   file("hole/link", Column{a.hole_spring, &rim::HoleSpring::link}, {n}, unit(a.header.units, -1, 1),
        "stiffness of the link at each node of the rim, 0 if none");
-  auto arcs = joined(a.hole_spring, &rim::HoleSpring::acts);
+  auto arcs = joined(a.hole_spring, &rim::HoleSpring::arcs);
   using Arc = Owned<rim::AngleRange>;
   file("hole/sprung", Column{arcs, &Arc::owner}, {any}, "1",
        "index in hole/id of the hole of each arc on which springs act", h5::index_into(n));
@@ -91,7 +91,7 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
   contact_datasets(file, a.contact, a.header.units);
   wave_datasets(file, a.waves, a.header.units);
   if constexpr (File::reads)
-    for (const auto& [hole, range] : arcs) a.hole_spring[hole].acts.push_back(range);
+    for (const auto& [hole, range] : arcs) a.hole_spring[hole].arcs.push_back(range);
 }
 
 template <class File, class Solution>
@@ -168,7 +168,7 @@ void sparse_datasets(File& file, const std::string& group, Sparse& A, Index rows
 }
 
 /// Datasets of one degree.
-/// @param w, s Number of its waves and sections.
+/// @param w, s Numbers of its waves and sections.
 template <class File, class Cases>
 void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Index h, Index q, Index n_cases, Index w,
                    Index s, const Units& units) {

@@ -12,36 +12,36 @@
 
 namespace fastjoint::formats {
 
-/// The forces of the unit cases of one degree p, with all controlled displacements (rigid externals, then discs)
-/// held but one (docs/theory.md, section 4). Rounding has not been taken out yet: stage 2 checks and balances.
+/// Forces in the unit cases of one degree p; all controlled displacements (rigid externals, then discs) are fixed but
+/// one (docs/theory.md, section 4). They still contain rounding, which stage 2 checks and balances.
 struct PlateCases {
   Eigen::MatrixXd S;    ///< (nc, nc) forces on externals and discs per unit displacement of each, force / length
-  Eigen::MatrixXd R;    ///< (nc, h) forces on them under unit friction cases, length^2
+  Eigen::MatrixXd R;    ///< (nc, h) forces on them in unit friction cases, length^2
   Eigen::MatrixXd T;    ///< (nc, q) forces on them under a unit total force on each traction boundary
   Eigen::MatrixXd C_t;  ///< (q, q) mean displacement of the traction boundaries under these, length / force
-  /// (w, n_cases) integrals over rims of the disc's displacement against the sheet, normal for pressures and tangential
-  /// for shears, times the distribution of each wave, in every unit case: those of the k loaded waves, at the
-  /// n_stress_degrees highest degrees those of all waves. Per externals and discs length^2, loaded waves and friction
-  /// cases length^5 / force, tractions length^3 / force.
+  /// (w, n_cases) integrals over rims of the disc's displacement relative to the sheet, normal for pressures and
+  /// tangential for shears, times the distribution of each wave, in every unit case: for the k loaded waves, at the
+  /// n_stress_degrees highest degrees for all waves. Units are length^2 for externals and discs, length^5 / force for
+  /// loaded waves and friction cases, length^3 / force for tractions.
   Eigen::MatrixXd W;
   /// (s, n_cases) normal force over every section, tension positive; no rows below the n_stress_degrees highest degrees
   Eigen::MatrixXd N;
 };
 
-/// Two states of the highest degree that are solved on their own, to check S, R, T and W by them.
+/// Two states of the highest degree that are solved separately, to check S, R, T and W.
 struct Probe {
-  Eigen::VectorXd displacement;     ///< (nc) amount of each controlled displacement in the first, length
-  Eigen::VectorXd wave;             ///< (k) amount of each loaded wave in the second, stress
-  Eigen::VectorXd friction;         ///< (h) amount of each friction case in the second, stress
-  Eigen::VectorXd force;            ///< (nc) that must act on externals and discs in the first
-  Eigen::VectorXd friction_force;   ///< (nc) the same in the second
+  Eigen::VectorXd displacement;     ///< (nc) controlled displacements in the first state, length
+  Eigen::VectorXd wave;             ///< (k) amplitudes of the loaded waves in the second, stress
+  Eigen::VectorXd friction;         ///< (h) amplitudes of the friction cases in the second, stress
+  Eigen::VectorXd force;            ///< (nc) forces on externals and discs in the first
+  Eigen::VectorXd friction_force;   ///< (nc) forces on externals and discs in the second
   Eigen::VectorXd moment;           ///< (w) integral of each wave's distribution in the first, length^3
   Eigen::VectorXd friction_moment;  ///< (w) the same in the second
-  Eigen::VectorXd traction_work;    ///< (q) of each unit traction on the displacements of the first, length
-  double rounding = 0;              ///< what rounding may change of S, estimated by the first, force / length
+  Eigen::VectorXd traction_work;    ///< (q) work of each unit traction on the displacements of the first, length
+  double rounding = 0;              ///< bound of the change of S by rounding, estimated by the first, force / length
 };
 
-/// A spring between a vertex of the mesh and a disc of its own, along the disc's direction.
+/// A spring between a vertex of the mesh and a separate disc, along the disc's direction.
 struct PointSpring {
   int vertex;
   int disc;          ///< index into disc_hole
@@ -50,30 +50,30 @@ struct PointSpring {
 
 /// The file from stage 1 to stage 2 (schemas/plate-solution.md).
 ///
-/// nc = e + m controlled displacements: e rigid externals, then m discs. Unknowns are ordered by degree: the
+/// The nc = e + m controlled displacements are e rigid externals, then m discs. Unknowns are ordered by degree: the
 /// rows of loads for degree p are the first ndof(p).
 struct PlateSolution : UnitCases {
   pfem::Mesh mesh;
-  std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
-  /// (2, n_functions) what becomes of u_x and u_y of each global function of the highest degree (pfem/numbering.hpp):
-  /// >= 0 a plate unknown, -1 zero, -2 - i the controlled displacement i.
+  std::vector<Eigen::Matrix3d> elasticity;  ///< elasticity of each material, stress
+  /// (2, n_functions) class of u_x and u_y of each global function of the highest degree (pfem/numbering.hpp): >= 0 a
+  /// plate unknown, -1 zero, -2 - i the controlled displacement i
   Eigen::Matrix2Xi unknown;
   std::vector<std::string> hole_id;
   std::vector<rim::Rim> hole_rim;
   std::vector<rim::HoleSpring> hole_spring;
   std::vector<rim::Section> sections;
-  std::vector<std::string> supported;  ///< directions that a support fixes somewhere
-  Eigen::VectorXd held_stiffness;   ///< (nc) of each controlled displacement with all of the plate held, force / length
+  std::vector<std::string> supported;  ///< directions fixed by a support
+  Eigen::VectorXd held_stiffness;   ///< (nc) diagonal of K_cc: stiffness with all plate unknowns fixed, force / length
   Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of the unit tractions on the plate unknowns
   std::vector<PointSpring> points;
-  std::vector<PlateCases> cases;  ///< one for each p
+  std::vector<PlateCases> cases;  ///< (n_p)
   Probe probe;
 
-  /// True of the degrees, by their index, at which all waves and the section forces are there.
+  /// True for the index of a degree that has all waves and the section forces.
   [[nodiscard]] bool has_stresses(Eigen::Index level) const { return level + n_stress_degrees >= p.size(); }
 };
 
-/// Throws FileError; what was at `path` before survives.
+/// Throws FileError; an existing file at `path` is then kept.
 void write(const std::string& path, const PlateSolution& solution);
 [[nodiscard]] PlateSolution read_plate_solution(const std::string& path);
 

@@ -9,24 +9,24 @@
 
 namespace fastjoint::formats {
 
-/// What a study is made from: results belong together where all of it is the same.
+/// Inputs of a study. Only blocks with equal inputs may be combined.
 struct StudyOrigin {
   std::string generator;                  ///< program and version
   std::string joint;                      ///< text of JOINT.json
   std::string study;                      ///< text of STUDY.json
-  std::string seed;                       ///< of the random numbers, decimal
-  std::vector<std::string> file, digest;  ///< (f) files that these name, and the degree, each with its digest or number
+  std::string seed;                       ///< seed of the random numbers, decimal
+  std::vector<std::string> file, digest;  ///< (f) files named in these with their digests, and the degree
 };
 
 using StudyRows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Solved samples of a study, a part of it that is a file of its own.
+/// Some of the solved samples of a study, in a separate file.
 struct StudyBlock {
   StudyOrigin origin;
-  int number = 0;          ///< of the block
-  int size = 0;            ///< samples of all blocks but the last
-  Eigen::VectorXi status;  ///< (k) of each sample, SampleStatus
-  StudyRows values;        ///< (k, columns), infinite of a sample that is not solved
+  int number = 0;          ///< number of the block
+  int size = 0;            ///< number of samples in each block but the last
+  Eigen::VectorXi status;  ///< (k) SampleStatus of each sample
+  StudyRows values;        ///< (k, columns), infinite for a sample that is not solved
 };
 
 void write(const std::string& path, const StudyBlock& block);

@@ -19,10 +19,10 @@ namespace fastjoint::h5 {
 
 /// Extents of a dataset.
 using Shape = std::vector<Eigen::Index>;
-/// Values of the first extent of an expected shape for which any extent will do, or any but 0.
+/// Placeholders for the first extent of an expected shape: any extent, or any extent but 0.
 inline constexpr Eigen::Index any = -1, some = -2;
 
-/// The dataset that one member of every item of a list makes.
+/// A dataset made of one member of every item of a list.
 ///
 /// @tparam Member A pointer to the member, or a function from an item to a reference, or to a std::tie of some.
 template <class List, class Member>
@@ -33,8 +33,8 @@ struct Column {
 template <class List, class Member>
 Column(List&, Member) -> Column<List, Member>;
 
-// The values that a dataset can be: a number, a text, an Eigen matrix, vector or transpose of one, a Column, tuples of
-// entries, and lists of all these.
+// Types of values that can be datasets: a number, a text, an Eigen matrix, vector or transpose of one, a Column, tuples
+// of entries, and lists of all these.
 template <class T>
 concept Entry = std::is_arithmetic_v<T> || std::same_as<T, std::string>;
 template <class T>
@@ -55,7 +55,7 @@ concept Tuple = requires {
   std::tuple_size<T>::value;
 };
 
-/// Calls each(entry) in the order of the file, where the last index is the innermost.
+/// Calls each(entry) in the order of the file, where the last index varies fastest.
 template <class T, class Each>
 void for_each_entry(T&& value, const Each& each) {
   using Value = std::remove_cvref_t<T>;
@@ -92,8 +92,8 @@ auto entry_of() {
 template <class T>
 using EntryOf = decltype(entry_of<std::remove_cvref_t<T>>());
 
-/// The memory of a value that lies there as it does in the file: a row-major matrix, a list of some (one span for
-/// each), or a list of numbers or texts.
+/// The memory of a value with the layout of the file: a row-major matrix, a list of such (one span for each), or a list
+/// of numbers or texts.
 template <class Scalar, class T>
 std::vector<std::span<Scalar>> spans(T& value) {
   if constexpr (Stack<T>) {
@@ -105,7 +105,7 @@ std::vector<std::span<Scalar>> spans(T& value) {
   }
 }
 
-/// First extent of a value of one extent or more.
+/// First extent of a value.
 template <class T>
 Eigen::Index first_extent(const T& value) {
   if constexpr (Matrix<T>)
@@ -118,7 +118,8 @@ Eigen::Index first_extent(const T& value) {
     return std::ssize(value);
 }
 
-/// Gives a value the extents of a dataset from the k-th on; a matrix takes all behind its first as its columns.
+/// Resizes a value to the extents of a dataset from the k-th on; in a matrix, all extents after its first become
+/// columns.
 template <class T>
 void resize(T&& value, const Shape& shape, std::size_t k = 0) {
   using Value = std::remove_cvref_t<T>;
@@ -137,19 +138,19 @@ void resize(T&& value, const Shape& shape, std::size_t k = 0) {
 
 inline constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// The entries that a reader takes of a dataset, and what stands in for each entry of one that a file leaves out.
+/// The entries that a reader accepts in a dataset, and the default entry of a dataset that a file omits.
 struct Allowed {
-  std::string text = "finite numbers";  ///< what a message expects
+  std::string text = "finite numbers";  ///< description for messages
   double low = std::numeric_limits<double>::lowest();
   double high = std::numeric_limits<double>::max();
-  double step = -infinite;                          ///< each number is at least this above the one before
-  std::optional<std::vector<std::string>> words{};  ///< what texts may be; any text without it
-  std::optional<double> number{};                   ///< stands in for numbers
-  std::optional<std::string> word{};                ///< stands in for texts
+  double step = -infinite;                          ///< minimum difference between a number and the one before
+  std::optional<std::vector<std::string>> words{};  ///< allowed texts; any text if empty
+  std::optional<double> number{};                   ///< default for numbers
+  std::optional<std::string> word{};                ///< default for texts
 
-  [[nodiscard]] Allowed or_else(double stand_in) const {
+  [[nodiscard]] Allowed or_else(double default_number) const {
     Allowed result = *this;
-    result.number = stand_in;
+    result.number = default_number;
     return result;
   }
 };

@@ -9,7 +9,7 @@
 namespace fastjoint::h5 {
 
 void take_over_error_reporting() {
-  H5dont_atexit();  // a close that failed (disk full) would crash libhdf5 at exit
+  H5dont_atexit();  // after a failed close (disk full), libhdf5 would crash at exit
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
@@ -21,7 +21,7 @@ std::string last_error() {
   };
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_DOWNWARD, keep, &deepest);
   H5Eclear2(H5E_DEFAULT);
-  constexpr std::string_view number = "errno = ";  // of a system call, amid addresses and times that help nobody
+  constexpr std::string_view number = "errno = ";  // only the number of the system's error is worth reporting
   if (const auto at = deepest.find(number); at != deepest.npos)
     return std::strerror(std::atoi(deepest.c_str() + at + number.size()));
   return deepest.empty() ? "unknown reason" : deepest;

@@ -9,11 +9,12 @@
 
 namespace fastjoint::h5 {
 
-/// Makes errors of HDF5 our exceptions instead of traces on stderr; before the first call of it.
+/// Turns off HDF5's error traces on stderr, since errors are reported as exceptions. Must precede all other calls of
+/// HDF5.
 void take_over_error_reporting();
 
-/// Deepest description on HDF5's error stack, which is then cleared: the system's reason if a call of it failed,
-/// "unknown reason" if the stack is empty.
+/// Returns the innermost description on HDF5's error stack and clears the stack: the system's reason if a system call
+/// failed, "unknown reason" if the stack is empty.
 [[nodiscard]] std::string last_error();
 
 /// Owns one HDF5 identifier and closes it with CloseFn.
@@ -30,7 +31,7 @@ class Handle {
   ~Handle() {
     if (id_ >= 0) CloseFn(id_);
   }
-  /// Closes what it owns, and tells whether that could be done.
+  /// Closes the identifier; true if that succeeded.
   [[nodiscard]] bool close() { return CloseFn(std::exchange(id_, H5I_INVALID_HID)) >= 0; }
   [[nodiscard]] hid_t get() const { return id_; }
   [[nodiscard]] explicit operator bool() const { return id_ >= 0; }
@@ -47,7 +48,7 @@ using Space = Handle<H5Sclose>;
 using Type = Handle<H5Tclose>;
 using Properties = Handle<H5Pclose>;
 
-/// Selects in the space of a dataset the k-th of n equal parts along the first extent, and returns that part's space.
+/// Selects the k-th of n equal parts of a dataspace along the first extent, and returns the dataspace of the part.
 [[nodiscard]] Space select_part(const Space& whole, std::size_t k, std::size_t n);
 
 /// Variable-length UTF-8 string, which h5py shows as str.

@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Texts of either kind (variable or fixed length; h5py writes both), which read(memory) puts there as the file has
-/// them.
+/// Reads texts of variable or fixed length, both of which h5py writes; read(memory) fills the memory in the file's
+/// type.
 template <class Read>
 void read_texts(const Type& type, std::span<std::string> texts, const Read& read) {
   if (H5Tis_variable_str(type.get()) > 0) {
@@ -35,7 +35,7 @@ void read_texts(const Type& type, std::span<std::string> texts, const Read& read
   }
 }
 
-/// Empty if the attribute is not one text, nothing if there is none of that name.
+/// Reads a text attribute: nullopt if it does not exist, an empty text if it is not one text.
 std::optional<std::string> read_text_attribute(hid_t owner, const char* name) {
   if (H5Aexists(owner, name) <= 0) return std::nullopt;
   const Attribute attribute(H5Aopen(owner, name, H5P_DEFAULT));
@@ -47,7 +47,7 @@ std::optional<std::string> read_text_attribute(hid_t owner, const char* name) {
   return text;
 }
 
-/// Path of the file that an object is in.
+/// Path of the file of an object.
 std::string file_of(hid_t object) {
   std::string path(std::max<ssize_t>(H5Fget_name(object, nullptr, 0), 0), '\0');
   H5Fget_name(object, path.data(), path.size() + 1);
@@ -64,7 +64,7 @@ std::string shape_text(const Shape& shape) {
 
 struct Reader::Impl {
   std::string path, digest;
-  double size = 0;  ///< of the file, bytes
+  double size = 0;  ///< size of the file, bytes
   File file;
   bool compare_units = true;
 
@@ -79,8 +79,8 @@ struct Reader::Impl {
     return set;
   }
 
-  /// Refuses a dataset whose values are in other files or datasets: no digest covers those, and a virtual dataset may
-  /// be its own source, with which the library never ends.
+  /// Rejects a dataset whose values are in other files or datasets. No digest covers those, and a virtual dataset that
+  /// is its own source would put the library in an endless loop.
   void check_own(const Dataset& set, const std::string& name) const {
     const Properties creation(H5Dget_create_plist(set.get()));
     const H5D_layout_t layout = H5Pget_layout(creation.get());
@@ -91,15 +91,16 @@ struct Reader::Impl {
          "this file; read them and write them into it");
   }
 
-  /// Refuses extents that the file cannot hold, before anything is allocated for them.
+  /// Rejects extents that are too large for the file, before memory is allocated for them.
   void check_size(const Dataset& set, const std::string& name, const std::vector<hsize_t>& extents) const {
-    constexpr double densest = 1032;  // what deflate can make of one byte; fill values need no bytes at all
+    constexpr double max_ratio = 1032;  // highest compression ratio of deflate
     const Type type(H5Dget_type(set.get()));
     const Properties creation(H5Dget_create_plist(set.get()));
     auto bytes = double(H5Tget_size(type.get()));
     for (const hsize_t extent : extents) bytes *= double(extent);
-    const bool as_they_are = H5Pget_layout(creation.get()) != H5D_CHUNKED && H5Dget_storage_size(set.get()) > 0;
-    if (bytes > (as_they_are ? 1 : densest) * size)
+    // Chunks may be compressed, and fill values need no bytes.
+    const bool is_plain = H5Pget_layout(creation.get()) != H5D_CHUNKED && H5Dget_storage_size(set.get()) > 0;
+    if (bytes > (is_plain ? 1 : max_ratio) * size)
       fail(name,
            fmt::format("claims {:.3g} bytes, shape ({}), more than a file of {:.0f} bytes can hold; it is damaged",
                        bytes, fmt::join(extents, ", "), size));
@@ -133,14 +134,14 @@ struct Reader::Impl {
       fail(name, fmt::format("cannot be read: {}", last_error()));
   }
 
-  /// Root attribute of n integers; empty if the file has no such one.
+  /// Root attribute of n integers; empty if the file has none.
   std::vector<int> integers(const char* name, int n) const {
     std::vector<int> values(n);
     const Attribute attribute(H5Aopen(file.get(), name, H5P_DEFAULT));
     const Space space(H5Aget_space(attribute.get()));
-    const bool there = attribute && H5Sget_simple_extent_npoints(space.get()) == n &&
-                       H5Aread(attribute.get(), H5T_NATIVE_INT, values.data()) >= 0;
-    return there ? values : std::vector<int>();
+    const bool is_valid = attribute && H5Sget_simple_extent_npoints(space.get()) == n &&
+                          H5Aread(attribute.get(), H5T_NATIVE_INT, values.data()) >= 0;
+    return is_valid ? values : std::vector<int>();
   }
 
   /// Name of the program that wrote the file.
@@ -194,7 +195,7 @@ Reader::Reader(std::string path, const std::string& format, int major) : impl_(s
   if (H5Fis_hdf5(impl_->path.c_str()) <= 0)
     throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", impl_->path, format));
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_file_locking(access.get(), false, true);  // reading from a read-only or network file system
+  H5Pset_file_locking(access.get(), false, true);  // locks fail on read-only and network file systems
   impl_->file = File(H5Fopen(impl_->path.c_str(), H5F_ACC_RDONLY, access.get()));
   if (!impl_->file) throw FileError(fmt::format("{}: is damaged or truncated: {}", impl_->path, last_error()));
   impl_->check_version(format, major);
@@ -229,16 +230,16 @@ template <class Scalar>
 void Reader::get(const std::string& name, const Shape& expected, const std::string& unit, const Allowed& allowed,
                  const MakeRoom<Scalar>& make_room) const {
   constexpr bool is_text = std::is_same_v<Scalar, std::string>, is_integer = std::is_same_v<Scalar, int>;
-  std::optional<Scalar> stand_in;
+  std::optional<Scalar> default_entry;
   if constexpr (is_text)
-    stand_in = allowed.word;
+    default_entry = allowed.word;
   else
-    stand_in = allowed.number;
-  if (std::ranges::find(expected, 0) != expected.end()) stand_in = Scalar();
-  if (stand_in && !has(name)) {
+    default_entry = allowed.number;
+  if (std::ranges::find(expected, 0) != expected.end()) default_entry = Scalar();
+  if (default_entry && !has(name)) {
     Shape shape = expected;
     for (auto& extent : shape) extent = std::max<Eigen::Index>(extent, 0);
-    for (const auto& entries : make_room(shape)) std::fill(entries.begin(), entries.end(), *stand_in);
+    for (const auto& entries : make_room(shape)) std::fill(entries.begin(), entries.end(), *default_entry);
     return;
   }
   const auto set = impl_->open(name);

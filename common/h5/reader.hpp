@@ -14,11 +14,10 @@
 
 namespace fastjoint::h5 {
 
-/// An HDF5 file opened for reading, whose seal, kind and major version are checked before anything else.
+/// An HDF5 file opened for reading; its seal, kind and major version are checked first.
 ///
 /// Every read checks type class, shape, unit and entries and throws FileError with the file, the dataset, what was
-/// found and what was expected. A dataset without an attribute `unit` is taken as it is (a laboratory's need none), and
-/// one that would have no entries may be left out.
+/// found and what was expected. The attribute `unit` of a dataset is optional, and so are datasets without entries.
 class Reader {
  public:
   static constexpr bool reads = true;
@@ -27,27 +26,26 @@ class Reader {
   ~Reader();
 
   [[nodiscard]] const std::string& path() const;
-  /// Digest that the file carries; empty if it has none.
+  /// Digest in the seal of the file; empty if it has none.
   [[nodiscard]] const std::string& digest() const;
-  /// True if units are compared: they are unless told otherwise.
+  /// Sets whether units are compared; by default they are.
   void compare_units(bool compare);
   [[nodiscard]] bool has(const std::string& dataset) const;
-  /// Makes the value of a dataset or group that the file may lack, and returns it to be read; null if the file lacks
-  /// it.
+  /// Creates the value of an optional dataset or group, and returns it to be read; null if the file does not have it.
   template <class T>
   [[nodiscard]] T* part(const std::string& dataset, std::optional<T>& value) const {
     return has(dataset) ? &value.emplace() : nullptr;
   }
 
   [[nodiscard]] int integer_attribute(const std::string& name) const;
-  /// Root attribute; a text that the file does not have stays as it is.
+  /// Root attribute; a missing one leaves the text unchanged.
   void attribute(const std::string& name, std::string& text) const;
   template <std::integral T>
   void attribute(const std::string& name, T& value) const {
     value = integer_attribute(name);
   }
 
-  /// Reads one dataset, and sizes the value for it.
+  /// Reads one dataset and resizes the value to it.
   template <class T>
   void operator()(const std::string& name, T&& value, const Shape& expected, const std::string& unit,
                   const std::string& /*meaning*/, const Allowed& allowed = {}) const {
@@ -71,7 +69,7 @@ class Reader {
 
  private:
   struct Impl;
-  /// Makes room for the entries of a dataset of a shape, of which each span takes an equal part.
+  /// Allocates memory for the entries of a dataset of a shape, of which each span takes an equal part.
   template <class Scalar>
   using MakeRoom = std::function<std::vector<std::span<Scalar>>(const Shape&)>;
   // Scalar is double, int or std::string.

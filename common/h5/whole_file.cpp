@@ -37,10 +37,10 @@ std::string folder_of(const std::string& path) {
   return parent.empty() ? "." : parent.string();
 }
 
-/// Removes what killed writers of a target have left: temporary files that no living one has locked.
-void remove_left_behind(const std::string& target) {
+/// Removes temporary files of killed writers of a target: those that no running process has locked.
+void remove_abandoned(const std::string& target) {
   const std::string start = fs::path(target).filename().string() + ".";
-  std::error_code unreadable;  // then what is there stays
+  std::error_code unreadable;  // an unreadable folder is left unchanged
   for (const auto& entry : fs::directory_iterator(folder_of(target), unreadable)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(start) || !name.ends_with(ending) ||
@@ -53,7 +53,7 @@ void remove_left_behind(const std::string& target) {
   }
 }
 
-/// A symbolic link stays one: its target is what gets replaced.
+/// Resolves a symbolic link, so that its target is replaced and not the link.
 std::string resolved(const std::string& path) {
   std::error_code ignored;
   return fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored).string() : path;
@@ -81,7 +81,7 @@ bool same_file(const std::string& a, const std::string& b) {
   if (a.empty() || b.empty()) return false;
   std::error_code ignored;
   if (fs::equivalent(a, b, ignored)) return true;
-  // A relative path of which nothing exists yet would stay relative; where no path can be, full() is empty.
+  // weakly_canonical leaves a path relative if no part of it exists, hence absolute; full() is empty on failure.
   const auto full = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
   const fs::path first = full(a);
   return !first.empty() && first == full(b);
@@ -89,13 +89,13 @@ bool same_file(const std::string& a, const std::string& b) {
 
 WholeFile::WholeFile(std::string path) : path_(std::move(path)), target_(resolved(path_)) {
   check_can_write(path_);
-  remove_left_behind(target_);
+  remove_abandoned(target_);
   struct stat status {};
-  do {  // again if another process has taken it for one left behind before it was locked
+  do {  // repeated if another process has removed the file as abandoned before it was locked
     if (file_ >= 0) ::close(file_);
     unfinished = nullptr;
     temporary_ = fmt::format("{}.{:08x}{}", target_, std::random_device()(), ending);
-    unfinished = temporary_.c_str();  // before it exists: a signal may come as soon as it does
+    unfinished = temporary_.c_str();  // set before the file exists, since a signal may arrive right after
     file_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_APPEND | O_CLOEXEC, 0666);
     if (file_ < 0) {
       unfinished = nullptr;
@@ -167,7 +167,7 @@ std::string checked_digest(const std::string& path) {
                     "make it again, or take it unchecked by h5repack {} NEW.h5",
                     path, path));
   if (!end.starts_with(mark)) {
-    // A mark that is not where it must be tells of bytes cut off or added.
+    // A mark at another place shows that bytes were cut off or added.
     if (last.find("\nfastjoint") != last.npos || last.find(" xxhash ") != last.npos)
       throw FileError(fmt::format("{}: is damaged: its digest is not at its end; make it again", path));
     return {};

@@ -6,11 +6,11 @@
 
 namespace fastjoint::h5 {
 
-/// A file that appears at its path whole or not at all: a temporary file beside it, fsync, rename.
+/// A file that is written atomically: a temporary file next to it, fsync, rename.
 ///
-/// Removes those that killed programs have left beside it. What was at the path before survives every failure. The
-/// temporary file is locked as long as its writer lives, and removed unless it was finished. Throws FileError with the
-/// path and the reason.
+/// An existing file at the path is kept on every failure. The temporary file is locked while its writer runs, and
+/// removed unless finished; those of killed programs are removed by the next writer. Throws FileError with the path and
+/// the reason.
 class WholeFile {
  public:
   explicit WholeFile(std::string path);
@@ -19,9 +19,9 @@ class WholeFile {
   WholeFile& operator=(const WholeFile&) = delete;
 
   [[nodiscard]] const std::string& unfinished_path() const { return temporary_; }
-  /// Adds bytes at the end of the temporary file.
+  /// Appends bytes to the temporary file.
   void append(std::string_view bytes);
-  /// Puts the file at its path.
+  /// Renames the temporary file to the path.
   void finish();
 
  private:
@@ -30,29 +30,29 @@ class WholeFile {
   bool renamed_ = false;
 };
 
-/// A WholeFile of given bytes.
+/// Writes a WholeFile of the given bytes.
 void write_whole_file(const std::string& path, std::string_view bytes);
 
-/// Removes the temporary file that is being written, if there is one; a handler of signals may call this.
+/// Removes the temporary file that is being written, if any. Async-signal-safe.
 void remove_unfinished() noexcept;
 
-/// Throws FileError unless a file could be put at `path`: asked before the work, not after it.
+/// Throws FileError if no file can be written at `path`, to be called before a long computation.
 void check_can_write(const std::string& path);
 
-/// True if both paths lead to one file, which need not exist yet; an empty path leads to none.
+/// True if both paths refer to the same file, which need not exist yet; false for an empty path.
 [[nodiscard]] bool same_file(const std::string& a, const std::string& b);
 
 /// Digest of the first n bytes of a file, or of all if it has fewer, 16 hexadecimal digits: XXH3 of xxHash, 64 bits
 /// (https://xxhash.com). Throws FileError if it cannot be opened.
 [[nodiscard]] std::string digest(const std::string& path, std::size_t n = std::string::npos);
 
-/// Line that follows the HDF5 bytes of our files and holds their digest. HDF5 ignores what stands behind its end of
-/// file, and drops it when somebody edits the file.
+/// Line with the digest of the HDF5 bytes, appended to them. HDF5 ignores bytes after its end of file, and drops them
+/// when the file is edited.
 [[nodiscard]] std::string seal(const std::string& digest);
 
-/// Digest in the seal of the file at `path`; empty for a file without a seal (hand-made, edited), which is taken as it
-/// is. Throws FileError if the bytes do not match the seal, or if the seal is that of an earlier version, whose digest
-/// misses damage. This must come before HDF5 reads the file: flipped bits in its own structures make the library crash.
+/// Digest in the seal of the file at `path`; empty for a file without a seal (hand-made or edited), which is accepted.
+/// Throws FileError if the bytes do not match the seal, or if the seal is of an earlier version, whose digest misses
+/// some damage. It must be called before HDF5 reads the file: flipped bits in its structures make the library crash.
 [[nodiscard]] std::string checked_digest(const std::string& path);
 
 }  // namespace fastjoint::h5

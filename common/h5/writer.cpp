@@ -27,7 +27,7 @@ struct Writer::Impl {
 
   Properties properties(hid_t cls) const {
     Properties list(H5Pcreate(cls));
-    H5Pset_obj_track_times(list.get(), false);  // equal input, equal bytes
+    H5Pset_obj_track_times(list.get(), false);  // so that equal input gives equal bytes
     return list;
   }
 
@@ -79,7 +79,7 @@ Writer::Writer(const std::string& path, const std::string& format, int major, in
     : impl_(std::make_unique<Impl>(path)) {
   take_over_error_reporting();
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_file_locking(access.get(), false, true);  // the target holds a lock
+  H5Pset_file_locking(access.get(), false, true);  // the file is already locked by WholeFile
   impl_->file = File(H5Fcreate(impl_->target.unfinished_path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
   if (!impl_->file) impl_->fail("file");
   attribute("format", format);

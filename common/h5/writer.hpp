@@ -13,11 +13,11 @@
 
 namespace fastjoint::h5 {
 
-/// An HDF5 file that appears whole or not at all (commit).
+/// An HDF5 file that is written atomically (commit).
 ///
-/// Writer and Reader are called alike, so that one function template names the datasets of a format for both.
-/// Groups on the way to a dataset are made as needed. Equal calls give equal bytes. Arrays are row-major in
-/// the file: a matrix A is stored with shape (rows, cols). Throws NumericalError for a NaN, FileError for the rest.
+/// Writer and Reader have the same interface, so that one function template lists the datasets of a format for both.
+/// Groups are created as needed. Equal calls give equal bytes. Arrays are row-major in the file: a matrix A is stored
+/// with shape (rows, cols). Throws NumericalError for a NaN, FileError for other failures.
 class Writer {
  public:
   static constexpr bool reads = false;
@@ -30,7 +30,7 @@ class Writer {
 
   /// Writes one dataset.
   ///
-  /// @param shape Its extents; `any` and `some` stand for the first extent of the value.
+  /// @param shape Extents; `any` and `some` stand for the first extent of the value.
   /// @param unit "1" if dimensionless.
   /// @param meaning One sentence.
   template <class T>
@@ -47,17 +47,17 @@ class Writer {
       put(name, shape, spans<const Scalar>(entries), unit, meaning);
     }
   }
-  /// The part that the file gets of a value that may be missing; null if it is.
+  /// The value of an optional dataset or group; null if it is missing.
   template <class T>
   [[nodiscard]] const T* part(const std::string& /*name*/, const std::optional<T>& value) const {
     return value ? &*value : nullptr;
   }
 
-  /// Makes a dataset of numbers, double or int, whose rows `rows` then writes, so that it need not fit in memory; only
-  /// these may be NaN.
+  /// Creates a dataset of numbers, double or int, to be filled by `rows`, so that it need not fit in memory. Only these
+  /// numbers may be NaN.
   template <class Scalar>
   void make_rows(const std::string& name, const Shape& shape, const std::string& unit, const std::string& meaning);
-  /// Writes rows of it from the first on; values of all columns, row after row.
+  /// Writes rows of such a dataset, beginning with row `first`; `values` are row-major over all columns.
   template <class Scalar>
   void rows(const std::string& name, std::size_t first, std::span<const Scalar> values);
 

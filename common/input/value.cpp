@@ -22,11 +22,11 @@ namespace {
 
 using nlohmann::json;
 
-/// Deepest nesting of arrays and objects: far beyond any scene, far below what writing a value out takes the stack for.
-constexpr int deepest = 100;
+/// Maximum nesting of arrays and objects: far above any scene, far below the depth at which printing overflows the
+/// stack.
+constexpr int max_depth = 100;
 
-/// Watches strings, the depth, and the keys of the objects that are open, since the parser would silently keep the last
-/// of two.
+/// Parser callback that checks strings, the depth and duplicate keys, of which the parser would silently keep the last.
 struct Watch {
   const std::string& file;
   std::vector<std::set<std::string>> open = {};
@@ -35,9 +35,9 @@ struct Watch {
   bool operator()(int depth, json::parse_event_t event, const json& value) {
     if (event == json::parse_event_t::key && depth == 1) key = value.get<std::string>();
     const bool opens = event == json::parse_event_t::object_start || event == json::parse_event_t::array_start;
-    if (opens && depth >= deepest)
+    if (opens && depth >= max_depth)
       throw InputError(fmt::format("{}: /{}: arrays and objects are nested more than {} deep; allowed: at most {}",
-                                   file, key, deepest, deepest));
+                                   file, key, max_depth, max_depth));
     if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos)
       throw InputError(
           fmt::format("{}: the string {} holds the character \\u0000, which would end it in other files; "
@@ -55,10 +55,10 @@ struct Watch {
 std::string line_and_column(const std::string& text, std::size_t byte) {
   const std::string before = text.substr(0, byte == 0 ? 0 : byte - 1);
   const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-  return fmt::format("line {}, column {}", line, before.size() - before.rfind('\n'));  // npos stands before the text
+  return fmt::format("line {}, column {}", line, before.size() - before.rfind('\n'));  // npos wraps to column 1
 }
 
-/// Words of the parser for common mistakes, and what to do about each.
+/// Messages of the parser for common mistakes, with an explanation of each.
 constexpr std::array<std::pair<const char*, const char*>, 14> advice{{
     {"unexpected '}'; expected string literal", "there is one comma too many before '}'; remove it"},
     {"unexpected ']'; expected '['", "a value is missing before ']', or there is one comma too many"},
@@ -79,7 +79,7 @@ constexpr std::array<std::pair<const char*, const char*>, 14> advice{{
      "this is no value; allowed: a number, a text or key in double quotes, true, false, an object, an array"},
 }};
 
-/// A sentence on what is wrong with the text; else the parser's own words, without its numbers.
+/// Explains the mistake in the text; for unknown ones returns the parser's message without its numbers.
 std::string reason(const std::string& text, const std::string& what) {
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) return "the file is empty";
   for (const auto& [words, sentence] : advice)
@@ -111,9 +111,9 @@ std::string read_text_file(const std::string& path) {
 }
 
 Document parse(const std::string& file, const std::string& text) {
-  constexpr std::size_t longest_mark = 4;  // of an encoding
+  constexpr std::size_t mark_size = 4;  // an encoding shows in the first bytes
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
-      text.substr(0, longest_mark).find('\0') != std::string::npos)
+      text.substr(0, mark_size).find('\0') != std::string::npos)
     throw InputError(fmt::format("{}: is encoded in UTF-16; save it as UTF-8", file));
   try {
     Watch watch{file};
@@ -122,7 +122,7 @@ Document parse(const std::string& file, const std::string& text) {
   } catch (const json::parse_error& e) {
     throw InputError(
         fmt::format("{}: not valid JSON at {}: {}", file, line_and_column(text, e.byte), reason(text, e.what())));
-  } catch (const json::exception& e) {  // a number that no double holds
+  } catch (const json::exception& e) {  // a number above the range of double
     const std::string what = e.what();
     throw InputError(fmt::format("{}: not valid JSON: {} is too large; allowed: numbers up to 1.8e308", file,
                                  what.substr(what.find('\''))));
@@ -143,9 +143,9 @@ bool Value::is_number() const { return json_->is_number(); }
 bool Value::is_string() const { return json_->is_string(); }
 
 std::string Value::shown() const {
-  constexpr std::size_t longest = 60;
+  constexpr std::size_t max_size = 60;
   std::string text = json_->dump(-1, ' ', false, json::error_handler_t::replace);
-  if (text.size() > longest) text = text.substr(0, longest) + "...";
+  if (text.size() > max_size) text = text.substr(0, max_size) + "...";
   return text;
 }
 
@@ -185,13 +185,13 @@ std::vector<std::pair<std::string, Value>> Value::members() const {
   return result;
 }
 
-std::vector<Value> Value::items(std::size_t least, std::size_t most) const {
+std::vector<Value> Value::items(std::size_t min, std::size_t max) const {
   if (!is_array()) not_allowed("an array");
-  if (json_->size() < least || json_->size() > most)
-    fail(fmt::format("array of {}", json_->size()), least == most ? fmt::format("exactly {}", least)
-                                                    : most == std::numeric_limits<std::size_t>::max()
-                                                        ? fmt::format("at least {}", least)
-                                                        : fmt::format("{} to {}", least, most));
+  if (json_->size() < min || json_->size() > max)
+    fail(fmt::format("array of {}", json_->size()), min == max ? fmt::format("exactly {}", min)
+                                                    : max == std::numeric_limits<std::size_t>::max()
+                                                        ? fmt::format("at least {}", min)
+                                                        : fmt::format("{} to {}", min, max));
   std::vector<Value> result;
   for (std::size_t i = 0; i < json_->size(); ++i) result.push_back(Value(*this, (*json_)[i], std::to_string(i)));
   return result;
@@ -206,14 +206,14 @@ double Value::number(const Range& range) const {
   return x;
 }
 
-std::vector<double> Value::numbers(std::size_t least, std::size_t most, const Range& range) const {
+std::vector<double> Value::numbers(std::size_t min, std::size_t max, const Range& range) const {
   std::vector<double> result;
-  for (const auto& item : items(least, most)) result.push_back(item.number(range));
+  for (const auto& item : items(min, max)) result.push_back(item.number(range));
   return result;
 }
 
 int Value::integer(int low, int high) const {
-  // 8.0 is an integer for JSON Schema, so it is one here.
+  // JSON Schema accepts 8.0 as an integer, so it is one here.
   const double x = is_number() ? json_->get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (!(x >= low && x <= high && x == std::floor(x)))
     not_allowed(high == std::numeric_limits<int>::max() ? fmt::format("an integer >= {}", low)

@@ -12,7 +12,7 @@
 
 namespace fastjoint::input {
 
-/// A JSON text, parsed. Duplicate keys are refused; // and /* */ comments are allowed.
+/// A parsed JSON text. Duplicate keys are rejected; // and /* */ comments are allowed.
 struct Document {
   std::string file;  ///< name for messages
   std::string text;  ///< as read
@@ -36,8 +36,8 @@ inline constexpr Range any_number{};
 inline constexpr Range positive{.low = 0, .low_allowed = false};
 inline constexpr Range not_negative{.low = 0};
 
-/// A JSON value and where it stands. Every accessor is strict: what is not allowed throws InputError with
-/// the file, the JSON pointer, what was found and what is allowed.
+/// A JSON value and its place in the document. Every accessor is strict: a value that is not allowed throws InputError
+/// with the file, the JSON pointer, what was found and what is allowed.
 class Value {
  public:
   explicit Value(const Document& document);
@@ -53,12 +53,12 @@ class Value {
   [[nodiscard]] std::optional<Value> find(const char* key) const;
   /// Members of an object in the order of their names; keys must not be empty.
   [[nodiscard]] std::vector<std::pair<std::string, Value>> members() const;
-  /// Elements of an array that holds at least `least` and at most `most`.
-  [[nodiscard]] std::vector<Value> items(std::size_t least = 0,
-                                         std::size_t most = std::numeric_limits<std::size_t>::max()) const;
+  /// Elements of an array of at least `min` and at most `max` elements.
+  [[nodiscard]] std::vector<Value> items(std::size_t min = 0,
+                                         std::size_t max = std::numeric_limits<std::size_t>::max()) const;
 
   [[nodiscard]] double number(const Range& range = any_number) const;
-  [[nodiscard]] std::vector<double> numbers(std::size_t least, std::size_t most, const Range& range) const;
+  [[nodiscard]] std::vector<double> numbers(std::size_t min, std::size_t max, const Range& range) const;
   [[nodiscard]] int integer(int low, int high) const;
   [[nodiscard]] bool boolean() const;
   /// A string that is not empty.
@@ -68,10 +68,10 @@ class Value {
 
   /// "FILE: POINTER: `found`; allowed: `allowed`"
   [[noreturn]] void fail(const std::string& found, const std::string& allowed) const;
-  /// The same for a value that is itself what was found.
+  /// Fails with this value as `found`.
   [[noreturn]] void not_allowed(const std::string& allowed) const;
   [[nodiscard]] const std::string& pointer() const { return pointer_; }
-  /// Path of the document, for what it names relative to itself.
+  /// Path of the document, to which paths in it are relative.
   [[nodiscard]] const std::string& file() const { return file_; }
 
  private:
@@ -84,7 +84,7 @@ class Value {
   const nlohmann::json* json_;
 };
 
-/// Checks `"format": format, "version": 1` and lets `"$schema"` stand.
+/// Checks `"format": format, "version": 1`, and that `"$schema"`, if given, is a string.
 void check_format(const Value& root, const std::string& format);
 
 }  // namespace fastjoint::input

@@ -35,7 +35,7 @@ using Factor = std::unique_ptr<cholmod_factor, Free<cholmod_free_factor>>;
 /// Number of entries of each of the first n columns in the first n rows.
 std::vector<int> entries_in_block(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) {
   std::vector<int> entries;
-  entries.reserve(n + 1);  // not null without columns, which CHOLMOD would refuse
+  entries.reserve(n + 1);  // CHOLMOD rejects the null pointer that an empty vector would give
   const int* row = lower.innerIndexPtr();
   for (Eigen::Index j = 0; j < n; ++j) {
     const int *from = row + lower.outerIndexPtr()[j], *to = row + lower.outerIndexPtr()[j + 1];
@@ -44,8 +44,8 @@ std::vector<int> entries_in_block(const Eigen::SparseMatrix<double>& lower, Eige
   return entries;
 }
 
-/// A view of the leading block: the matrix must outlive it, and CHOLMOD does not write to it.
-/// @param entries Of each column in the block; must outlive it too.
+/// View of the leading block for CHOLMOD, which does not write to it. The matrix must outlive the view.
+/// @param entries Number of entries of each column in the block; must outlive the view.
 cholmod_sparse view(const Eigen::SparseMatrix<double>& lower, std::vector<int>& entries) {
   assert(lower.isCompressed() && lower.rows() == lower.cols());
   cholmod_sparse v{};
@@ -64,12 +64,11 @@ cholmod_sparse view(const Eigen::SparseMatrix<double>& lower, std::vector<int>& 
   return v;
 }
 
-/// Least share of a diagonal entry that elimination must leave: below, not even three digits of a solution are right.
-/// A singular matrix leaves 1e-16 to 1e-13, whatever the units and stiffnesses of its rows are.
-constexpr double least_left = 1e-12;
+/// Lower bound of a pivot over its diagonal entry; below it, not even three digits of a solution are right. Singular
+/// matrices have ratios of 1e-16 to 1e-13, whatever the units and stiffnesses of their rows are.
+constexpr double min_pivot_ratio = 1e-12;
 
-/// Throws NumericalError if CHOLMOD could not do its work at all; that a matrix is not positive definite is left to the
-/// caller.
+/// Throws NumericalError if CHOLMOD failed; whether the matrix is positive definite is checked by the caller.
 void check_status(const cholmod_common& c) {
   if (c.status == CHOLMOD_OUT_OF_MEMORY)
     throw NumericalError("the stiffness matrix does not fit into memory; use fewer elements or a lower p");
@@ -85,7 +84,8 @@ void check_status(const cholmod_common& c) {
                     c.status));
 }
 
-/// Columns [first, last) of L and their rows, ascending, the columns themselves first; entry (i, j) is at i + j ld.
+/// Columns [first, last) of L with their ascending row indices, which start with the columns' own; entry (i, j) is
+/// stored at i + j ld.
 struct Supernode {
   int first, last, ld;
   const int* row;
@@ -110,8 +110,8 @@ struct Supernode {
   }
 };
 
-/// Forward elimination of the rows of a sparse matrix C, each from the first supernode that it has an entry in up the
-/// tree of supernodes, no further aside (Liu, SIAM Review 34, 82, 1992).
+/// Forward elimination of the rows of a sparse matrix C: each row visits the supernodes on the path from its first
+/// entry to the root of the elimination tree (Liu, SIAM Review 34, 82, 1992).
 class RowElimination {
  public:
   RowElimination(const cholmod_factor& L, const Eigen::SparseMatrix<double>& C, Eigen::Index k)
@@ -135,7 +135,7 @@ class RowElimination {
   }
 
  private:
-  /// The rest that elimination up to a supernode leaves of rows of C, over the rows below it.
+  /// Update that a supernode passes to its parent: rows of C after elimination, over the rows of L below the supernode.
   struct Rest {
     Supernode from;
     std::vector<int> of;   ///< (r) rows of C, ascending
@@ -157,7 +157,7 @@ class RowElimination {
     passed_[supernode_of_[*s.below()]].push_back(std::move(rest));
   }
 
-  /// Rows of C with entries in the supernode, and those that its children pass on.
+  /// Rows of C with entries in the supernode or in the updates of its children.
   [[nodiscard]] std::vector<int> reaching(const Supernode& s, const std::vector<Rest>& passed) const {
     std::vector<int> list(C_.innerIndexPtr() + C_.outerIndexPtr()[s.first],
                           C_.innerIndexPtr() + C_.outerIndexPtr()[s.last]);
@@ -167,7 +167,7 @@ class RowElimination {
     return list;
   }
 
-  /// These rows of C over the rows of the supernode, (ld, r).
+  /// Sums these rows of C and the children's updates over the rows of the supernode, shape (ld, r).
   [[nodiscard]] Eigen::MatrixXd gather(const Rest& at, const std::vector<Rest>& passed) {
     const Supernode& s = at.from;
     for (int i = 0; i < count_of(at.of); ++i) index_of_[at.of[i]] = i;
@@ -193,10 +193,10 @@ class RowElimination {
   const cholmod_factor& L_;
   const Eigen::SparseMatrix<double>& C_;
   Eigen::Index k_;
-  std::vector<int> supernode_of_;          ///< (n) of each column of L
-  std::vector<int> index_in_;              ///< (n) of rows within the present supernode's
-  std::vector<int> index_of_;              ///< (m) of rows of C among those that have reached it
-  std::vector<std::vector<Rest>> passed_;  ///< to each supernode, from its children
+  std::vector<int> supernode_of_;          ///< (n) supernode of each column of L
+  std::vector<int> index_in_;              ///< (n) position of a row among those of the current supernode
+  std::vector<int> index_of_;              ///< (m) position of a row of C among those active in the current supernode
+  std::vector<std::vector<Rest>> passed_;  ///< updates for each supernode from its children
   Eigen::MatrixXd products_;
 };
 
@@ -227,11 +227,11 @@ Cholesky::Cholesky(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) : i
     const Supernode s(*L, i);
     for (int j = s.first; j < s.last; ++j) {
       const double pivot = s.value[Eigen::Index(j - s.first) * (s.ld + 1)];
-      if (const double left = pivot * pivot / lower.valuePtr()[lower.outerIndexPtr()[j]]; !(left > least_left))
+      if (const double ratio = pivot * pivot / lower.valuePtr()[lower.outerIndexPtr()[j]]; !(ratio > min_pivot_ratio))
         throw NumericalError(
             fmt::format("the stiffness matrix is singular to working precision: elimination leaves {:.1e} of the "
                         "diagonal entry of row {} of {}",
-                        left, j, L->n));
+                        ratio, j, L->n));
     }
   }
 }
@@ -245,7 +245,7 @@ Eigen::MatrixXd Cholesky::solve(Eigen::MatrixXd B) const {
   for (int i = 0; i < int(L.nsuper); ++i) {
     const Supernode s(L, i);
     auto own = B.middleCols(s.first, s.size()), below = gathered.leftCols(s.n_below());
-    if (own.isZero(0)) continue;  // nothing has reached it
+    if (own.isZero(0)) continue;
     s.diagonal().adjoint().solveInPlace<Eigen::OnTheRight>(own);
     below.noalias() = own * s.below_diagonal().transpose();
     for (int j = 0; j < s.n_below(); ++j) B.col(s.below()[j]) -= below.col(j);
@@ -269,7 +269,7 @@ std::vector<int> elimination_order(const Eigen::SparseMatrix<double>& graph) {
   Context context;
   auto& c = context.c;
   c.nmethods = 1;
-  c.method[0].ordering = CHOLMOD_NESDIS;  // a border fills less behind separators than behind a minimum degree
+  c.method[0].ordering = CHOLMOD_NESDIS;  // border rows fill in less after nested dissection than after minimum degree
   auto entries = entries_in_block(graph, graph.cols());
   cholmod_sparse A = view(graph, entries);
   const Factor L(cholmod_analyze(&A, &c), {&c});

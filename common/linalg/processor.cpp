@@ -96,7 +96,7 @@ void take_better_kernels(char** argv) {
   const bool has_avx512 =
       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
   const std::string better = better_kernels(blas_kernels(), has_avx2, has_avx512);
-  std::error_code error;  // whatever fails, the run goes on as it is
+  std::error_code error;  // after any failure the run continues with the chosen kernels
   const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
   if (better.empty() || error || ::setenv("OPENBLAS_CORETYPE", better.c_str(), 0) != 0) return;
   ::execv(program.c_str(), argv);

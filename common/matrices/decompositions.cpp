@@ -21,7 +21,7 @@ using Eigen::VectorXd;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 lapack_int size_of(Index n) { return static_cast<lapack_int>(n); }
-/// Distance of columns, for which LAPACK wants no zero.
+/// Leading dimension, which LAPACK requires to be at least 1.
 lapack_int stride_of(const MatrixXd& A) { return std::max<lapack_int>(size_of(A.rows()), 1); }
 
 /// LAPACK's info after a routine that is asked for the length of its workspace first.
@@ -39,7 +39,7 @@ lapack_int with_workspace(const Routine& routine) {
 VectorXd symmetric(const char* job, MatrixXd& A) {
   const lapack_int n = size_of(A.rows()), stride = stride_of(A);
   VectorXd values(n);
-  // The longest integer workspace, of V.
+  // Job V needs the longest integer workspace.
   std::vector<lapack_int> integers(3 + 5 * static_cast<std::size_t>(n));
   const lapack_int n_integers = size_of(std::ssize(integers));
   const lapack_int info = with_workspace([&](double* work, lapack_int length) {
@@ -130,10 +130,10 @@ SingularValues singular_values(MatrixXd A) {
   const lapack_int stride_U = stride_of(result.U), stride_V = stride_of(V_transposed);
   std::vector<lapack_int> integers(8 * static_cast<std::size_t>(k));
   const lapack_int info = with_workspace([&](double* work, lapack_int length) {
-    lapack_int told = 0;
+    lapack_int result_info = 0;
     LAPACK_dgesdd("S", &m, &n, A.data(), &stride, result.values.data(), result.U.data(), &stride_U, V_transposed.data(),
-                  &stride_V, work, &length, integers.data(), &told);
-    return told;
+                  &stride_V, work, &length, integers.data(), &result_info);
+    return result_info;
   });
   if (info != 0) result.values.setConstant(nan);
   result.V = V_transposed.transpose();

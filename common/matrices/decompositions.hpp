@@ -10,11 +10,12 @@
 /// Values are NaN where LAPACK's iteration does not converge, as for a matrix that holds a NaN.
 namespace fastjoint::matrices {
 
-/// True if Cholesky's method meets positive pivots alone in a symmetric matrix, (n, n), whose lower triangle is read.
+/// True if Cholesky factorisation of a symmetric matrix, (n, n), finds only positive pivots. The lower triangle is
+/// read.
 [[nodiscard]] bool is_positive_definite(Eigen::MatrixXd A);
 
-/// Inverse of a symmetric positive definite matrix, (n, n), whose lower triangle is read; empty if Cholesky's method
-/// meets a pivot that is not positive. By LAPACK it takes half as long as Eigen's solution for the identity.
+/// Inverse of a symmetric positive definite matrix, (n, n), whose lower triangle is read; empty if a pivot is not
+/// positive. LAPACK takes half as long for it as Eigen's solution for the identity.
 [[nodiscard]] std::optional<Eigen::MatrixXd> inverse_of_positive(Eigen::MatrixXd A);
 
 /// Factors P A = L U of a square matrix, with rows exchanged for the largest pivots.
@@ -28,7 +29,7 @@ class Lu {
   [[nodiscard]] Eigen::MatrixXd solve(Eigen::MatrixXd b) const { return solved("N", std::move(b)); }
   /// Solution x of A^T x = b, (n, columns).
   [[nodiscard]] Eigen::MatrixXd solve_transposed(Eigen::MatrixXd b) const { return solved("T", std::move(b)); }
-  /// Largest sum of amounts in a column of A.
+  /// 1-norm of A: largest sum of absolute values of a column.
   [[nodiscard]] double norm() const { return norm_; }
   /// Reciprocal condition number in that norm, estimated; 0 where a pivot is 0.
   [[nodiscard]] double rcond() const;
@@ -63,7 +64,8 @@ struct SingularValues {
 
   /// Number of singular values above this fraction of the largest.
   [[nodiscard]] Eigen::Index rank(double fraction) const;
-  /// The shortest x that makes A x - b least, (n, columns), singular values up to the fraction taken for zero.
+  /// Least-squares solution x of min |A x - b| with minimum norm, (n, columns); singular values up to this fraction of
+  /// the largest count as zero.
   [[nodiscard]] Eigen::MatrixXd solve(const Eigen::MatrixXd& b, double fraction) const;
 };
 [[nodiscard]] SingularValues singular_values(Eigen::MatrixXd A);

@@ -17,10 +17,10 @@ namespace {
 using Shape = std::vector<std::int64_t>;
 
 Shape shape_of(const Mesh& mesh, const Edges& edges, int element) {
-  constexpr double same = 1e-12;  // of the element's size
+  constexpr double same = 1e-12;  // relative to the element's size
   const Eigen::Vector2d origin = mesh.nodes.col(mesh.quads(0, element));
   const double size = (mesh.nodes.col(mesh.quads(2, element)) - origin).norm();
-  const int exponent = std::ilogb(size);  // the grid must not depend on the last digits of the size
+  const int exponent = std::ilogb(size);  // makes the grid independent of rounding of the size
   const double step = std::ldexp(same, exponent);
   Shape shape{mesh.material[element], exponent};
   const auto add = [&](const Eigen::Vector2d& point) {
@@ -87,7 +87,7 @@ Eigen::MatrixXd strain_operator(const ElementMap& map, Space space, int p, const
 
 GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
   constexpr int n = highest_geometric_degree + 1;
-  constexpr double left_out = 1e-11;
+  constexpr double negligible = 1e-11;
   if (!map.is_curved() && (map.point(-1, -1) + map.point(1, 1) - map.point(1, -1) - map.point(-1, 1)).isZero(0))
     return {0, 0};
   static const Rule rule = gauss(n);
@@ -102,14 +102,14 @@ GeometricDegree geometric_degree(const ElementMap& map, const Box& box) {
       values(i, n + j) = J.col(1).squaredNorm() / det;
       values(i, 2 * n + j) = J.col(0).dot(J.col(1)) / det;
     }
-  Eigen::MatrixX2d largest = Eigen::MatrixX2d::Zero(n, 2);  // of all coefficients of a degree in xi, in eta
+  Eigen::MatrixX2d largest = Eigen::MatrixX2d::Zero(n, 2);  // largest coefficient of each degree in xi and in eta
   for (int k = 0; k < 3; ++k) {
     const Eigen::MatrixXd C = (P * values.middleCols(Eigen::Index{k} * n, n) * P.transpose()).cwiseAbs();
     largest.col(0) = largest.col(0).cwiseMax(C.rowwise().maxCoeff());
     largest.col(1) = largest.col(1).cwiseMax(C.colwise().maxCoeff().transpose());
   }
   int degree = n - 1;
-  while (degree > 0 && largest.row(degree).maxCoeff() <= left_out * largest.maxCoeff()) --degree;
+  while (degree > 0 && largest.row(degree).maxCoeff() <= negligible * largest.maxCoeff()) --degree;
   return {degree, largest(degree, 0) > largest(degree, 1) ? 0 : 1};
 }
 
@@ -135,15 +135,15 @@ const ElementStiffness::Table& ElementStiffness::table(int n_points) const {
 Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness,
                                              const Box& box) const {
   const auto [degree, steeper] = geometric_degree(map, box);
-  constexpr double smallest = 1e-4;  // half a side of a part; rounding is all that is left of what is smaller
-  if (degree == highest_geometric_degree && box.half[steeper] > smallest) {
+  constexpr double min_half = 1e-4;  // half a side of a part; the stiffness of smaller ones is below rounding
+  if (degree == highest_geometric_degree && box.half[steeper] > min_half) {
     Box low = box, high = box;
     low.half[steeper] = high.half[steeper] = box.half[steeper] / 2;
     low.middle[steeper] -= low.half[steeper];
     high.middle[steeper] += high.half[steeper];
     return (*this)(map, D, thickness, low) + (*this)(map, D, thickness, high);
   }
-  // The integrand has degree 2 p + the geometry's in each direction, n points are exact up to 2 n - 1.
+  // The integrand has the degree 2 p + `degree` in each direction; n points are exact up to 2 n - 1.
   const int n_each_way = p_ + 1 + degree / 2 + extra_;
   const bool is_whole = box.half.isOnes(0);
   const Table part = is_whole ? Table{} : make_table(n_each_way, box);
@@ -171,16 +171,16 @@ Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen:
 }
 
 double jacobian_ratio(const ElementMap& map) {
-  constexpr int n_samples = 9;  // vertices and edges included: that is where a map folds first
-  double least = std::numeric_limits<double>::infinity();
+  constexpr int n_samples = 9;  // includes vertices and edges, where a map folds first
+  double min = std::numeric_limits<double>::infinity();
   double sum = 0;
   for (int i = 0; i < n_samples; ++i)
     for (int j = 0; j < n_samples; ++j) {
       const double det = map.jacobian(-1 + 2.0 * i / (n_samples - 1), -1 + 2.0 * j / (n_samples - 1)).determinant();
-      least = std::min(least, det);
+      min = std::min(min, det);
       sum += det;
     }
-  return least / std::abs(sum / (n_samples * n_samples));
+  return min / std::abs(sum / (n_samples * n_samples));
 }
 
 CongruentElements find_congruent(const Mesh& mesh, const Edges& edges) {

@@ -8,7 +8,8 @@
 namespace fastjoint::pfem {
 namespace {
 
-/// Compliance between the normal stresses and strains along the material axes of those that the analysis knows.
+/// Compliance of the normal strains along the material axes that are free in the analysis: three in plane strain, two
+/// in plane stress.
 Eigen::MatrixXd compliance(const OrthotropicConstants& c, Analysis analysis) {
   Eigen::Matrix3d s;
   s << 1 / c.E1, -c.nu12 / c.E1, -c.nu13 / c.E1,  //
@@ -23,9 +24,9 @@ OrthotropicConstants isotropic(double E, double nu) { return {E, E, E, nu, nu, n
 
 bool is_stable(const OrthotropicConstants& constants, Analysis analysis) {
   const Eigen::MatrixXd s = compliance(constants, analysis) * constants.E1;
-  constexpr double least_pivot = 1e-9;  // nu = 0.5 in plane strain rounds to a pivot near 1e-17 of either sign
+  constexpr double min_pivot = 1e-9;  // relative; nu = 0.5 in plane strain gives a pivot near 1e-17 of either sign
   const Eigen::LDLT<Eigen::MatrixXd> ldlt(s);
-  return constants.G12 > 0 && ldlt.vectorD().minCoeff() > least_pivot * ldlt.vectorD().maxCoeff();
+  return constants.G12 > 0 && ldlt.vectorD().minCoeff() > min_pivot * ldlt.vectorD().maxCoeff();
 }
 
 Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, Analysis analysis) {

@@ -16,7 +16,7 @@ struct OrthotropicConstants {
 
 [[nodiscard]] OrthotropicConstants isotropic(double E, double nu);
 
-/// True if the strain energy is positive for every strain that the analysis knows.
+/// True if the strain energy is positive for every strain that is possible in the analysis.
 [[nodiscard]] bool is_stable(const OrthotropicConstants& constants, Analysis analysis);
 
 /// Stiffness that relates (sigma_x, sigma_y, tau_xy) to (eps_x, eps_y, gamma_xy), for material axes turned by
@@ -24,8 +24,8 @@ struct OrthotropicConstants {
 /// Jones, Mechanics of Composite Materials, 2nd ed. 1999, sections 2.4-2.6.
 [[nodiscard]] Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, Analysis analysis);
 
-/// Turns stresses (sigma_x, sigma_y, tau_xy) into (sigma_rr, sigma_tt, sigma_rt) at the angle theta, radians
-/// counter-clockwise from x, shape (3, 3). Its inverse is that at -theta.
+/// Rotation matrix, (3, 3), from stresses (sigma_x, sigma_y, tau_xy) to (sigma_rr, sigma_tt, sigma_rt) at the angle
+/// theta, radians counter-clockwise from x. Its inverse is the matrix for -theta.
 [[nodiscard]] Eigen::Matrix3d polar_stress(double theta);
 
 }  // namespace fastjoint::pfem

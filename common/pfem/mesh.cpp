@@ -12,8 +12,8 @@
 namespace fastjoint::pfem {
 namespace {
 
-/// Gauss points on every piece between the breaks. An arc brings sines and cosines of up to 90 degrees into products
-/// of two polynomials of degree p; p + 8 points integrate them to rounding.
+/// Gauss points on every piece between the breaks. The integrand on an arc is a product of two polynomials of degree p
+/// with sines and cosines of up to 90 degrees; p + 8 points integrate it to rounding.
 Rule piecewise(int p, const std::vector<double>& breaks) {
   const Rule rule = gauss(p + 8);
   std::vector<double> ends = {-1};
@@ -104,7 +104,8 @@ SideRule side_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p
   SideRule result{modes_on_edge(p, side.local_edge), integrated_legendre(p, rule.x).N, {}, {}, rule.w};
   result.x.resize(2, rule.x.size());
   result.normal.resize(2, rule.x.size());
-  // Counter-clockwise, the outside is to the right; top and left run clockwise in their natural direction.
+  // The outward normal is to the right of a counter-clockwise edge; top and left run clockwise in their natural
+  // direction.
   const double out = side.local_edge < 2 ? 1 : -1;
   for (Eigen::Index q = 0; q < rule.x.size(); ++q) {
     const Eigen::Vector2d tangent = curve.derivative(rule.x[q]);

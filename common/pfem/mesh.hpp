@@ -26,10 +26,10 @@ struct Mesh {
 
 /// The edges of a mesh, each once, in the order in which the elements meet them.
 struct Edges {
-  Eigen::Matrix2Xi nodes;             ///< (2, n_edges), the lower node first: the edge's global direction
+  Eigen::Matrix2Xi nodes;             ///< (2, n_edges), the lower node first, which sets the edge's global direction
   Eigen::Matrix4Xi of_element;        ///< (4, n_elements), by local edge
   std::vector<int> arc;               ///< (n_edges) index into Mesh::arcs, or -1
-  std::vector<int> n_elements;        ///< (n_edges) how many elements share it
+  std::vector<int> n_elements;        ///< (n_edges) number of elements that share it
   std::vector<int> arc_without_edge;  ///< arcs whose nodes no edge joins
 
   [[nodiscard]] int size() const { return static_cast<int>(nodes.cols()); }
@@ -75,8 +75,8 @@ struct SideRule {
   Eigen::VectorXd ds;       ///< (n_points) weights, length
 };
 
-/// @param breaks Coordinates in (-1, 1) along the side's natural direction where the integrand or its slope jumps:
-///               each piece is integrated on its own. Ascending.
+/// @param breaks Ascending coordinates in (-1, 1) along the side's natural direction where the integrand or its slope
+/// jumps; each piece is integrated separately.
 [[nodiscard]] SideRule side_rule(const Mesh& mesh, const Edges& edges, const Side& side, int p,
                                  const std::vector<double>& breaks = {});
 

@@ -7,8 +7,8 @@
 namespace fastjoint::pfem {
 namespace {
 
-/// Functions of degree k: the first of those on edges, the first of those inside the elements, how many each has
-/// inside.
+/// Functions of degree k: the first edge function, the first interior function, and the number of interior functions of
+/// an element.
 struct DegreeBlock {
   int first_edge = 0, first_interior = 0, n_interior = 0;
 };

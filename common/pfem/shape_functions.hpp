@@ -37,14 +37,13 @@ struct Values {
 /// Highest polynomial degree of an element.
 inline constexpr int highest_p = 8;
 
-/// The functions phi_i(xi) phi_j(eta), i, j >= 2, that an element of degree p has inside, beside those of its vertices
-/// and edges. Szabo & Babuska 1991, section 6.2.
+/// Interior functions phi_i(xi) phi_j(eta), i, j >= 2, of an element of degree p. Szabo & Babuska 1991, section 6.2.
 enum class Space {
-  trunk,    ///< i + j <= p: what a polynomial of degree p needs; the paper's
-  product,  ///< i, j <= p: what a polynomial of degree p in each coordinate needs
+  trunk,    ///< i + j <= p: contains the polynomials of total degree p; used in the paper
+  product,  ///< i, j <= p: contains the polynomials of degree p in each coordinate
 };
 
-/// Names of the spaces in inputs and files, in their order.
+/// Names of the spaces in inputs and files, in the order of the enumeration.
 inline const std::vector<std::string> space_names = {"trunk", "product"};
 
 [[nodiscard]] inline const std::string& name_of(Space space) { return space_names[static_cast<std::size_t>(space)]; }
@@ -57,22 +56,22 @@ inline const std::vector<std::string> space_names = {"trunk", "product"};
 /// One shape function of a quadrilateral: N_i(xi) N_j(eta), with the N of integrated_legendre.
 struct Mode {
   int i, j;
-  int degree;  ///< of the space that it enters: 1 for vertices, k for edge mode k, inside i + j (trunk), max(i, j)
+  int degree;  ///< lowest p with it: 1 for vertices, k for edge mode k, for interior ones i + j (trunk), max(i, j)
                ///< (product)
 };
 
 /// Local edges are numbered counter-clockwise from the bottom (eta = -1); vertex v starts edge v.
 inline constexpr int n_local_edges = 4;
 
-/// Modes of the space of degree p in the local order that everybody uses: the four vertices counter-clockwise; edge
-/// modes k = 2..p edge by edge; interior modes by degree.
+/// Modes of the space of degree p in the local order used everywhere: the four vertices counter-clockwise; edge modes k
+/// = 2..p edge by edge; interior modes by degree.
 /// Szabo & Babuska 1991, section 6.2: 4 p + (p-2)(p-3)/2 modes for p >= 4 (trunk), 4 p + (p-1)^2 (product).
 [[nodiscard]] std::vector<Mode> modes(Space space, int p);
 
 /// Local index of mode k = 2..p of an edge in modes(space, p) of either space.
 [[nodiscard]] constexpr int edge_mode(int p, int edge, int k) { return 4 + edge * (p - 1) + (k - 2); }
 
-/// Local modes that do not vanish on an edge: its two vertices in its natural direction, then its own of k = 2..p.
+/// Local modes that do not vanish on an edge: its two vertices in its natural direction, then its edge modes k = 2..p.
 [[nodiscard]] std::vector<int> modes_on_edge(int p, int edge);
 
 /// The two vertices of a local edge in its natural direction, that of growing xi or eta.

@@ -13,8 +13,8 @@
 namespace fastjoint::plate {
 namespace {
 
-/// Adds what a rim brings to the lower triangle of M.
-/// @param row Row of each degree of freedom of the element, -1 for those of higher degrees.
+/// Adds the terms of a rim to the lower triangle of M.
+/// @param row Row of each degree of freedom of the element, -1 for those above the degree.
 /// @param first_border Row of the first disc of the rim's hole.
 void add_rim(const ElementClass::RimSide& rim, const std::vector<int>& row, Eigen::Index first_border,
              Eigen::MatrixXd& M) {
@@ -36,13 +36,13 @@ void add_rim(const ElementClass::RimSide& rim, const std::vector<int>& row, Eige
   M.block(wave, disc, n_waves, n_discs) += terms.reaction.transpose();
 }
 
-/// Adds an element's matrix to a lower triangle whose pattern has room for it.
+/// Adds element matrices to a lower triangle with a fixed pattern.
 class SkeletonAssembler {
  public:
   explicit SkeletonAssembler(Eigen::SparseMatrix<double>& A) : A_(A) {}
 
-  /// @param rows Row of the pattern for each row of C, -1 to leave it out; several may be one. @param C Its lower
-  /// triangle counts.
+  /// @param rows Row of the pattern for each row of C, -1 to omit it; rows may repeat. @param C Its lower triangle is
+  /// read.
   void add(const std::vector<int>& rows, const Eigen::VectorXd& sign, double scale,
            const Eigen::Ref<const Eigen::MatrixXd>& C) {
     order_.resize(rows.size());
@@ -70,11 +70,12 @@ class SkeletonAssembler {
   std::vector<int> order_;
 };
 
-/// The amount that elimination of an element's inside takes off a diagonal entry.
-double eliminated(const std::vector<int>& rows, const Eigen::VectorXd& sign, int row, const linalg::Condensed& matrix) {
-  Eigen::RowVectorXd x = Eigen::RowVectorXd::Zero(matrix.n_inside());
+/// Reduction of a diagonal entry by the elimination of an element's interior.
+double reduction_of_diagonal(const std::vector<int>& rows, const Eigen::VectorXd& sign, int row,
+                             const linalg::Condensed& matrix) {
+  Eigen::RowVectorXd x = Eigen::RowVectorXd::Zero(matrix.n_interior());
   for (int i = 0; i < count_of(rows); ++i)
-    if (rows[i] == row) x += sign[i] * matrix.eliminated().row(i);
+    if (rows[i] == row) x += sign[i] * matrix.X().row(i);
   return x.squaredNorm();
 }
 
@@ -86,21 +87,21 @@ CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K
   const int n_modes = count_of(elements.kept);
   for (int mode = 0; mode < n_modes; ++mode) {
     if (numbering.function(mode, elements.first) >= numbering.n_functions[p]) continue;
-    auto& list = elements.kept[mode] ? element.outside : element.inside;
+    auto& list = elements.kept[mode] ? element.boundary : element.interior;
     list.insert(list.end(), {mode, n_modes + mode});
   }
   std::map<int, Eigen::Index> border_of;  // by hole
   for (const auto& [hole, terms] : elements.rims)
     border_of[hole] = terms.coupling.cols() + terms.waves.cols() + terms.friction.cols();
   for (auto& [hole, width] : border_of) element.n_border += std::exchange(width, element.n_border);
-  std::vector<int> order = element.inside, row(std::size_t{2} * n_modes, -1);
-  order.insert(order.end(), element.outside.begin(), element.outside.end());
+  std::vector<int> order = element.interior, row(std::size_t{2} * n_modes, -1);
+  order.insert(order.end(), element.boundary.begin(), element.boundary.end());
   const Eigen::Index n = order.size();
   for (int i = 0; i < n; ++i) row[order[i]] = i;
   Eigen::MatrixXd M = Eigen::MatrixXd::Zero(n + element.n_border, n + element.n_border);
   M.topLeftCorner(n, n) = elements.thickness * K(order, order);
   for (const auto& rim : elements.rims) add_rim(rim, row, n + border_of[rim.hole], M);
-  element.matrix = {std::move(M), std::ssize(element.inside)};
+  element.matrix = {std::move(M), std::ssize(element.interior)};
   return element;
 }
 
@@ -125,7 +126,7 @@ FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, 
 PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool with_other_waves)
     : plate_(plate),
       classes_(plate.elements.classes.size()),
-      rows_(skeleton.rows(plate, p, with_other_waves ? plate.unknowns.n_border() : plate.unknowns.n_amounts())) {
+      rows_(skeleton.rows(plate, p, with_other_waves ? plate.unknowns.n_border() : plate.unknowns.n_prescribed())) {
   linalg::for_each_index(classes_.size(), [&](std::size_t i) {
     const ElementClass& elements = plate.elements.classes[i];
     classes_[i] = condense(elements, plate.elements.stiffness[elements.congruent], plate.numbering, p);
@@ -135,7 +136,7 @@ PlateFactor::PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, 
   coupling_ = A.bottomLeftCorner(rows_.n_border, rows_.n_skeleton);
   const Eigen::SparseMatrix<double> lower = A.bottomRightCorner(rows_.n_border, rows_.n_border);
   border_ = Eigen::SparseMatrix<double>(lower.selfadjointView<Eigen::Lower>());
-  held_ += lower.diagonal().head(n_controlled);
+  diagonal_of_K_cc_ += lower.diagonal().head(n_controlled);
   diagonal_ = A.diagonal().head(rows_.n_skeleton);
   factor_ = std::make_unique<linalg::Cholesky>(A, rows_.n_skeleton);
 }
@@ -145,21 +146,21 @@ const CondensedElement& PlateFactor::element(int element) const { return classes
 Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skeleton) {
   Eigen::SparseMatrix<double> A = skeleton.pattern(rows_);
   SkeletonAssembler assembler(A);
-  held_ = Eigen::VectorXd::Zero(plate_.unknowns.n_controlled());
+  diagonal_of_K_cc_ = Eigen::VectorXd::Zero(plate_.unknowns.n_controlled());
   for (int element = 0; element < count_of(plate_.elements.class_of); ++element) {
     const CondensedElement& K = this->element(element);
     const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, element);
-    Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_outside());
-    sign.head(K.outside.size()) = dofs.sign(K.outside);
+    Eigen::VectorXd sign = Eigen::VectorXd::Ones(K.matrix.n_boundary());
+    sign.head(K.boundary.size()) = dofs.sign(K.boundary);
     std::vector<int> rows;
-    for (const int i : K.outside) rows.push_back(rows_.of_dof(dofs.dof[i]));
+    for (const int i : K.boundary) rows.push_back(rows_.of_dof(dofs.dof[i]));
     for (const int column : plate_.unknowns.border_of(plate_.elements.holes[element]))
       rows.push_back(column < rows_.n_border ? rows_.n_skeleton + column : -1);
     const double scale = plate_.elements.scale[element];
-    assembler.add(rows, sign, scale, K.matrix.outside());
+    assembler.add(rows, sign, scale, K.matrix.schur_complement());
     for (const int row : std::set<int>(rows.begin(), rows.end()))
-      if (const auto i = row - rows_.n_skeleton; i >= 0 && i < held_.size())
-        held_[i] += scale * eliminated(rows, sign, row, K.matrix);
+      if (const auto i = row - rows_.n_skeleton; i >= 0 && i < diagonal_of_K_cc_.size())
+        diagonal_of_K_cc_[i] += scale * reduction_of_diagonal(rows, sign, row, K.matrix);
   }
   for (const auto& tie : plate_.ties) {
     const int vertex = rows_.of_dof(tie.dof), disc = rows_.n_skeleton + tie.controlled;
@@ -172,22 +173,22 @@ Eigen::SparseMatrix<double> PlateFactor::bordered_stiffness(const Skeleton& skel
 
 Eigen::MatrixXd PlateFactor::condensed(const Functions& functions) const {
   constexpr double rounding = 1e-12;
-  const Eigen::Index n = rows_.n_border, n_amounts = plate_.unknowns.n_amounts(), nc = held_.size();
+  const Eigen::Index n = rows_.n_border, n_prescribed = plate_.unknowns.n_prescribed(), nc = diagonal_of_K_cc_.size();
   std::vector<Eigen::Triplet<double>> on_skeleton, on_border;
   for (int i = 0; i < count_of(functions); ++i)
     for (const auto& part : functions[i]) {
       const auto dofs = pfem::element_dofs(plate_.numbering, plate_.unknowns.dofs, part.element);
       Eigen::Index at = 0;
-      for (const int mode : element(part.element).outside) {
+      for (const int mode : element(part.element).boundary) {
         const int row = rows_.of_dof(dofs.dof[mode]);
-        const double weight = dofs.sign[mode] * part.outside.row(at++).sum();
+        const double weight = dofs.sign[mode] * part.boundary.row(at++).sum();
         if (row >= rows_.n_skeleton)
           on_border.emplace_back(i, row - rows_.n_skeleton, weight);
         else if (row >= 0)
           on_skeleton.emplace_back(n + i, row, weight);
       }
       for (const int column : plate_.unknowns.border_of(plate_.elements.holes[part.element])) {
-        const double weight = part.outside.row(at++).sum();
+        const double weight = part.boundary.row(at++).sum();
         if (column < n) on_border.emplace_back(i, column, weight);
       }
     }
@@ -197,15 +198,14 @@ Eigen::MatrixXd PlateFactor::condensed(const Functions& functions) const {
   Eigen::SparseMatrix<double> coupling(n + count_of(functions), rows_.n_skeleton), direct(count_of(functions), n);
   coupling.setFromTriplets(on_skeleton.begin(), on_skeleton.end());
   direct.setFromTriplets(on_border.begin(), on_border.end());
-  std::vector<Eigen::Triplet<double>>().swap(on_skeleton);  // as large as the coupling, and elimination takes memory
-  Eigen::MatrixXd forces(coupling.rows(), n_amounts);
-  forces << Eigen::MatrixXd(border_.leftCols(n_amounts)), Eigen::MatrixXd(direct.leftCols(n_amounts));
-  forces -= factor_->products(coupling, n_amounts).transpose();
-  auto square = forces.topRows(n_amounts);
-  square.triangularView<Eigen::StrictlyUpper>() =
-      square.transpose();  // products are symmetric but for their last digits
+  std::vector<Eigen::Triplet<double>>().swap(on_skeleton);  // frees memory before the elimination, which needs it
+  Eigen::MatrixXd forces(coupling.rows(), n_prescribed);
+  forces << Eigen::MatrixXd(border_.leftCols(n_prescribed)), Eigen::MatrixXd(direct.leftCols(n_prescribed));
+  forces -= factor_->products(coupling, n_prescribed).transpose();
+  auto square = forces.topRows(n_prescribed);
+  square.triangularView<Eigen::StrictlyUpper>() = square.transpose();  // the products are symmetric up to rounding
   auto S = forces.topLeftCorner(nc, nc);
-  if (nc > 0 && S.cwiseAbs().maxCoeff() < rounding * held_.maxCoeff()) S.setZero();
+  if (nc > 0 && S.cwiseAbs().maxCoeff() < rounding * diagonal_of_K_cc_.maxCoeff()) S.setZero();
   return forces;
 }
 

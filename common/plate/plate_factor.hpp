@@ -11,20 +11,19 @@
 
 namespace fastjoint::plate {
 
-/// Linear functions of an element's coefficients, by what is left of them when the element is condensed: weights of
-/// what it shares with others and of its border, and of the loads inside it. They are condensed as loads are, since the
-/// stiffness is symmetric.
+/// Linear functions of an element's coefficients after static condensation: weights of its boundary unknowns and
+/// border, and of the loads on its interior. They are condensed as loads are, since the stiffness is symmetric.
 struct CondensedFunctions {
   int element;
-  Eigen::MatrixXd inside, outside;  ///< (n_inside, r), (n_outside, r)
+  Eigen::MatrixXd interior, boundary;  ///< (n_interior, r), (n_boundary, r)
 };
 
-/// A class of elements at one degree, condensed onto the functions that it shares and onto its border: by hole the
-/// discs, the waves, the friction cases. The border's rows are those of a bordered stiffness
+/// A class of elements at one degree, condensed onto its boundary unknowns (functions shared with other elements) and
+/// onto its border: discs, waves and friction cases of each hole. The border's rows are those of a bordered stiffness
 /// [K_ff K_fc -P -L; . K_cc H^T -L_c; . . 0 0], in which a wave or friction case has an amplitude as a disc has a
 /// displacement.
 struct CondensedElement {
-  std::vector<int> inside, outside;  ///< degrees of freedom of the element: mode, or n_modes + mode for u_y
+  std::vector<int> interior, boundary;  ///< degrees of freedom of the element: mode for u_x, n_modes + mode for u_y
   Eigen::Index n_border;
   linalg::Condensed matrix;
 };
@@ -33,38 +32,38 @@ struct CondensedElement {
 [[nodiscard]] CondensedElement condense(const ElementClass& elements, const Eigen::MatrixXd& K,
                                         const pfem::Numbering& numbering, int p);
 
-/// Bytes that a factor takes, known before anything is integrated.
+/// Memory of a factor in bytes, known before integration.
 struct FactorBytes {
-  double elements;     ///< matrices of the congruence classes at the highest degree, which all factors share
-  double condensed;    ///< condensed ones at the factor's degree
+  double elements;     ///< matrices of the congruence classes at the highest degree, shared by all factors
+  double condensed;    ///< condensed element matrices at the factor's degree
   double factor;       ///< the skeleton's stiffness and its factor
-  double elimination;  ///< of the border's rows, while it lasts (PlateFactor::condensed)
+  double elimination;  ///< temporary memory while border rows are eliminated (PlateFactor::condensed)
 
   [[nodiscard]] double total() const { return elements + condensed + factor; }
 };
 [[nodiscard]] FactorBytes factor_bytes(const PlateStiffness& plate, const Skeleton& skeleton, int p);
 
-/// The plate's stiffness at one degree, factorised with all controlled displacements held: elements are condensed onto
-/// their skeletons, each class once; what is left of all is one sparse system. It is bordered by the controlled
-/// displacements, the waves and the friction cases, which are eliminated with it (condensed) or given (PlateStates).
+/// The plate's stiffness at one degree, factorised with all controlled displacements fixed. Each class of elements is
+/// condensed once onto its skeleton; the Schur complements are assembled to one sparse system. It is bordered by the
+/// controlled displacements, the waves and the friction cases, whose amplitudes are unit ones (condensed) or given
+/// (PlateStates).
 class PlateFactor {
  public:
   /// @param plate Must outlive this.
-  /// @param with_other_waves Also carries the waves that nothing loads, which are the last of the border.
-  /// Throws NumericalError if the plate, with all controlled displacements held, is not stiff in every direction.
+  /// @param with_other_waves Includes the waves without tractions, which come last in the border.
+  /// Throws NumericalError if the stiffness with all controlled displacements fixed is not positive definite.
   PlateFactor(const PlateStiffness& plate, const Skeleton& skeleton, int p, bool with_other_waves);
 
   /// Functions of the plate's displacements, each a sum of condensed ones (PlateStates::condense).
   using Functions = std::vector<std::vector<CondensedFunctions>>;
-  /// Values by unit of each of the n_amounts columns of the border: forces that must act on the controlled
-  /// displacements, then the integrals over the rims of the disc's displacement relative to the sheet, each times the
-  /// distribution of a wave, as products in energy of the unit fields, which makes them superconvergent
-  /// (docs/theory.md, section 4.4); then those of `functions`. Shape (n_border + functions, n_amounts); the rows of
-  /// friction cases mean nothing. S is zero where rounding is all that is left of its terms, as in a sheet held by one
-  /// disc alone.
+  /// Schur complement of the border: values per unit of each of the n_prescribed columns. Rows: forces on the
+  /// controlled displacements, then integrals over the rims of the disc's displacement relative to the sheet times the
+  /// distribution of each wave, then `functions`. They are energy products of the unit fields, and so superconvergent
+  /// (docs/theory.md, section 4.4). Shape (n_border + functions, n_prescribed); rows of friction cases have no meaning.
+  /// S is set to zero if it is rounding only, as in a sheet that one disc alone supports.
   [[nodiscard]] Eigen::MatrixXd condensed(const Functions& functions = {}) const;
-  /// Stiffness of each controlled displacement with all of the plate held, shape (nc): the diagonal of K_cc.
-  [[nodiscard]] const Eigen::VectorXd& held_stiffness() const { return held_; }
+  /// Diagonal of K_cc, shape (nc): stiffness of each controlled displacement with all plate unknowns fixed.
+  [[nodiscard]] const Eigen::VectorXd& diagonal_of_K_cc() const { return diagonal_of_K_cc_; }
 
  private:
   friend class PlateStates;
@@ -75,10 +74,10 @@ class PlateFactor {
   const PlateStiffness& plate_;
   std::vector<CondensedElement> classes_;
   Skeleton::Rows rows_;
-  Eigen::VectorXd held_;
-  Eigen::VectorXd diagonal_;              ///< of the skeleton's stiffness
-  Eigen::SparseMatrix<double> coupling_;  ///< (n_border, skeleton) between border and skeleton
-  Eigen::SparseMatrix<double> border_;    ///< (n_border, n_border) of the border with the skeleton held
+  Eigen::VectorXd diagonal_of_K_cc_;
+  Eigen::VectorXd diagonal_;              ///< diagonal of the skeleton's stiffness
+  Eigen::SparseMatrix<double> coupling_;  ///< (n_border, skeleton) block between border and skeleton
+  Eigen::SparseMatrix<double> border_;    ///< (n_border, n_border) block of the border itself
   std::unique_ptr<linalg::Cholesky> factor_;
 };
 

@@ -8,26 +8,26 @@
 
 namespace fastjoint::plate {
 
-/// Displacements of a plate in k states at one degree: those of the skeleton, from which those inside an element follow
-/// where they are asked for.
+/// Displacements of a plate in k states at one degree. Those of the skeleton are stored; those inside an element are
+/// computed on request.
 class PlateStates {
  public:
   /// @param factor Factor to solve with; must outlive this.
-  /// @param border Amounts of controlled displacements, waves that are loaded and friction cases, shape (n_amounts, k).
-  /// @param loads  On the plate's unknowns beside, shape (n_p, k); few of them are not zero.
+  /// @param border Controlled displacements and amplitudes of loaded waves and friction cases, shape (n_prescribed, k).
+  /// @param loads  Further loads on the plate's unknowns, shape (n_free(p), k); most entries are zero.
   PlateStates(const PlateFactor& factor, const Eigen::MatrixXd& border, const Eigen::SparseMatrix<double>& loads);
 
-  /// Forces that must act on the controlled displacements in every state beside those of the loads on them, then the
+  /// Forces on the controlled displacements in every state, without the loads applied to them directly, then the
   /// integrals of PlateFactor::condensed, (n_border, k).
   [[nodiscard]] Eigen::MatrixXd forces() const;
-  /// Work of the loads of every state on the displacements of each, shape (k, k).
+  /// Work of the loads of each state on the displacements of each, shape (k, k).
   [[nodiscard]] Eigen::MatrixXd work() const;
-  /// Change of the energy of every state that rounding of the plate's stiffness may make, (k): times the machine's
-  /// precision, the sum of the squares of the displacements on skeletons, each with its diagonal entry.
+  /// Bound of the change of each state's energy by rounding of the plate's stiffness, (k): the machine precision times
+  /// the sum over the skeleton of the diagonal entry times the square of the displacement.
   [[nodiscard]] Eigen::VectorXd rounding() const;
 
   [[nodiscard]] Eigen::Index size() const { return skeleton_.rows(); }
-  /// Coefficients of all modes of an element, local signs, shape (2 n_modes, k): first those of u_x; 0 of those above
+  /// Coefficients of all modes of an element, local signs, shape (2 n_modes, k): first those of u_x; 0 for modes above
   /// the degree.
   [[nodiscard]] Eigen::MatrixXd coefficients(int element) const;
 
@@ -39,16 +39,16 @@ class PlateStates {
   [[nodiscard]] Eigen::MatrixXd values(const CondensedFunctions& functions) const;
 
  private:
-  /// Takes loads inside elements to the skeleton and the border.
+  /// Condenses loads on interior unknowns onto the skeleton and the border.
   void eliminate(const Eigen::SparseMatrix<double>& loads);
-  /// Displacements that an element shares with others, then those of its border, shape (k, n_outside).
-  [[nodiscard]] Eigen::MatrixXd outside(int element) const;
+  /// Coefficients of an element's boundary unknowns, then of its border, shape (k, n_boundary).
+  [[nodiscard]] Eigen::MatrixXd boundary_coefficients(int element) const;
 
   const PlateFactor& factor_;
   Eigen::MatrixXd border_;                         ///< (k, n_border)
-  Eigen::MatrixXd skeleton_;                       ///< (k, skeleton): what an element takes of it lies together
+  Eigen::MatrixXd skeleton_;                       ///< (k, skeleton)
   Eigen::MatrixXd skeleton_loads_, border_loads_;  ///< (k, skeleton), (k, n_border); empty if there are no loads
-  std::map<int, Eigen::MatrixXd> inside_;          ///< of the elements with loads inside, eliminated, (n_inside, k)
+  std::map<int, Eigen::MatrixXd> interior_;        ///< L^-1 b, (n_interior, k), of elements with interior loads
 };
 
 }  // namespace fastjoint::plate

@@ -12,7 +12,7 @@
 namespace fastjoint::plate {
 namespace {
 
-/// A side of a rim by hole.
+/// A side of an element on the rim of a hole.
 struct HoleSide {
   int hole;
   pfem::Side side;
@@ -53,8 +53,8 @@ class ElementClassifier {
     return holes;
   }
 
-  /// Tells whether the functions of an edge are kept when the element is condensed. Those of a free rim are not: no
-  /// neighbour and no support has them.
+  /// True if the functions of an edge are boundary unknowns in static condensation. Those of a free rim are interior:
+  /// neither a neighbour nor a support shares them.
   [[nodiscard]] bool is_edge_kept(int element, int edge) const {
     const auto& sides = rims_[element];
     const bool on_rim =
@@ -64,7 +64,7 @@ class ElementClassifier {
     return unknowns_.dofs.col(function).minCoeff() < 0;
   }
 
-  /// Equal keys, equal matrices up to the thickness.
+  /// Elements with equal keys have equal matrices up to the thickness.
   [[nodiscard]] Key key(int element) const {
     Key key{result_.congruent.class_of[element]};
     const auto bits = [&](double x) { key.push_back(std::bit_cast<std::int64_t>(x)); };
@@ -82,7 +82,7 @@ class ElementClassifier {
       bits(spring->modulus);
       bits(spring->link / sprung_.mesh.thickness[element]);
       for (const double each : sprung_.axes[hole].reshaped()) bits(each);
-      for (const auto& arc : spring->acts) {
+      for (const auto& arc : spring->arcs) {
         bits(arc.from);
         bits(arc.to);
       }

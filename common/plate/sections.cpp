@@ -18,10 +18,11 @@ std::vector<std::vector<pfem::Side>> sides_of_edges(const pfem::Edges& edges) {
   return sides;
 }
 
-/// int n.sigma.n t ds over one side of an element as a function of the element's coefficients; n along x or y.
+/// Integral of n.sigma.n t ds over one side of an element as a function of the element's coefficients; n is along x or
+/// y.
 Eigen::VectorXd side_force(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Numbering& numbering,
                            const Eigen::Matrix3d& elasticity, const pfem::Side& side, Eigen::Index component) {
-  const auto rule = pfem::gauss(numbering.p + 3);  // a rational integrand: see ElementStiffness
+  const auto rule = pfem::gauss(numbering.p + 3);  // the integrand is rational, as in ElementStiffness
   const pfem::ElementMap map(mesh, edges, side.element);
   const auto curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
   const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);

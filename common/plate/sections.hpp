@@ -10,8 +10,8 @@
 namespace fastjoint::plate {
 
 /// Normal force over every section, tension positive, as a function of the plate's displacements at the degree of a
-/// factor: the integral of the stress, mean of the elements on both sides of the section.
-/// @param elasticity Of each material, stress.
+/// factor: the integral of the stress, averaged over the elements on both sides of the section.
+/// @param elasticity Elasticity of each material, stress.
 [[nodiscard]] PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mesh& mesh,
                                                     const pfem::Edges& edges, const pfem::Numbering& numbering,
                                                     const std::vector<Eigen::Matrix3d>& elasticity,

@@ -28,9 +28,8 @@ std::vector<int> on_skeleton_of(const PlateStiffness& plate, int element) {
   return list;
 }
 
-/// Columns of the border that share a row with functions of a skeleton, because an external moves them, or that act on
-/// the element.
-std::vector<int> border_beside(const PlateStiffness& plate, int element, const std::vector<int>& on_skeleton) {
+/// Columns of the border that are coupled to an element, by a rim or by an external that moves its skeleton.
+std::vector<int> coupled_border(const PlateStiffness& plate, int element, const std::vector<int>& on_skeleton) {
   std::vector<int> list = plate.unknowns.border_of(plate.elements.holes[element]);
   for (const int function : on_skeleton)
     for (const int dof : plate.unknowns.dofs.col(function))
@@ -49,7 +48,7 @@ Skeleton::Skeleton(const PlateStiffness& plate) {
   const int first_border = count_of(function_);
   higher_.resize(function_.size() + plate.unknowns.n_border());
   for (int i = 0; i < n_elements; ++i) {
-    const auto border = border_beside(plate, i, cliques[i]);
+    const auto border = coupled_border(plate, i, cliques[i]);
     for (int& block : cliques[i]) block = position_[block];
     for (const int column : border) cliques[i].push_back(first_border + column);
     join(cliques[i]);
@@ -122,7 +121,7 @@ Skeleton::Rows Skeleton::rows(const PlateStiffness& plate, int p, int n_border) 
   return rows;
 }
 
-/// Symbolic elimination by blocks: a block hands what it is joined to on to the first of these.
+/// Symbolic elimination by blocks: eliminating a block joins its later neighbours, which the first of them inherits.
 Skeleton::Size Skeleton::size(const Rows& rows) const {
   const int n_blocks = count_of(rows.first) - 1;
   std::vector<Blocks> joined(higher_.begin(), higher_.begin() + n_blocks);
@@ -136,16 +135,16 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
     return n;
   };
   const int first_border = count_of(function_);
-  std::vector<double> passed(joined.size(), 0);  // to each block: what is left of rows of the border
-  double held = 0;
+  std::vector<double> passed(joined.size(), 0);  // size of the updates of border rows for each block
+  double stored = 0;
   const auto eliminate_border = [&](int a, double own, double below) {
     double of_border = 0;
     for (auto block = joined[a].rbegin(); block != joined[a].rend() && *block >= first_border; ++block)
       of_border += n_rows(*block);
-    const double left = (below - of_border) * of_border;
-    size.elimination = std::max(size.elimination, held + own * of_border + 2 * left);
-    held += left - passed[a];
-    if (left > 0) passed[joined[a].front()] += left;
+    const double update = (below - of_border) * of_border;
+    size.elimination = std::max(size.elimination, stored + own * of_border + 2 * update);
+    stored += update - passed[a];
+    if (update > 0) passed[joined[a].front()] += update;
   };
   bool is_dense = false;
   for (int a = 0; a < count_of(joined); ++a) {
@@ -155,7 +154,7 @@ Skeleton::Size Skeleton::size(const Rows& rows) const {
     if (is_dense) continue;
     size.factor += own * own + own * below;
     size.largest_front = std::max(size.largest_front, below * below);
-    // The border, of single rows: once one of them is joined to all others, so is each behind it.
+    // Border blocks are single rows. Once one of them is joined to all later ones, so is each after it.
     is_dense = a >= count_of(function_) && a + count_of(joined[a]) + 1 == count_of(joined);
     if (is_dense) size.factor += below * (below + 1) / 2;
     if (is_dense || joined[a].empty()) continue;

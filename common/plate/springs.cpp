@@ -12,17 +12,17 @@ double angle_of(const Eigen::Vector2d& radial) { return std::atan2(radial.y(), r
 
 SideSprings distributed(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
                         const pfem::Side& side, int p) {
-  SideSprings springs{rim::rim_rule(mesh, edges, side, p, spring.acts), {}};
+  SideSprings springs{rim::rim_rule(mesh, edges, side, p, spring.arcs), {}};
   springs.weight = spring.modulus * mesh.thickness[side.element] * springs.rule.ds;
   for (Eigen::Index q = 0; q < springs.weight.size(); ++q)
-    if (!rim::covers(spring.acts, angle_of(-springs.rule.normal.col(q)))) springs.weight[q] = 0;
+    if (!rim::covers(spring.arcs, angle_of(-springs.rule.normal.col(q)))) springs.weight[q] = 0;
   return springs;
 }
 
-/// Each end of the side has half a link, if springs act on the side there.
+/// Places half a link at each end of the side that is on an arc with springs.
 SideSprings links(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const pfem::Edges& edges,
                   const pfem::Side& side) {
-  constexpr double inside = 1e-9;  // of the side: as close as rim::rim_rule takes an arc's end for the side's
+  constexpr double tolerance = 1e-9;  // relative to the side, the same as in rim::rim_rule
   const pfem::Curve curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
   const auto [first, second] = pfem::natural_ends(side.local_edge);
   SideSprings springs{
@@ -32,14 +32,14 @@ SideSprings links(const rim::HoleSpring& spring, const pfem::Mesh& mesh, const p
     const double angle = curve.start_angle() + end * curve.sweep();
     springs.rule.x.col(end) = curve.point(end == 0 ? -1 : 1);
     springs.rule.normal.col(end) = -Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    const double beside = angle + (end == 0 ? inside : -inside) * curve.sweep();
-    if (rim::covers(spring.acts, beside)) springs.weight[end] = spring.link / 2;
+    const double within = angle + (end == 0 ? tolerance : -tolerance) * curve.sweep();
+    if (rim::covers(spring.arcs, within)) springs.weight[end] = spring.link / 2;
   }
   return springs;
 }
 
-/// Values at points, (2, n_points), weighted and tested by the modes: coefficients of u_x, then of u_y.
-Eigen::VectorXd tested(const pfem::SideRule& rule, const Eigen::Matrix2Xd& values) {
+/// Load vector of weighted values at points, (2, n_points): coefficients of u_x, then of u_y.
+Eigen::VectorXd load_vector(const pfem::SideRule& rule, const Eigen::Matrix2Xd& values) {
   const Eigen::MatrixXd by_mode = rule.N * values.transpose();
   return by_mode.reshaped();
 }
@@ -47,10 +47,10 @@ Eigen::VectorXd tested(const pfem::SideRule& rule, const Eigen::Matrix2Xd& value
 void add_springs(const SideSprings& springs, const Eigen::Matrix2Xd& axes, RimTerms& terms) {
   pfem::SideRule rule = springs.rule;
   const Eigen::Index n = terms.modes.size();
-  const auto n_sprung = rule.N.rows();  // links have but the traces of the two vertices, which come first
+  const auto n_sprung = rule.N.rows();  // links have only the traces of the two vertices, which come first
   rule.N.conservativeResize(n, Eigen::NoChange);
   rule.N.bottomRows(n - n_sprung).setZero();
-  const Eigen::Matrix2Xd& normal = rule.normal;  // its sign does not matter: it comes twice
+  const Eigen::Matrix2Xd& normal = rule.normal;  // enters quadratically, so its sign does not matter
   for (int a = 0; a < 2; ++a)
     for (int b = 0; b < 2; ++b) {
       const Eigen::VectorXd w =
@@ -60,7 +60,7 @@ void add_springs(const SideSprings& springs, const Eigen::Matrix2Xd& axes, RimTe
   const Eigen::MatrixXd along = axes.transpose() * normal;  // e.n, (a, n_points)
   for (Eigen::Index i = 0; i < axes.cols(); ++i) {
     const Eigen::VectorXd w = springs.weight.cwiseProduct(along.row(i).transpose());
-    terms.coupling.col(i) = -tested(rule, normal * w.asDiagonal());
+    terms.coupling.col(i) = -load_vector(rule, normal * w.asDiagonal());
     terms.disc.row(i) = along * w;
   }
 }
@@ -72,10 +72,10 @@ Eigen::VectorXd friction_load(const pfem::SideRule& rule, double thickness, cons
     const auto bearing = rim::cosine_bearing(-rule.normal.col(q), d);
     traction.col(q) = thickness * rule.ds[q] * bearing.contact * bearing.tangent;
   }
-  return tested(rule, traction);
+  return load_vector(rule, traction);
 }
 
-/// Pressures and shears of the waves, on pieces short enough for them.
+/// Adds loads of the pressures and shears of the waves, integrated on pieces of a quarter wave length.
 void add_waves(const SprungMesh& sprung, int hole, const pfem::Side& side, int p, RimTerms& terms) {
   const rim::Harmonics& shape = sprung.waves[hole].value().shape;
   const auto along = sprung.axes[hole].transpose();

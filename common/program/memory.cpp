@@ -25,7 +25,7 @@ namespace {
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr double kilobyte = 1024;
 
-/// The number behind a word of a file of Linux, in bytes; `otherwise` where another system has no such file.
+/// Reads the number after a word in a file of the Linux kernel, in bytes; `otherwise` if there is no such file or word.
 double entry(const std::string& path, const std::string& name, double otherwise, double unit = kilobyte) {
   std::ifstream in(path);
   for (std::string word; in >> word;)
@@ -33,7 +33,7 @@ double entry(const std::string& path, const std::string& name, double otherwise,
   return otherwise;
 }
 
-/// The number that is all of a file; one that says "max", or is not there, sets no limit.
+/// Reads a file that contains one number; "max" or a missing file means no limit.
 double number(const std::string& path) {
   std::ifstream in(path);
   double value = 0;
@@ -61,17 +61,17 @@ double left_in_control_group(const std::string& folder) {
 double available_memory() {
   static const double found = [] {
     const double built_in = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-    double least = entry("/proc/meminfo", "MemAvailable:", built_in);
+    double min = entry("/proc/meminfo", "MemAvailable:", built_in);
     for (const double left : {left_in_control_group("/sys/fs/cgroup/"), left_in_control_group("/sys/fs/cgroup/memory/"),
                               left_in_address_space()})
-      if (left < least) least = left;  // not a number where a file is not there
-    return std::max(least, 0.0);
+      if (left < min) min = left;  // false for the NaN of a missing file
+    return std::max(min, 0.0);
   }();
   return found;
 }
 
 double peak_memory() {
-  // A child begins with its parent's ru_maxrss: what a large Python script starts would seem as large. VmHWM does not.
+  // A child process inherits ru_maxrss of its parent, such as a large Python script; it does not inherit VmHWM.
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
   return entry("/proc/self/status", "VmHWM:", kilobyte * static_cast<double>(usage.ru_maxrss));
@@ -91,7 +91,7 @@ void require_memory_to_start() {
   constexpr std::size_t start = 16 << 20;
   void* block = ::operator new(start, std::nothrow);
   ::operator delete(block);
-  // OpenBLAS reserves memory for each thread, and asks for ever where it cannot: all of it must be there at once.
+  // OpenBLAS reserves memory for each thread, and retries without end if it fails, so all of it must be available now.
   constexpr double of_thread = 1 << 27;
   const int n_threads = linalg::blas_threads();
   const std::string need = bytes_text(start + n_threads * of_thread);

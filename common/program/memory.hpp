@@ -5,28 +5,29 @@
 
 namespace fastjoint::program {
 
-/// Bytes that this process may still take: what the machine has free, within the limits that the user (ulimit -v) and
-/// the control group of the process set. Found once: what the process has taken since is part of what it needs.
+/// Bytes that this process may allocate: the free memory of the machine within the limits of the user (ulimit -v) and
+/// of the process's control group. Determined at the first call, so that memory allocated later counts as part of the
+/// need.
 [[nodiscard]] double available_memory();
-/// Bytes left in a control group of version 1 or 2, as a container sees its own; not a number or infinite where there
-/// is no limit. What only caches files is left too: the system takes it back when it is needed.
+/// Free bytes in a control group of version 1 or 2, as seen from inside a container; NaN or infinite without a limit.
+/// The file cache counts as free, since the system reclaims it on demand.
 [[nodiscard]] double left_in_control_group(const std::string& folder);
 
-/// Most memory in bytes that this process has had resident.
+/// Peak resident memory of this process in bytes.
 [[nodiscard]] double peak_memory();
 
-/// Throws InputError "WHAT takes about NEED of memoryPARTS, ... are available; allowed: ALLOWED" if that is not
+/// Throws InputError "WHAT takes about NEED of memoryPARTS, ... are available; allowed: ALLOWED" if NEED is not
 /// available.
 void require_memory(const std::string& what, double need, const std::string& parts, const std::string& allowed);
 
-/// Throws InputError if there is too little to begin with: HDF5 crashes where its calls find none.
+/// Throws InputError if there is too little memory to start: HDF5 crashes if an allocation in it fails.
 void require_memory_to_start();
 
-/// Bytes in words: "63 MB", "1.2 GB".
+/// Bytes as text: "63 MB", "1.2 GB".
 [[nodiscard]] std::string bytes_text(double bytes);
 
-/// Tells the allocator to keep what is freed: matrices come and go by the megabyte, and giving their pages back to the
-/// system only to have them zeroed again takes a fifth of a run.
+/// Tells the allocator to keep freed memory: returning the pages of large matrices to the system and getting them
+/// zeroed again takes a fifth of a run.
 void keep_freed_memory();
 
 }  // namespace fastjoint::program

@@ -22,7 +22,7 @@ namespace {
 
 enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, numerical_failure = 4 };
 
-/// Nothing if all the user wanted was --help or --version.
+/// Empty after --help or --version.
 std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   Arguments arguments;
   CLI::App app(command.summary, command.name);
@@ -85,14 +85,14 @@ int report(const std::string& program, const char* what, Status status) {
   return status;
 }
 
-std::string farewell;  // made before it is needed: a handler of signals may hardly do more than write
+std::string farewell;  // made in advance, since a signal handler may call little more than write
 
-/// Leaves no part of a file behind, says so and ends the program as the signal does by itself.
+/// Removes unfinished files, reports it and ends the program by the default action of the signal.
 void stop(int signal) {
   h5::remove_unfinished();
   if (::write(STDERR_FILENO, farewell.data(), farewell.size()) >= 0) ::raise(signal);  // restored by SA_RESETHAND
-  constexpr int of_signals = 128;
-  ::_exit(of_signals + signal);  // of the first process of a container, which it does not end
+  constexpr int status_of_signal = 128;
+  ::_exit(status_of_signal + signal);  // needed in the first process of a container, which the signal does not end
 }
 
 void catch_signals(const std::string& program) {
@@ -102,7 +102,7 @@ void catch_signals(const std::string& program) {
   action.sa_handler = stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
   for (const int signal : {SIGTERM, SIGINT})
-    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)  // as of a job in the background
+    if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)  // background jobs ignore it
       ::sigaction(signal, &action, nullptr);
 }
 
@@ -130,7 +130,7 @@ int outcome(const Command& command, int argc, char** argv, const Body& body) {
   }
 }
 
-/// @param kind What the message calls an allowed value.
+/// @param kind Name of an allowed value in the message: "an integer" or "a number".
 template <class Number>
 Number number_in(const Arguments& arguments, const std::string& name, Number low, Number high, Number otherwise,
                  const char* kind) {
@@ -183,7 +183,7 @@ void run(const Command& command, int argc, char** argv, const Body& body) {
   linalg::take_better_kernels(argv);
   const int status = outcome(command, argc, argv, body);
   std::cout.flush();
-  // The libraries' own endings are left out: where memory is short, OpenBLAS waits in its own for threads without end.
+  // _Exit skips the exit handlers of libraries: that of OpenBLAS waits for threads without end if memory is short.
   std::_Exit(status);
 }
 

@@ -10,14 +10,14 @@
 
 namespace fastjoint::program {
 
-/// One row of a program's options: used for parsing, for --help and by the test of the table in docs/programs.md.
+/// One option of a program: used for parsing, for --help and by the test of the table in docs/programs.md.
 struct Option {
   std::string name;   ///< with its dashes, "--p"
-  std::string value;  ///< what stands for the value in --help, empty for a flag
+  std::string value;  ///< placeholder of the value in --help, empty for a flag
   std::string help;   ///< one line
 };
 
-/// The words in which the three programs differ; `INPUT -o OUTPUT --timings FILE --quiet --help --version` all have.
+/// Command line of a program, in addition to `INPUT -o OUTPUT --timings FILE --quiet --help --version`, which all have.
 struct Command {
   std::string name;
   std::string summary;
@@ -26,35 +26,35 @@ struct Command {
   std::vector<Option> options;
 };
 
-/// The user's words, parsed.
+/// The parsed command line.
 struct Arguments {
   std::string input, output;
-  std::string timings;  ///< path of the file of times, or empty
+  std::string timings;  ///< path of the file of timings, or empty
   bool quiet = false;
-  std::map<std::string, std::string> options;  ///< only those that were given
+  std::map<std::string, std::string> options;  ///< the given options only
 
   /// Value of an integer option within [low, high], or `otherwise`. Throws InputError.
   [[nodiscard]] int integer(const std::string& name, int low, int high, int otherwise) const;
   /// Value of an option that is a number within [low, high], or `otherwise`. Throws InputError.
   [[nodiscard]] double number(const std::string& name, double low, double high, double otherwise) const;
-  /// Tells if a flag was given.
+  /// True if a flag was given.
   [[nodiscard]] bool flag(const std::string& name) const { return options.contains(name); }
   /// Value of an option or "".
   [[nodiscard]] std::string text(const std::string& name) const;
 };
 
-/// The work of a program on its arguments. It names its phases and prints its summary unless told to be quiet.
+/// Main function of a program: it names its phases and prints its summary unless `quiet` is set.
 using Body = std::function<void(const Arguments&, Timings&)>;
 
-/// Whole life of a program: parses, checks that the outputs can be written, runs `body`, ends its summary with what the
-/// run took, turns what is thrown into one line on stderr, and ends the process with the exit status of the contract (0
+/// Runs a program: parses the arguments, checks that the outputs can be written, runs `body`, adds time and memory to
+/// its summary, reports an exception as one line on stderr, and ends the process with the documented exit status (0
 /// done, 1 internal error, 2 wrong usage or input, 3 file, 4 numerical failure).
 [[noreturn]] void run(const Command& command, int argc, char** argv, const Body& body);
 
-/// Throws InputError if the file that an option names is another one that the run reads or writes, `what`.
+/// Throws InputError if the file of an option is the same as another file of the run, `other`, described by `what`.
 void check_spare(const char* option, const std::string& path, const std::string& other, const std::string& what);
 
-/// The text with line breaks and other control characters, which names in the input may hold, as JSON escapes them.
+/// Escapes line breaks and other control characters, which names in the input may contain, as in JSON.
 [[nodiscard]] std::string one_line(const std::string& text);
 
 /// "1 piece", "2 pieces".

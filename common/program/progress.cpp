@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr const char* erase = "\033[K";
-Progress* present = nullptr;
+Progress* current = nullptr;
 
 double seconds(Timings::Clock::duration time) { return std::chrono::duration<double>(time).count(); }
 
@@ -24,48 +24,48 @@ double seconds(Timings::Clock::duration time) { return std::chrono::duration<dou
 
 Progress::Progress(std::string program, bool is_terminal, std::ostream& out, std::function<Clock::time_point()> now)
     : program_(std::move(program)), is_terminal_(is_terminal), out_(out), now_(std::move(now)), next_(now_() + 1s) {
-  present = this;
+  current = this;
 }
 
 Progress::~Progress() {
   report_share(1);
-  present = nullptr;
+  current = nullptr;
 }
 
 void Progress::say() {
   const auto now = now_();
-  const bool working = share_ < 1;
+  const bool working = fraction_ < 1;
   if (now < next_ || (is_terminal_ && !working)) return;
   next_ = now + (is_terminal_ ? 100ms : 3000ms);
-  constexpr double too_early = 0.05;  // to tell the rest by it
+  constexpr double min_fraction = 0.05;  // below it the remaining time is too uncertain
   std::string words = phase_;
-  if (working && share_ > too_early)
-    words += fmt::format(", {:.0f} % done, about {:.0f} s left", 100 * share_,
+  if (working && fraction_ > min_fraction)
+    words += fmt::format(", {:.0f} % done, about {:.0f} s left", 100 * fraction_,
                          std::max(0.0, std::chrono::duration<double>(end_ - now).count()));
   constexpr int width = 20;
-  if (is_terminal_)  // the cursor stays at the start, for whatever is said next
-    out_ << fmt::format("[{:<{}}] {}{}\r", std::string(int(width * share_), '#'), width, words, erase) << std::flush;
+  if (is_terminal_)  // the cursor stays at the start, so that the next output overwrites the bar
+    out_ << fmt::format("[{:<{}}] {}{}\r", std::string(int(width * fraction_), '#'), width, words, erase) << std::flush;
   else
     out_ << fmt::format("{}: {}\n", program_, words) << std::flush;
 }
 
 void report_phase(const std::string& name) {
-  if (present == nullptr) return;
-  present->phase_ = name;
-  present->say();
+  if (current == nullptr) return;
+  current->phase_ = name;
+  current->say();
 }
 
 void report_share(double done) {
-  if (present == nullptr) return;
-  const auto now = present->now_();
-  if (done == 0) present->start_ = now;
+  if (current == nullptr) return;
+  const auto now = current->now_();
+  if (done == 0) current->start_ = now;
   using Seconds = std::chrono::duration<double>;
   if (done > 0)
-    present->end_ =
-        present->start_ + std::chrono::duration_cast<Progress::Clock::duration>(Seconds(now - present->start_) / done);
-  if (done == 1 && present->share_ < 1 && present->is_terminal_) present->out_ << erase << std::flush;
-  present->share_ = done;
-  if (done < 1) present->say();
+    current->end_ =
+        current->start_ + std::chrono::duration_cast<Progress::Clock::duration>(Seconds(now - current->start_) / done);
+  if (done == 1 && current->fraction_ < 1 && current->is_terminal_) current->out_ << erase << std::flush;
+  current->fraction_ = done;
+  if (done < 1) current->say();
 }
 
 Timings::Timings(std::function<Clock::time_point()> now) : now_(std::move(now)), start_(now_()), mark_(start_) {}

@@ -6,9 +6,9 @@
 
 namespace fastjoint::program {
 
-/// A doubt about a result that stands.
+/// A warning about a result that is written all the same.
 struct Warning {
-  const char* code;  ///< its kind, in kebab-case, which stays when the sentence changes: table in docs/results.md
+  const char* code;  ///< its kind in kebab-case, stable when the sentence changes; table in docs/results.md
   std::string text;  ///< one sentence, with file and place
 };
 

@@ -3,13 +3,14 @@
 
 namespace fastjoint::rim {
 
-// Polynomials of Kolosov and Muskhelishvili, phi = A z^(n+1) and psi = B z^(n-1), with tractions of one order n on the
-// circle give both functions. Orders are those of the whole circle, of which a part that repeats has some.
+// The compliances follow from the Kolosov-Muskhelishvili polynomials phi = A z^(n+1) and psi = B z^(n-1) for tractions
+// of one order n on the circle. Orders are those of the whole circle; a part between lines of symmetry has a subset of
+// them.
 
 namespace {
 
-/// What each wave of order 2 and more yields to itself, on the whole circle, length / stress.
-Eigen::VectorXd by_own_waves(const ElasticDisk& disk, double radius, int highest) {
+/// Compliance of each wave of order 2 and above for its own traction, on the whole circle, length / stress.
+Eigen::VectorXd own_compliance(const ElasticDisk& disk, double radius, int highest) {
   Eigen::VectorXd whole = Eigen::VectorXd::Zero(2 * Eigen::Index(highest) + 1);
   for (int n = 2; n <= highest; ++n)
     whole.segment<2>(2 * n - 1).setConstant((2 * n - 1 + disk.nu) / (double(n) * n - 1) * radius / disk.E);
@@ -19,13 +20,13 @@ Eigen::VectorXd by_own_waves(const ElasticDisk& disk, double radius, int highest
 }  // namespace
 
 Eigen::VectorXd ElasticDisk::yield(double radius, const Harmonics& waves) const {
-  Eigen::VectorXd whole = by_own_waves(*this, radius, waves.highest);
+  Eigen::VectorXd whole = own_compliance(*this, radius, waves.highest);
   whole[0] = (1 - nu) * radius / E;
   return waves.pressures_of_whole().cwiseAbs2().transpose() * whole;
 }
 
 Eigen::VectorXd ElasticDisk::give_way(double radius, const Harmonics& waves) const {
-  return waves.shears_of_whole().cwiseAbs2().transpose() * by_own_waves(*this, radius, waves.highest);
+  return waves.shears_of_whole().cwiseAbs2().transpose() * own_compliance(*this, radius, waves.highest);
 }
 
 Eigen::MatrixXd ElasticDisk::yield_by_shear(double radius, const Harmonics& waves) const {

@@ -25,23 +25,23 @@ Wave shear_wave(const Harmonics& a, int k) {
   return a.is_whole() ? pressure_wave(a, k) : Wave{k + 1, true, std::numbers::sqrt2};
 }
 
-/// The angle of which a wave is a multiple, per radian along the rim.
-double unit(const Harmonics& a) { return a.is_whole() ? 1 : std::numbers::pi / a.sweep; }
+/// Phase of the wave of multiple 1 per radian along the rim.
+double phase_rate(const Harmonics& a) { return a.is_whole() ? 1 : std::numbers::pi / a.sweep; }
 
 /// Highest multiple of any distribution.
-int most(const Harmonics& a) { return a.is_whole() ? a.highest : a.size() - 1; }
+int max_multiple(const Harmonics& a) { return a.is_whole() ? a.highest : a.size() - 1; }
 
 constexpr double mean_of_wave = 1 / std::numbers::sqrt2;  ///< mean of sqrt(2) cos^2
 
 bool is_half(const Harmonics& a) { return std::abs(a.sweep - std::numbers::pi) < 1e-7; }
 
-/// Columns of the whole circle's distributions, (2 highest + 1, n), for the waves of a part of it.
+/// Waves of a part of the circle as coefficients of the whole circle's basis, (2 highest + 1, n).
 template <class WaveOf>
 Eigen::MatrixXd of_whole(const Harmonics& a, int n, WaveOf wave_of) {
   Eigen::MatrixXd T = Eigen::MatrixXd::Zero(2 * a.highest + 1, n);
   for (int k = 0; k < n; ++k) {
     const Wave wave = wave_of(a, k);
-    const int order = static_cast<int>(std::lround(wave.multiple * unit(a)));
+    const int order = static_cast<int>(std::lround(wave.multiple * phase_rate(a)));
     const double phase = order * a.start;
     if (order == 0)
       T(0, k) = 1;
@@ -53,7 +53,8 @@ Eigen::MatrixXd of_whole(const Harmonics& a, int n, WaveOf wave_of) {
   return T;
 }
 
-/// cos and sin of the multiples 0..highest of an angle, by turns: their errors are rounding times the multiple.
+/// Cosines and sines of the multiples 0..highest of an angle by repeated rotation. Their errors are rounding times the
+/// multiple.
 class Multiples {
  public:
   Multiples(double phase, int highest) : turns_(highest + 1) {
@@ -71,16 +72,15 @@ class Multiples {
   std::vector<std::complex<double>> turns_;
 };
 
-/// Adds to a complex number x + i y, then turns it by the angle whose cosine and sine are c and s: a step of Horner's
-/// rule.
+/// One step of Horner's rule: adds to a complex number x + i y, then rotates it by the angle with cosine c and sine s.
 void turn(double& x, double& y, double c, double s, double more_x, double more_y) {
   const double sum_x = x + more_x, sum_y = y + more_y;
   x = c * sum_x - s * sum_y;
   y = s * sum_x + c * sum_y;
 }
 
-/// Waves of one kind and one amplitude in the order of a list of distributions: multiples first, first + 1, ... at
-/// places place, place + stride, ...
+/// Waves of one kind and one amplitude: multiples first, first + 1, ... at the indices place, place + stride, ... of
+/// the basis.
 struct WaveGroup {
   int first, count;
   bool are_sines;
@@ -95,39 +95,39 @@ std::vector<WaveGroup> waves_of(const Harmonics& a, bool of_shear) {
   return {{0, 1, false, 0, 1}, {1, a.size() - 1, false, 1, 1}};
 }
 
-/// Sums over pieces of a rim of the integrals of cos(j phase) and of sin(j phase), j = -most..most at place most + j.
+/// Integrals of cos(j phase) and of sin(j phase), j = -n..n at index n + j, summed over pieces of a rim.
 struct IntegralsOfMultiples {
   Eigen::ArrayXd cosines, sines;
-  IntegralsOfMultiples(const Harmonics& a, std::span<const SignedRange> pieces, int most)
-      : cosines(Eigen::ArrayXd::Zero(2 * most + 1)), sines(Eigen::ArrayXd::Zero(2 * most + 1)) {
+  IntegralsOfMultiples(const Harmonics& a, std::span<const SignedRange> pieces, int n)
+      : cosines(Eigen::ArrayXd::Zero(2 * n + 1)), sines(Eigen::ArrayXd::Zero(2 * n + 1)) {
     for (const auto& piece : pieces) {
-      const double from = unit(a) * (piece.from - a.start), to = unit(a) * (piece.to - a.start);
-      const Multiples half_width((to - from) / 2, most), middle((from + to) / 2, most);
-      cosines[most] += piece.sign * (to - from);
-      for (int j = 1; j <= most; ++j) {
+      const double from = phase_rate(a) * (piece.from - a.start), to = phase_rate(a) * (piece.to - a.start);
+      const Multiples half_width((to - from) / 2, n), middle((from + to) / 2, n);
+      cosines[n] += piece.sign * (to - from);
+      for (int j = 1; j <= n; ++j) {
         const double width = piece.sign * 2.0 / j * half_width.sine(j);
-        cosines[most + j] += width * middle.cosine(j);
-        sines[most + j] += width * middle.sine(j);
+        cosines[n + j] += width * middle.cosine(j);
+        sines[n + j] += width * middle.sine(j);
       }
     }
-    cosines.head(most) = cosines.tail(most).reverse();
-    sines.head(most) = -sines.tail(most).reverse();
+    cosines.head(n) = cosines.tail(n).reverse();
+    sines.head(n) = -sines.tail(n).reverse();
   }
 };
 
-/// Sums over pieces of a rim of the integrals over theta of the products of waves, (rows, columns).
+/// Integrals over theta of the products of waves (pressures or shears, by pressures), summed over pieces of a rim.
 Eigen::MatrixXd integrals(const Harmonics& a, bool of_shear, std::span<const SignedRange> pieces) {
-  const int most = 2 * (fastjoint::rim::most(a) + 1);
-  const IntegralsOfMultiples of(a, pieces, most);
+  const int n = 2 * (max_multiple(a) + 1);
+  const IntegralsOfMultiples of(a, pieces, n);
   Eigen::MatrixXd result(of_shear ? a.n_shears() : a.size(), a.size());
   for (const auto& columns : waves_of(a, false))
     for (int i = 0; i < columns.count; ++i)
       for (const auto& rows : waves_of(a, of_shear)) {
         const int column = columns.first + i;
-        const double scale = columns.amplitude() * rows.amplitude() / 2 / unit(a);
+        const double scale = columns.amplitude() * rows.amplitude() / 2 / phase_rate(a);
         const Eigen::ArrayXd& kind = rows.are_sines == columns.are_sines ? of.cosines : of.sines;
-        const auto difference = kind.segment(most + rows.first - column, rows.count);
-        const auto sum = kind.segment(most + rows.first + column, rows.count);
+        const auto difference = kind.segment(n + rows.first - column, rows.count);
+        const auto sum = kind.segment(n + rows.first + column, rows.count);
         Eigen::Map<Eigen::ArrayXd, 0, Eigen::InnerStride<>> out(&result(rows.place, columns.place + i * columns.stride),
                                                                 rows.count, Eigen::InnerStride<>(rows.stride));
         if (!rows.are_sines && columns.are_sines)
@@ -160,35 +160,35 @@ Eigen::MatrixXd Harmonics::shears_of_whole() const {
 }
 
 Eigen::VectorXd Harmonics::at(double angle) const {
-  const Multiples all(unit(*this) * (angle - start), most(*this));
+  const Multiples all(phase_rate(*this) * (angle - start), max_multiple(*this));
   return Eigen::VectorXd::NullaryExpr(
       size(), [&](Eigen::Index k) { return all.at(pressure_wave(*this, static_cast<int>(k))); });
 }
 
-std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& amounts, double angle) const {
-  const double phase = unit(*this) * (angle - start);
+std::pair<double, double> Harmonics::sum_at(const Eigen::VectorXd& coefficients, double angle) const {
+  const double phase = phase_rate(*this) * (angle - start);
   const double c = std::cos(phase), s = std::sin(phase);
-  double re = 0, im = 0, slope_re = 0, slope_im = 0;  // of sum z_j e^(i j phase), by Horner's rule
-  for (int j = most(*this); j >= 1; --j) {
+  double re = 0, im = 0, slope_re = 0, slope_im = 0;  // sum of z_j e^(i j phase) and its slope by Horner's rule
+  for (int j = max_multiple(*this); j >= 1; --j) {
     const Eigen::Index at = is_whole() ? 2 * Eigen::Index(j) - 1 : j;
-    const double cosine = amounts[at], sine = is_whole() ? amounts[at + 1] : 0;
+    const double cosine = coefficients[at], sine = is_whole() ? coefficients[at + 1] : 0;
     turn(re, im, c, s, cosine, -sine);
     turn(slope_re, slope_im, c, s, j * cosine, -j * sine);
   }
-  return {amounts[0] + std::numbers::sqrt2 * re, -std::numbers::sqrt2 * unit(*this) * slope_im};
+  return {coefficients[0] + std::numbers::sqrt2 * re, -std::numbers::sqrt2 * phase_rate(*this) * slope_im};
 }
 
-double Harmonics::shear_sum_at(const Eigen::VectorXd& amounts, double angle) const {
-  if (is_whole()) return sum_at(amounts, angle).first;
-  const double phase = unit(*this) * (angle - start);
+double Harmonics::shear_sum_at(const Eigen::VectorXd& coefficients, double angle) const {
+  if (is_whole()) return sum_at(coefficients, angle).first;
+  const double phase = phase_rate(*this) * (angle - start);
   const double c = std::cos(phase), s = std::sin(phase);
   double re = 0, im = 0;
-  for (Eigen::Index j = amounts.size(); j >= 1; --j) turn(re, im, c, s, 0, -amounts[j - 1]);
+  for (Eigen::Index j = coefficients.size(); j >= 1; --j) turn(re, im, c, s, 0, -coefficients[j - 1]);
   return std::numbers::sqrt2 * re;
 }
 
 Eigen::VectorXd Harmonics::shears_at(double angle) const {
-  const Multiples all(unit(*this) * (angle - start), most(*this));
+  const Multiples all(phase_rate(*this) * (angle - start), max_multiple(*this));
   return Eigen::VectorXd::NullaryExpr(n_shears(),
                                       [&](Eigen::Index k) { return all.at(shear_wave(*this, static_cast<int>(k))); });
 }

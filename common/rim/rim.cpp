@@ -76,15 +76,15 @@ double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim
 
 pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,
                         const std::vector<AngleRange>& ranges) {
-  constexpr double at_end = 1e-9;  // a break this close to an end, or to another, is that one
+  constexpr double at_end = 1e-9;  // tolerance of equal breaks and ends
   const pfem::Curve curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
   const double low = std::min(curve.start_angle(), curve.start_angle() + curve.sweep());
   std::vector<double> angles = {0, full_turn / 4, full_turn / 2, -full_turn / 4};
   for (const auto& range : ranges) angles.insert(angles.end(), {range.from, range.to});
   std::vector<double> breaks;
   for (const double angle : angles) {
-    const double inside = wrapped(angle, low);
-    const double s = -1 + 2 * (inside - curve.start_angle()) / curve.sweep();
+    const double on_side = wrapped(angle, low);
+    const double s = -1 + 2 * (on_side - curve.start_angle()) / curve.sweep();
     if (std::abs(s) < 1 - at_end) breaks.push_back(s);
   }
   std::sort(breaks.begin(), breaks.end());
@@ -112,7 +112,7 @@ Bearing bearing(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim
   Bearing sum;
   const Eigen::Vector2d across = d.reverse().cwiseAbs();
   for (const auto& side : rim.sides) {
-    constexpr int p = 8;  // only the number of points: enough for products of sines over a quarter
+    constexpr int p = 8;  // sets the number of points: enough for products of sines over a quarter
     const auto rule = rim_rule(mesh, edges, side, p);
     for (Eigen::Index q = 0; q < rule.ds.size(); ++q) {
       const Eigen::Vector2d n = -rule.normal.col(q);

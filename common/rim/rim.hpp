@@ -14,25 +14,25 @@
 
 namespace fastjoint::rim {
 
-/// Digits that a hand-written mesh has: two points of a rim are one, and two radii are one, to this part of the radius.
+/// Tolerance of equal points and equal radii of a rim, relative to the radius: the precision of a hand-written mesh.
 inline constexpr double same_place = 1e-6;
-/// Two angles as close as this are one, radians: both ends of an arc, and the centre that either is seen from, may each
-/// be off by same_place.
+/// Tolerance of equal angles, radians: both ends of an arc and both centres may each be off by same_place.
 inline constexpr double same_angle = 4 * same_place;
 
-/// The part of a hole's circle that the model has: all of it, or half or a quarter on lines of symmetry.
+/// The part of a hole's circle that the model has: all of it, or half or a quarter between lines of symmetry.
 struct Rim {
   Eigen::Vector2d center;
   double radius;
   std::vector<pfem::Side> sides;
 };
 
-/// The arcs on the boundary of a mesh by their centres, among which each rim is found without a look at the others.
+/// Index of the arcs on the boundary of a mesh by their centres, to find the sides of a rim without a search of all
+/// arcs.
 class RimFinder {
  public:
   /// The mesh must outlive this.
   RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges);
-  /// Sides of elements that lie on a circle, in the order of the elements.
+  /// Finds the sides of elements that lie on a circle, in the order of the elements.
   [[nodiscard]] Rim operator()(const Eigen::Vector2d& center, double radius) const;
 
  private:
@@ -40,39 +40,39 @@ class RimFinder {
   std::map<double, std::map<double, std::vector<std::pair<pfem::Side, int>>>> arcs_;  ///< by x and y of the centre
 };
 
-/// A side of a rim by its angles, radians.
+/// Angles of a side of a rim, radians.
 struct SideAngles {
   pfem::Side side;
-  double start, sweep;  ///< at s = -1, and its increase up to s = 1
+  double start, sweep;  ///< angle at s = -1, and its increase up to s = 1
 
   [[nodiscard]] double low() const { return std::min(start, start + sweep); }
   [[nodiscard]] double high() const { return std::max(start, start + sweep); }
 };
 [[nodiscard]] std::vector<SideAngles> side_angles(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
 
-/// The pieces of a rim that end somewhere; none of a closed one.
+/// The connected pieces of a rim that have ends; none for a closed rim.
 [[nodiscard]] std::vector<AngleRange> open_pieces(const std::vector<SideAngles>& sides);
 
-/// Angle that the rim covers, radians.
+/// Total angle of the sides of a rim, radians.
 [[nodiscard]] double covered_angle(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim);
 
-/// Quadrature on one side of a rim. Pieces end where a rim is cut by a line through its centre along x or y: there the
-/// tractions of bearing along +-x and +-y, or their slopes, jump; and where `ranges` end.
+/// Quadrature on one side of a rim. Its pieces end where `ranges` end and at the lines through the centre along x and
+/// y, where the tractions of bearing along +-x and +-y, or their slopes, jump.
 [[nodiscard]] pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Side& side, int p,
                                       const std::vector<AngleRange>& ranges = {});
 
 /// Normal springs between the rim of a hole and the rigid disc in it: distributed, or links at the nodes of the rim.
 struct HoleSpring {
-  double modulus = 0;                 ///< force / length^3; 0 with links, and of an open hole
-  double link = 0;                    ///< force / length at each node, half of it for either side that ends there
-  std::vector<AngleRange> acts = {};  ///< the sprung parts of the rim
+  double modulus = 0;                 ///< force / length^3; 0 with links and for an open hole
+  double link = 0;                    ///< force / length at each node, half of it for each side that ends there
+  std::vector<AngleRange> arcs = {};  ///< parts of the rim on which springs act
 };
 
-/// A cut across the plate beside a hole, along sides of elements that lie between it and the hole.
+/// A cut across the plate next to a hole, along sides of the elements between the cut and the hole.
 struct Section {
   int hole;                       ///< index of the hole
   std::string side;               ///< on which side of the hole, "+x", "-x", "+y" or "-y"
-  std::vector<pfem::Side> sides;  ///< elements on the hole's side of the cut
+  std::vector<pfem::Side> sides;  ///< sides of the elements on the hole's side of the cut
 };
 
 /// Unit vector along "x" or "y".
@@ -82,19 +82,21 @@ struct Section {
 
 /// Cosine distribution on the half of a rim that bears along the unit vector d (docs/theory.md, section 4.2).
 struct CosineBearing {
-  double contact;           ///< contact stress per peak: cos(theta) on the bearing half, else 0
-  Eigen::Vector2d tangent;  ///< unit tangent along which friction drags the plate: its part along d is positive
+  double contact;           ///< contact stress over its peak: cos(theta) on the bearing half, else 0
+  Eigen::Vector2d tangent;  ///< unit tangent in the direction of friction on the plate; its component along d is > 0
 };
 /// @param n Unit radial vector from the hole's centre. @param d Unit vector of the bearing direction.
 [[nodiscard]] CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d);
 
-/// Integrals over the part of a rim that bears along d, a unit vector along + or - an axis, as far as the model has it,
-/// length^2. Those across, along + the other axis, are 0 of a whole hole in a sheet of one thickness.
+/// Integrals over the half of a rim that bears along d, a unit vector along + or - an axis, as far as it is in the
+/// model, length^2. "Across" is along + the other axis: those integrals are 0 for a whole hole in a sheet of one
+/// thickness.
 struct Bearing {
-  double area = 0;        ///< int t cos ds: d t of a whole hole
-  double unit_force = 0;  ///< c = int t cos^2 ds: bearing force per unit peak contact stress; t d pi/4 of a whole hole,
-                          ///< t d pi/8 of the half hole of a symmetric model
-  double resultant = 0;   ///< along d, of unit friction with the cosine distribution
+  double area = 0;  ///< int t cos ds: d t for a whole hole
+  /// c = int t cos^2 ds: bearing force per unit peak contact stress; t d pi/4 for a whole hole, t d pi/8 for the half
+  /// hole of a symmetric model
+  double unit_force = 0;
+  double resultant = 0;         ///< resultant along d of unit friction with the cosine distribution
   double force_across = 0;      ///< resultant across of the unit peak contact stress
   double resultant_across = 0;  ///< resultant across of unit friction
 };

@@ -15,7 +15,7 @@ using namespace std::complex_literals;
 
 /// The two roots with positive imaginary part of Lekhnitskii's equation
 /// a11 mu^4 - 2 a16 mu^3 + (2 a12 + a66) mu^2 - 2 a26 mu + a22 = 0. Their sum and product are exact to rounding even
-/// where the two are one.
+/// for equal roots.
 Eigen::Vector2cd roots_of(const Eigen::Matrix3d& a) {
   Eigen::Matrix4d companion = Eigen::Matrix4d::Zero();
   companion.diagonal(-1).setOnes();
@@ -28,21 +28,21 @@ Eigen::Vector2cd roots_of(const Eigen::Matrix3d& a) {
   return roots;
 }
 
-/// Waves 1..n of a distribution of the whole circle: f_m of 2 Re sum f_m e^(-i m theta), f_m at m - 1.
+/// Coefficients f_m, m = 1..n at index m - 1, of a distribution of the whole circle as 2 Re sum f_m e^(-i m theta).
 Eigen::VectorXcd wave(int k, int n) {
   Eigen::VectorXcd f = Eigen::VectorXcd::Zero(n);
   if (const int order = (k + 1) / 2; order > 0) f[order - 1] = (k % 2 == 1 ? Complex(1) : 1i) / std::numbers::sqrt2;
   return f;
 }
 
-/// Coefficients of the whole circle's distributions up to `highest`, means left out.
+/// Coefficients of the whole circle's basis up to `highest`, without the mean.
 Eigen::VectorXd coefficients(const Eigen::VectorXcd& f, int highest) {
   Eigen::VectorXd result = Eigen::VectorXd::Zero(2 * highest + 1);
   for (int m = 1; m <= highest; ++m) result.segment<2>(2 * m - 1) << f[m - 1].real(), f[m - 1].imag();
   return std::numbers::sqrt2 * result;
 }
 
-/// Waves of f cos theta and of f sin theta, by those of an f without mean.
+/// Coefficients of f cos theta and of f sin theta for those of an f without mean.
 struct Turned {
   Eigen::VectorXcd cosine, sine;
 };
@@ -78,8 +78,8 @@ double RimCompliance::fall(const Eigen::Vector2d& place) const {
 
 Eigen::Vector3d RimCompliance::along(double angle) const {
   const double c = std::cos(angle), s = std::sin(angle);
-  const Eigen::RowVector3d strain(s * s, c * c, -c * s);  // of (x, y, xy)
-  Eigen::Matrix3d stress;                                 // (x, y, xy) by (rr, tt, rt)
+  const Eigen::RowVector3d strain(s * s, c * c, -c * s);  // from (x, y, xy)
+  Eigen::Matrix3d stress;                                 // (x, y, xy) from (rr, tt, rt)
   stress << c * c, s * s, -2 * c * s,                     //
       s * s, c * c, 2 * c * s,                            //
       c * s, -c * s, c * c - s * s;
@@ -88,7 +88,7 @@ Eigen::Vector3d RimCompliance::along(double angle) const {
 
 Eigen::MatrixXd RimCompliance::displacements(const Harmonics& waves) const {
   const int highest = waves.highest, n = 2 * highest + 1;
-  constexpr int wider = 2;  // turning to and from x and y makes waves of one order more, twice
+  constexpr int wider = 2;  // rotation to x and y and back raises the order by one each
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(Eigen::Index{2} * n, Eigen::Index{2} * n);
   for (const bool is_shear : {false, true})
     for (int k = 3; k < n; ++k) {

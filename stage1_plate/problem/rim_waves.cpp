@@ -52,7 +52,7 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     const bool in_contact = hole.spring && hole.spring->compression_only;
     const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[i]));
     if (in_contact) check_contact(scene, plate, i, pieces.size());
-    rim::Harmonics shape{rim::most_harmonics};
+    rim::Harmonics shape{rim::max_harmonics};
     if (!pieces.empty()) shape.start = pieces[0].from, shape.sweep = pieces[0].to - pieces[0].from;
     const bool is_linked = hole.spring && hole.spring->link > 0;
     if (!(rim_compliance(scene, plate, i)(0, 0) > 0 && shape.repeats())) {

@@ -99,7 +99,7 @@ std::vector<int> wanted_orders(const PlateScene& scene, const PlateMesh& plate) 
     }
     const double fall = slowest_fall(scene, plate, rough, i);
     int order = lowest_order;
-    while (order < rim::most_harmonics && left_out(order, fall) > scene.left_out_of_waves) ++order;
+    while (order < rim::max_harmonics && left_out(order, fall) > scene.left_out_of_waves) ++order;
     orders.push_back(order);
   }
   return orders;

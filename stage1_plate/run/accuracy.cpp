@@ -57,7 +57,7 @@ void raise_degree(Accuracy& model) {
     below = std::move(cases.W);
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
     model.errors =
-        matrices::relative_errors(levels, degrees, K.held_stiffness(), matrices::fastest_rate(model.scene.elasticity));
+        matrices::relative_errors(levels, degrees, K.diagonal_of_K_cc(), matrices::max_rate_of(model.scene.elasticity));
     model.scene.p_high = p;
     if (model.is_reached()) return;
   }

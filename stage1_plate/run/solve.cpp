@@ -46,7 +46,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
       const double radius = plate.rims[i].radius, thickness = plate.mesh.thickness[plate.rims[i].sides[0].element];
       const double area = thickness * radius * waves->shape.sweep;
       a.waves.push_back({a.hole_id[i], waves->shape, radius, area, a.hole_spring[i].modulus,
-                         rim_compliance(scene, plate, i), a.hole_spring[i].acts});
+                         rim_compliance(scene, plate, i), a.hole_spring[i].arcs});
       if (!loaded) continue;
       rim::Harmonics pressures = waves->shape;
       if (a.waves.back().has_closed_form())
@@ -90,24 +90,24 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
                          const plate::PlateFactor::Functions& sections) {
   const Unknowns& unknowns = problem.unknowns;
   const Eigen::Index nc = unknowns.n_controlled(), k = unknowns.n_loaded, h = unknowns.n_friction;
-  const Eigen::Index q = problem.T_c.cols(), n_amounts = unknowns.n_amounts(), s = count_of(sections);
+  const Eigen::Index q = problem.T_c.cols(), n_prescribed = unknowns.n_prescribed(), s = count_of(sections);
   const Eigen::VectorXd displacement = amounts(nc), wave = amounts(k), friction = amounts(h);
-  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(n_amounts, q + 2);
+  Eigen::MatrixXd border = Eigen::MatrixXd::Zero(n_prescribed, q + 2);
   border.col(q).head(nc) = displacement;
   border.col(q + 1).tail(k + h) << wave, friction;
   Eigen::SparseMatrix<double> loads = problem.T_f.topRows(unknowns.n_free[p]);
   loads.conservativeResize(loads.rows(), q + 2);
   const plate::PlateStates states(K, border, loads);
   const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed(sections);
-  const Eigen::Index n_other = forces.rows() - n_amounts;
+  const Eigen::Index n_other = forces.rows() - n_prescribed;
   const auto waves = [&](const auto& rows, Eigen::Index first, Eigen::Index n) -> Eigen::MatrixXd {
     Eigen::MatrixXd both(k + n_other, n);
-    both << rows.block(nc, first, k, n), rows.block(n_amounts, first, n_other, n);
+    both << rows.block(nc, first, k, n), rows.block(n_prescribed, first, n_other, n);
     return both;
   };
-  Eigen::MatrixXd W(k + n_other, n_amounts + q), N = Eigen::MatrixXd::Zero(s, n_amounts + q);
-  W << waves(SR, 0, n_amounts), waves(forces, 0, q);
-  N.leftCols(n_amounts) = SR.bottomRows(s);
+  Eigen::MatrixXd W(k + n_other, n_prescribed + q), N = Eigen::MatrixXd::Zero(s, n_prescribed + q);
+  W << waves(SR, 0, n_prescribed), waves(forces, 0, q);
+  N.leftCols(n_prescribed) = SR.bottomRows(s);
   for (Eigen::Index i = 0; i < s; ++i)
     for (const auto& part : sections[i]) N.row(i).tail(q) += states.values(part).topRows(q).transpose();
   return {{SR.topLeftCorner(nc, nc), SR.block(0, nc + k, nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
@@ -136,7 +136,7 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
                                                 with_stresses ? a.sections : std::vector<rim::Section>());
     auto [cases, probe] = solve_degree(problem, K, a.p[at], sections);
     a.cases[at] = std::move(cases);
-    if (i == 0) a.probe = std::move(probe), a.held_stiffness = K.held_stiffness();
+    if (i == 0) a.probe = std::move(probe), a.held_stiffness = K.diagonal_of_K_cc();
     report(0.5 * a.ndof[at]);
   });
 }
@@ -185,7 +185,7 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
     need = {of_degree.elements, need.condensed + of_degree.condensed, need.factor + of_degree.factor,
             need.elimination + of_degree.elimination};
   }
-  const double nc = problem.unknowns.n_amounts(), all = problem.unknowns.n_border() + n_sections;
+  const double nc = problem.unknowns.n_prescribed(), all = problem.unknowns.n_border() + n_sections;
   const double q = double(problem.T_c.cols());
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   // A step's results stand beside those of the step before: two copies of the fields, three of what is condensed.

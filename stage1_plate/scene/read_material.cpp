@@ -124,7 +124,7 @@ Spring read_spring(const Value& value, double radius, Analysis analysis) {
   if (links) spring.link = read_quantity(*links, softest_spring);
   const auto arc = value.find("arc");
   if (arc) {
-    spring.acts = {read_arc(*arc)};
+    spring.arcs = {read_arc(*arc)};
     spring.has_arc = true;
   }
   if (const auto only = value.find("compression_only")) {
@@ -135,7 +135,7 @@ Spring read_spring(const Value& value, double radius, Analysis analysis) {
     disk->at("law").fail("\"elastic\" without contact", "it with \"compression_only\": true, or another law");
   if (const auto harmonics = value.find("harmonics")) {
     if (!spring.compression_only) harmonics->fail("given of springs that also pull", "with \"compression_only\": true");
-    spring.harmonics = harmonics->integer(1, rim::most_harmonics);
+    spring.harmonics = harmonics->integer(1, rim::max_harmonics);
   }
   return spring;
 }

@@ -59,7 +59,7 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
     hole.has_rings = rings.has_value();
-    if (const auto waves = item.find("waves")) hole.waves = waves->integer(1, rim::most_harmonics);
+    if (const auto waves = item.find("waves")) hole.waves = waves->integer(1, rim::max_harmonics);
     if (const auto stresses = item.find("stresses")) hole.stresses = stresses->boolean();
     hole.rings = rings ? rings->integer(0, most_rings) : 0;
     holes.push_back(std::move(hole));

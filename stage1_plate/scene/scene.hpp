@@ -42,7 +42,7 @@ struct MeshGeometry {
 
 /// The springs of a hole as the scene has them: all around, unless it says where they act.
 struct Spring : rim::HoleSpring {
-  Spring() : HoleSpring{.acts = {{-rim::full_turn / 2, rim::full_turn / 2}}} {}
+  Spring() : HoleSpring{.arcs = {{-rim::full_turn / 2, rim::full_turn / 2}}} {}
   double disk_E = 0;              ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
   rim::ElasticDisk disk{};        ///< that presses in place of springs that only push; none: springs do
   bool has_arc = false;           ///< whether the scene says on which part of the rim they act

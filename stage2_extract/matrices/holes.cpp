@@ -65,7 +65,7 @@ Eigen::VectorXd stiffness_errors(const formats::PlateSolution& plate, const Eige
       levels.C.push_back(plate.cases[at].C_t);
     }
     errors[i] = matrices::largest(matrices::relative_errors(levels, plate.p.head(at), plate.held_stiffness,
-                                                            matrices::fastest_rate(plate.elasticity)));
+                                                            matrices::max_rate_of(plate.elasticity)));
   }
   return errors;
 }

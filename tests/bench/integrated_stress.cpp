@@ -36,7 +36,7 @@ const stage1::External& first_external(const stage1::PlateScene& scene) {
 
 /// Plate unknowns under a unit displacement of the first external, all else held.
 Eigen::VectorXd first_field(const stage1::PlateProblem& problem, int p) {
-  return test::fields(problem, p, Eigen::VectorXd::Unit(problem.unknowns.n_amounts(), 0),
+  return test::fields(problem, p, Eigen::VectorXd::Unit(problem.unknowns.n_prescribed(), 0),
                       Eigen::VectorXd::Zero(problem.unknowns.n_free[p]));
 }
 

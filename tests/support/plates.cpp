@@ -98,7 +98,7 @@ Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::
 
 Eigen::MatrixXd unit_fields(const stage1::PlateProblem& problem, int p) {
   const int nc = problem.unknowns.n_controlled();
-  return fields(problem, p, Eigen::MatrixXd::Identity(problem.unknowns.n_amounts(), nc),
+  return fields(problem, p, Eigen::MatrixXd::Identity(problem.unknowns.n_prescribed(), nc),
                 Eigen::MatrixXd::Zero(problem.unknowns.n_free[p], nc));
 }
 
@@ -110,7 +110,7 @@ Eigen::VectorXd on_free(const stage1::PlateProblem& problem, const stage1::Loads
 }
 
 Eigen::MatrixXd fields_under(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& loads) {
-  return fields(problem, p, Eigen::MatrixXd::Zero(problem.unknowns.n_amounts(), loads.cols()), loads);
+  return fields(problem, p, Eigen::MatrixXd::Zero(problem.unknowns.n_prescribed(), loads.cols()), loads);
 }
 
 formats::PlateSolution solve(const Plate& plate) {

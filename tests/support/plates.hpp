@@ -32,7 +32,7 @@ struct Plate {
 /// One column of loads on the free unknowns, shape (n_f).
 [[nodiscard]] Eigen::VectorXd on_free(const stage1::PlateProblem& problem, const stage1::Loads& loads);
 
-/// Plate unknowns at one degree under amounts of the border, (n_amounts, k), and loads on them, (n_p, k); shape
+/// Plate unknowns at one degree under amounts of the border, (n_prescribed, k), and loads on them, (n_p, k); shape
 /// (n_p, k).
 [[nodiscard]] Eigen::MatrixXd fields(const stage1::PlateProblem& problem, int p, const Eigen::MatrixXd& border,
                                      const Eigen::MatrixXd& loads);

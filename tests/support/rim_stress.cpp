@@ -104,7 +104,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
     return values;
   };
   modulus_ = at_points(
-      [&](const Frame&, Eigen::Index i) { return rim::covers(spring.acts, points[i].angle) ? spring.modulus : 0; });
+      [&](const Frame&, Eigen::Index i) { return rim::covers(spring.arcs, points[i].angle) ? spring.modulus : 0; });
   std::vector<Eigen::RowVectorXd> rows;
   const auto add = [&](Eigen::Index unit_case, Eigen::Index component, const Eigen::RowVectorXd& values) {
     loading_.push_back(unit_case);

@@ -50,13 +50,13 @@ Eigen::MatrixXd plain_matrices(const Sparse& K_ff, const Problem& problem, int p
   const int n = problem.unknowns.n_free[p];
   const Eigen::CholmodSupernodalLLT<Sparse> factor(K_ff.block(0, 0, n, n));
   const Sparse K_fc = problem.K_fc.topRows(n), L_f = problem.L_f.topRows(n);
-  const auto nc = K_fc.cols(), n_amounts = Eigen::Index{problem.unknowns.n_amounts()};
-  Eigen::MatrixXd B(n, n_amounts), result(problem.unknowns.n_border(), n_amounts);
-  B << -Eigen::MatrixXd(K_fc), Eigen::MatrixXd(L_f.leftCols(n_amounts - nc));
+  const auto nc = K_fc.cols(), n_prescribed = Eigen::Index{problem.unknowns.n_prescribed()};
+  Eigen::MatrixXd B(n, n_prescribed), result(problem.unknowns.n_border(), n_prescribed);
+  B << -Eigen::MatrixXd(K_fc), Eigen::MatrixXd(L_f.leftCols(n_prescribed - nc));
   const Eigen::MatrixXd X = factor.solve(B);
   result << Eigen::MatrixXd(K_fc.transpose() * X), Eigen::MatrixXd(L_f.transpose() * -X);
   result.topLeftCorner(nc, nc) += problem.K_cc;
-  result.topRightCorner(nc, n_amounts - nc) -= problem.L_c.leftCols(n_amounts - nc);
+  result.topRightCorner(nc, n_prescribed - nc) -= problem.L_c.leftCols(n_prescribed - nc);
   result.bottomLeftCorner(L_f.cols(), nc) -= problem.L_c.transpose();
   return result;
 }

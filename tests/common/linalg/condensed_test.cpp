@@ -25,7 +25,7 @@ TEST(Condensed, LeavesTheSchurComplement) {
       MatrixXd schur = M.bottomRightCorner(m, m);
       if (n > 0) schur -= B * M.topLeftCorner(n, n).inverse() * B.transpose();
       const Condensed condensed(M, n);
-      const MatrixXd difference = MatrixXd(condensed.outside()) - schur;
+      const MatrixXd difference = MatrixXd(condensed.schur_complement()) - schur;
       EXPECT_LT(MatrixXd(difference.triangularView<Eigen::Lower>()).norm(), 1e-11 * (1 + M.norm())) << n << " " << m;
     }
 }
@@ -34,13 +34,13 @@ TEST(Condensed, SolvesInTwoSteps) {
   constexpr Eigen::Index n = 12, m = 5, k = 3;
   const MatrixXd M = positive_definite(n + m), b = MatrixXd::Random(n + m, k);
   const Condensed condensed(M, n);
-  MatrixXd inside = b.topRows(n), outside = b.bottomRows(m);
-  condensed.eliminate(inside, outside);
-  const MatrixXd C = MatrixXd(condensed.outside()).selfadjointView<Eigen::Lower>();
-  const MatrixXd u = C.inverse() * outside;
-  condensed.restore(inside, u);
+  MatrixXd interior = b.topRows(n), boundary = b.bottomRows(m);
+  condensed.eliminate(interior, boundary);
+  const MatrixXd C = MatrixXd(condensed.schur_complement()).selfadjointView<Eigen::Lower>();
+  const MatrixXd u = C.inverse() * boundary;
+  condensed.restore(interior, u);
   MatrixXd x(n + m, k);
-  x << inside, u;
+  x << interior, u;
   EXPECT_LT((M * x - b).norm(), 1e-12 * M.norm());
 }
 

@@ -36,7 +36,7 @@ TEST(PlateStates, AreTheSolutionUnderTheirAmounts) {
     for (const int p : {1, 2, 5, 8}) {
       const plate::PlateFactor K(problem, skeleton, p, true);
       const int n = problem.unknowns.n_free[p];
-      const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.unknowns.n_amounts(), 3);
+      const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.unknowns.n_prescribed(), 3);
       const auto beside = a_few(n, 3);
       const plate::PlateStates states(K, border, beside);
       const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(K_ff.block(0, 0, n, n));
@@ -79,7 +79,7 @@ TEST(PlateStates, FunctionsCondensedGiveWhatTheyGiveOfCoefficients) {
     const auto plate = test::make_plate(json);
     const auto& problem = plate.problem;
     const plate::PlateFactor K(problem, plate::Skeleton(problem), 6, true);
-    const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.unknowns.n_amounts(), 3);
+    const Eigen::MatrixXd border = Eigen::MatrixXd::Random(problem.unknowns.n_prescribed(), 3);
     const plate::PlateStates states(K, border, a_few(problem.unknowns.n_free[6], 3));
     for (int element = 0; element < plate.mesh.mesh.n_elements(); ++element) {
       const Eigen::MatrixXd C = states.coefficients(element), weights = Eigen::MatrixXd::Random(C.rows(), 2);

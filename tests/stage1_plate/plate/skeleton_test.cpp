@@ -15,7 +15,7 @@ TEST(Skeleton, HasARowForEachUnknownOnASkeleton) {
   const auto plate = test::make_plate(test::panel(3, 2));
   const plate::Skeleton skeleton(plate.problem);
   for (const int p : {1, 2, 8}) {
-    const auto rows = skeleton.rows(plate.problem, p, plate.problem.unknowns.n_amounts());
+    const auto rows = skeleton.rows(plate.problem, p, plate.problem.unknowns.n_prescribed());
     std::vector<int> found(rows.n_skeleton, 0);
     for (const int row : rows.of_unknown)
       if (row >= 0) ++found[row];

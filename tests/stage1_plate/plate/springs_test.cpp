@@ -48,7 +48,7 @@ TEST(Springs, AnArcIsIntegratedExactly) {
     const auto plate = test::make_plate(scene(fmt::format(R"("modulus": 1e6, "arc": [{}, {}])", from, to)));
     const Eigen::Matrix2d expected = arc_stiffness(from * pi / 180, to * pi / 180);
     EXPECT_LT((plate.problem.K_cc - expected).norm(), 1e-13 * k * t * r) << from;
-    const auto acts = plate.scene.holes[0].sprung().acts;
+    const auto acts = plate.scene.holes[0].sprung().arcs;
     ASSERT_EQ(acts.size(), 1U);
     EXPECT_NEAR(acts[0].from, from * pi / 180, 1e-15);
     EXPECT_NEAR(acts[0].to, to * pi / 180, 1e-15);
@@ -85,7 +85,7 @@ TEST(Springs, LinksAreOneForEachNodeOfTheRim) {
   EXPECT_NEAR(half.problem.K_cc(0, 0), 200, 1e-11);
   const auto spring = whole.scene.holes[0].sprung();
   EXPECT_EQ(spring.modulus, 0);
-  EXPECT_EQ(spring.acts.size(), 1U);
+  EXPECT_EQ(spring.arcs.size(), 1U);
 }
 
 /// The nodes are at 0, 45 and 90 degrees: the first has half a link from the side inside the arc, the last none.

@@ -57,7 +57,7 @@ TEST(Unknowns, ColumnsOfTheBorderAreInTheirOrder) {
   EXPECT_EQ(unknowns.n_loaded, loaded);
   EXPECT_EQ(unknowns.n_friction, friction) << "none in contact";
   EXPECT_EQ(unknowns.n_other, others);
-  EXPECT_EQ(unknowns.n_amounts(), nc + loaded + friction);
+  EXPECT_EQ(unknowns.n_prescribed(), nc + loaded + friction);
   EXPECT_EQ(unknowns.n_border(), nc + loaded + friction + others);
   EXPECT_EQ(unknowns.n_waves, (std::vector<int>{14, 18, 22, 0, 26}));
   EXPECT_EQ(unknowns.n_cases, (std::vector<int>{4, 0, 0, 4, 0}));

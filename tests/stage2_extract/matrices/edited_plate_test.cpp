@@ -192,7 +192,7 @@ TEST_F(EditedPlate, RimsThatAreNotArcsOfTheirCircle) {
 TEST_F(EditedPlate, InfiniteNumbers) {
   constexpr double infinite = std::numeric_limits<double>::infinity();
   refused([](auto& a) { a.cases[1].T(0, 0) = infinite; }, "p3/T: holds inf, expected finite numbers");
-  refused([](auto& a) { a.hole_spring[0].acts[0].to = infinite; }, "hole/arc: holds inf");
+  refused([](auto& a) { a.hole_spring[0].arcs[0].to = infinite; }, "hole/arc: holds inf");
 }
 
 }  // namespace

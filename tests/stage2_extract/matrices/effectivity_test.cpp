@@ -139,7 +139,7 @@ void expect_effectivity_of_laminates(unsigned n_seeds) {
     };
     const auto sheet = test::random_sheet(seed);
     const auto exact = finest(laminate(test::graded(sheet, 3).json(2, "")));
-    const double fastest = matrices::fastest_rate(test::make_plate(laminate(sheet.json(0, ""))).scene.elasticity);
+    const double fastest = matrices::max_rate_of(test::make_plate(laminate(sheet.json(0, ""))).scene.elasticity);
     EXPECT_EQ(fastest, 3);
     for (const auto space : spaces)
       for (const int rings : {0, 1}) {
@@ -156,7 +156,7 @@ void expect_effectivity_of_laminates(unsigned n_seeds) {
 
 TEST(Effectivity, OfLaminatesOffTheirAxes) {
   expect_effectivity_of_laminates(1);
-  EXPECT_EQ(matrices::fastest_rate(test::make_plate(test::panel(1, 1)).scene.elasticity), 5);
+  EXPECT_EQ(matrices::max_rate_of(test::make_plate(test::panel(1, 1)).scene.elasticity), 5);
 }
 TEST(EffectivitySweep, OfLaminatesOffTheirAxes) { expect_effectivity_of_laminates(8); }
 

@@ -79,7 +79,7 @@ Ratios ratios(const std::vector<Sheet>& sheets) {
   for (const auto& [coarse, fine, angle] : sheets) {
     const std::string finest = test::in_space(pfem::Space::product) + R"(, "p": [7, 8])";
     const auto exact = levels(text(fine, angle, 3, finest));
-    const double fastest = matrices::fastest_rate(test::make_plate(text(coarse, angle, 0, "")).scene.elasticity);
+    const double fastest = matrices::max_rate_of(test::make_plate(text(coarse, angle, 0, "")).scene.elasticity);
     for (const auto space : {pfem::Space::trunk, pfem::Space::product})
       for (const int rings : {0, 1, 2}) {
         const auto sheet = levels(text(coarse, angle, rings, test::in_space(space)));
