@@ -25,7 +25,7 @@ const program::Command command = {
     {{"--p", "N or A..B",
       fmt::format("degree 1..{0}, or a range of degrees; default: \"p\" of the input, else 1..{0}", pfem::highest_p)},
      {"--accuracy", "A",
-      "estimated relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses the least degree "
+      "estimated relative error of S, R and C_t (Frobenius norms) to reach, 1e-10 to 1: chooses the lowest degree "
       "within --p, and \"space\" and \"rings\" where the input leaves them open; says so, warns where nothing does"},
      {"--peak-accuracy", "A",
       "the same of the estimated relative error of hoop stresses around holes, 1e-6 to 1; also chooses how many waves "
@@ -35,23 +35,23 @@ const program::Command command = {
 
 /// The worst of several warnings of one kind, and their number.
 struct WorstOfKind {
-  double amount = 0;
+  double severity = 0;
   int count = 0;
   std::string text;
 
   void add(double by, std::string words) {
     ++count;
-    if (by > amount) std::tie(amount, text) = std::pair(by, std::move(words));
+    if (by > severity) std::tie(severity, text) = std::pair(by, std::move(words));
   }
   [[nodiscard]] std::string worst() const {
-    return count > 1 ? fmt::format("{} ({} more likewise, this is the worst)", text, count - 1) : text;
+    return count > 1 ? fmt::format("{} (the worst of {})", text, count) : text;
   }
 };
 
-/// Warns of what is to be doubted: links (section 3 of the paper: what they do converges slowly or not at all), a
-/// thickness or a disc's modulus far from the sheet's other numbers, half holes off lines of symmetry.
+/// Warns of doubtful input: links, whose results converge slowly or not at all (section 3 of the paper), a thickness or
+/// a disc's modulus of an unlikely magnitude, half holes without symmetry supports.
 void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
-  constexpr double foil = 1e-4, apart = 300;  // GPa beside MPa are 1000
+  constexpr double foil = 1e-4, max_modulus_ratio = 300;  // GPa mistaken for MPa give 1000
   const auto say = [&](const char* code, const std::string& doubt) {
     program::warn(std::cerr, command.name, {code, scene.file + ": " + doubt});
   };
@@ -70,12 +70,12 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
     if (!hole.spring) continue;
     has_links |= hole.spring->link > 0;
     const double disc = hole.spring->disk_E;
-    double E = disc;  // of the material of the sheet that is farthest from the disc's
+    double E = disc;  // modulus of the sheet that differs most from the disc's
     const auto ratio = [&](double modulus) { return std::max(disc / modulus, modulus / disc); };
     for (const auto& D : scene.elasticity)
       if (const double other = D.inverse().diagonal().head<2>().cwiseInverse().maxCoeff(); ratio(other) > ratio(E))
         E = other;
-    if (disc > 0 && ratio(E) > apart)
+    if (disc > 0 && ratio(E) > max_modulus_ratio)
       stiff.add(ratio(E), fmt::format("/holes/{}/spring/disk/E: {:g} is {:.3g} times the modulus {:g} of the sheet", i,
                                       disc, disc / E, E));
   }
@@ -87,14 +87,14 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
   if (stiff.count > 0) say("disc-modulus-unlikely", stiff.worst() + ": one of them may be in another unit of stress");
 }
 
-/// The model that reaches the accuracies asked for, if any is.
+/// Finds the model for the requested accuracies, if any.
 std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, const program::Arguments& arguments) {
   if (!arguments.flag("--accuracy") && !arguments.flag("--peak-accuracy")) return std::nullopt;
-  constexpr double least = 1e-10, least_of_peaks = 1e-6, most = 1;
-  stage1::Wanted wanted;
-  wanted.matrices = arguments.number("--accuracy", least, most, wanted.matrices);
-  wanted.hoop = arguments.number("--peak-accuracy", least_of_peaks, most, wanted.hoop);
-  auto chosen = stage1::meet_accuracy(scene, wanted);
+  constexpr double min = 1e-10, min_of_peaks = 1e-6, max = 1;
+  stage1::Targets targets;
+  targets.matrices = arguments.number("--accuracy", min, max, targets.matrices);
+  targets.hoop = arguments.number("--peak-accuracy", min_of_peaks, max, targets.hoop);
+  auto chosen = stage1::meet_accuracy(scene, targets);
   const std::string option = arguments.text("--p");
   const std::string bound = option.empty() ? "\"p\" of the scene" : "--p " + option;
   if (!chosen.is_reached())
@@ -111,8 +111,8 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
 }
 
 void run(const program::Arguments& arguments, program::Timings& timings) {
-  constexpr int most_threads = 256;
-  const int threads = arguments.integer("--threads", 1, most_threads, 1);
+  constexpr int max_threads = 256;
+  const int threads = arguments.integer("--threads", 1, max_threads, 1);
   linalg::set_threads(threads);
   timings.set_threads(threads);
   timings.phase("read");

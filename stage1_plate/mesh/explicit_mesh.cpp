@@ -28,7 +28,7 @@ void check_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
 }
 
 void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
-  std::map<std::pair<int, int>, int> arc_of_edge;  // by its lower and its higher node
+  std::map<std::pair<int, int>, int> arc_of_edge;  // keys: lower and higher node
   for (int i = 0; i < count_of(mesh.arcs); ++i) {
     const auto& arc = mesh.arcs[i];
     const std::string place = fmt::format("/geometry/mesh/arcs/{}", i);
@@ -45,10 +45,10 @@ void check_arcs(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edg
                          arc.center.x(), arc.center.y(), other.x(), other.y(), first->second),
              "one centre for each edge");
     const auto curve = pfem::Curve::arc(mesh.nodes.col(arc.a), mesh.nodes.col(arc.b), arc.center);
-    constexpr double longest = 3.0;  // radians; at pi it is no longer clear which way the arc runs
-    if (std::abs(curve.sweep()) > longest)
+    constexpr double max_sweep = 3.0;  // radians; at pi the direction of the arc is ambiguous
+    if (std::abs(curve.sweep()) > max_sweep)
       reject(scene, place, fmt::format("an arc of {:.4g} radians", std::abs(curve.sweep())),
-             fmt::format("at most {:g} radians; cut it in two", longest));
+             fmt::format("at most {:g} radians; cut it in two", max_sweep));
   }
   if (!edges.arc_without_edge.empty()) {
     const int i = edges.arc_without_edge.front();
@@ -65,9 +65,9 @@ void check_shared_edges(const PlateScene& scene, const pfem::Edges& edges) {
              "at most 2");
 }
 
-/// Two elements of the same nodes share all four edges, which is no more than neighbours may.
+/// Rejects two elements with the same nodes, which check_shared_edges does not detect.
 void check_repeated_elements(const PlateScene& scene, const pfem::Mesh& mesh) {
-  std::map<std::array<int, 4>, int> element_of;  // by its nodes, ascending
+  std::map<std::array<int, 4>, int> element_of;  // keys: ascending nodes
   for (int i = 0; i < mesh.n_elements(); ++i) {
     std::array<int, 4> nodes{};
     std::ranges::copy(mesh.quads.col(i), nodes.begin());
@@ -78,10 +78,10 @@ void check_repeated_elements(const PlateScene& scene, const pfem::Mesh& mesh) {
   }
 }
 
-/// Coordinate of a point along an edge, 0 to 1 from its first to its last node, and how far off the edge it lies over
-/// its length.
-std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge,
-                                   const Eigen::Vector2d& point) {
+/// Coordinate of a point along an edge, 0 to 1 from its first to its last node, and its distance from the edge over the
+/// edge's length.
+std::pair<double, double> edge_coordinates(const pfem::Mesh& mesh, const pfem::Edges& edges, int edge,
+                                           const Eigen::Vector2d& point) {
   const Eigen::Vector2d a = mesh.nodes.col(edges.nodes(0, edge)), b = mesh.nodes.col(edges.nodes(1, edge));
   const int arc = edges.arc[edge];
   if (arc < 0) {
@@ -96,21 +96,22 @@ std::pair<double, double> place_on(const pfem::Mesh& mesh, const pfem::Edges& ed
   return {turned / curve.sweep(), std::abs(ray.norm() - radius) / (radius * std::abs(curve.sweep()))};
 }
 
-/// True if an edge joins two nodes, however short it is.
+/// True if two nodes are the ends of an edge.
 bool are_joined(const pfem::Edges& edges, int a, int b) {
   return (edges.nodes.row(0).array() == std::min(a, b) && edges.nodes.row(1).array() == std::max(a, b)).any();
 }
 
-/// A node on the edge of an element that does not have it would make the displacements discontinuous.
+/// Rejects nodes on the edge of an element that they do not belong to, which would make the displacements
+/// discontinuous.
 void check_hanging_nodes(const PlateScene& scene, const pfem::Mesh& mesh, const pfem::Edges& edges) {
-  constexpr double end = 1e-9, tolerance = 1e-6;  // of the edge's length: digits that a hand-written file has
-  std::vector<int> border;
+  constexpr double end = 1e-9, tolerance = 1e-6;  // relative to the edge's length: precision of a hand-written file
+  std::vector<int> boundary;
   for (int edge = 0; edge < edges.size(); ++edge)
-    if (edges.n_elements[edge] == 1) border.push_back(edge);
-  for (const int edge : border)
-    for (const int node : edges.nodes(Eigen::all, border).reshaped()) {
+    if (edges.n_elements[edge] == 1) boundary.push_back(edge);
+  for (const int edge : boundary)
+    for (const int node : edges.nodes(Eigen::all, boundary).reshaped()) {
       if ((edges.nodes.col(edge).array() == node).any()) continue;
-      const auto [along, off] = place_on(mesh, edges, edge, mesh.nodes.col(node));
+      const auto [along, off] = edge_coordinates(mesh, edges, edge, mesh.nodes.col(node));
       if (!(off < tolerance && along > -tolerance && along < 1 + tolerance)) continue;
       const std::string place = fmt::format("/geometry/mesh/nodes/{}", node);
       const int side = along < 0.5 ? 0 : 1, nearest = edges.nodes(side, edge);
@@ -132,7 +133,7 @@ std::string named(const NodePair& edge) {
   return fmt::format("the edge between nodes {} and {}", edge.first, edge.second);
 }
 
-/// The sides of the elements that have the edge: one on the border, two inside.
+/// The sides of the elements that have the edge: one on the boundary of the plate, two in its interior.
 std::vector<pfem::Side> find_sides(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer,
                                    const NodePair& edge) {
   const Eigen::Vector2i nodes = {std::min(edge.first, edge.second), std::max(edge.first, edge.second)};
@@ -144,8 +145,8 @@ std::vector<pfem::Side> find_sides(const PlateScene& scene, const PlateMesh& pla
   return sides;
 }
 
-pfem::Side find_border_side(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer,
-                            const NodePair& edge) {
+pfem::Side find_boundary_side(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer,
+                              const NodePair& edge) {
   const auto sides = find_sides(scene, plate, pointer, edge);
   if (sides.size() > 1) reject(scene, pointer, named(edge) + " is inside the plate", "edges of the border");
   return sides.front();
@@ -164,12 +165,12 @@ Cut cut_of(const PlateScene& scene, const MeshSection& section) {
   return {scene.holes[section.hole], direction, direction == 'x' ? 0 : 1, section.side[0] == '+' ? 1.0 : -1.0};
 }
 
-/// The forces over a section are integrals of one normal stress: all of it must face one way, on one line, with the
-/// whole hole on one side.
-/// @param line Coordinate `axis` of the first edge of the section.
+/// Checks that an edge of a section is straight, on the line of the section and beyond the rim, since a section force
+/// is the integral of one normal stress.
+/// @param line Coordinate of the first edge of the section.
 void check_cut(const PlateScene& scene, const PlateMesh& plate, const std::string& pointer, const Cut& cut,
                const NodePair& edge, const pfem::Side& side, double line) {
-  constexpr double tolerance = 1e-9;  // of the edge's length
+  constexpr double tolerance = 1e-9;  // relative to the edge's length
   if (plate.edges.arc[plate.edges.of_element(side.local_edge, side.element)] >= 0)
     reject(scene, pointer, named(edge) + " is an arc", "straight edges");
   const Eigen::Vector2d a = plate.mesh.nodes.col(edge.first);
@@ -194,7 +195,7 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
                           const MeshSection& section) {
   const Cut cut = cut_of(scene, section);
   const double line = plate.mesh.nodes(cut.axis, section.edges.front().first);
-  const auto how_far = [&](const pfem::Side& side) {
+  const auto distance = [&](const pfem::Side& side) {
     return cut.sign * plate.mesh.nodes(cut.axis, plate.mesh.quads.col(side.element)).mean();
   };
   rim::Section found{section.hole, section.side, {}};
@@ -202,19 +203,20 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
     const std::string place = fmt::format("{}/edges/{}", pointer, i);
     const auto sides = find_sides(scene, plate, place, section.edges[i]);
     check_cut(scene, plate, place, cut, section.edges[i], sides.front(), line);
-    found.sides.push_back(*std::min_element(
-        sides.begin(), sides.end(), [&](const auto& one, const auto& other) { return how_far(one) < how_far(other); }));
+    found.sides.push_back(*std::min_element(sides.begin(), sides.end(), [&](const auto& one, const auto& other) {
+      return distance(one) < distance(other);
+    }));
   }
   return found;
 }
 
-/// Finds the edges that an explicit mesh names: its sets on the border, and its sections, whose sides are those of the
-/// elements between the cut and the hole (on a border, of the only element there is).
+/// Finds the named edges of an explicit mesh: sets on the boundary, and sections, whose sides belong to the elements
+/// between the cut and the hole (on the boundary, to the only element).
 void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh& plate) {
   for (const auto& [name, edges] : geometry.edges)
     for (int i = 0; i < count_of(edges); ++i)
       plate.sets[name].push_back(
-          find_border_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", name, i), edges[i]));
+          find_boundary_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", name, i), edges[i]));
   for (int i = 0; i < count_of(geometry.sections); ++i)
     plate.sections.push_back(
         find_section(scene, plate, fmt::format("/geometry/mesh/sections/{}", i), geometry.sections[i]));

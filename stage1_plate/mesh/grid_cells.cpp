@@ -13,7 +13,7 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// The interval between cell lines of one axis in which a centre lies.
+/// The interval between cell lines of one axis that contains a centre.
 struct Interval {
   int index;
   double center;
@@ -48,43 +48,43 @@ Interval locate(const PlateScene& scene, int index, const std::vector<double>& l
   return {static_cast<int>(above - lines.begin()) - 1, center, at_low, at_high};
 }
 
-/// The nodes that a hole wants on the two sides across one axis of its cell.
-struct Wish {
+/// The nodes that a hole needs on the two sides of its cell across one axis.
+struct NeededNodes {
   std::vector<double> low, high;
   double radius;
 };
 
-/// Nodes wanted on a side at a distance from the centre: one in line with it, if the hole is not cut there, and where
-/// the corner is seen from the centre under more than `widest` from that line, one half way between.
+/// Nodes needed on a side at a distance from the centre: one opposite the centre, if the hole is not cut there, and one
+/// at half the angle to each corner that is seen from the centre at more than `max_angle` from that line.
 /// @param from, to Ends of the side.
-std::vector<double> wanted_nodes(double distance, double center, double from, double to, bool with_center) {
-  constexpr double widest = 60 * rim::degree;
+std::vector<double> needed_nodes(double distance, double center, double from, double to, bool with_center) {
+  constexpr double max_angle = 60 * rim::degree;
   std::vector<double> nodes;
   if (with_center) nodes.push_back(center);
   for (const double corner : {from, to}) {
     const double angle = std::atan2(std::abs(corner - center), distance);
-    if (distance > 0 && angle > widest)
+    if (distance > 0 && angle > max_angle)
       nodes.push_back(center + std::copysign(distance * std::tan(angle / 2), corner - center));
   }
   std::ranges::sort(nodes);
   return nodes;
 }
 
-/// One strip of cells; the wish of each cell's hole, nothing in a cell without a hole.
+/// A cell of a strip: the nodes that its hole needs, empty without a hole.
 struct StripCell {
-  std::optional<Wish> wish;
+  std::optional<NeededNodes> needed;
 };
 
-/// Two nodes this close (in radii of the smaller hole) become one: thin sectors cost unknowns for nothing.
+/// Nodes closer than this, in radii of the smaller hole, are merged, since thin sectors add unknowns without benefit.
 constexpr double shared_node_distance = 0.5;
 
-/// Nodes of a run of sides between the holes before and behind it.
-std::vector<double> agreed(const std::optional<Wish>& before, const std::optional<Wish>& behind) {
+/// Merged nodes of a run of sides between the hole before and the hole after it.
+std::vector<double> merged(const std::optional<NeededNodes>& before, const std::optional<NeededNodes>& after) {
   std::vector<double> nodes = before ? before->high : std::vector<double>();
-  if (behind) nodes.insert(nodes.end(), behind->low.begin(), behind->low.end());
-  if (!before || !behind) return nodes;
+  if (after) nodes.insert(nodes.end(), after->low.begin(), after->low.end());
+  if (!before || !after) return nodes;
   std::ranges::sort(nodes);
-  const double same = shared_node_distance * std::min(before->radius, behind->radius);
+  const double same = shared_node_distance * std::min(before->radius, after->radius);
   for (std::size_t i = 0; i + 1 < nodes.size();)
     if (nodes[i + 1] - nodes[i] < same) {
       nodes[i] = (nodes[i] + nodes[i + 1]) / 2;
@@ -101,10 +101,10 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
   std::vector<std::vector<double>> nodes(n + 1);
   for (int begin = 0; begin <= n;) {
     int end = begin;  // last side of the run that begins at this side
-    while (end < n && !strip[end].wish) ++end;
-    const auto before = begin > 0 ? strip[begin - 1].wish : std::nullopt;
-    const auto after = end < n ? strip[end].wish : std::nullopt;
-    std::fill(nodes.begin() + begin, nodes.begin() + end + 1, agreed(before, after));
+    while (end < n && !strip[end].needed) ++end;
+    const auto before = begin > 0 ? strip[begin - 1].needed : std::nullopt;
+    const auto after = end < n ? strip[end].needed : std::nullopt;
+    std::fill(nodes.begin() + begin, nodes.begin() + end + 1, merged(before, after));
     begin = end + 1;
   }
   return nodes;
@@ -142,10 +142,10 @@ CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const st
     const double west = grid.x[cell.column], east = grid.x[cell.column + 1], south = grid.y[cell.row],
                  north = grid.y[cell.row + 1];
     const bool on_x = !cell.cuts[left] && !cell.cuts[right], on_y = !cell.cuts[bottom] && !cell.cuts[top];
-    columns[cell.column][cell.row].wish =
-        Wish{wanted_nodes(y - south, x, west, east, on_x), wanted_nodes(north - y, x, west, east, on_x), radius};
-    rows[cell.row][cell.column].wish =
-        Wish{wanted_nodes(x - west, y, south, north, on_y), wanted_nodes(east - x, y, south, north, on_y), radius};
+    columns[cell.column][cell.row].needed =
+        NeededNodes{needed_nodes(y - south, x, west, east, on_x), needed_nodes(north - y, x, west, east, on_x), radius};
+    rows[cell.row][cell.column].needed = NeededNodes{needed_nodes(x - west, y, south, north, on_y),
+                                                     needed_nodes(east - x, y, south, north, on_y), radius};
   }
   for (const auto& strip : columns) horizontal_.push_back(strip_nodes(strip));
   for (const auto& strip : rows) vertical_.push_back(strip_nodes(strip));

@@ -16,20 +16,21 @@ inline constexpr int n_cell_sides = 4;
 /// A hole in its cell of the grid.
 struct HoleCell {
   int hole;                             ///< index into PlateScene::holes
-  int column, row;                      ///< of the cell
-  Eigen::Vector2d center;               ///< on the border to the last digit if the border cuts it
+  int column, row;                      ///< indices of the cell
+  Eigen::Vector2d center;               ///< exactly on the plate's edge if the edge cuts the hole
   std::array<bool, n_cell_sides> cuts;  ///< sides that run through the centre (lines of symmetry)
 };
 
-/// Cell of every hole. Throws InputError for a hole outside the plate or over a cell line, and for two in one cell.
+/// Finds the cell of every hole. Throws InputError for a hole outside the plate or over a cell line, and for two in one
+/// cell.
 [[nodiscard]] std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid);
 
-/// Nodes between the ends of every cell side, such that both neighbours agree on them.
+/// Nodes between the ends of every cell side, the same for both neighbouring cells.
 ///
-/// The cell of a hole wants a node where the hole's centre line meets each of its sides, so that its fan has two
-/// sectors in every quarter, and another where such a sector is wider than 60 degrees, as beside a near edge: elements
-/// of wide sectors follow few waves. Any other node on its outline it takes as one more ray. A cell without a hole is
-/// cut by straight lines: it passes a node on to its opposite side, and so on up to the next hole or the border.
+/// The cell of a hole needs a node where the hole's centre line meets each of its sides, so that its fan has two
+/// sectors in every quarter, and another where such a sector is wider than 60 degrees, as next to a near edge: wide
+/// sectors resolve few waves. Any other node on its outline adds a ray to the fan. A cell without a hole is cut by
+/// straight lines, so a node continues to the opposite side, and so on up to the next hole or the plate's edge.
 class CellLines {
  public:
   CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes);

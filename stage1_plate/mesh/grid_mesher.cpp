@@ -14,7 +14,7 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// Collects nodes and elements. Points on cell lines are given with equal digits by both neighbours.
+/// Collects nodes and elements. Both neighbours of a cell line give its points with equal digits.
 class Builder {
  public:
   int shared_node(const Point& at) {
@@ -52,7 +52,7 @@ class Builder {
 /// A cell of the grid.
 struct Cell {
   int column, row;
-  Point low, high;  ///< its corners bottom left and top right
+  Point low, high;  ///< corners bottom left and top right
   double thickness;
   int material;
 };
@@ -83,7 +83,7 @@ void mesh_plain_cell(Builder& builder, const CellLines& lines, const Cell& cell)
                    cell.thickness, cell.material);
 }
 
-/// Points of one side in counter-clockwise order, without its last.
+/// Points of one side in counter-clockwise order, without the last.
 std::vector<Point> side_points(const CellLines& lines, const Cell& cell, int side) {
   const std::array<Point, n_cell_sides> corners = {
       cell.low, {cell.high.x(), cell.low.y()}, cell.high, {cell.low.x(), cell.high.y()}};
@@ -96,8 +96,8 @@ std::vector<Point> side_points(const CellLines& lines, const Cell& cell, int sid
   return points;
 }
 
-/// The cell's outline as seen from the hole, counter-clockwise: closed (first point repeated) for a whole hole, else
-/// from the border to the border.
+/// The cell's outline around the hole, counter-clockwise: closed (first point repeated) for a whole hole, else from
+/// edge to edge of the plate.
 std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleCell& hole) {
   int first = 0;  // the side after a cut that is not cut itself
   for (int side = 0; side < n_cell_sides; ++side)
@@ -127,7 +127,7 @@ std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double ra
   return radii;
 }
 
-/// Nodes of one ring, one on the ray to each point of the outline; a closed outline ends with its first node.
+/// Nodes of one ring, one on the ray to each point of the outline. A closed ring ends with its first node.
 std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center, double radius) {
   const bool closed = points.front() == points.back();
   std::vector<int> nodes;
@@ -153,7 +153,7 @@ void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, 
                    cell.material);
 }
 
-/// Elements of a cell with a hole: [first, last).
+/// Range of elements of a cell with a hole: [first, last).
 struct CellElements {
   const HoleCell* hole;
   Cell cell;
@@ -180,7 +180,7 @@ void name_border(const GridGeometry& grid, PlateMesh& plate) {
                 {"top", border(1, grid.y.back())}};
 }
 
-/// The sides of a hole's cell across each direction of the discs, unless they run through the hole.
+/// Adds the sides of a hole's cell across each direction of the discs, unless they run through the hole.
 void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& plate) {
   for (const auto& direction : scene.disc_directions) {
     const int axis = direction == "x" ? 0 : 1;

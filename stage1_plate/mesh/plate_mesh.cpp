@@ -13,26 +13,25 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// A map that is nearly folded costs accuracy long before it costs uniqueness.
-constexpr double least_jacobian_ratio = 1e-3;
+/// Lower bound of the Jacobian ratio: a nearly folded map loses accuracy before it becomes singular.
+constexpr double min_jacobian_ratio = 1e-3;
 
 void check_elements(const PlateScene& scene, const PlateMesh& plate) {
   for (int element = 0; element < plate.mesh.n_elements(); ++element) {
     const double ratio = pfem::jacobian_ratio(pfem::ElementMap(plate.mesh, plate.edges, element));
-    if (ratio > least_jacobian_ratio) continue;
+    if (ratio > min_jacobian_ratio) continue;
     const Eigen::Vector2d center = plate.mesh.nodes(Eigen::all, plate.mesh.quads.col(element)).rowwise().mean();
-    reject(
-        scene, "/geometry",
-        fmt::format("element {} near ({:g}, {:g}) is folded, clockwise or nearly so (least Jacobian / mean = {:.2g})",
-                    element, center.x(), center.y(), ratio),
-        fmt::format(
-            "convex quadrilaterals, counter-clockwise, ratio > {:g}; leave more room between holes and cell lines",
-            least_jacobian_ratio));
+    reject(scene, "/geometry",
+           fmt::format("element {} near ({:g}, {:g}) is folded, clockwise or nearly so (min Jacobian / mean = {:.2g})",
+                       element, center.x(), center.y(), ratio),
+           fmt::format(
+               "convex quadrilaterals, counter-clockwise, ratio > {:g}; leave more room between holes and cell lines",
+               min_jacobian_ratio));
   }
 }
 
-/// Gives all arcs of a rim the centre of its first, so that sides that share a node meet there at one angle. The mesh's
-/// own centres differ by no more than rim::same_place.
+/// Sets the centre of all arcs of a rim to that of the first, so that sides with a common node have equal angles there.
+/// The centres in the mesh differ by at most rim::same_place.
 void share_center(const rim::Rim& rim, PlateMesh& plate) {
   const auto arc_of = [&](const pfem::Side& side) -> pfem::Arc& {
     return plate.mesh.arcs[plate.edges.arc[plate.edges.of_element(side.local_edge, side.element)]];
@@ -62,9 +61,9 @@ void find_rims(const PlateScene& scene, PlateMesh& plate) {
   }
 }
 
-/// Vertex of every point spring, shape (points). Throws InputError, which names the nearest vertex, if none is there.
+/// Finds the vertex of every point spring, shape (points). Throws InputError with the nearest vertex if there is none.
 std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
-  constexpr double same = 1e-9;  // of the plate's size
+  constexpr double same = 1e-9;  // relative to the plate's size
   const double size = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).norm();
   std::vector<int> nodes;
   for (int i = 0; i < count_of(scene.points); ++i) {

@@ -11,28 +11,28 @@
 
 namespace fastjoint::stage1 {
 
-/// The plate as elements, with the names that supports and externals use and the rims of the holes.
+/// The mesh of a plate, with the named sets of supports and externals and the rims of the holes.
 struct PlateMesh {
   pfem::Mesh mesh;
   pfem::Edges edges;
   std::map<std::string, std::vector<pfem::Side>> sets;  ///< sides of elements by name
-  std::vector<rim::Rim> rims;                           ///< of each hole, in the scene's order
+  std::vector<rim::Rim> rims;                           ///< rim of each hole, in the scene's order
   std::vector<int> point_nodes;                         ///< vertex of each point spring
-  std::vector<rim::Section> sections;                   ///< beside holes, in the order of the holes
+  std::vector<rim::Section> sections;                   ///< sections next to holes, in the order of the holes
 };
 
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.
 [[nodiscard]] PlateMesh make_mesh(const PlateScene& scene);
 
-/// Quadrilaterals for a grid of cells with holes, without rims: a cell with a hole becomes a fan of ring elements from
-/// the hole's arcs to the cell's outline (and extra rings, graded towards the hole), any other cell rectangles.
-/// The mesh is conforming; the sets "left", "right", "bottom", "top" are the sides on the border.
+/// Meshes a grid of cells with holes, without rims. A cell with a hole becomes a fan of ring elements from the hole's
+/// arcs to the cell's outline (and extra rings, graded towards the hole), any other cell rectangles.
+/// The mesh is conforming; the sets "left", "right", "bottom", "top" are the sides on the boundary.
 [[nodiscard]] PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid);
 
-/// Takes the user's mesh as it is, without rims. Throws InputError if it is not conforming: an edge of more than two
-/// elements, a node that hangs on an edge, an arc that no element has, a node that nothing uses; or if no element has
-/// an edge that it names, an edge of a set is inside the plate, or the edges of a section are not straight, not on one
-/// line across the section's direction, or not beyond the rim on that side of the hole.
+/// Uses the user's mesh unchanged, without rims. Throws InputError if it is not conforming (an edge of more than two
+/// elements, a hanging node, an arc without an edge, an unused node), if a named edge does not exist, if an edge of a
+/// set is inside the plate, or if the edges of a section are not straight, not on one line across the section's
+/// direction, or not beyond the rim on that side of the hole.
 [[nodiscard]] PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry);
 
 }  // namespace fastjoint::stage1

@@ -25,12 +25,13 @@ std::vector<int> functions_on(const pfem::Numbering& numbering, const pfem::Side
           ? fmt::format("at ({:g}, {:g})", plate.mesh.nodes(0, function), plate.mesh.nodes(1, function))
           : std::string("along an edge");
   reject(scene, "/external",
-         fmt::format("external \"{}\" moves the plate in {} {}, where a support or another external holds it",
+         fmt::format("external \"{}\" moves the plate in {} {}, where a support or another external prescribes it",
                      external.id, external.direction, where),
          "one support or rigid external for each displacement");
 }
 
-/// The vertices of its sides move with an external; their edge modes, which would bend it, are zero.
+/// Ties the vertices of an external's sides to its displacement, and fixes their edge modes, which would bend it, at
+/// zero.
 void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering, int external_index,
              int index, Unknowns& unknowns) {
   const External& external = scene.externals[external_index];
@@ -43,8 +44,8 @@ void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Number
     }
 }
 
-/// Directions in which the disc of a hole moves: half a hole is on a line of symmetry and keeps its direction, a
-/// quarter is on two and keeps the first.
+/// Directions in which the disc of a hole moves: that of the line of symmetry for half a hole, the first direction for
+/// a quarter hole, which is on two such lines.
 std::vector<std::string> directions_of(const PlateScene& scene, const PlateMesh& plate, int hole) {
   const auto& all = scene.disc_directions;
   const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[hole]));
@@ -77,14 +78,14 @@ void number_free(Unknowns& unknowns) {
     if (dof == undecided) dof = n_free++;
 }
 
-/// Force per unit peak of the cosine pressure on the half of the rim of an external's hole along its direction (side 1)
-/// or against it (-1), length^2; 0 if the model has no rim there.
+/// Force per unit peak of the cosine pressure on the half of the rim along an external's direction (side 1) or against
+/// it (-1), length^2; 0 if the model has no rim there.
 double unit_force(const PlateScene& scene, const PlateMesh& plate, const TractionCase& load) {
-  constexpr double nothing = 1e-12;  // of what a whole rim bears; rounding leaves about 1e-16
+  constexpr double negligible = 1e-12;  // relative to a whole rim; rounding is about 1e-16
   const External& external = scene.externals[load.external];
   const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
   const double force = rim::bearing(plate.mesh, plate.edges, rim, load.side * rim::axis(external.direction)).unit_force;
-  return force < nothing * plate.mesh.thickness.maxCoeff() * rim.radius ? 0 : force;
+  return force < negligible * plate.mesh.thickness.maxCoeff() * rim.radius ? 0 : force;
 }
 
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
@@ -95,7 +96,7 @@ std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh
       const int dof = unknowns.dofs(direction == "x" ? 0 : 1, plate.point_nodes[i]);
       if (dof == pfem::fixed_dof)
         reject(scene, fmt::format("/points/{}/at", i),
-               fmt::format("a support holds the vertex along {}, so that the spring cannot load the plate", direction),
+               fmt::format("a support fixes the vertex along {}, so that the spring cannot load the plate", direction),
                "vertices that are free to move along every one of \"disc_directions\"");
       ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a),
                       scene.points[i].stiffness});
@@ -103,7 +104,7 @@ std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh
   return ties;
 }
 
-/// Refuses an arc on which no spring acts.
+/// Rejects an arc that contains no part of the rim.
 void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
   std::vector<double> stiffness(scene.holes.size(), 0);
   for (int element = 0; element < count_of(elements.class_of); ++element)
@@ -113,12 +114,12 @@ void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
     const auto& spring = scene.holes[hole].spring;
     if (spring && spring->has_arc && stiffness[hole] == 0)
       reject(scene, fmt::format("/holes/{}/spring/arc", hole),
-             fmt::format("the rim of hole \"{}\" that the model has is nowhere in this arc", scene.holes[hole].id),
+             fmt::format("no part of the rim of hole \"{}\" in the model is in this arc", scene.holes[hole].id),
              "an arc that covers a part of the rim, in degrees counter-clockwise from x");
   }
 }
 
-/// Uniform traction of unit total force on an edge.
+/// Adds a uniform traction of unit total force on an edge.
 void add_uniform(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
                  Loads& loads) {
   const auto& sides = plate.sets.at(external.on);
@@ -133,8 +134,8 @@ void add_uniform(const PlateMesh& plate, const External& external, const PlatePr
   }
 }
 
-/// Cosine pressure on the half of an open hole that bears, of unit force along the external's direction: that on the
-/// half against it is negative.
+/// Adds the cosine pressure on the bearing half of an open hole, of unit force along the external's direction; it is
+/// negative on the half against that direction.
 void add_pressure(const PlateScene& scene, const PlateMesh& plate, const TractionCase& of, const PlateProblem& problem,
                   int column, Loads& loads) {
   const External& external = scene.externals[of.external];
@@ -158,7 +159,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, const Tractio
   }
 }
 
-/// Sets T_f and T_c: unit total force of every traction case, as uniform traction on an edge or as cosine pressure on
+/// Sets T_f and T_c: loads of a unit total force of every traction case, uniform on an edge or as cosine pressure on
 /// half of an open hole.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
   const auto list = traction_cases(scene, plate);
@@ -176,8 +177,8 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   problem.T_c = T.bottomRows(nc);
   for (int column = 0; column < count_of(list); ++column) {
     if (Eigen::VectorXd(problem.T_f.col(column)).isZero(0) && problem.T_c.col(column).isZero(0))
-      reject(scene, fmt::format("/external/{}", list[column].external), "supports hold all that it loads against it",
-             "a load along a direction in which the plate can move there");
+      reject(scene, fmt::format("/external/{}", list[column].external), "supports fix all displacements that it loads",
+             "a load along a direction in which the plate is free to move there");
   }
 }
 

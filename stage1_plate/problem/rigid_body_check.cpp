@@ -15,7 +15,7 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Rigid motions of one connected part: along x, along y, turning about its middle (scaled to displacements of order
+/// Rigid motions of one connected part: along x, along y, rotation about its centre (scaled to displacements of order
 /// 1).
 struct Part {
   Eigen::Vector2d middle;
@@ -30,7 +30,7 @@ struct Part {
   }
 };
 
-/// Part of every node, numbered from 0.
+/// Index of the connected part of every node.
 std::vector<int> connected_parts(const pfem::Mesh& mesh) {
   std::vector<int> root(mesh.n_nodes());
   std::iota(root.begin(), root.end(), 0);
@@ -61,12 +61,13 @@ std::vector<Part> make_parts(const pfem::Mesh& mesh, const std::vector<int>& par
   return parts;
 }
 
-/// What supports, springs and points do against the rigid motions of every part while all externals and discs are held.
-struct HeldParts {
-  HeldParts(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns)
+/// Stiffness of supports, springs and points against the rigid motions of every part, with all externals and discs
+/// fixed.
+struct RigidStiffness {
+  RigidStiffness(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns)
       : part_of(connected_parts(plate.mesh)),
         parts(make_parts(plate.mesh, part_of)),
-        held(parts.size(), Eigen::Matrix3d::Zero()) {
+        stiffness(parts.size(), Eigen::Matrix3d::Zero()) {
     add_supports(plate, unknowns);
     add_springs(scene, plate);
     add_line_springs(scene, plate);
@@ -74,11 +75,11 @@ struct HeldParts {
 
   std::vector<int> part_of;  ///< index into parts of each node
   std::vector<Part> parts;
-  std::vector<Eigen::Matrix3d> held;  ///< energy of each part over the amplitudes of its motions, without units
+  std::vector<Eigen::Matrix3d> stiffness;  ///< of each part for the amplitudes of its motions, dimensionless
 
  private:
-  /// Adds what resists (a . amplitudes)^2.
-  void add(int part, const Eigen::RowVector3d& a) { held[part] += a.transpose() * a; }
+  /// Adds a constraint with the energy (a . amplitudes)^2.
+  void add(int part, const Eigen::RowVector3d& a) { stiffness[part] += a.transpose() * a; }
 
   void add_supports(const PlateMesh& plate, const Unknowns& unknowns) {
     for (int node = 0; node < plate.mesh.n_nodes(); ++node) {
@@ -112,7 +113,7 @@ struct HeldParts {
   }
 };
 
-constexpr double free_to_move = 1e-10;  // share of the best held motion; rounding leaves about 1e-16
+constexpr double min_stiffness = 1e-10;  // relative to the stiffest motion; rounding is about 1e-16
 
 std::string words(const Part& part, const Eigen::Vector3d& a) {
   constexpr double pure = 1e-6;
@@ -122,22 +123,22 @@ std::string words(const Part& part, const Eigen::Vector3d& a) {
     return fmt::format("along ({:.3g}, {:.3g})", a[0], a[1]);
   }
   const Eigen::Vector2d pole = part.middle + part.size * Eigen::Vector2d(-a[1], a[0]) / a[2];
-  return fmt::format("by turning about ({:.4g}, {:.4g})", pole.x(), pole.y());
+  return fmt::format("by rotation about ({:.4g}, {:.4g})", pole.x(), pole.y());
 }
 
 }  // namespace
 
-void check_held(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
-  const HeldParts all(scene, plate, unknowns);
+void check_rigid_motions(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+  const RigidStiffness all(scene, plate, unknowns);
   for (int i = 0; i < count_of(all.parts); ++i) {
     const Part& part = all.parts[i];
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(all.held[i]);
-    if (eigen.eigenvalues()[0] > free_to_move * std::max(1.0, eigen.eigenvalues()[2])) continue;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(all.stiffness[i]);
+    if (eigen.eigenvalues()[0] > min_stiffness * std::max(1.0, eigen.eigenvalues()[2])) continue;
     std::string missing;
     for (const auto& each : missing_symmetry(scene, plate, unknowns)) missing += ". " + each;
     throw NumericalError(fmt::format(
-        "{}: /supports: nothing keeps the {} from moving {} while all externals and discs are held; allowed: a plate "
-        "that supports, externals, sprung holes and points hold against every rigid motion{}",
+        "{}: /supports: the {} is free to move {} while all externals and discs are fixed; allowed: a plate "
+        "whose supports, externals, holes with springs and points prevent every rigid motion{}",
         scene.file,
         all.parts.size() == 1 ? std::string("plate")
                               : fmt::format("part of the plate around ({:g}, {:g})", part.middle.x(), part.middle.y()),

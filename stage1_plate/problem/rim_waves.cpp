@@ -13,21 +13,21 @@ namespace {
 
 /// Throws InputError if the rim of a hole in contact is in several pieces or of several thicknesses.
 void check_contact(const PlateScene& scene, const PlateMesh& plate, int hole, std::size_t n_pieces) {
-  const auto refuse = [&](const std::string& found, const char* allowed) {
+  const auto fail = [&](const std::string& found, const char* allowed) {
     reject(scene, fmt::format("/holes/{}/spring/compression_only", hole), found, allowed);
   };
   const rim::Rim& rim = plate.rims[hole];
   if (n_pieces > 1)
-    refuse(fmt::format("the rim of hole \"{}\" is in {} pieces", scene.holes[hole].id, n_pieces),
-           "springs that push but do not pull on a whole rim or one part of it");
+    fail(fmt::format("the rim of hole \"{}\" is in {} pieces", scene.holes[hole].id, n_pieces),
+         "compression-only springs on a whole rim or one connected part of it");
   for (const auto& side : rim.sides)
     if (plate.mesh.thickness[side.element] != plate.mesh.thickness[rim.sides[0].element])
-      refuse(fmt::format("the sheet has several thicknesses around hole \"{}\"", scene.holes[hole].id),
-             "springs that push but do not pull on a rim of one thickness");
+      fail(fmt::format("the sheet has several thicknesses around hole \"{}\"", scene.holes[hole].id),
+           "compression-only springs on a rim of one thickness");
   if (scene.holes[hole].sprung().disk.is_given() && !ends_on_symmetry(scene, plate, hole))
     reject(scene, fmt::format("/holes/{}/spring/disk/law", hole),
            fmt::format("\"elastic\" at hole \"{}\", which ends on a free border", scene.holes[hole].id),
-           "it at a whole hole or at a half one on a line of symmetry, or another law");
+           "\"elastic\" at a whole hole or at a half hole on a line of symmetry, or another law");
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ Eigen::Matrix3d rim_compliance(const PlateScene& scene, const PlateMesh& plate, 
 }
 
 std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const PlateMesh& plate) {
-  const auto wanted = wanted_orders(scene, plate);
+  const auto needed = needed_orders(scene, plate);
   std::vector<std::optional<rim::Waves>> all;
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const Hole& hole = scene.holes[i];
@@ -56,15 +56,15 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     if (!pieces.empty()) shape.start = pieces[0].from, shape.sweep = pieces[0].to - pieces[0].from;
     const bool is_linked = hole.spring && hole.spring->link > 0;
     if (!(rim_compliance(scene, plate, i)(0, 0) > 0 && shape.repeats())) {
-      constexpr int carried_alone = 16;
-      shape.highest = in_contact ? hole.spring->harmonics.value_or(carried_alone) : 0;
+      constexpr int default_order = 16;
+      shape.highest = in_contact ? hole.spring->harmonics.value_or(default_order) : 0;
       if (in_contact) waves = {shape, true};
       continue;
     }
     if (in_contact) shape.highest = hole.spring->harmonics.value_or(default_harmonics);
     if (!in_contact && (!hole.stresses || is_linked)) continue;
-    const int followed = followed_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
-    shape.highest = std::min(shape.highest, hole.waves > 0 ? hole.waves : std::min(wanted[i], followed));
+    const int resolved = resolved_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
+    shape.highest = std::min(shape.highest, hole.waves > 0 ? hole.waves : std::min(needed[i], resolved));
     waves = {shape, in_contact};
   }
   return all;

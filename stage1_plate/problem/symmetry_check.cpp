@@ -9,12 +9,12 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// A line through the centre of a half or quarter hole along which the sheet ends.
+/// An edge of the sheet through the centre of a half or quarter hole.
 struct Line {
-  int hole;      ///< the first one on it
-  int across;    ///< component that is constant on it: 0 x, 1 y
-  double at;     ///< its value, length
-  bool is_half;  ///< else a quarter hole
+  int hole;      ///< the first hole on it
+  int across;    ///< coordinate that is constant on it: 0 x, 1 y
+  double at;     ///< value of this coordinate, length
+  bool is_half;  ///< true for a half hole, false for a quarter hole
   int more = 0;  ///< number of other holes on it
 };
 
@@ -27,18 +27,18 @@ bool is_on(const PlateScene& scene, const PlateMesh& plate, const Line& line, co
   return ((plate.mesh.nodes(line.across, ends).array() - line.at).abs() < tolerance).all();
 }
 
-/// True if a support or a rigid external decides how some part of the line moves across itself.
-bool is_held(const PlateScene& scene, const PlateMesh& plate, const Line& line) {
-  const auto lies_there = [&](const std::string& set) {
+/// True if a support or a rigid external prescribes the displacement across the line on some part of it.
+bool is_fixed_across(const PlateScene& scene, const PlateMesh& plate, const Line& line) {
+  const auto is_there = [&](const std::string& set) {
     return std::ranges::any_of(plate.sets.at(set), [&](const auto& side) { return is_on(scene, plate, line, side); });
   };
   const std::string across = name_of(line.across);
   return std::ranges::any_of(scene.supports,
                              [&](const Support& support) {
-                               return std::ranges::count(support.fix, across) > 0 && lies_there(support.on);
+                               return std::ranges::count(support.fix, across) > 0 && is_there(support.on);
                              }) ||
          std::ranges::any_of(rigid_externals(scene), [&](int i) {
-           return scene.externals[i].direction == across && lies_there(scene.externals[i].on);
+           return scene.externals[i].direction == across && is_there(scene.externals[i].on);
          });
 }
 
@@ -58,13 +58,13 @@ std::vector<Line> lines_of(const PlateScene& scene, const PlateMesh& plate, cons
       const auto* const last = unknowns.disc_direction.data() + unknowns.first_disc[hole + 1];
       const bool disc_moves_across = std::find(first, last, name_of(across)) != last;
       const Line line{hole, across, scene.holes[hole].center[across], is_half};
-      // Half a hole whose disc moves off the border is a notch in it, which a pin may press on.
-      if (!(is_half && disc_moves_across) && !is_held(scene, plate, line)) lines.push_back(line);
+      // A half hole whose disc moves across the edge is a notch that a pin may press on.
+      if (!(is_half && disc_moves_across) && !is_fixed_across(scene, plate, line)) lines.push_back(line);
     }
   return lines;
 }
 
-/// The support that would make it a line of symmetry, as PLATE.json has it.
+/// Advice on the support that makes it a line of symmetry, in the words of PLATE.json.
 std::string support_on(const PlateScene& scene, const PlateMesh& plate, const Line& line) {
   for (const auto& [name, sides] : plate.sets)
     if (std::ranges::all_of(sides, [&](const auto& side) { return is_on(scene, plate, line, side); }))
@@ -82,7 +82,7 @@ bool ends_on_symmetry(const PlateScene& scene, const PlateMesh& plate, int hole)
   const auto is_symmetric = [&](double end) {
     for (const int across : {0, 1})
       if (rim::is_along(end, name_of(1 - across)))
-        return is_held(scene, plate, {hole, across, scene.holes[hole].center[across], false});
+        return is_fixed_across(scene, plate, {hole, across, scene.holes[hole].center[across], false});
     return false;
   };
   return pieces.empty() || (is_symmetric(pieces[0].from) && is_symmetric(pieces[0].to));
@@ -103,11 +103,11 @@ std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMe
     }
   std::vector<std::string> result;
   for (const Line& line : lines) {
-    const std::string more = line.more > 0 ? fmt::format(" ({} more likewise)", line.more) : "";
+    const std::string more = line.more > 0 ? fmt::format(" (and {} more)", line.more) : "";
     result.push_back(fmt::format(
         "/holes/{}: hole \"{}\"{} is {} of a hole, cut by the line {} = {:g}, which no support fixes along {}: the "
         "disc "
-        "alone carries what the other side of the line would. If the sheet is symmetric about this line, {}",
+        "alone carries the load of the missing part. If the sheet is symmetric about this line, {}",
         line.hole, scene.holes[line.hole].id, more, line.is_half ? "half" : "a quarter", name_of(line.across), line.at,
         name_of(line.across), support_on(scene, plate, line)));
   }

@@ -12,45 +12,45 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Where the field around a hole may stop being smooth, from any hole's view: borders, and edges between elements of
-/// unlike thickness or material.
+/// Sides where the field may lose smoothness: edges of the plate, and edges between elements of different thickness or
+/// material.
 std::vector<pfem::Side> rough_sides(const PlateMesh& plate) {
   const auto& [mesh, edges] = std::tie(plate.mesh, plate.edges);
   std::vector<int> count(edges.size(), 0), first(edges.size(), -1);
-  std::vector<bool> unlike(edges.size(), false);
+  std::vector<bool> is_step(edges.size(), false);
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int local = 0; local < pfem::n_local_edges; ++local) {
       const int edge = edges.of_element(local, element);
       if (count[edge]++ == 0)
         first[edge] = element;
       else
-        unlike[edge] = mesh.thickness[element] != mesh.thickness[first[edge]] ||
-                       mesh.material[element] != mesh.material[first[edge]];
+        is_step[edge] = mesh.thickness[element] != mesh.thickness[first[edge]] ||
+                        mesh.material[element] != mesh.material[first[edge]];
     }
   std::vector<pfem::Side> sides;
   for (int element = 0; element < mesh.n_elements(); ++element)
     for (int local = 0; local < pfem::n_local_edges; ++local) {
       const int edge = edges.of_element(local, element);
-      if (first[edge] == element && (count[edge] == 1 || unlike[edge])) sides.push_back({element, local});
+      if (first[edge] == element && (count[edge] == 1 || is_step[edge])) sides.push_back({element, local});
     }
   return sides;
 }
 
-/// The distance at which a straight line at a distance sends back what comes from a hole around its middle, after all
-/// reflections between the two: of the mirrored hole, of its image in that one, and so on.
-double behind_line(double distance, double radius) {
+/// Distance of the image source of a hole behind a straight edge, in the limit of all reflections between the two: of
+/// the mirrored hole, of its image in that one, and so on.
+double image_of_line(double distance, double radius) {
   return distance + std::sqrt(std::max(distance * distance - radius * radius, 0.0));
 }
 
-/// The same of another hole.
-double inside_hole(double distance, double radius, double other) {
+/// Distance of the image source inside another hole.
+double image_in_hole(double distance, double radius, double other) {
   double at = distance;
   for (int i = 0; i < 20; ++i) at = distance - other * other / (distance - radius * radius / at);
   return at;
 }
 
-/// The factor by which waves around a hole fall from one order to the next (rim::RimCompliance::fall): the slowest of
-/// all that its own waves meet, borders, steps, other holes and springs at points.
+/// Ratio of successive orders of the waves around a hole (rim::RimCompliance::fall): the maximum over all reflecting
+/// edges, steps, other holes and point springs.
 double slowest_fall(const PlateScene& scene, const PlateMesh& plate, const std::vector<pfem::Side>& rough, int hole) {
   const rim::Rim& rim = plate.rims[hole];
   const rim::RimCompliance sheet(scene.elasticity[plate.mesh.material[rim.sides[0].element]].inverse(), rim.radius);
@@ -58,38 +58,38 @@ double slowest_fall(const PlateScene& scene, const PlateMesh& plate, const std::
   for (int other = 0; other < count_of(plate.rims); ++other) {
     const Eigen::Vector2d apart = plate.rims[other].center - rim.center;
     if (const double d = apart.norm(); other != hole && d > 0)
-      slowest = std::max(slowest, sheet.fall(apart / d * inside_hole(d, rim.radius, plate.rims[other].radius)));
+      slowest = std::max(slowest, sheet.fall(apart / d * image_in_hole(d, rim.radius, plate.rims[other].radius)));
   }
   for (const auto& point : scene.points) slowest = std::max(slowest, sheet.fall(point.at - rim.center));
   const double cut = rim::same_place * rim.radius;
   for (const auto& side : rough) {
     const auto curve = pfem::edge_curve(plate.mesh, plate.edges, side.element, side.local_edge);
-    if (curve.sweep() != 0) continue;  // arcs are rims, which are among the holes, or outlines far from any
+    if (curve.sweep() != 0) continue;  // arcs are rims of holes, treated above, or outlines far from any hole
     const Eigen::Vector2d a = curve.point(-1) - rim.center, along = curve.point(1) - rim.center - a;
     const double distance = std::abs(a.x() * along.y() - a.y() * along.x()) / along.norm();
-    if (distance < cut) continue;  // a line of symmetry through the hole
+    if (distance < cut) continue;  // it is a line of symmetry through the hole
     const double nearest = std::clamp(-a.dot(along) / along.squaredNorm(), 0.0, 1.0);
     for (const double at : {0.0, nearest, 1.0}) {
       const Eigen::Vector2d place = a + at * along;
-      slowest = std::max(slowest, sheet.fall(place.normalized() * behind_line(place.norm(), rim.radius)));
+      slowest = std::max(slowest, sheet.fall(place.normalized() * image_of_line(place.norm(), rim.radius)));
     }
   }
   return slowest;
 }
 
-/// What the orders above one leave out of the strain along a rim, over that of order 1: the sum of n fall^(n-1).
-double left_out(int order, double fall) {
+/// Strain along a rim of all orders n > `order`, relative to order 1: the sum of n fall^(n-1).
+double truncation_error(int order, double fall) {
   return fall < 1 ? (order + 1 - order * fall) * std::pow(fall, order) / ((1 - fall) * (1 - fall)) : HUGE_VAL;
 }
 
 }  // namespace
 
-int followed_order(int p, double sides) {
-  constexpr double per_side = 0.19;  // and degree: a side with k waves needs p > pi k, and a little more
-  return std::max(lowest_order, static_cast<int>(per_side * p * sides));
+int resolved_order(int p, double n_sides) {
+  constexpr double waves_per_side_and_degree = 0.19;  // a side with k waves needs a degree p somewhat above pi k
+  return std::max(min_order, static_cast<int>(waves_per_side_and_degree * p * n_sides));
 }
 
-std::vector<int> wanted_orders(const PlateScene& scene, const PlateMesh& plate) {
+std::vector<int> needed_orders(const PlateScene& scene, const PlateMesh& plate) {
   const auto rough = rough_sides(plate);
   std::vector<int> orders;
   for (int i = 0; i < count_of(scene.holes); ++i) {
@@ -98,8 +98,8 @@ std::vector<int> wanted_orders(const PlateScene& scene, const PlateMesh& plate) 
       continue;
     }
     const double fall = slowest_fall(scene, plate, rough, i);
-    int order = lowest_order;
-    while (order < rim::max_harmonics && left_out(order, fall) > scene.left_out_of_waves) ++order;
+    int order = min_order;
+    while (order < rim::max_harmonics && truncation_error(order, fall) > scene.wave_tolerance) ++order;
     orders.push_back(order);
   }
   return orders;

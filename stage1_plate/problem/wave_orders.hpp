@@ -7,15 +7,16 @@
 
 namespace fastjoint::stage1 {
 
-inline constexpr int lowest_order = 4;
-/// Highest order of the waves of contact, most of which a closed form holds for.
+inline constexpr int min_order = 4;
+/// Highest order of the waves of contact, most of which have a closed form.
 inline constexpr int default_harmonics = 64;
 
-/// Highest order of waves that elements of degree p follow with so many sides around a whole hole.
-[[nodiscard]] int followed_order(int p, double sides);
+/// Highest order of waves that elements of degree p resolve with this number of sides around a whole hole.
+[[nodiscard]] int resolved_order(int p, double n_sides);
 
-/// Order of the waves around each hole beyond which what edges, other holes, springs at points and steps of thickness
-/// or material send back is left to the closed form; or what the scene says (docs/theory.md, section 11.3).
-[[nodiscard]] std::vector<int> wanted_orders(const PlateScene& scene, const PlateMesh& plate);
+/// Highest order of the waves around each hole that the elements must include: fields of higher order reflected by
+/// edges, other holes, point springs and steps of thickness or material are negligible, and the closed form holds. A
+/// value in the scene takes precedence (docs/theory.md, section 11.3).
+[[nodiscard]] std::vector<int> needed_orders(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

@@ -15,26 +15,26 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Most that waves may leave out (PlateScene::left_out_of_waves).
-constexpr double most_left_out = 1e-2;
+/// Upper bound of PlateScene::wave_tolerance.
+constexpr double max_wave_tolerance = 1e-2;
 
-bool leaves_rings(const PlateScene& scene, const Hole& hole) {
+bool has_free_rings(const PlateScene& scene, const Hole& hole) {
   return std::holds_alternative<GridGeometry>(scene.geometry) && !hole.has_rings;
 }
 
-/// Integrates once, then raises the degree until it does, or to the scene's highest.
+/// Integrates once, then raises the degree until the targets are reached, at most to the scene's highest.
 void raise_degree(Accuracy& model) {
   const PlateMesh plate = make_mesh(model.scene);
   PlateProblem problem = number_unknowns(model.scene, plate);
-  check_held(model.scene, plate, problem.unknowns);
+  check_rigid_motions(model.scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
-  if (problem.unknowns.n_controlled() == 0 && std::isfinite(model.asked.matrices))
+  if (problem.unknowns.n_controlled() == 0 && std::isfinite(model.targets.matrices))
     throw InputError(
         fmt::format("{}: --accuracy is the error of S, R and C_t, and the stiffness S of discs and rigid externals is "
                     "missing; allowed: a scene with a disc or a rigid external",
                     model.scene.file));
   const int highest = model.scene.p_high;
-  const bool with_hoop = std::isfinite(model.asked.hoop);
+  const bool with_hoop = std::isfinite(model.targets.hoop);
   const auto waves = rim_waves(model.scene, plate);
   if (with_hoop && std::ranges::none_of(waves, [](const auto& rim) { return rim.has_value(); }))
     throw InputError(
@@ -65,24 +65,25 @@ void raise_degree(Accuracy& model) {
 
 }  // namespace
 
-Accuracy meet_accuracy(const PlateScene& scene, const Wanted& wanted) {
+Accuracy meet_accuracy(const PlateScene& scene, const Targets& targets) {
   if (scene.p_low == scene.p_high)
     throw InputError(fmt::format("{}: degree {} alone does not show its error; allowed: a range of degrees",
-                                 std::isfinite(wanted.matrices) ? "--accuracy" : "--peak-accuracy", scene.p_low));
-  constexpr int most_rings = 4;
-  constexpr double worth = 0.5;  // of the error before, that another ring must come below
-  Accuracy start{scene, wanted, {}, 0, false};
-  if (std::isfinite(wanted.hoop)) start.scene.left_out_of_waves = std::clamp(0.03 * wanted.hoop, 1e-7, most_left_out);
+                                 std::isfinite(targets.matrices) ? "--accuracy" : "--peak-accuracy", scene.p_low));
+  constexpr int max_rings = 4;
+  constexpr double min_gain = 0.5;  // another ring must reduce the error by this factor
+  Accuracy start{scene, targets, {}, 0, false};
+  if (std::isfinite(targets.hoop))
+    start.scene.wave_tolerance = std::clamp(0.03 * targets.hoop, 1e-7, max_wave_tolerance);
   Accuracy best = start;
-  for (int rings = 1; rings <= most_rings; ++rings) {
+  for (int rings = 1; rings <= max_rings; ++rings) {
     Accuracy model = start;
     for (auto& hole : model.scene.holes)
-      if (leaves_rings(scene, hole)) {
+      if (has_free_rings(scene, hole)) {
         hole.rings = rings;
         model.free_rings = true;
       }
     raise_degree(model);
-    const bool helps = rings == 1 || model.is_reached() || model.excess() < worth * best.excess();
+    const bool helps = rings == 1 || model.is_reached() || model.excess() < min_gain * best.excess();
     if (helps) best = model;
     if (!helps || best.is_reached() || !best.free_rings) break;
   }
@@ -92,19 +93,20 @@ Accuracy meet_accuracy(const PlateScene& scene, const Wanted& wanted) {
 std::string to_text(const Accuracy& chosen) {
   int rings = 0;
   for (const auto& hole : chosen.scene.holes)
-    if (leaves_rings(chosen.scene, hole)) rings = hole.rings;
-  std::vector<std::string> asked, found;
-  if (std::isfinite(chosen.asked.matrices)) {
-    asked.push_back(fmt::format("{:g}", chosen.asked.matrices));
+    if (has_free_rings(chosen.scene, hole)) rings = hole.rings;
+  std::vector<std::string> targets, found;
+  if (std::isfinite(chosen.targets.matrices)) {
+    targets.push_back(fmt::format("{:g}", chosen.targets.matrices));
     found.push_back(matrices::to_text(chosen.errors));
   }
-  if (std::isfinite(chosen.asked.hoop)) {
-    asked.push_back(fmt::format("of hoop stresses {:g}", chosen.asked.hoop));
+  if (std::isfinite(chosen.targets.hoop)) {
+    targets.push_back(fmt::format("of hoop stresses {:g}", chosen.targets.hoop));
     found.push_back(fmt::format("error of hoop stresses about {:.2e}", chosen.hoop_error));
   }
-  return fmt::format("accuracy {}: {} space, p = {}{}: {}{}", fmt::join(asked, ", "), pfem::name_of(chosen.scene.space),
-                     chosen.scene.p_high, chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(),
-                     fmt::join(found, ", "), chosen.is_reached() ? "" : ", not reached");
+  return fmt::format("accuracy {}: {} space, p = {}{}: {}{}", fmt::join(targets, ", "),
+                     pfem::name_of(chosen.scene.space), chosen.scene.p_high,
+                     chosen.free_rings ? fmt::format(", rings {}", rings) : std::string(), fmt::join(found, ", "),
+                     chosen.is_reached() ? "" : ", not reached");
 }
 
 }  // namespace fastjoint::stage1

@@ -10,42 +10,43 @@
 
 namespace fastjoint::stage1 {
 
-/// Relative errors by Frobenius norms that a model is to reach; infinite: any will do.
-struct Wanted {
-  double matrices = std::numeric_limits<double>::infinity();  ///< of S, R and C_t
-  double hoop = std::numeric_limits<double>::infinity();      ///< of hoop stresses around holes, by hoop_error
+/// Target relative errors in Frobenius norms; infinite without a target.
+struct Targets {
+  double matrices = std::numeric_limits<double>::infinity();  ///< for S, R and C_t
+  double hoop = std::numeric_limits<double>::infinity();      ///< for hoop stresses around holes, by hoop_error
 };
 
-/// The model that was chosen for an accuracy.
+/// The model chosen for an accuracy, with its estimated errors.
 struct Accuracy {
   PlateScene scene;  ///< with the space, rings, tolerance of waves and highest degree chosen
-  Wanted asked;
-  std::vector<matrices::RelativeError> errors;  ///< estimated, of S, R and C_t
-  double hoop_error;                            ///< estimated, if it is wanted
-  bool free_rings;                              ///< true if the scene left the rings of a hole open
-  /// The worse of the errors over what is wanted.
+  Targets targets;
+  std::vector<matrices::RelativeError> errors;  ///< estimated errors of S, R and C_t
+  double hoop_error;                            ///< estimated, if it has a target
+  bool free_rings;                              ///< true if the scene does not set the rings of some hole
+  /// The larger ratio of an error to its target.
   [[nodiscard]] double excess() const {
-    return std::max(matrices::largest(errors) / asked.matrices, hoop_error / asked.hoop);
+    return std::max(matrices::largest(errors) / targets.matrices, hoop_error / targets.hoop);
   }
   [[nodiscard]] bool is_reached() const { return excess() <= 1; }
 };
 
-/// Takes the cheapest model that reaches relative errors by its own estimates, or else the best that there is: no more
-/// orders of waves than the error of hoop stresses asks for, product space, one ring around every hole, the degree
-/// rising from the scene's lowest; where its highest does not do, another ring, as long as rings help. What the scene
-/// itself says of `space` and of a hole's `rings` stays.
+/// Finds the cheapest model whose estimated errors reach the targets, or else the best model. The number of wave orders
+/// follows from the target for hoop stresses. It starts with the product space and one ring around every hole and
+/// raises the degree from the scene's lowest; if the highest is not sufficient, it adds rings as long as they help.
+/// Values of `space` and of a hole's `rings` in the scene are kept.
 ///
-/// The order follows what models cost at about equal error, here 1e-5, in ms with the fields for stresses, of panels of
-/// 3 x 3 and 10 x 10 holes (one thread of a busy machine): product space, one ring, p = 4: 18 and 1300; two rings, p =
-/// 4: 29 and 2000; none, p = 7: 31 and 1800; trunk space, one ring, p = 5: 27 and 1400, p = 6: 40 and 2100. To 1e-9 and
-/// below, one ring is still as good as two. Where holes do not limit the error a ring may double the cost.
+/// The order follows the cost of models with about equal errors of 1e-5, including the fields for stresses, in ms for
+/// panels of 3 x 3 and 10 x 10 holes (one thread of a busy machine): product space, one ring, p = 4: 18 and 1300; two
+/// rings, p = 4: 29 and 2000; no ring, p = 7: 31 and 1800; trunk space, one ring, p = 5: 27 and 1400, p = 6: 40 and
+/// 2100. At 1e-9 and below, one ring is still as good as two. Where holes do not limit the error a ring may double the
+/// cost.
 ///
-/// Throws InputError for a scene of one degree only, or with nothing that S is of.
-[[nodiscard]] Accuracy meet_accuracy(const PlateScene& scene, const Wanted& wanted);
+/// Throws InputError for a scene with one degree only, or without discs and rigid externals if S has a target.
+[[nodiscard]] Accuracy meet_accuracy(const PlateScene& scene, const Targets& targets);
 
-/// One line: "accuracy 0.0001: product space, p = 4, rings 1: error of S about 6.10e-05, of R about 4.20e-05", and of
-/// hoop stresses "accuracy of hoop stresses 0.001: product space, p = 5, rings 1: error of hoop stresses
-/// about 4.2e-04".
+/// One line: "accuracy 0.0001: product space, p = 4, rings 1: error of S about 6.10e-05, of R about 4.20e-05", and for
+/// hoop stresses "accuracy of hoop stresses 0.001: product space, p = 5, rings 1: error of hoop stresses about
+/// 4.2e-04".
 [[nodiscard]] std::string to_text(const Accuracy& chosen);
 
 }  // namespace fastjoint::stage1

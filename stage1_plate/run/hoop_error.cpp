@@ -10,8 +10,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Waves of the strain along a rim, -dv / dtheta - w over its radius, times its area and radius; in those of the whole
-/// circle, (2 highest + 1, columns).
+/// Strain along a rim, (-dv/dtheta - w) over its radius, times its area and radius, as coefficients of the whole
+/// circle's basis, (2 highest + 1, columns).
 MatrixXd strain(const rim::Harmonics& shape, const MatrixXd& rows) {
   const MatrixXd w = shape.pressures_of_whole() * rows.topRows(shape.size());
   const MatrixXd v = shape.shears_of_whole() * rows.bottomRows(shape.n_shears());
@@ -23,22 +23,22 @@ MatrixXd strain(const rim::Harmonics& shape, const MatrixXd& rows) {
   return waves;
 }
 
-/// Part of what is left by pairs of orders whose sizes are these, over the last of them.
-double left_out(double last, double before) {
-  constexpr double fastest = 0.1, slowest = 0.8;
-  const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
-  return last * fall / (1 - fall);
+/// Extrapolated sum of all further pairs of orders, for the norms of the last pair and of the pair before it.
+double truncation_error(double last, double before) {
+  constexpr double min_ratio = 0.1, max_ratio = 0.8;
+  const double ratio = std::clamp(before > 0 ? last / before : max_ratio, min_ratio, max_ratio);
+  return last * ratio / (1 - ratio);
 }
 
 /// Relative error of one rim in some unit cases.
 double rim_error(int highest, const MatrixXd& waves, const MatrixXd& below) {
   const double size = waves.norm();
   if (size == 0) return 0;
-  const auto pair = [&](Index last) {  // of orders
+  const auto norm_of_pair = [&](Index last) {  // orders last - 1 and last
     const Index rows = std::min<Index>(4, 2 * last);
     return last > 0 ? waves.middleRows(2 * last + 1 - rows, rows).norm() : 0;
   };
-  return (2 * (waves - below).norm() + left_out(pair(highest), pair(highest - 2))) / size;
+  return (2 * (waves - below).norm() + truncation_error(norm_of_pair(highest), norm_of_pair(highest - 2))) / size;
 }
 
 }  // namespace

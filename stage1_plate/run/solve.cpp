@@ -20,8 +20,8 @@
 namespace fastjoint::stage1 {
 namespace {
 
-/// Amounts that no symmetry of the plate cancels: 1, 2, 3, ... over their number.
-Eigen::VectorXd amounts(Eigen::Index n_cases) {
+/// Coefficients of the probe, 1, 2, 3, ... over their number, which no symmetry of the plate cancels.
+Eigen::VectorXd probe_coefficients(Eigen::Index n_cases) {
   const auto n = double(n_cases);
   return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
 }
@@ -85,13 +85,14 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   return a;
 }
 
-/// The states solved for are the unit tractions, then the two of the probe.
+/// The states are the unit tractions, then the two of the probe.
 SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
                          const plate::PlateFactor::Functions& sections) {
   const Unknowns& unknowns = problem.unknowns;
   const Eigen::Index nc = unknowns.n_controlled(), k = unknowns.n_loaded, h = unknowns.n_friction;
   const Eigen::Index q = problem.T_c.cols(), n_prescribed = unknowns.n_prescribed(), s = count_of(sections);
-  const Eigen::VectorXd displacement = amounts(nc), wave = amounts(k), friction = amounts(h);
+  const Eigen::VectorXd displacement = probe_coefficients(nc), wave = probe_coefficients(k);
+  const Eigen::VectorXd friction = probe_coefficients(h);
   Eigen::MatrixXd border = Eigen::MatrixXd::Zero(n_prescribed, q + 2);
   border.col(q).head(nc) = displacement;
   border.col(q + 1).tail(k + h) << wave, friction;
@@ -120,7 +121,7 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a) {
   std::mutex reporting;
   double done = 0;
-  const auto report = [&](double unknowns) {  // the time that a degree takes grows as its number of unknowns
+  const auto report = [&](double unknowns) {  // the time for a degree is about proportional to its unknowns
     const std::lock_guard lock(reporting);
     program::report_share((done += unknowns) / a.ndof.sum());
   };
@@ -128,7 +129,7 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
   a.cases.resize(a.p.size());
   const pfem::Edges edges = pfem::find_edges(a.mesh);
   linalg::for_each_index(a.p.size(), [&](std::size_t i) {
-    const Eigen::Index at = a.p.size() - 1 - i;  // the longest first
+    const Eigen::Index at = a.p.size() - 1 - i;  // starts with the highest degree, which takes longest
     const bool with_stresses = a.has_stresses(at);
     const plate::PlateFactor K(problem, skeleton, a.p[at], with_stresses);
     report(0.5 * a.ndof[at]);
@@ -145,7 +146,7 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   timings.phase("mesh");
   const PlateMesh plate = make_mesh(scene);
   PlateProblem problem = number_unknowns(scene, plate);
-  check_held(scene, plate, problem.unknowns);
+  check_rigid_motions(scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
   const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), count_of(plate.sections));
   require_memory(scene.file, scene.p_high, need);
@@ -188,7 +189,7 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
   const double nc = problem.unknowns.n_prescribed(), all = problem.unknowns.n_border() + n_sections;
   const double q = double(problem.T_c.cols());
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
-  // A step's results stand beside those of the step before: two copies of the fields, three of what is condensed.
+  // Successive steps keep each other's results: two copies of the fields, three of the condensed rows.
   const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * all * nc);
   const double degrees = count_of(p), full = std::min<double>(degrees, formats::n_stress_degrees);
   const double file = 2 * nc * (full * all + (degrees - full) * nc);

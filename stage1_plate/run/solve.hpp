@@ -11,45 +11,46 @@
 
 namespace fastjoint::stage1 {
 
-/// Bytes that a run takes, known before anything is integrated: at its highest degree, on several threads at as many.
+/// Memory of a run in bytes, known before integration: that of its highest degree, with several threads of as many
+/// degrees.
 struct MemoryNeed {
   double elements;  ///< matrices of the classes of elements
   double factor;    ///< the skeleton's stiffness and its factor
-  double fields;    ///< fields of tractions and of the probe, and the rows of S, R and W while they are made
-  double file;  ///< S, R and W of all degrees as they are turned to the order of the file, when the factors are gone
+  double fields;    ///< fields of tractions and of the probe, and the rows of S, R and W during elimination
+  double file;      ///< S, R and W of all degrees and their copies in the file's order, after the factors are freed
   double program;
 
   [[nodiscard]] double total() const {
-    constexpr double gaps = 1.15;  // what the allocator cannot use between them, and what integrating takes
+    constexpr double gaps = 1.15;  // fragmentation, and temporary memory of the integration
     return gaps * (elements + std::max(factor + fields, file)) + program;
   }
 };
 /// @param problem    Result of number_unknowns.
 /// @param p          Degrees to be solved, ascending.
-/// @param n_sections Whose forces are found too.
+/// @param n_sections Number of sections whose forces are computed.
 [[nodiscard]] MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skeleton,
                                      const Eigen::VectorXi& p, int n_sections = 0);
 
-/// Throws InputError, which says how much degree p needs and for what, if it is more than is available.
+/// Throws InputError with the need of degree p and its parts if it exceeds the available memory.
 void require_memory(const std::string& file, int p, const MemoryNeed& need);
 
-/// The scene, the mesh and the problem as stage 2 needs them, without the cases.
+/// Converts scene, mesh and problem to the data for stage 2, without the cases.
 [[nodiscard]] formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& plate,
                                                  const PlateProblem& problem, const std::string& generator);
 
-/// The unit cases at one degree, and the probe that checks them.
+/// The unit cases at one degree, and the probe to check them.
 struct SolvedCases {
   formats::PlateCases cases;
   formats::Probe probe;
 };
-/// @param sections Forces over the plate's sections; none at degrees without.
+/// @param sections Forces over the plate's sections, empty to omit them.
 [[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
                                        const plate::PlateFactor::Functions& sections = {});
 
-/// Solves the unit cases at every degree, on several threads side by side, and at the highest the probe.
+/// Solves the unit cases at every degree, in parallel on several threads, and the probe at the highest.
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution);
 
-/// What became of a scene.
+/// The result of stage 1 for a scene.
 struct SolvedPlate {
   MemoryNeed need;
   formats::PlateSolution solution;
@@ -57,10 +58,11 @@ struct SolvedPlate {
 };
 
 /// Mesh, matrices, unit cases. Phases: mesh, integrate, solve.
-/// Throws InputError for a scene that does not fit together or into memory, NumericalError for one that moves.
+/// Throws InputError for a scene that is inconsistent or too large for the memory, NumericalError for rigid body
+/// motions.
 [[nodiscard]] SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, program::Timings& timings);
 
-/// The summary on stdout: size and degrees. @param file Where the plate has been written.
+/// The summary on stdout: size and degrees. @param file Path of the written file.
 [[nodiscard]] std::string summary(const SolvedPlate& plate, const std::string& file);
 
 }  // namespace fastjoint::stage1

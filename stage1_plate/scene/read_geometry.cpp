@@ -15,12 +15,12 @@ namespace {
 
 using input::Value;
 
-/// Reads the name of a material as its index.
+/// Returns a reader of a material's name as its index.
 auto index_among(const Materials& materials) {
   return [&names = materials.name](const Value& value) { return index_of(names, value.choice(names)); };
 }
 
-/// The only material there is may go unnamed.
+/// Finds the material's name, which may be omitted if there is only one material.
 std::optional<Value> find_material(const Value& geometry, const Materials& materials) {
   auto value = geometry.find("material");
   if (!value && materials.name.size() > 1) return geometry.at("material");
@@ -46,7 +46,7 @@ Eigen::VectorX<T> read_list(const Value& value, std::size_t n, const Read& read)
   return list;
 }
 
-/// One value for all cells, or a table with one row per y-interval, bottom to top.
+/// Reads one value for all cells, or a table with one row per y-interval, bottom to top.
 template <class Table, class Read>
 void read_cells(const Value& value, Table& table, const Read& read) {
   if (!value.is_array()) {
@@ -73,7 +73,7 @@ GridGeometry read_grid(const Value& value, const Materials& materials) {
   return grid;
 }
 
-/// One value for all elements, or a list.
+/// Reads one value for all elements, or a list.
 template <class T, class Read>
 Eigen::VectorX<T> read_elements(const Value& value, int n, const Read& read) {
   return value.is_array() ? read_list<T>(value, n, read) : Eigen::VectorX<T>::Constant(n, read(value));
@@ -87,10 +87,11 @@ std::pair<int, int> read_edge(const Value& value, int n_nodes) {
   return {a, b};
 }
 
-/// Reads a list of edges, each by its two nodes, and at least one. The load on one that stood twice would count twice.
+/// Reads a list of at least one edge, each given by its two nodes. Repeated edges are rejected, since their load would
+/// count twice.
 std::vector<std::pair<int, int>> read_edges(const Value& value, int n_nodes) {
   std::vector<std::pair<int, int>> edges;
-  std::map<std::pair<int, int>, std::string> places;  // by the lower and the higher node
+  std::map<std::pair<int, int>, std::string> places;  // keys: lower and higher node
   for (const auto& item : value.items(1)) {
     const auto [a, b] = edges.emplace_back(read_edge(item, n_nodes));
     if (const auto [found, is_new] = places.try_emplace(std::minmax(a, b), item.pointer()); !is_new)
@@ -136,7 +137,7 @@ MeshGeometry read_mesh(const Value& value, const Materials& materials) {
 }
 
 int read_hole(const Value& value, const PlateScene& scene) {
-  if (scene.holes.empty()) value.fail("the plate has no holes", "sections beside holes");
+  if (scene.holes.empty()) value.fail("the plate has no holes", "sections next to holes");
   return read_id(value, scene.holes);
 }
 

@@ -11,7 +11,7 @@ namespace {
 using input::Value;
 using pfem::Analysis;
 
-/// Poisson's ratio of an isotropic body.
+/// Allowed range of Poisson's ratio of an isotropic body.
 constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = true};
 
 Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
@@ -55,8 +55,8 @@ double plane_strain(double E, double nu, double d) { return 2 * E / ((1 - 2 * nu
 /// theta.
 double second_harmonic(double E, double nu, double d) { return 6 * E / ((3 + nu) * d); }
 
-/// Sets the modulus of the springs that stand for an elastic disk, and with the law "elastic" the disk itself, which
-/// presses in their place.
+/// Sets the modulus of the springs that model an elastic disk, and with the law "elastic" the disk itself, which
+/// replaces them in contact.
 void read_disk(const Value& disk, double radius, Analysis analysis, Spring& spring) {
   disk.only({"E", "nu", "law"});
   std::vector<std::string> names;
@@ -75,7 +75,7 @@ void read_disk(const Value& disk, double radius, Analysis analysis, Spring& spri
     spring.disk = in_strain ? rim::ElasticDisk{E / (1 - nu * nu), nu / (1 - nu)} : rim::ElasticDisk{E, nu};
 }
 
-/// Degrees, counter-clockwise from x, to radians.
+/// Reads an arc in degrees, counter-clockwise from x, as radians.
 rim::AngleRange read_arc(const Value& value) {
   const auto ends = value.numbers(2, 2, input::any_number);
   constexpr double whole = 360;
@@ -132,9 +132,9 @@ Spring read_spring(const Value& value, double radius, Analysis analysis) {
     if (links || arc) only->fail(links ? "given with \"links\"" : "given with \"arc\"", "with neither of them");
   }
   if (spring.disk.is_given() && !spring.compression_only)
-    disk->at("law").fail("\"elastic\" without contact", "it with \"compression_only\": true, or another law");
+    disk->at("law").fail("\"elastic\" without contact", "\"elastic\" with \"compression_only\": true, or another law");
   if (const auto harmonics = value.find("harmonics")) {
-    if (!spring.compression_only) harmonics->fail("given of springs that also pull", "with \"compression_only\": true");
+    if (!spring.compression_only) harmonics->fail("given without contact", "with \"compression_only\": true");
     spring.harmonics = harmonics->integer(1, rim::max_harmonics);
   }
   return spring;

@@ -26,9 +26,9 @@ struct Materials {
 
 [[nodiscard]] Eigen::Vector2d read_point(const input::Value& value);
 
-/// Numbers from 1e-30 to 1e30 can be multiplied and squared as the programs do, and stay numbers. Any unit has them.
+/// Range of quantities in any unit, within which the products and squares in the programs do not overflow.
 inline constexpr double smallest = 1e-30, largest = 1e30;
-/// A spring that is as good as none may be softer, since nothing divides by it.
+/// Lower bound of spring stiffness, which no formula divides by.
 inline constexpr double softest_spring = 1e-300;
 
 /// Reads a length, a modulus or a stiffness: a number from `low` to largest.
@@ -36,10 +36,10 @@ inline constexpr double softest_spring = 1e-300;
 /// Reads a coordinate, any number up to largest.
 [[nodiscard]] double read_coordinate(const input::Value& value);
 
-/// Elements of the array at a key, none if it is missing.
+/// Elements of the array at a key, empty if it is missing.
 [[nodiscard]] std::vector<input::Value> read_items(const input::Value& value, const char* key);
 
-/// Reads the id of one of these items, as its index.
+/// Reads the id of one of these items as its index.
 template <class Item>
 [[nodiscard]] int read_id(const input::Value& value, const std::vector<Item>& items) {
   std::vector<std::string> ids;
@@ -47,14 +47,14 @@ template <class Item>
   return index_of(ids, value.choice(ids));
 }
 
-/// Reads "geometry": {"grid": ...} or {"mesh": ...} without its "sections", which need the holes.
+/// Reads "geometry": {"grid": ...} or {"mesh": ...} without its "sections", which refer to the holes.
 [[nodiscard]] std::variant<GridGeometry, MeshGeometry> read_geometry(const input::Value& value,
                                                                      const Materials& materials);
 
 /// Reads "sections" of an explicit mesh into the scene's geometry; needs its holes and the directions of its discs.
 void read_sections(const input::Value& root, PlateScene& scene);
 
-/// A law by which the modulus of distributed springs follows from the elastic disk that they stand for.
+/// A law for the modulus of distributed springs that model an elastic disk.
 struct SpringLaw {
   std::string name;
   /// @param E, nu Constants of the disk. @param d Its diameter. @return Modulus, force / length^3.
@@ -62,10 +62,10 @@ struct SpringLaw {
   bool incompressible_allowed;  ///< whether nu = 0.5 has a finite modulus
 };
 
-/// All laws; the first is the default. A new one is one more line of the table.
+/// All laws; the first is the default.
 [[nodiscard]] const std::vector<SpringLaw>& spring_laws();
 
-/// Reads "spring" of a hole of that radius: what its stiffness follows from, where on the rim it acts, and how.
+/// Reads "spring" of a hole of this radius.
 [[nodiscard]] Spring read_spring(const input::Value& value, double radius, pfem::Analysis analysis);
 
 }  // namespace fastjoint::stage1

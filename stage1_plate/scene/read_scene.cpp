@@ -21,7 +21,7 @@ using input::Value;
 
 const std::vector<std::string> directions = {"x", "y"};
 
-/// Reads a name that must differ from those before, since other files refer to it.
+/// Reads a name that must be unique, since other files refer to it.
 std::string read_new_name(const Value& value, std::set<std::string>& seen) {
   std::string name = value.text();
   if (!seen.insert(name).second) value.fail(fmt::format("\"{}\" stands twice", name), "each name once");
@@ -55,46 +55,46 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
     hole.center = read_point(item.at("center"));
     hole.radius = read_quantity(item.at("radius"));
     if (const auto spring = item.find("spring")) hole.spring = read_spring(*spring, hole.radius, analysis);
-    constexpr int most_rings = 20;
+    constexpr int max_rings = 20;
     const auto rings = item.find("rings");
     if (rings && !is_grid) rings->fail("extra rings in an explicit mesh", "\"rings\" with a grid only");
     hole.has_rings = rings.has_value();
     if (const auto waves = item.find("waves")) hole.waves = waves->integer(1, rim::max_harmonics);
     if (const auto stresses = item.find("stresses")) hole.stresses = stresses->boolean();
-    hole.rings = rings ? rings->integer(0, most_rings) : 0;
+    hole.rings = rings ? rings->integer(0, max_rings) : 0;
     holes.push_back(std::move(hole));
   }
   return holes;
 }
 
-/// Largest modulus in tension over the least, of all directions in the plane.
+/// Ratio of the maximum to the minimum modulus in tension over all directions in the plane.
 double modulus_ratio(const Eigen::Matrix3d& elasticity) {
   const Eigen::Matrix3d compliance = elasticity.inverse();
-  double least = std::numeric_limits<double>::infinity(), most = 0;
+  double min = std::numeric_limits<double>::infinity(), max = 0;
   constexpr int n_angles = 36;
   for (int i = 0; i < n_angles; ++i) {
     const double c = std::cos(std::numbers::pi * i / n_angles), s = std::sin(std::numbers::pi * i / n_angles);
     const Eigen::Vector3d stress(c * c, s * s, c * s);
     const double flexibility = stress.dot(compliance * stress);
-    least = std::min(least, flexibility);
-    most = std::max(most, flexibility);
+    min = std::min(min, flexibility);
+    max = std::max(max, flexibility);
   }
-  return most / least;
+  return max / min;
 }
 
-/// Rings where the scene does not say how many: as many as leave each ring a moderate ratio of radii, which is smaller
-/// in sheets that are stiffer along one direction, whose fields change faster close to the rim; at least one in
-/// contact. None where no stresses are wanted.
+/// Sets the number of rings where the scene does not: it keeps the ratio of radii of each ring moderate, and smaller
+/// for anisotropic sheets, whose fields vary faster close to the rim. Holes in contact have at least one; without
+/// stresses there are none.
 void set_default_rings(const GridGeometry& grid, PlateScene& scene) {
-  constexpr double widest = 3.2, narrowest = 1.6;
-  constexpr int most = 6;
+  constexpr double isotropic_ratio = 3.2, min_ratio = 1.6;
+  constexpr int max_rings = 6;
   double ratio = 1;
   for (const auto& elasticity : scene.elasticity) ratio = std::max(ratio, modulus_ratio(elasticity));
-  const double step = std::log(std::max(widest / std::pow(ratio, 0.25), narrowest));
+  const double step = std::log(std::max(isotropic_ratio / std::pow(ratio, 0.25), min_ratio));
   for (Hole& hole : scene.holes) {
     if (hole.has_rings) continue;
     const bool in_contact = hole.spring && hole.spring->compression_only;
-    double reach = hole.radius;  // to the farthest side of its cell
+    double reach = hole.radius;  // distance to the farthest side of its cell
     for (const int axis : {0, 1}) {
       const auto& lines = axis == 0 ? grid.x : grid.y;
       const auto above = std::upper_bound(lines.begin(), lines.end(), hole.center[axis]);
@@ -103,7 +103,7 @@ void set_default_rings(const GridGeometry& grid, PlateScene& scene) {
       if (below != lines.begin()) reach = std::max(reach, hole.center[axis] - below[-1]);
     }
     const int wanted = hole.stresses ? static_cast<int>(std::ceil(std::log(reach / hole.radius) / step)) - 1 : 0;
-    hole.rings = std::clamp(wanted, in_contact ? 1 : 0, most);
+    hole.rings = std::clamp(wanted, in_contact ? 1 : 0, max_rings);
   }
 }
 
@@ -126,7 +126,7 @@ std::vector<Support> read_supports(const Value& root, const std::vector<std::str
   return supports;
 }
 
-/// The id of an open hole.
+/// Reads the id of an open hole.
 std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes) {
   const Hole& hole = holes[read_id(value, holes)];
   if (hole.spring)
@@ -166,7 +166,7 @@ std::vector<std::string> edge_names(const PlateScene& scene) {
   return names;
 }
 
-/// The whole text as a number, or 0.
+/// Parses the whole text as an integer; 0 if it is not one.
 int degree(std::string_view text) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);

@@ -26,29 +26,29 @@ struct GridGeometry {
   Eigen::MatrixXi material;   ///< (y cells, x cells) index into PlateScene::elasticity
 };
 
-/// A cut across the plate beside a hole, along edges of the mesh.
+/// A cut across the plate next to a hole, along edges of the mesh.
 struct MeshSection {
   int hole;                                ///< index into PlateScene::holes
   std::string side;                        ///< on which side of the hole, "+x", "-x", "+y" or "-y"
-  std::vector<std::pair<int, int>> edges;  ///< each by its two nodes
+  std::vector<std::pair<int, int>> edges;  ///< each given by its two nodes
 };
 
-/// The user's mesh and what is named in it.
+/// The user's mesh with its named sets and sections.
 struct MeshGeometry {
   pfem::Mesh mesh;
-  std::map<std::string, std::vector<std::pair<int, int>>> edges;  ///< named sets, each edge by its two nodes
+  std::map<std::string, std::vector<std::pair<int, int>>> edges;  ///< named sets, each edge given by its two nodes
   std::vector<MeshSection> sections;
 };
 
-/// The springs of a hole as the scene has them: all around, unless it says where they act.
+/// The springs of a hole in the scene, by default all around the rim.
 struct Spring : rim::HoleSpring {
   Spring() : HoleSpring{.arcs = {{-rim::full_turn / 2, rim::full_turn / 2}}} {}
-  double disk_E = 0;              ///< Young's modulus of the disc that the springs stand for, stress; 0 without one
-  rim::ElasticDisk disk{};        ///< that presses in place of springs that only push; none: springs do
-  bool has_arc = false;           ///< whether the scene says on which part of the rim they act
-  bool compression_only = false;  ///< it pushes but does not pull
-  /// rim::Harmonics::highest of a spring that only pushes; not given: many where a closed form holds for those that the
-  /// elements do not carry
+  double disk_E = 0;              ///< Young's modulus of the disk that the springs model, stress; 0 without one
+  rim::ElasticDisk disk{};        ///< elastic pin in place of compression-only springs, if given
+  bool has_arc = false;           ///< true if the scene gives the arc with springs
+  bool compression_only = false;  ///< true for contact: the springs carry no tension
+  /// rim::Harmonics::highest of compression-only springs; the default is high where a closed form adds the waves that
+  /// the elements do not resolve
   std::optional<int> harmonics{};
 };
 
@@ -56,20 +56,20 @@ struct Hole {
   std::string id;
   Eigen::Vector2d center;
   double radius;
-  std::optional<Spring> spring;  ///< none in an open hole, which has no disc
+  std::optional<Spring> spring;  ///< empty for an open hole, which has no disc
   int rings;                     ///< extra rings of elements around it (grid only)
-  bool has_rings = false;        ///< whether the scene says how many
-  int waves = 0;                 ///< highest order of waves that the elements carry; 0: by what is around the hole
-  bool stresses = true;          ///< whether stresses at the rim are wanted
+  bool has_rings = false;        ///< true if the scene gives their number
+  int waves = 0;                 ///< highest order of waves that the elements resolve; 0: determined by needed_orders
+  bool stresses = true;          ///< true if stresses at the rim are requested
 
-  /// The spring of a hole that has one.
+  /// The spring; throws std::logic_error for an open hole.
   [[nodiscard]] const Spring& sprung() const {
     if (!spring) throw std::logic_error("the hole is open");
     return *spring;
   }
 };
 
-/// A spring between a vertex of the mesh and a disc of its own: what results depend on the mesh with.
+/// A spring between a vertex of the mesh and a separate disc. Results depend on the mesh (PlateStiffness::ties).
 struct PointSpring {
   std::string id;
   Eigen::Vector2d at;
@@ -81,7 +81,7 @@ struct Support {
   std::vector<std::string> fix;  ///< directions
 };
 
-/// An edge that moves as one, an edge under uniform traction, an open hole under cosine pressure.
+/// A rigidly moving edge, an edge under uniform traction, or an open hole under cosine pressure.
 enum class ExternalKind { rigid, traction, bearing };
 
 struct External {
@@ -89,12 +89,12 @@ struct External {
   ExternalKind kind;
 };
 
-/// PLATE.json as it was meant, consistent in itself; whether the holes fit the geometry is for the meshers to say.
+/// The content of PLATE.json, consistent in itself. The meshers check whether the holes fit the geometry.
 struct PlateScene {
-  std::string file, text;  ///< where it came from
+  std::string file, text;  ///< name and text of the input file
   std::string name;
   Units units;
-  std::vector<Eigen::Matrix3d> elasticity;  ///< of each material, stress
+  std::vector<Eigen::Matrix3d> elasticity;  ///< elasticity of each material, stress
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
   std::vector<PointSpring> points;
@@ -103,11 +103,11 @@ struct PlateScene {
   std::vector<External> externals;
   pfem::Space space = pfem::Space::product;
   int p_low = 1, p_high = pfem::highest_p;
-  /// Part of the strain along a rim below which short waves of what comes back to it from elsewhere are left out.
-  double left_out_of_waves = 1e-3;
+  /// Tolerance of the truncation of waves: relative strain along a rim of the omitted orders of reflected fields.
+  double wave_tolerance = 1e-3;
 };
 
-/// Replaces the scene's degrees by the option's: "8" is that degree alone, "4..8" a range, "" leaves the scene's.
+/// Replaces the scene's degrees by those of the option: "8" is one degree, "4..8" a range, "" keeps the scene's.
 /// Throws InputError for anything else or outside 1..highest_p.
 void set_degrees(PlateScene& scene, const std::string& option);
 
@@ -117,7 +117,7 @@ void set_degrees(PlateScene& scene, const std::string& option);
 /// Reads PLATE.json strictly. Throws InputError with the file, the JSON pointer, what was found and what is allowed.
 [[nodiscard]] PlateScene read_scene(const input::Document& document);
 
-/// Throws the InputError that read_scene would throw at this place of the file.
+/// Throws an InputError like those of read_scene, for a place in the file.
 [[noreturn]] void reject(const PlateScene& scene, const std::string& pointer, const std::string& found,
                          const std::string& allowed);
 

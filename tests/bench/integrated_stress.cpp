@@ -50,7 +50,7 @@ void run(const program::Arguments& arguments, program::Timings& timings) {
   auto mesh = stage1::make_mesh(scene);
   timings.phase("integrate");
   auto problem = test::assemble(scene, mesh);
-  stage1::check_held(scene, mesh, problem.unknowns);
+  stage1::check_rigid_motions(scene, mesh, problem.unknowns);
   timings.set_unknowns(scene.p_high, problem.unknowns.n_free.back());
   timings.phase("solve");
   const Eigen::VectorXd u = first_field(problem, scene.p_high);

@@ -98,7 +98,7 @@ KINDS = {  # code and place or number: how it comes about
     ("thickness-unlikely", "is above the width 40 "): lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1600),
     ("thickness-unlikely", "of the radius 2.4 "): lambda sheets, joint: sheets["upper"]["geometry"]["grid"].update(thickness=1.6e-6),
     ("units-mixed", "is above d t E = "): gigapascals,
-    ("disc-modulus-unlikely", "/holes/0/spring/disk/E: 71000 is 981 times the modulus 72.4 of the sheet (3 more likewise"): disk,
+    ("disc-modulus-unlikely", "/holes/0/spring/disk/E: 71000 is 981 times the modulus 72.4 of the sheet (the worst of 4)"): disk,
 }
 
 

@@ -17,7 +17,7 @@ std::string strip(const std::string& extra) { return test::grid_scene({0, 1, 2, 
 std::string message(const std::string& json) {
   try {
     const auto plate = test::make_plate(json);
-    stage1::check_held(plate.scene, plate.mesh, plate.problem.unknowns);
+    stage1::check_rigid_motions(plate.scene, plate.mesh, plate.problem.unknowns);
   } catch (const InputError& e) {
     return e.what();
   } catch (const NumericalError& e) {
@@ -70,7 +70,7 @@ TEST(LineSprings, WhereTheyCannotBe) {
               HasSubstr("plate.json: /points/0/at: (1.9, 0.8) is not a vertex of the mesh; allowed: vertices of the "
                         "mesh; the nearest is (2, 1)"));
   EXPECT_THAT(message(strip(left + R"(, "points": [{"id": "K1", "at": [0, 1], "stiffness": 1}])")),
-              HasSubstr("/points/0/at: a support holds the vertex along x"));
+              HasSubstr("/points/0/at: a support fixes the vertex along x"));
   EXPECT_THAT(message(test::grid_scene({0, 1}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
                                        R"(, "points": [{"id": "a", "at": [0, 1], "stiffness": 1}])")),
               HasSubstr("/points/0/id: \"a\" stands twice"));
@@ -78,7 +78,7 @@ TEST(LineSprings, WhereTheyCannotBe) {
 
 TEST(LineSprings, TheyHoldThePlate) {
   const std::string both = R"(, "disc_directions": ["x", "y"], "points": [{"id": "K1", "at": [1, 1], "stiffness": 1})";
-  EXPECT_THAT(message(strip(both + "]")), HasSubstr("by turning about (1, 1)"));
+  EXPECT_THAT(message(strip(both + "]")), HasSubstr("by rotation about (1, 1)"));
   EXPECT_EQ(message(strip(both + R"(, {"id": "K2", "at": [2, 1], "stiffness": 1}])")), "held");
 }
 

@@ -17,7 +17,7 @@ using testing::UnorderedElementsAre;
 std::string message(const std::string& json) {
   const test::Plate plate = test::make_plate(json);
   try {
-    stage1::check_held(plate.scene, plate.mesh, plate.problem.unknowns);
+    stage1::check_rigid_motions(plate.scene, plate.mesh, plate.problem.unknowns);
   } catch (const NumericalError& e) {
     return e.what();
   }
@@ -40,11 +40,10 @@ TEST(Holding, SupportsSpringsAndExternalsHold) {
 }
 
 TEST(Holding, TheFreeMotionIsNamed) {
-  EXPECT_THAT(
-      message(square({}, R"(, "supports": [{"on": "bottom", "fix": ["y"]}])")),
-      AllOf(StartsWith("plate.json: /supports: nothing keeps the plate from moving along x"), HasSubstr("allowed:")));
+  EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "bottom", "fix": ["y"]}])")),
+              AllOf(StartsWith("plate.json: /supports: the plate is free to move along x"), HasSubstr("allowed:")));
   EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "left", "fix": ["x"]}])")), HasSubstr("moving along y"));
-  EXPECT_THAT(message(square({first, open}, "")), HasSubstr("moving by turning about (0.5, 0.5)"));
+  EXPECT_THAT(message(square({first, open}, "")), HasSubstr("free to move by rotation about (0.5, 0.5)"));
 }
 
 std::vector<std::string> missing(const std::string& json) {
@@ -62,7 +61,7 @@ TEST(Holding, ALineOfSymmetryWithoutSupportIsNamed) {
   using testing::ElementsAre;
   EXPECT_THAT(
       missing(square({half, other}, on(left))),
-      ElementsAre(AllOf(HasSubstr("/holes/0: hole \"half\" (1 more likewise) is half of a hole"),
+      ElementsAre(AllOf(HasSubstr("/holes/0: hole \"half\" (and 1 more) is half of a hole"),
                         HasSubstr("the line y = 0, which no support fixes along y"), HasSubstr("add " + bottom))));
   EXPECT_THAT(missing(square({half, other}, on(left + "," + bottom))), ElementsAre());
   EXPECT_THAT(missing(square({half}, on(R"({"on": "bottom", "fix": ["x"]})"))), ElementsAre(HasSubstr(bottom)));
@@ -76,7 +75,8 @@ TEST(Holding, ALineOfSymmetryWithoutSupportIsNamed) {
   EXPECT_THAT(missing(square({quarter}, on(left))),
               UnorderedElementsAre(AllOf(HasSubstr("a quarter of a hole"), HasSubstr(R"({"on": "top", "fix": ["y"]})")),
                                    AllOf(HasSubstr("x = 2"), HasSubstr(R"({"on": "right", "fix": ["x"]})"))));
-  EXPECT_THAT(message(square({half}, on(""))), AllOf(HasSubstr("by turning about (0.5, "), HasSubstr("add " + bottom)));
+  EXPECT_THAT(message(square({half}, on(""))),
+              AllOf(HasSubstr("by rotation about (0.5, "), HasSubstr("add " + bottom)));
 }
 
 TEST(Holding, EveryPartMustBeHeld) {
@@ -84,7 +84,7 @@ TEST(Holding, EveryPartMustBeHeld) {
     "materials": {"al": {"E": 1e7, "nu": 0.3}},
     "geometry": {"mesh": {"nodes": [[0,0],[1,0],[1,1],[0,1],[5,0],[6,0],[6,1],[5,1]], "quads": [[0,1,2,3],[4,5,6,7]],
     "thickness": 1, "edges": {"left": [[3, 0]]}}}, "supports": [{"on": "left", "fix": ["x", "y"]}]})";
-  EXPECT_THAT(message(two), HasSubstr("nothing keeps the part of the plate around (5.5, 0.5) from moving"));
+  EXPECT_THAT(message(two), HasSubstr("the part of the plate around (5.5, 0.5) is free to move"));
 }
 
 }  // namespace

@@ -82,11 +82,10 @@ TEST(Unknowns, TwoMastersOfOneDisplacementAreRefused) {
     }
     return "no error";
   };
-  EXPECT_THAT(
-      message(R"(, "supports": [{"on": "top", "fix": ["x"]}],
+  EXPECT_THAT(message(R"(, "supports": [{"on": "top", "fix": ["x"]}],
                         "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}])"),
-      HasSubstr(
-          "/external: external \"P\" moves the plate in x at (1, 1), where a support or another external holds it"));
+              HasSubstr("/external: external \"P\" moves the plate in x at (1, 1), where a support or another external "
+                        "prescribes it"));
   EXPECT_THAT(message(R"(, "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
                                         {"id": "Q", "on": "top", "direction": "x", "kind": "rigid"}])"),
               HasSubstr("external \"Q\" moves the plate in x at (1, 1)"));

@@ -59,7 +59,7 @@ TEST(Traction, OnAnEdgeThatSupportsHoldIsRefused) {
             supports + R"(, "external": [{"id": "T", "on": "left", "direction": "x", "kind": "traction"}])"));
       },
       testing::ThrowsMessage<InputError>(
-          testing::HasSubstr("/external/0: supports hold all that it loads against it")));
+          testing::HasSubstr("/external/0: supports fix all displacements that it loads")));
 }
 
 }  // namespace
