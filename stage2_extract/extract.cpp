@@ -7,7 +7,7 @@
 namespace fastjoint::stage2 {
 namespace {
 
-/// Modulus of the springs of each disc, (m); 0 for what point springs hold.
+/// Modulus of the springs of each disc, (m); 0 for discs of point springs.
 Eigen::VectorXd disc_modulus(const formats::PlateSolution& plate) {
   return Eigen::VectorXd::NullaryExpr(count_of(plate.disc_hole), [&](Eigen::Index i) {
     const int hole = index_of(plate.hole_id, plate.disc_hole[i]);
@@ -15,7 +15,7 @@ Eigen::VectorXd disc_modulus(const formats::PlateSolution& plate) {
   });
 }
 
-/// Sets the names of the cases, the modulus of the discs and the constants of the unit friction cases.
+/// Sets the names of the cases, the moduli of the discs and the constants of friction and traction cases.
 void describe(const formats::PlateSolution& plate, const std::string& generator, formats::PlateMatrices& a) {
   static_cast<formats::UnitCases&>(a) = plate;
   a.header.generator = generator;
@@ -38,17 +38,18 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
     const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.traction_bearing[j]));
     a.traction_unit_force[j] = bearing.unit_force;
     const double across = bearing.force_across / bearing.unit_force;
-    a.traction_resultant_across[j] = a.traction_bearing[j][0] == '+' ? across : -across;  // per force along + the axis
+    a.traction_resultant_across[j] = a.traction_bearing[j][0] == '+' ? across : -across;  // per force along + axis
   }
 }
 
-/// Takes from forces on externals and discs, (nc, columns), what they sum to along a free translation beside `known`.
+/// Subtracts from the forces on externals and discs, (nc, columns), their resultant with `known` along a free
+/// translation.
 void balance(const Eigen::VectorXd& motion, const Eigen::RowVectorXd& known, Eigen::MatrixXd& forces) {
   forces -= motion * ((motion.transpose() * forces + known) / motion.squaredNorm());
 }
 
-/// Takes out the rounding by which matrices do not balance along a direction in which nothing supports the plate: in a
-/// joint the fasteners would have to carry it.
+/// Removes rounding that violates equilibrium along a direction without support. In a joint, the fasteners would have
+/// to carry it.
 void balance(const FreeTranslation& free, formats::PlateCases& level) {
   if (free.motion.isZero(0)) return;
   auto by_motion = level.W.leftCols(free.motion.size());

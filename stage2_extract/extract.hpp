@@ -8,15 +8,15 @@
 
 namespace fastjoint::stage2 {
 
-/// Everything linear about the plate, for every p, and how well it satisfies what must hold.
+/// The condensed linear model of the plate for every p, its estimated errors and checks.
 struct Extraction {
   formats::PlateMatrices matrices;
-  std::vector<matrices::RelativeError> errors;  ///< estimated, at the highest p; infinite with one degree
+  std::vector<matrices::RelativeError> errors;  ///< estimated at the highest p; infinite for a single degree
   Checks checks;
 };
 
 /// @param generator Name and version of the program.
-/// @param with_stresses Also what stresses at rims and forces over sections follow from.
+/// @param with_stresses Includes the data for stresses at rims and forces over sections.
 [[nodiscard]] Extraction extract(formats::PlateSolution plate, const std::string& generator, bool with_stresses);
 
 }  // namespace fastjoint::stage2

@@ -27,7 +27,7 @@ const program::Command command = {
     "MATRICES.h5",
     {{"--loads-only", "", "leave out what stresses at holes and forces over sections follow from"},
      {"--field", "SPEC",
-      "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, or cases with amounts, "
+      "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, or a sum of cases with coefficients, "
       "external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
      {"--plate", "NAME", "name of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
      {"--increment", "N", "increment of RESULT.h5 to show; default: the last"},
@@ -74,35 +74,36 @@ void write_field(const program::Arguments& arguments, stage2::FieldSolver& solve
                            largest, unit(units, -2, 1), field.points(0, at), field.points(1, at), unit(units, 1, 0));
 }
 
-/// Options are checked before a large file is read.
+/// Reads and checks the options of a field, before a large file is read.
 stage2::FieldRequest field_request(const program::Arguments& arguments) {
-  constexpr int most_increments = 1000000;
+  constexpr int max_increments = 1000000;
   stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
-                                  arguments.integer("--increment", 1, most_increments, 0),
+                                  arguments.integer("--increment", 1, max_increments, 0),
                                   arguments.integer("--p", 1, pfem::highest_p, 0)};
   stage2::check_field_options(request, arguments.flag("--field"), arguments.output, arguments.timings);
   return request;
 }
 
 void require_memory(const std::string& file, double need) {
-  constexpr double libraries = 23e6;  // and what is left of the factor
+  constexpr double libraries = 23e6;  // includes small parts of the factor
   program::require_memory(file + ": this", libraries + need, "", "a file of a lower p or fewer holes");
 }
 
-/// Bytes of reading a plate, whose fields are filled beside the file's image, and of matrices with loads only.
+/// Bytes to read a plate, with a copy of the file's image, and to extract matrices for loads only.
 double reading_need(double file_size) {
   constexpr double copies = 1.9;
   return copies * file_size;
 }
 
-/// Bytes of all matrices of a plate, about as large as its file and turned to the order of theirs as they are written.
+/// Bytes to extract all matrices of a plate, which are about as large as its file and copied in the file's order for
+/// writing.
 double extraction_need(double file_size) {
   constexpr double copies = 2.15;
   return copies * file_size;
 }
 
-/// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file, which has
-/// ten of up to 16 letters, and its index, and is put together of its parts.
+/// Bytes of a field at the highest degree: the factor, seven numbers at each node, and the text of the file twice, with
+/// ten numbers of up to 16 characters and an index per node.
 double field_need(const stage2::FieldSolver& solver, double file_size) {
   constexpr double numbers = 7 * sizeof(double), text = 2 * (10 * 16 + 12);
   const int p = solver.numbering().p;

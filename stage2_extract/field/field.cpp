@@ -32,7 +32,7 @@ bool names_a_file(const std::string& spec) {
   return !starts_as_case(spec) && (spec.ends_with(".h5") || std::filesystem::exists(spec, ignored));
 }
 
-/// Index of the longest name that the text starts with and that ends there, at a comma or at "=", or -1.
+/// Index of the longest name at the start of the text that is followed by a comma, "=" or its end; -1 if there is none.
 std::ptrdiff_t first_case(const std::vector<std::string>& names, std::string_view text) {
   std::ptrdiff_t longest = -1;
   for (int i = 0; i < count_of(names); ++i) {
@@ -44,51 +44,51 @@ std::ptrdiff_t first_case(const std::vector<std::string>& names, std::string_vie
   return longest;
 }
 
-/// The amount at the start of the text, which then loses it.
-double take_amount(std::string_view& text, const std::string& name) {
+/// Reads the coefficient at the start of the text and removes it.
+double take_coefficient(std::string_view& text, const std::string& name) {
   if (text.empty() || text[0] != '=') return 1;
   const auto word = text.substr(1, text.find(',') - 1);
-  double amount = 0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), amount);
-  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(amount))
-    throw InputError(
-        fmt::format("--field: '{}' is not allowed as the amount of {}; allowed: a number such as 0.01", word, name));
+  double coefficient = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), coefficient);
+  if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(coefficient))
+    throw InputError(fmt::format(
+        "--field: '{}' is not allowed as the coefficient of {}; allowed: a number such as 0.01", word, name));
   text.remove_prefix(1 + word.size());
-  return amount;
+  return coefficient;
 }
 
-/// Case of a traction's force: of two by its name, one for each side of a hole, that which bears under its sign.
-std::ptrdiff_t of_sign(const PlateSolution& plate, const std::vector<std::string>& names, std::ptrdiff_t first,
-                       double amount) {
+/// Selects the case for the sign of a traction's force, if the hole has one case of the same name for each side.
+std::ptrdiff_t case_of_sign(const PlateSolution& plate, const std::vector<std::string>& names, std::ptrdiff_t first,
+                            double coefficient) {
   const auto traction = first - (std::ssize(names) - plate.n_tractions());
-  if (traction < 0 || amount >= 0) return first;
+  if (traction < 0 || coefficient >= 0) return first;
   if (first + 1 < std::ssize(names) && names[first + 1] == names[first]) return first + 1;
   if (traction < std::ssize(plate.traction_bearing) && !plate.traction_bearing[traction].empty())
     throw InputError(
-        fmt::format("--field: {} is not allowed as the amount of {}: the model has no rim on the side of "
+        fmt::format("--field: {} is not allowed as the coefficient of {}: the model has no rim on the side of "
                     "the hole that would bear; allowed: a number >= 0",
-                    amount, names[first]));
+                    coefficient, names[first]));
   return first;
 }
 
 FieldState case_sum(const PlateSolution& plate, const std::string& spec) {
   const auto names = case_names(plate);
-  auto shown = names;  // a traction with a case for each side of its hole once
+  auto shown = names;  // without the repeated names of tractions that have a case for each side of a hole
   shown.erase(std::unique(shown.end() - plate.n_tractions(), shown.end()), shown.end());
   FieldState state{Eigen::VectorXd::Zero(names.size()), spec};
   std::vector<bool> given(names.size());
   for (std::string_view rest = spec;;) {
     const auto found = first_case(names, rest);
     if (found < 0)
-      throw InputError(
-          fmt::format("--field: '{}' is not a case of the plate{}; allowed: a RESULT.h5, or a sum CASE=AMOUNT,... of "
-                      "the cases {}",
-                      rest, starts_as_case(spec) ? "" : " nor a file", listed(shown)));
+      throw InputError(fmt::format(
+          "--field: '{}' is not a case of the plate{}; allowed: a RESULT.h5, or a sum CASE=COEFFICIENT,... of "
+          "the cases {}",
+          rest, starts_as_case(spec) ? "" : " nor a file", listed(shown)));
     if (given[found]) throw InputError(fmt::format("--field: {} stands twice; allowed: each case once", names[found]));
     given[found] = true;
     rest.remove_prefix(names[found].size());
-    const double amount = take_amount(rest, names[found]);
-    state.amounts[of_sign(plate, names, found, amount)] = amount;
+    const double coefficient = take_coefficient(rest, names[found]);
+    state.coefficients[case_of_sign(plate, names, found, coefficient)] = coefficient;
     if (rest.empty()) return state;
     rest.remove_prefix(1);  // the comma
   }
@@ -108,7 +108,7 @@ FieldState joint_state(const PlateSolution& plate, const std::string& file, cons
   const std::string& name = sheet.joint.header.name;
   state.words = fmt::format("{}increment {} of {}, load factor {:g}", name.empty() ? "" : fmt::format("{}, ", name),
                             state.increment, steps, sheet.joint.load_factor[step]);
-  state.amounts = sheet.amounts.col(step);
+  state.coefficients = sheet.coefficients.col(step);
   return state;
 }
 
@@ -158,7 +158,7 @@ Eigen::Matrix2Xd lagrange_nodes(int p) {
 }
 
 Field at_nodes(const Fields& fields, int p) {
-  const auto& [solver, amounts, states] = fields;
+  const auto& [solver, coefficients, states] = fields;
   const auto& mesh = solver.plate().mesh;
   const auto& [space, highest] = std::tie(solver.numbering().space, solver.numbering().p);
   assert(states.size() == 1);
@@ -182,11 +182,11 @@ Field at_nodes(const Fields& fields, int p) {
 Field make_field(FieldSolver& solver, const std::string& file, const FieldRequest& request, const FieldState& state) {
   const int p = field_degree(solver.plate(), file, request, state);
   solver.factorise(p);
-  Field field = at_nodes(solver.solve(state.amounts), p);
+  Field field = at_nodes(solver.solve(state.coefficients), p);
   if (!field.displacement.allFinite() || !von_mises(field.stress).allFinite())
     throw NumericalError(
         fmt::format("{}: --field {}: displacements or stresses are too large for the numbers of this "
-                    "machine; allowed: smaller amounts",
+                    "machine; allowed: smaller coefficients",
                     file, request.spec));
   return field;
 }

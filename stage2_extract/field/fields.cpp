@@ -14,7 +14,7 @@ namespace {
 
 using formats::PlateSolution;
 
-/// Who moves each degree of freedom, as stage 1 had it.
+/// Restores the classification of the degrees of freedom of stage 1.
 plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbering, const std::string& file) {
   if (a.unknown.cols() != numbering.n_functions.back())
     throw FileError(fmt::format("{}:unknown: has {} rows, the mesh has {} functions at p = {} of the {} space", file,
@@ -33,8 +33,8 @@ plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbe
   return unknowns;
 }
 
-/// Refuses a map of unknowns in which functions that no other element and no support has are not free: they are
-/// condensed as plate unknowns. The same of vertices that springs hold to discs.
+/// Rejects a map of unknowns in which interior functions of an element are not free, since they are condensed as plate
+/// unknowns, and point springs at fixed vertices.
 void check_free(const PlateSolution& a, const plate::PlateStiffness& K, const std::string& file) {
   for (int element = 0; element < a.mesh.n_elements(); ++element) {
     const auto& kept = K.elements.classes[K.elements.class_of[element]].kept;
@@ -47,7 +47,7 @@ void check_free(const PlateSolution& a, const plate::PlateStiffness& K, const st
   }
   for (const auto& tie : K.ties)
     if (tie.dof == pfem::fixed_dof)
-      throw FileError(fmt::format("{}:point/vertex: holds {}, which a support holds, expected a vertex that can move",
+      throw FileError(fmt::format("{}:point/vertex: holds {}, which a support fixes, expected a vertex that can move",
                                   file, tie.vertex));
 }
 
@@ -93,17 +93,17 @@ FieldSolver::FieldSolver(const PlateSolution& plate, const std::string& file)
 double FieldSolver::factor_bytes(int p) const { return plate::factor_bytes(stiffness_, skeleton_, p).total(); }
 
 void FieldSolver::factorise(int p) {
-  factor_.reset();  // its memory first
+  factor_.reset();  // frees its memory before the next factorisation
   factor_ = std::make_unique<plate::PlateFactor>(stiffness_, skeleton_, p, false);
   n_free_ = stiffness_.unknowns.n_free[p];
 }
 
-Fields FieldSolver::solve(Eigen::MatrixXd amounts) const {
-  assert(amounts.rows() == plate_.n_cases());
-  const Eigen::SparseMatrix<double> tractions = amounts.bottomRows(plate_.n_tractions()).sparseView();
-  plate::PlateStates states(*factor_, amounts.topRows(amounts.rows() - tractions.rows()),
+Fields FieldSolver::solve(Eigen::MatrixXd coefficients) const {
+  assert(coefficients.rows() == plate_.n_cases());
+  const Eigen::SparseMatrix<double> tractions = coefficients.bottomRows(plate_.n_tractions()).sparseView();
+  plate::PlateStates states(*factor_, coefficients.topRows(coefficients.rows() - tractions.rows()),
                             plate_.T_f.topRows(n_free_) * tractions);
-  return {*this, std::move(amounts), std::move(states)};
+  return {*this, std::move(coefficients), std::move(states)};
 }
 
 const Eigen::Matrix3d& FieldSolver::elasticity(int element) const {

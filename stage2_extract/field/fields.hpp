@@ -12,32 +12,33 @@ namespace fastjoint::stage2 {
 
 class FieldSolver;
 
-/// Displacement fields of k states of a plate at one degree.
+/// Displacement fields of a plate in n_states states at one degree.
 struct Fields {
   const FieldSolver& solver;  ///< must outlive this
-  /// (n_cases, k) amount of every unit case: nc controlled displacements (externals, discs), k pressures of
-  /// contact, h friction cases, q tractions.
-  Eigen::MatrixXd amounts;
+  /// (n_cases, n_states) coefficient of every unit case: controlled displacements (externals, discs), loaded waves,
+  /// friction cases, tractions
+  Eigen::MatrixXd coefficients;
   plate::PlateStates states;  ///< the fields, element by element
 };
 
-/// A plate of which any state can be solved at any degree up to that of its file: its elements are integrated again
-/// from the file's mesh and springs, and factorised at one degree after another (schemas/plate-solution.md says why the
-/// file holds neither fields nor factor).
+/// Solves any state of a plate at any degree up to that of its file. The elements are integrated again from the file's
+/// mesh and springs, and factorised at one degree at a time; schemas/plate-solution.md explains why the file has
+/// neither fields nor factor.
 class FieldSolver {
  public:
-  /// @param plate Must outlive this. @param file Its name, for messages.
+  /// @param plate Must outlive this. @param file Name of its file, for messages.
   /// Throws FileError if the map of unknowns does not fit the mesh.
   FieldSolver(const formats::PlateSolution& plate, const std::string& file);
   FieldSolver(const FieldSolver&) = delete;
   FieldSolver& operator=(const FieldSolver&) = delete;
 
-  /// Bytes that a factor at this degree takes.
+  /// Memory in bytes of a factor at this degree.
   [[nodiscard]] double factor_bytes(int p) const;
-  /// Factorises at this degree: that of all solutions from now on.
+  /// Factorises at this degree, which then applies to all solutions.
   void factorise(int p);
-  /// Solves for states given as amounts of the unit cases, shape (n_cases, k); this must outlive the result.
-  [[nodiscard]] Fields solve(Eigen::MatrixXd amounts) const;
+  /// Solves for states given by coefficients of the unit cases, shape (n_cases, n_states); this must outlive the
+  /// result.
+  [[nodiscard]] Fields solve(Eigen::MatrixXd coefficients) const;
 
   [[nodiscard]] const formats::PlateSolution& plate() const { return plate_; }
   [[nodiscard]] const pfem::Edges& edges() const { return edges_; }
@@ -55,7 +56,7 @@ class FieldSolver {
   plate::PlateStiffness stiffness_;
   plate::Skeleton skeleton_;
   std::unique_ptr<plate::PlateFactor> factor_;
-  int n_free_ = 0;  ///< at the degree of the factor
+  int n_free_ = 0;  ///< number of free unknowns at the degree of the factor
 };
 
 }  // namespace fastjoint::stage2

@@ -15,7 +15,7 @@ namespace {
 using formats::PlateHistory;
 using formats::PlateSolution;
 
-/// @param a Anything with the names of a plate's cases: PlateSolution, PlateHistory.
+/// @param a PlateSolution or PlateHistory.
 template <class Plate>
 std::vector<std::string> names_of_cases(const Plate& a) {
   std::vector<std::string> names;
@@ -63,8 +63,8 @@ void take_waves_of_field(PlateSolution& plate) {
 std::vector<std::string> case_names(const PlateSolution& plate) { return names_of_cases(plate); }
 
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t most = 12;
-  const auto shown = std::min(names.size(), most);
+  constexpr std::size_t max_shown = 12;
+  const auto shown = std::min(names.size(), max_shown);
   const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
   if (shown == names.size()) return names.empty() ? "none" : text;
   return fmt::format("{} and {} more", text, names.size() - shown);
@@ -76,7 +76,7 @@ JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file,
   result.at = sheet_of_joint(plate, file, result_file, name, result.joint);
   const auto& sheet = result.joint.plates[result.at];
   const std::string& digest = plate.header.digest;
-  // The names of the cases fit, but do the sheet's matrices come from this file? One without a digest does not tell.
+  // The names of the cases fit, but the sheet's matrices may come from another file, which their digest shows.
   if (!sheet.plate_digest.empty() && !digest.empty() && sheet.plate_digest != digest)
     throw InputError(
         fmt::format("{}: sheet '{}' was made of a PLATE.h5 with the digest {}, {} has {}; allowed: the file that it "
@@ -84,8 +84,8 @@ JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file,
                     result_file, sheet.name, sheet.plate_digest, file, digest));
   if (result.joint.load_factor.size() == 0)
     throw InputError(fmt::format("{}: holds no increment that converged", result_file));
-  result.amounts.resize(plate.n_cases(), result.joint.load_factor.size());
-  result.amounts << sheet.De.transpose(), sheet.D.transpose(), sheet.amounts.transpose(), sheet.Lambda.transpose(),
+  result.coefficients.resize(plate.n_cases(), result.joint.load_factor.size());
+  result.coefficients << sheet.De.transpose(), sheet.D.transpose(), sheet.amounts.transpose(), sheet.Lambda.transpose(),
       sheet.traction.transpose();
   return result;
 }

@@ -10,27 +10,28 @@
 
 namespace fastjoint::stage2 {
 
-/// Makes unit cases of all waves of contact that a joint has, where the plate's own end with those that its elements
-/// carry best: a field shows all of the pressure, as far as its elements follow.
+/// Extends the unit cases of the loaded waves to those of a joint (formats::waves_of_field), so that a field shows the
+/// whole contact pressure as far as the elements resolve it.
 void take_waves_of_field(formats::PlateSolution& plate);
 
 /// Names of a plate's unit cases: "external:P", "disc:1:x", "wave:2:0", "friction:1:+x", "traction:T"; shape (n_cases).
 [[nodiscard]] std::vector<std::string> case_names(const formats::PlateSolution& plate);
 
-/// Names in a row for a message, the first dozen of a longer list.
+/// Joins names for a message, at most a dozen.
 [[nodiscard]] std::string listed(const std::vector<std::string>& names);
 
-/// The result of a joint, and which of its sheets a plate is.
+/// The result of a joint, and the sheet in it that is a given plate.
 struct JointSheet {
   formats::JointResult joint;
-  int at;                   ///< of joint.plates
-  Eigen::MatrixXd amounts;  ///< (n_cases, steps) of the plate's unit cases at every increment
+  int at;                        ///< index into joint.plates
+  Eigen::MatrixXd coefficients;  ///< (n_cases, steps) of the plate's unit cases at every increment
 };
 
-/// Reads a RESULT.h5, in which the plate is the sheet of that name or, without a name, the only one whose cases have
-/// the plate's names.
+/// Reads a RESULT.h5 and finds the plate in it: the sheet of that name or, without a name, the only one whose cases
+/// have the plate's names.
 /// @param file Name of the plate's file, for messages.
-/// Throws InputError if no sheet or increment fits or the sheet is of another PLATE.h5, FileError for a bad RESULT.h5.
+/// Throws InputError if no sheet fits, there is no increment or the sheet is of another PLATE.h5, FileError for a bad
+/// RESULT.h5.
 [[nodiscard]] JointSheet read_joint_sheet(const formats::PlateSolution& plate, const std::string& file,
                                           const std::string& result_file, const std::string& name);
 

@@ -16,8 +16,8 @@ constexpr const char* description =
     "     principal stresses in the plane. thickness belongs to cells; hole_* and the labels of the units are in\n"
     "     FieldData, text as the codes of its bytes. -->\n";
 
-/// An array of numbers; a vector of the plane gets its third component, which VTK wants.
-/// @param shape Attributes that say how many components and tuples there are.
+/// Adds an array of numbers; vectors in the plane get a third component of 0, as VTK requires.
+/// @param shape Attributes with the numbers of components and tuples.
 void add_array(std::string& text, const char* name, const std::string& shape, const Eigen::MatrixXd& values) {
   text += fmt::format("<DataArray type=\"Float64\" Name=\"{}\" {} format=\"ascii\">\n", name, shape);
   for (Index i = 0; i < values.cols(); ++i)
@@ -30,8 +30,8 @@ void add_points(std::string& text, const char* name, const Eigen::MatrixXd& valu
   add_array(text, name, fmt::format("NumberOfComponents=\"{}\"", values.rows() == 2 ? 3 : 1), values);
 }
 
-/// Strings are the codes of their bytes, each string ended by 0: no character can break the XML, and meshio, which
-/// knows no arrays of strings, reads them too.
+/// Adds strings as the codes of their bytes, each string ended by 0. So no character can break the XML, and meshio,
+/// which does not support arrays of strings, reads them too.
 void add_strings(std::string& text, const char* name, const std::vector<std::string>& values) {
   std::string bytes;
   for (const auto& value : values) bytes += value + '\0';

@@ -17,41 +17,41 @@ namespace {
 using formats::PlateCases;
 using formats::PlateSolution;
 
-/// Far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any modelling error.
-constexpr double worst_allowed = 1e-7;
-/// Share of what springs alone would give that an error is compared with at least, so that rounding passes.
-constexpr double least = 1e-5;
+/// Upper bound of all errors: far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any
+/// modelling error.
+constexpr double max_error = 1e-7;
+/// Lower bound of a reference value, relative to that of the springs alone, so that rounding passes the checks.
+constexpr double min_scale = 1e-5;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
-/// Stiffness that errors of S are compared with: the largest of S, or a share of the springs' where the plate offers
-/// next to none.
+/// Reference stiffness for errors of S: its largest entry, or a fraction of the springs' stiffness if S is nearly zero.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
-  return std::max(largest(S), least * largest(plate.held_stiffness));
+  return std::max(largest(S), min_scale * largest(plate.held_stiffness));
 }
 
-/// Integral over a rim that errors of the first `n_waves` rows of W by displacements are compared with: the largest, or
-/// a share of the rims' area where the plate follows its one disc.
+/// Reference value for errors of the first `n_waves` rows of W by displacements: the largest entry, or a fraction of
+/// the rims' area if the plate moves with its only disc.
 double scale_of_motion(const PlateSolution& plate, const PlateCases& level, Eigen::Index n_waves) {
   double area = 0;
   for (Eigen::Index i = 0; i < std::ssize(plate.waves) && plate.n_waves_before(i) < n_waves; ++i)
     area = std::max(area, plate.waves[i].area);
-  return std::max(largest(level.W.topLeftCorner(n_waves, level.S.rows())), least * area);
+  return std::max(largest(level.W.topLeftCorner(n_waves, level.S.rows())), min_scale * area);
 }
 
-/// What forces by unit friction cases and loaded waves are compared with.
+/// Reference value for forces in unit friction cases and loaded waves.
 double scale_of_loads(const PlateSolution& plate, const PlateCases& level) {
   return std::max(largest(level.R), scale_of_motion(plate, level, plate.n_loaded_waves()));
 }
 
-/// Forces that the probe's displacements need, by its own solution, against those by S.
+/// Error of the forces for the probe's displacements by S, compared with the probe's own solution.
 std::optional<double> energy(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   if (S.size() == 0) return std::nullopt;
   return ratio(largest(plate.probe.force - S * plate.probe.displacement), scale_of(plate, S));
 }
 
-/// Forces of waves, friction and tractions on externals and discs, and displacements of the rims, by the probe's
-/// solutions, against W, R and T.
+/// Errors of W, R and T: forces of waves, friction and tractions on externals and discs, and displacements of the rims,
+/// compared with the probe's solutions.
 std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& level) {
   const auto& probe = plate.probe;
   if (level.R.size() + level.T.size() + level.W.size() == 0) return std::nullopt;
@@ -77,17 +77,17 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
   return worst;
 }
 
-/// The smallest eigenvalue if it is too far below zero. A factor of S, raised by what is allowed, costs a tenth of the
-/// eigenvalues.
+/// The smallest eigenvalue if it is too far below zero. A Cholesky factorisation of the shifted S decides first, since
+/// it costs a tenth of the eigenvalues.
 std::optional<double> negative_eigenvalue(const Eigen::MatrixXd& S, double scale) {
   if (S.size() == 0) return std::nullopt;
-  const Eigen::MatrixXd raised = S + worst_allowed * scale * Eigen::MatrixXd::Identity(S.rows(), S.rows());
-  if (matrices::is_positive_definite(raised)) return std::nullopt;
+  const Eigen::MatrixXd shifted = S + max_error * scale * Eigen::MatrixXd::Identity(S.rows(), S.rows());
+  if (matrices::is_positive_definite(shifted)) return std::nullopt;
   return ratio(matrices::symmetric_eigenvalues(S)[0], scale);
 }
 
-/// The smallest eigenvalue, over the largest entry, of what is not positive: of -W, the energy of the loaded waves, or
-/// of A / K - C, the compliance of the springs less that of a sheet with them, in means over the rims.
+/// The smallest eigenvalue, relative to the largest entry, of -W (energy of the loaded waves) or of A / K - C
+/// (compliance of the springs less that of a sheet with them), in means over the rims, if it is negative.
 std::optional<double> negative_compliance(const PlateSolution& plate, const PlateCases& level) {
   const auto nc = level.S.rows(), k = plate.n_loaded_waves();
   if (k == 0) return std::nullopt;
@@ -111,7 +111,7 @@ std::optional<double> negative_compliance(const PlateSolution& plate, const Plat
   return negative_eigenvalue(rest, of_springs.maxCoeff());
 }
 
-/// Force left along one direction that nothing supports, over all unit cases and loads.
+/// Relative resultant along a direction without support, maximum over all unit cases.
 double residual_force(const PlateSolution& plate, const PlateCases& level, const FreeTranslation& free) {
   const auto& [S, R, T, C_t, W, N] = level;
   double worst = std::max(ratio(largest(S * free.motion), scale_of(plate, S)),
@@ -130,7 +130,8 @@ std::optional<double> equilibrium(const PlateSolution& plate, const formats::Pla
   return worst;
 }
 
-/// Integrals over the rims as the sheet moves along an axis with its discs: only those of open holes are not zero.
+/// Integrals over the rims for a translation of the sheet along an axis with its discs. Only those of open holes are
+/// not zero.
 Eigen::VectorXd waves_of_translation(const PlateSolution& plate, int axis) {
   Eigen::VectorXd waves = Eigen::VectorXd::Zero(plate.n_waves());
   Eigen::Index next = 0;
@@ -176,7 +177,7 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
 double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs().maxCoeff(); }
 
 Checks check(const PlateSolution& plate, const formats::PlateMatrices& a) {
-  const PlateCases& level = plate.cases.back();  // of the highest p
+  const PlateCases& level = plate.cases.back();  // highest p
   const double scale = scale_of(plate, level.S);
   return {energy(plate, level.S),
           reciprocity(plate, level),
@@ -191,13 +192,13 @@ void require_good(const Checks& checks, const std::string& file) {
     throw NumericalError(
         fmt::format("{}: {} is {:.1e} of the largest entry, allowed {:.0e}; the plate's stiffness is too "
                     "badly conditioned (check moduli, thicknesses and element shapes)",
-                    file, what, value, worst_allowed));
+                    file, what, value, max_error));
   };
   if (checks.negative_eigenvalue) fail("smallest eigenvalue of S", *checks.negative_eigenvalue);
   if (checks.negative_compliance) fail("smallest eigenvalue of C, Q or A/K - C", *checks.negative_compliance);
-  if (!(checks.energy.value_or(0) < worst_allowed)) fail("error of S", checks.energy.value_or(0));
-  if (!(checks.reciprocity.value_or(0) < worst_allowed)) fail("error of reciprocity", checks.reciprocity.value_or(0));
-  if (!(checks.equilibrium.value_or(0) < worst_allowed))
+  if (!(checks.energy.value_or(0) < max_error)) fail("error of S", checks.energy.value_or(0));
+  if (!(checks.reciprocity.value_or(0) < max_error)) fail("error of reciprocity", checks.reciprocity.value_or(0));
+  if (!(checks.equilibrium.value_or(0) < max_error))
     fail("error of global equilibrium", checks.equilibrium.value_or(0));
 }
 

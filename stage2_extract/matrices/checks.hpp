@@ -10,41 +10,41 @@
 
 namespace fastjoint::stage2 {
 
-/// Largest absolute entry, 0 of an empty matrix: what all checks are relative to.
+/// Largest absolute value of an entry, 0 for an empty matrix.
 [[nodiscard]] double largest(const Eigen::MatrixXd& A);
 
-/// A direction that no support fixes and that the disc of every hole can move along, and what acts along it in unit
-/// cases.
+/// A direction without support along which the disc of every hole can move, with the resultants of the unit cases along
+/// it.
 struct FreeTranslation {
   std::string along;            ///< "x" or "y"
-  Eigen::VectorXd motion;       ///< (nc) of externals and discs together
+  Eigen::VectorXd motion;       ///< (nc) unit translation of all externals and discs
   Eigen::RowVectorXd friction;  ///< (h) resultant of each friction case, length^2
   Eigen::RowVectorXd traction;  ///< (q) resultant of a unit total force on each traction boundary
-  Eigen::VectorXd waves;        ///< (w) integrals over rims without a disc, along which the sheet moves, length^2
+  Eigen::VectorXd waves;        ///< (w) integrals over rims of open holes for this translation of the sheet, length^2
 };
 
-/// @param a Names of the cases, and the resultants of friction and tractions along and across their directions.
+/// @param a Matrices with the names of the cases and the resultants of friction and tractions.
 [[nodiscard]] std::vector<FreeTranslation> free_translations(const formats::PlateSolution& plate,
                                                              const formats::PlateMatrices& a);
 
-/// Errors of identities that hold whatever the mesh, at the highest p; each relative to the largest entry of what it
-/// compares.
+/// Errors of identities that hold on any mesh, at the highest p, each relative to the largest entry of the compared
+/// matrix.
 struct Checks {
-  std::optional<double> energy;  ///< forces under a mixture of unit displacements, by S against by its own solution
-  std::optional<double> reciprocity;          ///< the same of pressures, friction and tractions, by B, C, R and T
-  std::optional<double> negative_eigenvalue;  ///< the smallest of S, if it is further below zero than allowed
-  std::optional<double> negative_compliance;  ///< the same of C
-  std::optional<double> equilibrium;  ///< force left when all discs and boundaries move together; none if supports hold
-  double rounding = 0;  ///< what rounding may change of S, as stage 1 has estimated it; it is part of the error of S
+  std::optional<double> energy;  ///< forces of the probe's displacements by S, compared with the probe's own solution
+  std::optional<double> reciprocity;          ///< the same for waves, friction and tractions by W, R and T
+  std::optional<double> negative_eigenvalue;  ///< smallest eigenvalue of S, if it is below the allowed negative value
+  std::optional<double> negative_compliance;  ///< the same for the compliances of loaded waves
+  std::optional<double> equilibrium;          ///< resultant along free translations; empty if supports prevent them
+  double rounding = 0;  ///< bound of the change of S by rounding, estimated by stage 1; part of the error of S
 };
 
-/// @param a As free_translations has it.
+/// @param a As in free_translations.
 [[nodiscard]] Checks check(const formats::PlateSolution& plate, const formats::PlateMatrices& a);
 
-/// Throws NumericalError with the name of the file and of the check that fails.
+/// Throws NumericalError with the name of the file and of the failed check.
 void require_good(const Checks& checks, const std::string& file);
 
-/// One line each, for the summary.
+/// The checks as a line of the summary.
 [[nodiscard]] std::string report(const Checks& checks);
 
 }  // namespace fastjoint::stage2

@@ -10,7 +10,7 @@
 namespace fastjoint::stage2 {
 namespace {
 
-/// Names, places, areas and what the plate is there.
+/// Sets names, centres and areas of the holes, and thickness and moduli of the plate there.
 void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
   const Eigen::Index r = plate.hole_rim.size();
   a.rim_hole = plate.hole_id;
@@ -36,7 +36,7 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
   }
 }
 
-/// Sets the places of the sections and their areas, net of what the hole takes.
+/// Sets hole, side, gross and net area of the sections.
 void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
   const Eigen::Index s = plate.sections.size();
   a.gross_area = Eigen::VectorXd::Zero(s);
@@ -52,7 +52,7 @@ void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& e
   }
 }
 
-/// Estimated relative error of S and C_t at each of some degrees of the plate, infinite at its lowest.
+/// Estimated relative error of S and C_t at some degrees of the plate; infinite at its lowest.
 Eigen::VectorXd stiffness_errors(const formats::PlateSolution& plate, const Eigen::VectorXi& degrees) {
   Eigen::VectorXd errors(degrees.size());
   matrices::CondensedLevels levels;
@@ -83,9 +83,9 @@ formats::PlateStresses describe_holes(const formats::PlateSolution& plate, bool 
   describe_rims(plate, edges, a);
   if (!with_stresses) return a;
   describe_sections(plate, edges, a);
-  const Eigen::Index k = plate.n_loaded_waves(), np = plate.p.size();
-  a.p = plate.p.tail(std::min(np, formats::n_stress_degrees));
-  for (Eigen::Index i = np - a.p.size(); i < np; ++i) {
+  const Eigen::Index k = plate.n_loaded_waves(), n_p = plate.p.size();
+  a.p = plate.p.tail(std::min(n_p, formats::n_stress_degrees));
+  for (Eigen::Index i = n_p - a.p.size(); i < n_p; ++i) {
     a.other_waves.emplace_back(plate.cases[i].W.bottomRows(plate.n_waves() - k));
     a.section_force.emplace_back(plate.cases[i].N);
   }

@@ -11,8 +11,8 @@ namespace fastjoint::stage2 {
 /// Unit vector of a bearing side, "+x", "-x", "+y" or "-y".
 [[nodiscard]] Eigen::Vector2d bearing_direction(const std::string& side);
 
-/// The holes of the plate and what is known of the sheet there; with stresses also its sections, and the waves and
-/// section forces in every unit case at the highest degrees, as stage 1 has solved them.
+/// Describes the holes of the plate and the sheet there; with stresses also the sections, and the waves and section
+/// forces in every unit case at the highest degrees, as solved by stage 1.
 [[nodiscard]] formats::PlateStresses describe_holes(const formats::PlateSolution& plate, bool with_stresses);
 
 }  // namespace fastjoint::stage2

@@ -151,7 +151,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
 
 RimStresses RimStress::operator()(const stage2::Fields& fields) const {
   const auto k = fields.states.size(), n = modulus_.size();
-  const Eigen::MatrixXd amounts = fields.amounts(loading_, Eigen::all), known = amounts.transpose() * tractions_;
+  const Eigen::MatrixXd amounts = fields.coefficients(loading_, Eigen::all), known = amounts.transpose() * tractions_;
   RimStresses sigma{known.leftCols(n), Eigen::MatrixXd::Zero(k, n), known.rightCols(n)};
   std::vector<Eigen::MatrixXd> values;
   for (const auto& side : sides_) {

@@ -32,7 +32,7 @@ formats::PlateSolution sheet() {
 }
 
 VectorXd amounts(const formats::PlateSolution& plate, const std::string& spec) {
-  return stage2::field_state(plate, "plate.h5", {spec}).amounts;
+  return stage2::field_state(plate, "plate.h5", {spec}).coefficients;
 }
 VectorXd vector(std::initializer_list<double> values) {
   return Eigen::Map<const VectorXd>(values.begin(), values.size());
@@ -54,7 +54,7 @@ TEST(CaseSum, ALoadInAHoleIsOfTheSideThatItsSignTells) {
   EXPECT_EQ(amounts(plate, "traction:half=3,traction:T=-2").tail(3), vector({0, -2, 3}));
   EXPECT_THAT(
       [&] { return amounts(plate, "traction:half=-3"); },
-      ThrowsMessage<InputError>(HasSubstr("-3 is not allowed as the amount of traction:half: the model has no")));
+      ThrowsMessage<InputError>(HasSubstr("-3 is not allowed as the coefficient of traction:half: the model has no")));
   EXPECT_THAT([&] { return amounts(plate, "traction:T=1,traction:T=-1"); },
               ThrowsMessage<InputError>(HasSubstr("traction:T stands twice")));
   EXPECT_THAT([&] { return amounts(plate, "nonsense"); },
@@ -77,7 +77,7 @@ TEST(CaseSum, WhatIsRefused) {
     EXPECT_THAT([&] { return amounts(sheet(), spec); }, ThrowsMessage<InputError>(message)) << spec;
   };
   refused("external:Q", HasSubstr("--field: 'external:Q' is not a case of the plate; allowed: a RESULT.h5, or a sum "
-                                  "CASE=AMOUNT,... of the cases external:P, disc:1:x, disc:0,0:x, friction:1:+x, "
+                                  "CASE=COEFFICIENT,... of the cases external:P, disc:1:x, disc:0,0:x, friction:1:+x, "
                                   "friction:0,0:+x, traction:T"));
   refused("nonsense", HasSubstr("'nonsense' is not a case of the plate nor a file"));
   refused("", HasSubstr("'' is not a case"));
@@ -85,7 +85,7 @@ TEST(CaseSum, WhatIsRefused) {
   refused("external:P;disc:1:x", HasSubstr("'external:P;disc:1:x' is not a case"));
   refused("external:P=1,disc:1:y", HasSubstr("'disc:1:y' is not a case"));
   for (const std::string amount : {"", "x", "1x", "inf", "nan", "1e999"})
-    refused("external:P=" + amount, HasSubstr("'" + amount + "' is not allowed as the amount of external:P"));
+    refused("external:P=" + amount, HasSubstr("'" + amount + "' is not allowed as the coefficient of external:P"));
   refused("external:P,disc:1:x,external:P=2", HasSubstr("external:P stands twice"));
 }
 
@@ -154,19 +154,19 @@ class StateOfAJoint : public testing::Test {
 
 TEST_F(StateOfAJoint, OfTheOnlySheetThatFits) {
   const auto last = state({joint({"up", "third"})});
-  EXPECT_LT((last.amounts - 2 * vector({21.1, 23, 23.1, 24, 24.1, 25.1})).norm(), 1e-12);
+  EXPECT_LT((last.coefficients - 2 * vector({21.1, 23, 23.1, 24, 24.1, 25.1})).norm(), 1e-12);
   EXPECT_EQ(last.p, 3);
   EXPECT_EQ(last.joint_plate, "up");
   EXPECT_EQ(last.increment, 2);
   EXPECT_EQ(last.words, "lap, increment 2 of 2, load factor 1");
   const auto first = state({joint({"up", "third"}), "", 1});
-  EXPECT_EQ(2 * first.amounts, last.amounts);
+  EXPECT_EQ(2 * first.coefficients, last.coefficients);
   EXPECT_EQ(first.words, "lap, increment 1 of 2, load factor 0.5");
 }
 
 TEST_F(StateOfAJoint, OfTheSheetThatIsNamed) {
   const auto file = joint({"up", "down", "third"});
-  EXPECT_DOUBLE_EQ(state({file, "down"}).amounts[0], 2 * 41.1);
+  EXPECT_DOUBLE_EQ(state({file, "down"}).coefficients[0], 2 * 41.1);
   refused({file}, HasSubstr("joint.h5: 2 sheets could be that of plate.h5; tell which by --plate: up, down"));
   refused({file, "left"}, AllOf(HasSubstr("--plate: 'left' is not a sheet of"), HasSubstr("allowed: up, down, third")));
   refused({file, "third"},
