@@ -31,7 +31,8 @@ const program::Command command = {
       "the same of the estimated relative error of hoop stresses around holes, 1e-6 to 1; also chooses how many waves "
       "around the holes the elements carry"},
      {"--threads", "N",
-      "threads that work on unlike elements, then on different degrees, at the same time, 1 to 256; default: 1"}}};
+      "threads for different classes of elements, then for different degrees, at the same time, 1 to 256; default: "
+      "1"}}};
 
 /// The worst of several warnings of one kind, and their number.
 struct WorstOfKind {

@@ -26,19 +26,20 @@ void describe(const formats::PlateSolution& plate, const std::string& generator,
       Eigen::VectorXd::Zero(a.n_friction_cases());
   for (Eigen::Index j = 0; j < a.n_friction_cases(); ++j) {
     const auto& rim = plate.hole_rim[index_of(plate.hole_id, a.friction_hole[j])];
-    const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.friction_bearing[j]));
+    const rim::SignedAxis side = rim::signed_axis_named(a.friction_bearing[j]);
+    const auto bearing = rim::bearing(plate.mesh, edges, rim, rim::unit_vector(side));
     a.friction_unit_force[j] = bearing.unit_force;
-    a.friction_resultant[j] = a.friction_bearing[j][0] == '+' ? bearing.resultant : -bearing.resultant;
+    a.friction_resultant[j] = side.sign * bearing.resultant;
     a.friction_resultant_across[j] = bearing.resultant_across;
   }
   a.traction_resultant_across = a.traction_unit_force = Eigen::VectorXd::Zero(a.n_tractions());
   for (Eigen::Index j = 0; j < a.n_tractions(); ++j) {
     if (plate.traction_hole[j].empty()) continue;  // uniform on an edge
     const auto& rim = plate.hole_rim[index_of(plate.hole_id, plate.traction_hole[j])];
-    const auto bearing = rim::bearing(plate.mesh, edges, rim, bearing_direction(a.traction_bearing[j]));
+    const rim::SignedAxis side = rim::signed_axis_named(a.traction_bearing[j]);
+    const auto bearing = rim::bearing(plate.mesh, edges, rim, rim::unit_vector(side));
     a.traction_unit_force[j] = bearing.unit_force;
-    const double across = bearing.force_across / bearing.unit_force;
-    a.traction_resultant_across[j] = a.traction_bearing[j][0] == '+' ? across : -across;  // per force along + axis
+    a.traction_resultant_across[j] = side.sign * bearing.force_across / bearing.unit_force;  // per force along + axis
   }
 }
 
@@ -101,7 +102,7 @@ Extraction extract(formats::PlateSolution plate, const std::string& generator, b
   result.errors = matrices::relative_errors(levels, plate.p, plate.held_stiffness, fastest);
   result.checks = check(plate, a);
   for (const auto& free : free_translations(plate, a)) {
-    a.unsupported.push_back(free.along);
+    a.unsupported.push_back(rim::name_of(free.axis));
     for (auto& level : plate.cases) balance(free, level);
   }
   store(plate.cases, a);

@@ -25,7 +25,7 @@ const program::Command command = {
     "superconvergent, for every degree, with error estimates. With --field: one stress field, for ParaView.",
     "PLATE.h5",
     "MATRICES.h5",
-    {{"--loads-only", "", "leave out what stresses at holes and forces over sections follow from"},
+    {{"--loads-only", "", "leave out the data for stresses at holes and forces over sections"},
      {"--field", "SPEC",
       "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, or a sum of cases with coefficients, "
       "external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},

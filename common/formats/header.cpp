@@ -114,7 +114,7 @@ void wave_datasets(File& file, Waves& a, const Units& units) {
          h5::not_negative);
   file("wave/compliance", Column{a, &WaveRim::compliance}, {std::ssize(a), 3, 3}, unit(units, 2, -1),
        "strain (x, y, engineering xy) of the sheet at the rim per stress (x, y, xy); 0 where no closed form holds");
-  if (File::reads && a.empty()) return;  // files from elsewhere have none
+  if (File::reads && a.empty()) return;  // files from other sources may have none
   std::vector<int> owner;
   std::vector<rim::AngleRange> arcs;
   if constexpr (!File::reads)

@@ -18,7 +18,7 @@ using enum Dimension;
 constexpr auto quantities = std::to_array<RimQuantity>({
     {"bearing_load", &V::bearing_load, force, "bearing force of the fastener on the plate along x"},
     {"bearing_load_y", &V::bearing_load_y, force, "bearing force of the fastener on the plate along y"},
-    {"bearing_stress", &V::bearing_stress, stress, "amount of the bearing force over the projected area d t"},
+    {"bearing_stress", &V::bearing_stress, stress, "magnitude of the bearing force over the projected area d t"},
     {"bypass_load", &V::bypass_load, force, "force along x that passes the fastener by, tension positive", true},
     {"bypass_error", &V::bypass_error, force, "estimated error of the bypass load", true, true},
     {"peak_hoop", &V::peak_hoop, stress, "largest hoop stress at the rim"},
@@ -34,7 +34,7 @@ template <class File, class Rims>
 void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index steps, const Units& units) {
   file(group + "hole", a.hole, {any}, "1", "holes, open ones included");
   const Eigen::Index r = a.hole.size();
-  file(group + "sections", a.sections, {r}, "1", "number of sections across x beside each hole");
+  file(group + "sections", a.sections, {r}, "1", "number of sections across x next to each hole");
   for (const auto& each : quantities) {
     const auto row = [&](auto& holes) { return Column{holes, each.value}; };
     file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
@@ -85,16 +85,17 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
     n_w += a.contact[i].pressures.size();
   }
   file(group + "wave/amount", a.amounts, {steps, k}, unit(units, -2, 1),
-       "amount of each of these waves, pressures then shears, rim after rim; of pressures what contact adds to that of "
-       "springs all around");
+       "amplitude of each of these waves, pressures then shears, rim after rim; for pressures the difference from "
+       "linear springs all around");
   file(group + "contact/w", a.w, {steps, n_w}, length,
-       "mean over the rim of the disc's normal displacement against the sheet times each distribution of pressure, rim "
+       "mean over the rim of the disc's normal displacement relative to the sheet times each distribution of pressure, "
+       "rim "
        "after rim");
   file(group + "contact/gap", a.contacts.gap, {g}, length, "radial gap of each rim, negative for interference");
   file(group + "contact/no_load_peak", a.contacts.no_load_peak, {g}, unit(units, -2, 1),
        "largest pressure on the rim at no load", h5::or_else(0));
   file(group + "contact/no_load_least", a.contacts.no_load_least, {g}, unit(units, -2, 1),
-       "least pressure on the rim at no load", h5::or_else(0));
+       "smallest pressure on the rim at no load", h5::or_else(0));
   file(group + "contact/full_until", a.contacts.full_until, {g}, "1",
        "load factor at which a rim with interference first loses full contact", h5::not_negative.or_else(h5::infinite));
   file(group + "contact/touching", a.contacts.touching, {steps, g}, "deg", "angle over which disc and rim touch");
@@ -103,9 +104,9 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "contact/peak_pressure", a.contacts.peak_pressure, {steps, g}, unit(units, -2, 1),
        "largest pressure on the rim");
   file(group + "contact/peak_angle", a.contacts.peak_angle, {steps, g}, "deg",
-       "place of this pressure, or of the least gap");
+       "place of this pressure, or of the smallest gap");
   file(group + "contact/least_gap", a.contacts.least_gap, {steps, g}, length,
-       "least gap between disc and rim, 0 where they touch");
+       "smallest gap between disc and rim, 0 where they touch");
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   const Eigen::Index h = a.friction_hole.size();
   file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
@@ -173,14 +174,14 @@ void datasets(File& file, Result& a) {
   const std::string length = unit(units, 1, 0), force = unit(units, 0, 1);
   file.attribute("complete", a.complete);
   file.attribute("p", a.p);
-  file("load_factor", a.load_factor, {any}, "1", "share of the loads that acts at this increment");
+  file("load_factor", a.load_factor, {any}, "1", "fraction of the loads at this increment");
   const Eigen::Index steps = a.load_factor.size();
   file("converged", a.converged, {steps}, "1", "1 where the increment converged");
   file("iterations", a.iterations, {steps}, "1", "iterations of the nonlinear solver, failed tries included");
   file("residual", a.residual, {steps}, "1",
        "largest residual, relative to the largest force that rigid fasteners carry");
   file("event", a.event, {steps}, "1",
-       "fasteners that close, open, slip or yield exactly at this load factor, and what rims of contact do by then");
+       "fasteners that close, open, slip or yield at exactly this load factor, and events of rims in contact up to it");
   file("fastener/id", a.fastener_id, {any}, "1", "fastener of each shear plane, in the order of the input");
   const Eigen::Index n = a.fastener_id.size();
   file("fastener/first", a.first_hole, {n}, "1", "plate:hole on its first side");
@@ -201,7 +202,7 @@ void datasets(File& file, Result& a) {
   file("stiffness/tangent", a.load_stiffness, {steps, std::ssize(a.load_external)}, unit(units, -1, 1),
        "rise of force over that of displacement at each, as all loads grow together", h5::infinite_too.or_else(0));
   file("plate/name", Column{a.plates, &PlateHistory::name}, {any}, "1",
-       "plates of the joint; group plates/<name> holds what each did");
+       "plates of the joint; group plates/<name> has the results of each");
   const Eigen::Index plates = a.plates.size();
   file("plate/matrices_digest", Column{a.plates, &PlateHistory::matrices_digest}, {plates}, "1",
        "digest of the MATRICES.h5 of each plate, empty if it has none", h5::or_else(""));

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <span>
 
@@ -64,8 +65,8 @@ void check_unknowns(const std::string& file, const PlateSolution& a) {
 
 /// Returns the directions of the discs of each hole. Rejects discs that are not in the order of the holes, then of the
 /// points.
-std::vector<std::span<const std::string>> check_discs(const std::string& file, const PlateSolution& a) {
-  std::vector<std::span<const std::string>> of_hole;
+std::vector<std::vector<rim::Axis>> check_discs(const std::string& file, const PlateSolution& a) {
+  std::vector<std::vector<rim::Axis>> of_hole;
   int end = 0;
   for (const auto& id : a.hole_id) {
     const int first = end;
@@ -75,11 +76,11 @@ std::vector<std::span<const std::string>> check_discs(const std::string& file, c
           fmt::format("{}:disc/hole: does not have the discs of hole \"{}\" one after the other, in the order "
                       "of the holes",
                       file, id));
-    of_hole.push_back(std::span(a.disc_direction).subspan(first, end - first));
-    const std::set<std::string> directions(of_hole.back().begin(), of_hole.back().end());
-    if (std::ssize(directions) != end - first)
-      fail(file, "disc/direction", fmt::format("hole \"{}\" has {}", id, fmt::join(of_hole.back(), ", ")),
+    const auto names = std::span(a.disc_direction).subspan(first, end - first);
+    if (std::ssize(std::set<std::string>(names.begin(), names.end())) != end - first)
+      fail(file, "disc/direction", fmt::format("hole \"{}\" has {}", id, fmt::join(names, ", ")),
            "each direction once");
+    std::ranges::transform(names, std::back_inserter(of_hole.emplace_back()), rim::axis_named);
   }
   const int first = end;
   for (int point = 0; point < count_of(a.points); ++point)
@@ -94,7 +95,7 @@ std::vector<std::span<const std::string>> check_discs(const std::string& file, c
 
 /// Rejects rims in contact and friction cases that differ from those of the holes or are in another order.
 void check_cases(const std::string& file, const PlateSolution& a,
-                 const std::vector<std::span<const std::string>>& directions) {
+                 const std::vector<std::vector<rim::Axis>>& directions) {
   std::vector<std::string> cases, expected;
   const auto place = [&](const auto& rim) { return index_of(a.hole_id, rim.hole); };
   const auto check_order = [&](const char* dataset, const auto& rims) {

@@ -36,7 +36,7 @@ void name_datasets(File& file, Matrices& a) {
   h5::Allowed axis = h5::one_of({"x", "y"});
   axis.word = "";
   file("unsupported", a.unsupported, {any}, "1",
-       "directions along which no support holds the plate: the forces on it are in balance there", axis);
+       "directions along which no support fixes the plate: the forces on it are in balance there", axis);
   file("traction/hole", a.traction_hole, {a.n_tractions()}, "1",
        "open hole that each traction presses on, empty for an edge", or_else(""));
   contact_datasets(file, a.contact, a.header.units);
@@ -73,14 +73,14 @@ void matrix_datasets(File& file, Matrices& a) {
   file("S_ee_error", a.S_ee_error, {e, e}, stiffness, "estimated absolute error of S_ee at the highest p", error);
   file("S_ed_error", a.S_ed_error, {e, m}, stiffness, "estimated absolute error of S_ed at the highest p", error);
   file("S_dd_error", a.S_dd_error, {m, m}, stiffness, "estimated absolute error of S_dd at the highest p", error);
-  file("R_ef", a.R_ef, {n_p, e, h}, area, "force that holds external i per unit friction case j");
-  file("R_df", a.R_df, {n_p, m, h}, area, "force that holds disc i per unit friction case j");
-  file("T_d", a.T_d, {n_p, m, q}, "1", "force that holds disc i per unit total force on traction boundary j");
-  file("T_e", a.T_e, {n_p, e, q}, "1", "force that holds external i per unit total force on traction boundary j");
+  file("R_ef", a.R_ef, {n_p, e, h}, area, "reaction force on external i per unit friction case j");
+  file("R_df", a.R_df, {n_p, m, h}, area, "reaction force on disc i per unit friction case j");
+  file("T_d", a.T_d, {n_p, m, q}, "1", "reaction force on disc i per unit total force on traction boundary j");
+  file("T_e", a.T_e, {n_p, e, q}, "1", "reaction force on external i per unit total force on traction boundary j");
   file("C_t", a.C_t, {n_p, q, q}, unit(units, 1, -1),
-       "mean displacement of traction boundary i per unit total force on j, all else held");
+       "mean displacement of traction boundary i per unit total force on j, with all controlled displacements fixed");
   file("W", a.W, {n_p, a.n_loaded_waves(), a.n_cases()}, per_case,
-       "integral over the rim of the disc's displacement against the sheet times the distribution of each wave of "
+       "integral over the rim of the disc's displacement relative to the sheet times the distribution of each wave of "
        "contact, normal for pressures and tangential for shears, in each unit case");
 }
 
@@ -101,7 +101,7 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index
   const Eigen::Index n_cases = l > 0 ? all_cases : 0;
   file("rim/W", a.other_waves, {l, l > 0 ? n_waves : 0, n_cases}, per_case,
        "the same as W, of the waves of other holes");
-  file("section/hole", a.section_hole, {any}, "1", "hole that each section lies beside", or_else(""));
+  file("section/hole", a.section_hole, {any}, "1", "hole that each section is next to", or_else(""));
   const Eigen::Index s = a.section_hole.size();
   file("section/side", a.section_side, {s}, "1", "side of the hole that each section lies on", h5::one_of(side_names));
   file("section/gross_area", a.gross_area, {s}, area, "area of each section");

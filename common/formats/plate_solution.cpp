@@ -102,7 +102,7 @@ void geometry_datasets(File& file, Solution& a) {
   mesh_datasets(file, a.mesh, std::ssize(a.elasticity), length);
   hole_datasets(file, a, length);
   file("section/hole", Column{a.sections, &rim::Section::hole}, {any}, "1",
-       "index in hole/id of the hole that each section lies beside", h5::index_into(std::ssize(a.hole_id)));
+       "index in hole/id of the hole that each section is next to", h5::index_into(std::ssize(a.hole_id)));
   file("section/side", Column{a.sections, &rim::Section::side}, {std::ssize(a.sections)}, "1",
        "side of the hole that each section lies on", h5::one_of(side_names));
   side_dataset(file, "section/sides", a.sections, &rim::Section::sides, a.mesh.n_elements(),
@@ -111,7 +111,7 @@ void geometry_datasets(File& file, Solution& a) {
 
 template <class File, class Solution>
 void name_datasets(File& file, Solution& a) {
-  file("supported", a.supported, {any}, "1", "directions in which a support holds the plate");
+  file("supported", a.supported, {any}, "1", "directions in which a support fixes the plate");
   file("p", a.p, {h5::some}, "1", "polynomial degrees", degrees(pfem::highest_p));
   file("ndof", a.ndof, {a.p.size()}, "1", "free plate unknowns at each degree of p",
        {.text = "numbers that do not fall", .low = 0, .step = 0});
@@ -132,11 +132,11 @@ void name_datasets(File& file, Solution& a) {
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
-  file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1",
-       "vertex of the mesh that each spring of a point holds", h5::index_into(a.mesh.n_nodes()));
+  file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1", "vertex of the mesh of each point spring",
+       h5::index_into(a.mesh.n_nodes()));
   const Index n_points = a.points.size();
   file("point/disc", Column{a.points, &PointSpring::disc}, {n_points}, "1",
-       "index in disc/hole of the disc that it holds it to, along the disc's direction",
+       "index in disc/hole of the disc that the spring connects it to, along the disc's direction",
        h5::index_into(std::ssize(a.disc_hole)));
   file("point/stiffness", Column{a.points, &PointSpring::stiffness}, {n_points}, unit(a.header.units, -1, 1),
        "stiffness of each of these springs");
@@ -179,7 +179,8 @@ void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Ind
   file(group + "C_t", a.C_t, {q, q}, unit(units, 1, -1),
        "mean displacement of each traction boundary by a unit force of each");
   file(group + "W", a.W, {w, n_cases}, per_case,
-       "integral over the rim of the disc's displacement against the sheet times the distribution of each wave, normal "
+       "integral over the rim of the disc's displacement relative to the sheet times the distribution of each wave, "
+       "normal "
        "for pressures and tangential for shears, in each unit case");
   file(group + "N", a.N, {s, n_cases}, per_case, "normal force over each section in each unit case, tension positive");
 }
@@ -199,20 +200,21 @@ void datasets(File& file, Solution& a) {
        "what u_x and u_y of each function are: >= 0 plate unknown, -1 zero, -2 - i displacement i",
        h5::integers(-1 - nc, n - 1));
   file("held_stiffness", a.held_stiffness, {nc}, stiffness,
-       "stiffness of each external, then disc, with all of the plate held");
+       "stiffness of each external, then disc, with all plate unknowns fixed");
   sparse_datasets(file, "T_f", a.T_f, n, q, "1", "load on plate unknowns by a unit force of each traction");
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (int i = 0; i < count_of(a.cases); ++i)
     case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, h, q, a.n_cases(), a.has_stresses(i) ? w : k,
                   a.has_stresses(i) ? std::ssize(a.sections) : 0, units);
   file("probe/displacement", a.probe.displacement, {nc}, length,
-       "amounts of externals, then discs, in a state that is solved on its own to check S and T");
-  file("probe/wave", a.probe.wave, {k}, stress, "amounts of loaded waves in another, to check W");
-  file("probe/friction", a.probe.friction, {h}, stress, "amounts of friction cases in the same, to check R");
+       "displacements of externals, then discs, in a state that is solved separately to check S and T");
+  file("probe/wave", a.probe.wave, {k}, stress, "amplitudes of loaded waves in a second state, to check W");
+  file("probe/friction", a.probe.friction, {h}, stress, "amplitudes of friction cases in the second state, to check R");
   file("probe/force", a.probe.force, {nc}, force, "force on externals, then discs, in the first");
   file("probe/friction_force", a.probe.friction_force, {nc}, force, "force on externals, then discs, in the second");
   file("probe/moment", a.probe.moment, {w}, unit(units, 3, 0),
-       "integral over the rim of the disc's displacement against the sheet times the distribution of each wave, in the "
+       "integral over the rim of the disc's displacement relative to the sheet times the distribution of each wave, in "
+       "the "
        "first");
   file("probe/friction_moment", a.probe.friction_moment, {w}, unit(units, 3, 0), "the same in the second");
   file("probe/traction_work", a.probe.traction_work, {q}, length, "work of each unit traction in the first");

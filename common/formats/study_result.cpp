@@ -25,9 +25,9 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   file(group + "sensitivity", a.sensitivity, {n, v}, "1",
        "change with each variable in the middle, in the units of both; infinite if not known");
   file(group + "rank_correlation", a.correlation, {n, v}, "1", "Spearman's rank correlation with each variable");
-  file(group + "governs", a.governs, {n}, "1", "share of the solved samples in which it is the largest");
+  file(group + "governs", a.governs, {n}, "1", "fraction of the solved samples in which it is the largest");
   file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none");
-  file(group + "exceeds", a.exceeds, {n}, "1", "share of the solved samples above the limit");
+  file(group + "exceeds", a.exceeds, {n}, "1", "fraction of the solved samples above the limit");
   file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");
   file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval");
 }

@@ -50,7 +50,7 @@ class Reader {
   void operator()(const std::string& name, T&& value, const Shape& expected, const std::string& unit,
                   const std::string& /*meaning*/, const Allowed& allowed = {}) const {
     using Scalar = EntryOf<T>;
-    if constexpr (RowMajor<std::remove_cvref_t<T>> || Stack<std::remove_cvref_t<T>>) {  // no copy of what may be large
+    if constexpr (RowMajor<std::remove_cvref_t<T>> || Stack<std::remove_cvref_t<T>>) {  // avoids a copy of large data
       get<Scalar>(name, expected, unit, allowed, [&](const Shape& shape) {
         resize(value, shape);
         return spans<Scalar>(value);

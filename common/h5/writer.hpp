@@ -38,7 +38,7 @@ class Writer {
                   const std::string& meaning, const Allowed& /*of a reader*/ = {}) {
     using Scalar = EntryOf<T>;
     if (!shape.empty() && shape[0] < 0) shape[0] = first_extent(value);
-    if constexpr (RowMajor<T> || Stack<T>) {  // no copy of what may be large
+    if constexpr (RowMajor<T> || Stack<T>) {  // avoids a copy of large data
       put(name, shape, spans<const Scalar>(value), unit, meaning);
     } else {
       std::vector<Scalar> entries;

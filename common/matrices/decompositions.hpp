@@ -7,7 +7,7 @@
 #include <vector>
 
 /// Decompositions of dense matrices by LAPACK, which, unlike Eigen's, take no time to compile.
-/// Values are NaN where LAPACK's iteration does not converge, as for a matrix that holds a NaN.
+/// Values are NaN where LAPACK's iteration does not converge, as for a matrix with a NaN.
 namespace fastjoint::matrices {
 
 /// True if Cholesky factorisation of a symmetric matrix, (n, n), finds only positive pivots. The lower triangle is

@@ -22,8 +22,9 @@ struct Unknowns {
   Eigen::Matrix2Xi dofs;    ///< (2, n_functions) class of u_x and u_y of each global function: free, fixed, controlled
   std::vector<int> n_free;  ///< (p + 1) free unknowns of degree <= k
   int n_externals = 0;
-  std::vector<std::string> disc_hole, disc_direction;  ///< (m)
-  std::vector<int> first_disc{};                       ///< (holes + 1) first disc of each hole; an open hole has none
+  std::vector<std::string> disc_hole;     ///< (m)
+  std::vector<rim::Axis> disc_direction;  ///< (m)
+  std::vector<int> first_disc{};          ///< (holes + 1) first disc of each hole; an open hole has none
   // Columns of the border after the controlled displacements: loaded waves, friction cases, other waves.
   int n_loaded = 0, n_friction = 0, n_other = 0;
   std::vector<int> first_wave{}, first_friction{};  ///< (holes) first column of each hole's waves and friction cases

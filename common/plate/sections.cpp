@@ -44,11 +44,12 @@ PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mes
   PlateFactor::Functions forces;
   for (const auto& section : sections) {
     forces.emplace_back();
+    const int axis = rim::coordinate(rim::signed_axis_named(section.side).axis);
     for (const auto& side : section.sides) {
       const auto& sides = both[edges.of_element(side.local_edge, side.element)];
       for (const auto& one : sides) {
-        const Eigen::VectorXd force = side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one,
-                                                 section.side[1] == 'x' ? 0 : 1);
+        const Eigen::VectorXd force =
+            side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one, axis);
         forces.back().push_back(PlateStates::condense(factor, one.element, force / count_of(sides)));
       }
     }

@@ -215,10 +215,10 @@ Eigen::MatrixXd Harmonics::shear_products(std::span<const SignedRange> pieces) c
   return integrals(*this, true, pieces);
 }
 
-std::vector<std::string> friction_cases(std::span<const std::string> directions) {
+std::vector<std::string> friction_cases(std::span<const Axis> directions) {
   std::vector<std::string> names;
-  for (const auto& direction : directions)
-    for (const char* sign : {"+", "-"}) names.push_back(sign + direction);
+  for (const Axis axis : directions)
+    for (const int sign : {1, -1}) names.push_back(name_of(SignedAxis{axis, sign}));
   return names;
 }
 

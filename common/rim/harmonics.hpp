@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/rim/angles.hpp"
+#include "common/rim/axis.hpp"
 
 namespace fastjoint::rim {
 
@@ -72,6 +73,6 @@ struct Waves {
 };
 
 /// Names of the friction cases of a hole whose springs also carry tension: + and - of each direction of its discs.
-[[nodiscard]] std::vector<std::string> friction_cases(std::span<const std::string> directions);
+[[nodiscard]] std::vector<std::string> friction_cases(std::span<const Axis> directions);
 
 }  // namespace fastjoint::rim

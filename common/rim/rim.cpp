@@ -2,7 +2,6 @@
 #include "common/rim/rim.hpp"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "common/pfem/shape_functions.hpp"
@@ -93,13 +92,8 @@ pfem::SideRule rim_rule(const pfem::Mesh& mesh, const pfem::Edges& edges, const 
   return pfem::side_rule(mesh, edges, side, p, breaks);
 }
 
-Eigen::Vector2d axis(const std::string& direction) {
-  assert(direction == "x" || direction == "y");
-  return direction == "x" ? Eigen::Vector2d::UnitX() : Eigen::Vector2d::UnitY();
-}
-
-bool is_along(double angle, const std::string& direction) {
-  return std::abs(direction == "x" ? std::sin(angle) : std::cos(angle)) < same_angle;
+bool is_along(double angle, Axis axis) {
+  return std::abs(axis == Axis::x ? std::sin(angle) : std::cos(angle)) < same_angle;
 }
 
 CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/pfem/mesh.hpp"
+#include "common/rim/axis.hpp"
 #include "common/rim/harmonics.hpp"
 
 namespace fastjoint::rim {
@@ -75,10 +76,8 @@ struct Section {
   std::vector<pfem::Side> sides;  ///< sides of the elements on the hole's side of the cut
 };
 
-/// Unit vector along "x" or "y".
-[[nodiscard]] Eigen::Vector2d axis(const std::string& direction);
-/// True if the line at an angle, radians counter-clockwise from x, is along "x" or "y".
-[[nodiscard]] bool is_along(double angle, const std::string& direction);
+/// True if the line at an angle, radians counter-clockwise from x, is along the axis.
+[[nodiscard]] bool is_along(double angle, Axis axis);
 
 /// Cosine distribution on the half of a rim that bears along the unit vector d (docs/theory.md, section 4.2).
 struct CosineBearing {

@@ -155,14 +155,14 @@ pfem::Side find_boundary_side(const PlateScene& scene, const PlateMesh& plate, c
 /// The line on which a section must lie: coordinate `axis` constant, on the side `sign` of the hole.
 struct Cut {
   const Hole& hole;
-  char direction;
+  const std::string& direction;
   int axis;
   double sign;
 };
 
 Cut cut_of(const PlateScene& scene, const MeshSection& section) {
-  const char direction = section.side[1];
-  return {scene.holes[section.hole], direction, direction == 'x' ? 0 : 1, section.side[0] == '+' ? 1.0 : -1.0};
+  const auto [axis, sign] = section.side;
+  return {scene.holes[section.hole], rim::name_of(axis), rim::coordinate(axis), static_cast<double>(sign)};
 }
 
 /// Checks that an edge of a section is straight, on the line of the section and beyond the rim, since a section force
@@ -198,7 +198,7 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
   const auto distance = [&](const pfem::Side& side) {
     return cut.sign * plate.mesh.nodes(cut.axis, plate.mesh.quads.col(side.element)).mean();
   };
-  rim::Section found{section.hole, section.side, {}};
+  rim::Section found{section.hole, rim::name_of(section.side), {}};
   for (int i = 0; i < count_of(section.edges); ++i) {
     const std::string place = fmt::format("{}/edges/{}", pointer, i);
     const auto sides = find_sides(scene, plate, place, section.edges[i]);

@@ -29,16 +29,17 @@ struct Interval {
          allowed);
 }
 
-Interval locate(const PlateScene& scene, int index, const std::vector<double>& lines, int axis) {
+Interval locate(const PlateScene& scene, int index, const std::vector<double>& lines, rim::Axis axis) {
   const Hole& hole = scene.holes[index];
-  const double c = hole.center[axis], low = lines.front(), high = lines.back(), same = 1e-9 * (high - low);
+  const double c = hole.center[rim::coordinate(axis)];
+  const double low = lines.front(), high = lines.back(), same = 1e-9 * (high - low);
   const bool at_low = std::abs(c - low) < same, at_high = std::abs(c - high) < same;
   const double center = at_low ? low : at_high ? high : c;
   const auto reaches = [&](double line) {
     if (line <= low || line >= high)
       reject_hole(scene, index, "outside the plate",
                   "a hole inside a cell, or centred on the plate's border (half) or corner (quarter)");
-    reject_hole(scene, index, fmt::format("over the cell line {} = {:g}", axis == 0 ? "x" : "y", line),
+    reject_hole(scene, index, fmt::format("over the cell line {} = {:g}", rim::name_of(axis), line),
                 "a hole inside one cell; move the cell line");
   };
   if (center < low || center > high) reaches(center);
@@ -115,8 +116,8 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
 std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometry& grid) {
   std::vector<HoleCell> cells;
   for (int i = 0; i < count_of(scene.holes); ++i) {
-    const Interval x = locate(scene, i, grid.x, 0);
-    const Interval y = locate(scene, i, grid.y, 1);
+    const Interval x = locate(scene, i, grid.x, rim::Axis::x);
+    const Interval y = locate(scene, i, grid.y, rim::Axis::y);
     for (const auto& other : cells)
       if (other.column == x.index && other.row == y.index)
         reject(scene, fmt::format("/holes/{}", i),

@@ -182,15 +182,15 @@ void name_border(const GridGeometry& grid, PlateMesh& plate) {
 
 /// Adds the sides of a hole's cell across each direction of the discs, unless they run through the hole.
 void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& plate) {
-  for (const auto& direction : scene.disc_directions) {
-    const int axis = direction == "x" ? 0 : 1;
-    const auto add = [&](CellSide side, const char* sign, const Point& corner) {
+  for (const rim::Axis direction : scene.disc_directions) {
+    const int axis = rim::coordinate(direction);
+    const auto add = [&](CellSide side, int sign, const Point& corner) {
       if (!at.hole->cuts[side])
         plate.sections.push_back(
-            {at.hole->hole, sign + direction, sides_on(plate, at.first, at.last, axis, corner[axis])});
+            {at.hole->hole, rim::name_of({direction, sign}), sides_on(plate, at.first, at.last, axis, corner[axis])});
     };
-    add(axis == 0 ? right : top, "+", at.cell.high);
-    add(axis == 0 ? left : bottom, "-", at.cell.low);
+    add(axis == 0 ? right : top, 1, at.cell.high);
+    add(axis == 0 ? left : bottom, -1, at.cell.low);
   }
 }
 

@@ -10,8 +10,6 @@ namespace {
 
 constexpr int undecided = 0;
 
-int component_of(const std::string& direction) { return direction == "x" ? 0 : 1; }
-
 /// Global functions that do not vanish on a side: two vertices, then the edge's modes.
 std::vector<int> functions_on(const pfem::Numbering& numbering, const pfem::Side& side) {
   std::vector<int> list = pfem::modes_on_edge(numbering.p, side.local_edge);
@@ -26,7 +24,7 @@ std::vector<int> functions_on(const pfem::Numbering& numbering, const pfem::Side
           : std::string("along an edge");
   reject(scene, "/external",
          fmt::format("external \"{}\" moves the plate in {} {}, where a support or another external prescribes it",
-                     external.id, external.direction, where),
+                     external.id, rim::name_of(external.direction), where),
          "one support or rigid external for each displacement");
 }
 
@@ -37,7 +35,7 @@ void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Number
   const External& external = scene.externals[external_index];
   for (const auto& side : plate.sets.at(external.on))
     for (const int function : functions_on(numbering, side)) {
-      int& dof = unknowns.dofs(component_of(external.direction), function);
+      int& dof = unknowns.dofs(rim::coordinate(external.direction), function);
       const int wanted = function < plate.mesh.n_nodes() ? pfem::controlled_dof(index) : pfem::fixed_dof;
       if (dof != undecided && dof != wanted) conflict(scene, plate, external, function);
       dof = wanted;
@@ -46,7 +44,7 @@ void control(const PlateScene& scene, const PlateMesh& plate, const pfem::Number
 
 /// Directions in which the disc of a hole moves: that of the line of symmetry for half a hole, the first direction for
 /// a quarter hole, which is on two such lines.
-std::vector<std::string> directions_of(const PlateScene& scene, const PlateMesh& plate, int hole) {
+std::vector<rim::Axis> directions_of(const PlateScene& scene, const PlateMesh& plate, int hole) {
   const auto& all = scene.disc_directions;
   const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[hole]));
   if (pieces.size() != 1 || all.size() == 1) return all;
@@ -54,13 +52,13 @@ std::vector<std::string> directions_of(const PlateScene& scene, const PlateMesh&
   const auto [from, to] = pieces[0];
   if (is(to - from, rim::full_turn / 4)) return {all[0]};
   if (!is(to - from, rim::full_turn / 2)) return all;
-  for (const auto& direction : all)
+  for (const rim::Axis direction : all)
     if (rim::is_along(from, direction)) return {direction};
   return all;
 }
 
 void add_discs(const PlateScene& scene, const PlateMesh& plate, Unknowns& unknowns) {
-  const auto add = [&](const std::string& id, const std::vector<std::string>& directions) {
+  const auto add = [&](const std::string& id, const std::vector<rim::Axis>& directions) {
     unknowns.disc_hole.insert(unknowns.disc_hole.end(), directions.size(), id);
     unknowns.disc_direction.insert(unknowns.disc_direction.end(), directions.begin(), directions.end());
   };
@@ -84,7 +82,8 @@ double unit_force(const PlateScene& scene, const PlateMesh& plate, const Tractio
   constexpr double negligible = 1e-12;  // relative to a whole rim; rounding is about 1e-16
   const External& external = scene.externals[load.external];
   const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
-  const double force = rim::bearing(plate.mesh, plate.edges, rim, load.side * rim::axis(external.direction)).unit_force;
+  const auto d = rim::unit_vector({external.direction, load.side});
+  const double force = rim::bearing(plate.mesh, plate.edges, rim, d).unit_force;
   return force < negligible * plate.mesh.thickness.maxCoeff() * rim.radius ? 0 : force;
 }
 
@@ -92,11 +91,12 @@ std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh
   std::vector<plate::PointTie> ties;
   for (int i = 0; i < count_of(scene.points); ++i)
     for (int a = 0; a < count_of(scene.disc_directions); ++a) {
-      const std::string& direction = scene.disc_directions[a];
-      const int dof = unknowns.dofs(direction == "x" ? 0 : 1, plate.point_nodes[i]);
+      const rim::Axis direction = scene.disc_directions[a];
+      const int dof = unknowns.dofs(rim::coordinate(direction), plate.point_nodes[i]);
       if (dof == pfem::fixed_dof)
         reject(scene, fmt::format("/points/{}/at", i),
-               fmt::format("a support fixes the vertex along {}, so that the spring cannot load the plate", direction),
+               fmt::format("a support fixes the vertex along {}, so that the spring cannot load the plate",
+                           rim::name_of(direction)),
                "vertices that are free to move along every one of \"disc_directions\"");
       ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a),
                       scene.points[i].stiffness});
@@ -129,8 +129,8 @@ void add_uniform(const PlateMesh& plate, const External& external, const PlatePr
   for (const auto& side : sides) {
     const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
     const Eigen::VectorXd spread = plate.mesh.thickness[side.element] / area * (rule.N * rule.ds);
-    add_load(problem, side.element, rule.modes, (spread * rim::axis(external.direction).transpose()).reshaped(), column,
-             loads);
+    add_load(problem, side.element, rule.modes, (spread * rim::unit_vector(external.direction).transpose()).reshaped(),
+             column, loads);
   }
 }
 
@@ -140,12 +140,12 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, const Tractio
                   int column, Loads& loads) {
   const External& external = scene.externals[of.external];
   const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
-  const Eigen::Vector2d d = of.side * rim::axis(external.direction);
+  const Eigen::Vector2d d = rim::unit_vector({external.direction, of.side});
   const double whole = unit_force(scene, plate, of);
   if (whole == 0)
     reject(scene, fmt::format("/external/{}", of.external),
            fmt::format("the model has no rim of hole \"{}\" on the side that bears along +{}", external.on,
-                       external.direction),
+                       rim::name_of(external.direction)),
            "a hole with a rim on that side");
   for (const auto& side : rim.sides) {
     const auto rule = rim::rim_rule(plate.mesh, plate.edges, side, problem.numbering.p);
@@ -211,10 +211,10 @@ Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, cons
   Unknowns unknowns;
   unknowns.dofs.setConstant(2, numbering.n_functions.back(), undecided);
   for (const auto& support : scene.supports)
-    for (const auto& direction : support.fix)
+    for (const rim::Axis direction : support.fix)
       for (const auto& side : plate.sets.at(support.on))
         for (const int function : functions_on(numbering, side))
-          unknowns.dofs(component_of(direction), function) = pfem::fixed_dof;
+          unknowns.dofs(rim::coordinate(direction), function) = pfem::fixed_dof;
   for (const int external : rigid_externals(scene))
     control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
   add_discs(scene, plate, unknowns);
@@ -237,9 +237,9 @@ plate::SprungMesh sprung_mesh(const PlateScene& scene, const PlateMesh& plate) {
   plate::SprungMesh sprung{plate.mesh, plate.edges, plate.rims, {}, rim_waves(scene, plate), {}};
   for (int i = 0; i < count_of(scene.holes); ++i) {
     const auto& spring = sprung.springs.emplace_back(scene.holes[i].spring);
-    const auto directions = spring ? directions_of(scene, plate, i) : std::vector<std::string>();
+    const auto directions = spring ? directions_of(scene, plate, i) : std::vector<rim::Axis>();
     auto& axes = sprung.axes.emplace_back(2, directions.size());
-    for (int d = 0; d < count_of(directions); ++d) axes.col(d) = rim::axis(directions[d]);
+    for (int d = 0; d < count_of(directions); ++d) axes.col(d) = rim::unit_vector(directions[d]);
   }
   return sprung;
 }

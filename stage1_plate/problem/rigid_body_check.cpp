@@ -108,7 +108,8 @@ struct RigidStiffness {
   void add_line_springs(const PlateScene& scene, const PlateMesh& plate) {
     for (const int node : plate.point_nodes) {
       const auto u = parts[part_of[node]].motion(plate.mesh.nodes.col(node));
-      for (const auto& direction : scene.disc_directions) add(part_of[node], rim::axis(direction).transpose() * u);
+      for (const rim::Axis direction : scene.disc_directions)
+        add(part_of[node], rim::unit_vector(direction).transpose() * u);
     }
   }
 };

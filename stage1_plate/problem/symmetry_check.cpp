@@ -11,20 +11,18 @@ namespace {
 
 /// An edge of the sheet through the centre of a half or quarter hole.
 struct Line {
-  int hole;      ///< the first hole on it
-  int across;    ///< coordinate that is constant on it: 0 x, 1 y
-  double at;     ///< value of this coordinate, length
-  bool is_half;  ///< true for a half hole, false for a quarter hole
-  int more = 0;  ///< number of other holes on it
+  int hole;          ///< the first hole on it
+  rim::Axis across;  ///< the axis perpendicular to it
+  double at;         ///< coordinate along this axis, length
+  bool is_half;      ///< true for a half hole, false for a quarter hole
+  int more = 0;      ///< number of other holes on it
 };
-
-const char* name_of(int component) { return component == 0 ? "x" : "y"; }
 
 /// True if a side of an element lies on the line.
 bool is_on(const PlateScene& scene, const PlateMesh& plate, const Line& line, const pfem::Side& side) {
   const auto ends = plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element));
   const double tolerance = rim::same_place * scene.holes[line.hole].radius;
-  return ((plate.mesh.nodes(line.across, ends).array() - line.at).abs() < tolerance).all();
+  return ((plate.mesh.nodes(rim::coordinate(line.across), ends).array() - line.at).abs() < tolerance).all();
 }
 
 /// True if a support or a rigid external prescribes the displacement across the line on some part of it.
@@ -32,13 +30,12 @@ bool is_fixed_across(const PlateScene& scene, const PlateMesh& plate, const Line
   const auto is_there = [&](const std::string& set) {
     return std::ranges::any_of(plate.sets.at(set), [&](const auto& side) { return is_on(scene, plate, line, side); });
   };
-  const std::string across = name_of(line.across);
   return std::ranges::any_of(scene.supports,
                              [&](const Support& support) {
-                               return std::ranges::count(support.fix, across) > 0 && is_there(support.on);
+                               return std::ranges::count(support.fix, line.across) > 0 && is_there(support.on);
                              }) ||
          std::ranges::any_of(rigid_externals(scene), [&](int i) {
-           return scene.externals[i].direction == across && is_there(scene.externals[i].on);
+           return scene.externals[i].direction == line.across && is_there(scene.externals[i].on);
          });
 }
 
@@ -52,12 +49,12 @@ std::vector<Line> lines_of(const PlateScene& scene, const PlateMesh& plate, cons
   if (!is_half && !covers(rim::full_turn / 4)) return {};
   std::vector<Line> lines;
   for (const double end : is_half ? std::vector{from} : std::vector{from, to})
-    for (const int across : {0, 1}) {
-      if (!rim::is_along(end, name_of(1 - across))) continue;
+    for (const rim::Axis across : rim::both_axes) {
+      if (!rim::is_along(end, rim::other(across))) continue;
       const auto* const first = unknowns.disc_direction.data() + unknowns.first_disc[hole];
       const auto* const last = unknowns.disc_direction.data() + unknowns.first_disc[hole + 1];
-      const bool disc_moves_across = std::find(first, last, name_of(across)) != last;
-      const Line line{hole, across, scene.holes[hole].center[across], is_half};
+      const bool disc_moves_across = std::find(first, last, across) != last;
+      const Line line{hole, across, scene.holes[hole].center[rim::coordinate(across)], is_half};
       // A half hole whose disc moves across the edge is a notch that a pin may press on.
       if (!(is_half && disc_moves_across) && !is_fixed_across(scene, plate, line)) lines.push_back(line);
     }
@@ -68,10 +65,10 @@ std::vector<Line> lines_of(const PlateScene& scene, const PlateMesh& plate, cons
 std::string support_on(const PlateScene& scene, const PlateMesh& plate, const Line& line) {
   for (const auto& [name, sides] : plate.sets)
     if (std::ranges::all_of(sides, [&](const auto& side) { return is_on(scene, plate, line, side); }))
-      return fmt::format(R"(add {{"on": "{}", "fix": ["{}"]}} to "supports")", name, name_of(line.across));
+      return fmt::format(R"(add {{"on": "{}", "fix": ["{}"]}} to "supports")", name, rim::name_of(line.across));
   return fmt::format(
       R"(name the edges on this line in /geometry/mesh/edges and add {{"on": that name, "fix": ["{}"]}} to "supports")",
-      name_of(line.across));
+      rim::name_of(line.across));
 }
 
 }  // namespace
@@ -80,9 +77,9 @@ bool ends_on_symmetry(const PlateScene& scene, const PlateMesh& plate, int hole)
   const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[hole]));
   if (pieces.size() > 1) return false;
   const auto is_symmetric = [&](double end) {
-    for (const int across : {0, 1})
-      if (rim::is_along(end, name_of(1 - across)))
-        return is_fixed_across(scene, plate, {hole, across, scene.holes[hole].center[across], false});
+    for (const rim::Axis across : rim::both_axes)
+      if (rim::is_along(end, rim::other(across)))
+        return is_fixed_across(scene, plate, {hole, across, scene.holes[hole].center[rim::coordinate(across)], false});
     return false;
   };
   return pieces.empty() || (is_symmetric(pieces[0].from) && is_symmetric(pieces[0].to));
@@ -108,8 +105,8 @@ std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMe
         "/holes/{}: hole \"{}\"{} is {} of a hole, cut by the line {} = {:g}, which no support fixes along {}: the "
         "disc "
         "alone carries the load of the missing part. If the sheet is symmetric about this line, {}",
-        line.hole, scene.holes[line.hole].id, more, line.is_half ? "half" : "a quarter", name_of(line.across), line.at,
-        name_of(line.across), support_on(scene, plate, line)));
+        line.hole, scene.holes[line.hole].id, more, line.is_half ? "half" : "a quarter", rim::name_of(line.across),
+        line.at, rim::name_of(line.across), support_on(scene, plate, line)));
   }
   return result;
 }

@@ -57,7 +57,8 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
   std::set<std::string> supported;
-  for (const auto& support : scene.supports) supported.insert(support.fix.begin(), support.fix.end());
+  for (const auto& support : scene.supports)
+    for (const rim::Axis axis : support.fix) supported.insert(rim::name_of(axis));
   a.supported.assign(supported.begin(), supported.end());
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = unknowns.dofs;
@@ -66,17 +67,17 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[p]; });
   for (const int i : rigid_externals(scene)) {
     a.external_id.push_back(scene.externals[i].id);
-    a.external_direction.push_back(scene.externals[i].direction);
+    a.external_direction.push_back(rim::name_of(scene.externals[i].direction));
   }
   for (const auto& [i, side] : traction_cases(scene, plate)) {
     const External& external = scene.externals[i];
     a.traction_id.push_back(external.id);
-    a.traction_direction.push_back(external.direction);
+    a.traction_direction.push_back(rim::name_of(external.direction));
     a.traction_hole.push_back(side != 0 ? external.on : "");
-    a.traction_bearing.push_back(side == 0 ? "" : (side > 0 ? "+" : "-") + external.direction);
+    a.traction_bearing.push_back(side == 0 ? "" : rim::name_of({external.direction, side}));
   }
   a.disc_hole = unknowns.disc_hole;
-  a.disc_direction = unknowns.disc_direction;
+  for (const rim::Axis axis : unknowns.disc_direction) a.disc_direction.push_back(rim::name_of(axis));
   a.friction_hole = problem.friction_hole;
   a.friction_bearing = problem.friction_bearing;
   a.T_f = problem.T_f;

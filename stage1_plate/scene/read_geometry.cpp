@@ -141,13 +141,13 @@ int read_hole(const Value& value, const PlateScene& scene) {
   return read_id(value, scene.holes);
 }
 
-std::string read_side(const Value& value, const PlateScene& scene) {
-  std::string side = value.choice({"+x", "-x", "+y", "-y"});
-  const std::string direction = side.substr(1);
+rim::SignedAxis read_side(const Value& value, const PlateScene& scene) {
+  const std::string name = value.choice({"+x", "-x", "+y", "-y"});
+  const rim::SignedAxis side = rim::signed_axis_named(name);
   const auto& directions = scene.disc_directions;
-  if (std::find(directions.begin(), directions.end(), direction) == directions.end())
-    value.fail(fmt::format("\"{}\", but \"{}\" is not one of \"disc_directions\"", side, direction),
-               fmt::format("\"+{0}\", \"-{0}\"", directions.front()));
+  if (std::find(directions.begin(), directions.end(), side.axis) == directions.end())
+    value.fail(fmt::format("\"{}\", but \"{}\" is not one of \"disc_directions\"", name, rim::name_of(side.axis)),
+               fmt::format("\"+{0}\", \"-{0}\"", rim::name_of(directions.front())));
   return side;
 }
 
@@ -165,15 +165,15 @@ std::variant<GridGeometry, MeshGeometry> read_geometry(const Value& value, const
 void read_sections(const Value& root, PlateScene& scene) {
   auto* const geometry = std::get_if<MeshGeometry>(&scene.geometry);
   if (!geometry) return;
-  std::set<std::pair<int, std::string>> seen;
+  std::set<std::pair<int, rim::SignedAxis>> seen;
   for (const auto& item : read_items(root.at("geometry").at("mesh"), "sections")) {
     item.only({"hole", "side", "edges"});
     MeshSection section{read_hole(item.at("hole"), scene), read_side(item.at("side"), scene),
                         read_edges(item.at("edges"), geometry->mesh.n_nodes())};
     if (!seen.insert({section.hole, section.side}).second)
-      item.fail(
-          fmt::format("a second section of hole \"{}\" on its side {}", scene.holes[section.hole].id, section.side),
-          "one on each side of a hole");
+      item.fail(fmt::format("a second section of hole \"{}\" on its side {}", scene.holes[section.hole].id,
+                            rim::name_of(section.side)),
+                "one on each side of a hole");
     geometry->sections.push_back(std::move(section));
   }
 }

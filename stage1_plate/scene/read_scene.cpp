@@ -19,7 +19,7 @@ namespace {
 
 using input::Value;
 
-const std::vector<std::string> directions = {"x", "y"};
+rim::Axis read_axis(const Value& value) { return rim::axis_named(value.choice(rim::axis_names)); }
 
 /// Reads a name that must be unique, since other files refer to it.
 std::string read_new_name(const Value& value, std::set<std::string>& seen) {
@@ -28,12 +28,12 @@ std::string read_new_name(const Value& value, std::set<std::string>& seen) {
   return name;
 }
 
-std::vector<std::string> read_directions(const Value& value) {
-  std::vector<std::string> result;
+std::vector<rim::Axis> read_directions(const Value& value) {
+  std::vector<rim::Axis> result;
   for (const auto& item : value.items(1, 2)) {
-    result.push_back(item.choice(directions));
+    result.push_back(read_axis(item));
     if (result.size() == 2 && result[0] == result[1])
-      item.fail("\"" + result[1] + "\" stands twice", "each direction once");
+      item.fail("\"" + rim::name_of(result[1]) + "\" stands twice", "each direction once");
   }
   return result;
 }
@@ -146,7 +146,7 @@ std::vector<External> read_externals(const Value& root, const std::vector<std::s
     const Value on = item.at("on");
     externals.push_back({read_new_name(item.at("id"), ids),
                          kind == ExternalKind::bearing ? read_bearing_hole(on, holes) : on.choice(edge_names),
-                         item.at("direction").choice(directions), kind});
+                         read_axis(item.at("direction")), kind});
   }
   return externals;
 }
@@ -215,7 +215,7 @@ PlateScene read_scene(const input::Document& document) {
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
   scene.points = read_points(root, disc_ids);
   const auto discs = root.find("disc_directions");
-  scene.disc_directions = discs ? read_directions(*discs) : std::vector<std::string>{"x", "y"};
+  scene.disc_directions = discs ? read_directions(*discs) : std::vector(rim::both_axes.begin(), rim::both_axes.end());
   read_sections(root, scene);
   if (const auto* grid = std::get_if<GridGeometry>(&scene.geometry)) set_default_rings(*grid, scene);
   scene.supports = read_supports(root, edge_names(scene));

@@ -29,7 +29,7 @@ struct GridGeometry {
 /// A cut across the plate next to a hole, along edges of the mesh.
 struct MeshSection {
   int hole;                                ///< index into PlateScene::holes
-  std::string side;                        ///< on which side of the hole, "+x", "-x", "+y" or "-y"
+  rim::SignedAxis side;                    ///< side of the hole
   std::vector<std::pair<int, int>> edges;  ///< each given by its two nodes
 };
 
@@ -78,14 +78,15 @@ struct PointSpring {
 
 struct Support {
   std::string on;
-  std::vector<std::string> fix;  ///< directions
+  std::vector<rim::Axis> fix;
 };
 
 /// A rigidly moving edge, an edge under uniform traction, or an open hole under cosine pressure.
 enum class ExternalKind { rigid, traction, bearing };
 
 struct External {
-  std::string id, on, direction;
+  std::string id, on;
+  rim::Axis direction;
   ExternalKind kind;
 };
 
@@ -98,7 +99,7 @@ struct PlateScene {
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
   std::vector<PointSpring> points;
-  std::vector<std::string> disc_directions;  ///< of all discs but those on lines of symmetry
+  std::vector<rim::Axis> disc_directions;  ///< of all discs but those on lines of symmetry
   std::vector<Support> supports;
   std::vector<External> externals;
   pfem::Space space = pfem::Space::product;

@@ -20,8 +20,9 @@ plate::Unknowns unknowns_of(const PlateSolution& a, const pfem::Numbering& numbe
     throw FileError(fmt::format("{}:unknown: has {} rows, the mesh has {} functions at p = {} of the {} space", file,
                                 a.unknown.cols(), numbering.n_functions.back(), numbering.p,
                                 pfem::name_of(numbering.space)));
-  plate::Unknowns unknowns{a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole,
-                           a.disc_direction};
+  plate::Unknowns unknowns{
+      a.unknown, plate::count_free(numbering, a.unknown), count_of(a.external_id), a.disc_hole, {}};
+  for (const auto& name : a.disc_direction) unknowns.disc_direction.push_back(rim::axis_named(name));
   for (Eigen::Index i = 0; i < a.p.size(); ++i)
     if (const int n = unknowns.n_free[a.p[i]]; a.ndof[i] != n)
       throw FileError(
@@ -60,7 +61,7 @@ plate::SprungMesh sprung_mesh(const PlateSolution& a, const pfem::Edges& edges, 
     for (int loaded = 0; loaded < count_of(a.contact); ++loaded)
       if (a.waves[loaded].hole == a.hole_id[i]) waves = {a.waves[loaded].waves, true};
     auto& axes = sprung.axes.emplace_back(2, n);
-    for (int d = 0; d < n; ++d) axes.col(d) = rim::axis(a.disc_direction[first + d]);
+    for (int d = 0; d < n; ++d) axes.col(d) = rim::unit_vector(unknowns.disc_direction[first + d]);
   }
   return sprung;
 }
@@ -74,7 +75,7 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
   K.elements = plate::classify_elements(sprung, K.numbering, K.unknowns);
   K.elements.stiffness = pfem::integrate(K.elements.congruent, a.mesh, edges, a.elasticity, a.space, K.numbering.p);
   for (const auto& point : a.points) {
-    const int axis = a.disc_direction[point.disc] == "x" ? 0 : 1;
+    const int axis = rim::coordinate(K.unknowns.disc_direction[point.disc]);
     K.ties.push_back(
         {point.vertex, a.unknown(axis, point.vertex), K.unknowns.controlled_of_disc(point.disc), point.stiffness});
   }

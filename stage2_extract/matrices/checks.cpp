@@ -60,7 +60,7 @@ std::optional<double> reciprocity(const PlateSolution& plate, const PlateCases& 
     worst = std::max(worst, ratio(largest(error), scale));
   };
   const auto by = [](const auto& A, const Eigen::VectorXd& x) -> Eigen::VectorXd {
-    return A.lazyProduct(x);  // OpenBLAS refuses matrices without rows
+    return A.lazyProduct(x);  // OpenBLAS rejects matrices without rows
   };
   const auto nc = level.S.rows(), k = plate.n_loaded_waves(), h = plate.n_friction_cases();
   const auto by_motion = level.W.leftCols(nc), by_load = level.W.middleCols(nc, k + h);
@@ -132,13 +132,13 @@ std::optional<double> equilibrium(const PlateSolution& plate, const formats::Pla
 
 /// Integrals over the rims for a translation of the sheet along an axis with its discs. Only those of open holes are
 /// not zero.
-Eigen::VectorXd waves_of_translation(const PlateSolution& plate, int axis) {
+Eigen::VectorXd waves_of_translation(const PlateSolution& plate, rim::Axis axis) {
   Eigen::VectorXd waves = Eigen::VectorXd::Zero(plate.n_waves());
   Eigen::Index next = 0;
   for (const auto& rim : plate.waves) {
     const Eigen::Index first = std::exchange(next, next + rim.size());
     if (std::ranges::find(plate.disc_hole, rim.hole) != plate.disc_hole.end()) continue;
-    waves.segment(first, rim.size()) << rim.waves.push(axis), rim.waves.drag(axis);
+    waves.segment(first, rim.size()) << rim.waves.push(rim::coordinate(axis)), rim.waves.drag(rim::coordinate(axis));
     waves.segment(first, rim.size()) *= -rim.area;
   }
   return waves;
@@ -153,7 +153,8 @@ std::string shown(const std::optional<double>& value, const char* otherwise) {
 std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const formats::PlateMatrices& a) {
   std::vector<FreeTranslation> result;
   const std::set<std::string> holes(plate.disc_hole.begin(), plate.disc_hole.end());
-  for (const std::string along : {"x", "y"}) {
+  for (const rim::Axis axis : rim::both_axes) {
+    const std::string& along = rim::name_of(axis);
     const auto count = [&](const std::vector<std::string>& names) {
       return std::count(names.begin(), names.end(), along);
     };
@@ -166,10 +167,10 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
     };
     const Eigen::ArrayXd friction = is_along(plate.friction_bearing), traction = is_along(plate.traction_direction);
     result.push_back(
-        {along, is_along(direction),
+        {axis, is_along(direction),
          (friction * a.friction_resultant.array() + (1 - friction) * a.friction_resultant_across.array()).transpose(),
          (traction + (1 - traction) * a.traction_resultant_across.array()).transpose(),
-         waves_of_translation(plate, along == "x" ? 0 : 1)});
+         waves_of_translation(plate, axis)});
   }
   return result;
 }

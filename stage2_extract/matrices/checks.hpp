@@ -16,7 +16,7 @@ namespace fastjoint::stage2 {
 /// A direction without support along which the disc of every hole can move, with the resultants of the unit cases along
 /// it.
 struct FreeTranslation {
-  std::string along;            ///< "x" or "y"
+  rim::Axis axis;
   Eigen::VectorXd motion;       ///< (nc) unit translation of all externals and discs
   Eigen::RowVectorXd friction;  ///< (h) resultant of each friction case, length^2
   Eigen::RowVectorXd traction;  ///< (q) resultant of a unit total force on each traction boundary

@@ -29,10 +29,11 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
       a.rim_thickness[i] += plate.mesh.thickness[side.element] / n;
       a.rim_modulus.row(i) += D.inverse().diagonal().head<2>().cwiseInverse().transpose() / n;
     }
-    const auto area = [&](const char* side) {
-      return rim::bearing(plate.mesh, edges, plate.hole_rim[i], bearing_direction(side)).area;
+    const auto area = [&](rim::Axis axis, int sign) {
+      return rim::bearing(plate.mesh, edges, plate.hole_rim[i], rim::unit_vector({axis, sign})).area;
     };
-    a.bearing_area.row(i) << std::max(area("+x"), area("-x")), std::max(area("+y"), area("-y"));
+    for (const rim::Axis axis : rim::both_axes)
+      a.bearing_area(i, rim::coordinate(axis)) = std::max(area(axis, 1), area(axis, -1));
   }
 }
 
@@ -48,7 +49,8 @@ void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& e
     for (const auto& side : section.sides)
       a.gross_area[i] += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();
     const auto& rim = plate.hole_rim[section.hole];
-    a.net_area[i] = a.gross_area[i] - rim::bearing(plate.mesh, edges, rim, bearing_direction(section.side)).area;
+    const auto direction = rim::unit_vector(rim::signed_axis_named(section.side));
+    a.net_area[i] = a.gross_area[i] - rim::bearing(plate.mesh, edges, rim, direction).area;
   }
 }
 
@@ -71,11 +73,6 @@ Eigen::VectorXd stiffness_errors(const formats::PlateSolution& plate, const Eige
 }
 
 }  // namespace
-
-Eigen::Vector2d bearing_direction(const std::string& side) {
-  const Eigen::Vector2d axis = rim::axis(side.substr(1));
-  return side[0] == '+' ? axis : Eigen::Vector2d(-axis);
-}
 
 formats::PlateStresses describe_holes(const formats::PlateSolution& plate, bool with_stresses) {
   const auto edges = pfem::find_edges(plate.mesh);

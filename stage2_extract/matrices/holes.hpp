@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <string>
-
 #include "common/formats/plate_matrices.hpp"
 #include "common/formats/plate_solution.hpp"
 
 namespace fastjoint::stage2 {
-
-/// Unit vector of a bearing side, "+x", "-x", "+y" or "-y".
-[[nodiscard]] Eigen::Vector2d bearing_direction(const std::string& side);
 
 /// Describes the holes of the plate and the sheet there; with stresses also the sections, and the waves and section
 /// forces in every unit case at the highest degrees, as solved by stage 1.

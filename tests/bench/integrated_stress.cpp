@@ -29,7 +29,7 @@ const program::Command command = {
 /// The edge that moves.
 const stage1::External& first_external(const stage1::PlateScene& scene) {
   const auto& all = scene.externals;
-  if (all.empty() || all[0].kind != stage1::ExternalKind::rigid || all[0].direction != "x")
+  if (all.empty() || all[0].kind != stage1::ExternalKind::rigid || all[0].direction != rim::Axis::x)
     stage1::reject(scene, "/external", "another first external, or none", "a rigid one along x first");
   return all[0];
 }

@@ -114,7 +114,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
   Eigen::Index unit_case = plate.n_externals();
   for (int i = 0; i < count_of(plate.disc_hole); ++i, ++unit_case) {
     if (plate.disc_hole[i] != id) continue;
-    const Eigen::Vector2d e = rim::axis(plate.disc_direction[i]);
+    const Eigen::Vector2d e = rim::unit_vector(rim::axis_named(plate.disc_direction[i]));
     add(unit_case, rr, at_points([&](const Frame& at, Eigen::Index k) { return -modulus_[k] * e.dot(at.n); }));
   }
   for (std::size_t i = 0; i < plate.contact.size(); ++i) {
@@ -129,7 +129,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
   }
   for (int i = 0; i < count_of(plate.friction_hole); ++i, ++unit_case) {
     if (plate.friction_hole[i] != id) continue;
-    const Eigen::Vector2d d = stage2::bearing_direction(plate.friction_bearing[i]);
+    const Eigen::Vector2d d = rim::unit_vector(rim::signed_axis_named(plate.friction_bearing[i]));
     add(unit_case, rt, at_points([&](const Frame& at, Eigen::Index) {  // pulls by sigma . (-n)
           const auto bearing = rim::cosine_bearing(at.n, d);
           return -bearing.contact * bearing.tangent.dot(at.t);
@@ -139,7 +139,7 @@ void RimStress::add_tractions(const FieldSolver& solver, int hole, const std::ve
     if (plate.traction_hole[i] != id) continue;
     // A unit force along the direction is a negative pressure on the side against it.
     const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;
-    const Eigen::Vector2d d = stage2::bearing_direction(plate.traction_bearing[i]);
+    const Eigen::Vector2d d = rim::unit_vector(rim::signed_axis_named(plate.traction_bearing[i]));
     const double unit_force = rim::bearing(plate.mesh, solver.edges(), plate.hole_rim[hole], d).unit_force;
     add(unit_case, rr, at_points([&](const Frame& at, Eigen::Index) {
           return -sign * rim::cosine_bearing(at.n, d).contact / unit_force;

@@ -193,7 +193,7 @@ TEST(ExplicitMesh, DigitsOfAHandWrittenFileMakeNoOtherRim) {
     const test::Plate plate = test::make_plate(paper_half_plate(first, others));
     const auto& mesh = plate.mesh;
     EXPECT_EQ(rim::open_pieces(rim::side_angles(mesh.mesh, mesh.edges, mesh.rims[0])).size(), 1U) << first << others;
-    EXPECT_EQ(plate.problem.unknowns.disc_direction, std::vector<std::string>{"x"}) << first << others;
+    EXPECT_EQ(plate.problem.unknowns.disc_direction, std::vector{rim::Axis::x}) << first << others;
     EXPECT_TRUE(stage1::missing_symmetry(plate.scene, mesh, plate.problem.unknowns).empty()) << first << others;
   }
   EXPECT_THAT(message(paper_half_plate("[2e-5, 0]")), HasSubstr("135 degrees"));

@@ -79,7 +79,7 @@ Translation translation(const test::Plate& plate, int axis, bool with_discs) {
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node)
     if (const int dof = unknowns.dofs(axis, node); pfem::is_free(dof)) move.free[dof] = 1;
   for (int disc = 0; with_discs && disc < unknowns.n_discs(); ++disc)
-    if (unknowns.disc_direction[disc] == (axis == 0 ? "x" : "y")) move.controlled[disc] = 1;
+    if (rim::coordinate(unknowns.disc_direction[disc]) == axis) move.controlled[disc] = 1;
   return move;
 }
 

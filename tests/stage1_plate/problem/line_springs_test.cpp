@@ -49,7 +49,8 @@ TEST(LineSprings, DiscsComeAfterThoseOfHoles) {
     "points": [{"id": "p", "at": [2, 0], "stiffness": 3}, {"id": "q", "at": [2, 1], "stiffness": 5}])"));
   const auto& unknowns = plate.problem.unknowns;
   EXPECT_EQ(unknowns.disc_hole, (std::vector<std::string>{"a", "a", "p", "p", "q", "q"}));
-  EXPECT_EQ(unknowns.disc_direction, (std::vector<std::string>{"x", "y", "x", "y", "x", "y"}));
+  using enum rim::Axis;
+  EXPECT_EQ(unknowns.disc_direction, (std::vector{x, y, x, y, x, y}));
   EXPECT_EQ(stage1::disc_of_point(plate.scene, unknowns, 0), 2);
   EXPECT_EQ(stage1::disc_of_point(plate.scene, unknowns, 1), 4);
 }

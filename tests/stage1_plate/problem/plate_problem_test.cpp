@@ -35,9 +35,9 @@ Eigen::VectorXd translation(const test::Plate& plate, int component) {
   }
   const auto rigid = stage1::rigid_externals(plate.scene);
   for (int i = 0; i < unknowns.n_externals; ++i)
-    u[unknowns.n_free.back() + i] = plate.scene.externals[rigid[i]].direction == (component == 0 ? "x" : "y");
+    u[unknowns.n_free.back() + i] = rim::coordinate(plate.scene.externals[rigid[i]].direction) == component;
   for (int i = 0; i < unknowns.n_discs(); ++i)
-    u[unknowns.n_free.back() + unknowns.n_externals + i] = unknowns.disc_direction[i] == (component == 0 ? "x" : "y");
+    u[unknowns.n_free.back() + unknowns.n_externals + i] = rim::coordinate(unknowns.disc_direction[i]) == component;
   return u;
 }
 

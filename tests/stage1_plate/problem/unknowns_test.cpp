@@ -31,7 +31,7 @@ TEST(Unknowns, OpenHolesHaveNoDisc) {
                                         R"(, "disc_directions": ["x", "y"])"))
           .problem.unknowns;
   EXPECT_EQ(unknowns.disc_hole, (std::vector<std::string>{"b", "b"}));
-  EXPECT_EQ(unknowns.disc_direction, (std::vector<std::string>{"x", "y"}));
+  EXPECT_EQ(unknowns.disc_direction, (std::vector{rim::Axis::x, rim::Axis::y}));
   EXPECT_EQ(unknowns.first_disc, (std::vector<int>{0, 0, 2}));
 }
 

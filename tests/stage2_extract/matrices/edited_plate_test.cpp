@@ -132,7 +132,7 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
       [](auto& a) {
         a.points = {{0, 1, 1.0}};
       },
-      "point/disc: holds 1, expected the discs behind those of holes, from 2");
+      "point/disc: holds 1, expected the discs after those of holes, from 2");
   const rim::Harmonics waves{1};
   refused(
       [&](auto& a) {  // without the matrices that go with it: names are checked first
