@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "common/program/program.hpp"
+#include "stage3_nonlinear/output/secondary_bending.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -251,7 +252,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
     text += fmt::format("  tangent stiffness at {}: {:.6g} {}\n", result.load_external[i],
                         result.load_stiffness(states.size() - 1, i), unit(joint.units, -1, 1));
   return text + legend + interference_lines(joint, path, result) +
-         stress_tables(joint, path, states, result, all_stresses);
+         stress_tables(joint, path, states, result, all_stresses) + secondary_bending(joint, states.back());
 }
 
 }  // namespace fastjoint::stage3
