@@ -52,7 +52,7 @@ struct WorstOfKind {
 /// Warns of doubtful input: links, whose results converge slowly or not at all (section 3 of the paper), a thickness or
 /// a disc's modulus of an unlikely magnitude, half holes without symmetry supports.
 void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
-  constexpr double foil = 1e-4, max_modulus_ratio = 300;  // GPa mistaken for MPa give 1000
+  constexpr double min_thickness_ratio = 1e-4, max_modulus_ratio = 300;  // GPa mistaken for MPa give 1000
   const auto say = [&](const char* code, const std::string& doubt) {
     program::warn(std::cerr, command.name, {code, scene.file + ": " + doubt});
   };
@@ -65,9 +65,9 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
     thin.add(thickest / width, fmt::format("the thickness {:g} is above the width {:g} of the sheet", thickest, width));
   for (std::size_t i = 0; i < scene.holes.size(); ++i) {
     const auto& hole = scene.holes[i];
-    if (thinnest < foil * hole.radius)
+    if (thinnest < min_thickness_ratio * hole.radius)
       thin.add(hole.radius / thinnest, fmt::format("the thickness {:g} is below {:g} of the radius {:g} of hole \"{}\"",
-                                                   thinnest, foil, hole.radius, hole.id));
+                                                   thinnest, min_thickness_ratio, hole.radius, hole.id));
     if (!hole.spring) continue;
     has_links |= hole.spring->link > 0;
     const double disc = hole.spring->disk_E;

@@ -28,7 +28,7 @@ inline const std::vector<std::string> axis_names = {"x", "y"};
 }
 [[nodiscard]] inline Eigen::Vector2d unit_vector(Axis axis) { return Eigen::Vector2d::Unit(coordinate(axis)); }
 
-/// Direction along (+1) or against (-1) an axis: a bearing direction.
+/// Direction along (sign +1) or against (-1) an axis, which also denotes the side of a hole there.
 struct SignedAxis {
   Axis axis;
   int sign;

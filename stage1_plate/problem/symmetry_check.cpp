@@ -102,9 +102,8 @@ std::vector<std::string> missing_symmetry(const PlateScene& scene, const PlateMe
   for (const Line& line : lines) {
     const std::string more = line.more > 0 ? fmt::format(" (and {} more)", line.more) : "";
     result.push_back(fmt::format(
-        "/holes/{}: hole \"{}\"{} is {} of a hole, cut by the line {} = {:g}, which no support fixes along {}: the "
-        "disc "
-        "alone carries the load of the missing part. If the sheet is symmetric about this line, {}",
+        "/holes/{}: hole \"{}\"{} is {} of a hole, cut by the line {} = {:g}, which no support fixes along {}: "
+        "the disc alone carries the load of the missing part. If the sheet is symmetric about this line, {}",
         line.hole, scene.holes[line.hole].id, more, line.is_half ? "half" : "a quarter", rim::name_of(line.across),
         line.at, rim::name_of(line.across), support_on(scene, plate, line)));
   }

@@ -171,9 +171,8 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
   const auto on_springs = std::ranges::count_if(a.contact, [](const auto& rim) { return !rim.disk.is_given(); });
   if (on_springs > 0)
     text += fmt::format(
-        "  contact by springs at {}: they stand for a pin in its mean pressure alone, and leave the peak hoop stress "
-        "by a "
-        "pin of the sheet's material 3 to 6 % low; \"law\": \"elastic\" has the pin itself\n",
+        "  contact by springs at {}: they model a pin for its mean pressure only; the peak hoop stress by a pin of the "
+        "sheet's material is 3 to 6 % too low; \"law\": \"elastic\" models the pin itself\n",
         counted(on_springs, "hole"));
   return text;
 }

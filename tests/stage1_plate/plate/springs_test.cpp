@@ -72,7 +72,7 @@ TEST(Springs, ArcsThatMakeTheCircleAddUp) {
 
 TEST(Springs, AnArcBesideTheModelIsRefused) {
   EXPECT_THAT(message(scene(R"("modulus": 1, "arc": [190, 350])", true)),
-              HasSubstr("plate.json: /holes/0/spring/arc: the rim of hole \"h\" that the model has is nowhere in"));
+              HasSubstr("plate.json: /holes/0/spring/arc: no part of the rim of hole \"h\" in the model"));
   EXPECT_EQ(message(scene(R"("modulus": 1, "arc": [170, 350])", true)), "no error");
 }
 

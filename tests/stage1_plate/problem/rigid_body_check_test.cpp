@@ -42,7 +42,8 @@ TEST(Holding, SupportsSpringsAndExternalsHold) {
 TEST(Holding, TheFreeMotionIsNamed) {
   EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "bottom", "fix": ["y"]}])")),
               AllOf(StartsWith("plate.json: /supports: the plate is free to move along x"), HasSubstr("allowed:")));
-  EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "left", "fix": ["x"]}])")), HasSubstr("moving along y"));
+  EXPECT_THAT(message(square({}, R"(, "supports": [{"on": "left", "fix": ["x"]}])")),
+              HasSubstr("free to move along y"));
   EXPECT_THAT(message(square({first, open}, "")), HasSubstr("free to move by rotation about (0.5, 0.5)"));
 }
 
