@@ -31,7 +31,7 @@ void check_csv(const program::Arguments& arguments, const std::string& csv_file)
   if (!csv_file.empty()) h5::check_can_write(csv_file);
 }
 
-/// The results must not take the place of what they are made of.
+/// Refuses output files that would overwrite an input file.
 void check_results_spare(const program::Arguments& arguments, const std::string& csv_file, const JointScene& scene) {
   const auto check = [&](const std::string& input) {
     for (const auto& [option, path] :
@@ -48,7 +48,7 @@ void warn(std::ostream& log, const std::vector<program::Warning>& warnings) {
 
 /// Bytes of the program and of the plates' matrices.
 double matrices_need(const JointScene& scene) {
-  double bytes = 20e6;  // of the program
+  double bytes = 20e6;  // the program itself
   for (const auto& plate : scene.plates) {
     std::error_code none;
     if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 2 * double(size);
@@ -75,7 +75,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
     of_step += of_plate + unknowns + cases + of_rim * n_rims;
     if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;
   }
-  if (with_sensitivities) {  // displacements, and the loads of friction, by each number
+  if (with_sensitivities) {  // derivatives of displacements and of friction loads
     const bool has_peaks =
         std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
     constexpr double of_forces = 3, of_peaks = 4;
@@ -101,7 +101,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (arguments.flag("--study")) {
     for (const char* option : {"--csv", "--sensitivities", "--rim-stresses", "--all-stresses", "--verbose"})
       if (arguments.flag(option))
-        throw InputError(fmt::format("{}: given beside --study; allowed: one of them", option));
+        throw InputError(fmt::format("{}: given together with --study; allowed: one of them", option));
     return run_study(arguments, out, log, timings);
   }
   for (const char* option : {"--sample", "--slice", "--merge", "--threads"})

@@ -18,7 +18,7 @@ MatrixXd stiffness_of_plates(const JointModel& joint) {
   return S;
 }
 
-/// Forces on all unknowns by a unit of each load case, and given displacements, (N, l) each.
+/// Forces on all unknowns, and prescribed displacements, by a unit of each load case, (N, l) each.
 std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vector<LoadCase>& cases) {
   MatrixXd loads = MatrixXd::Zero(joint.n_unknowns(), std::ssize(cases)), given = loads;
   for (Index i = 0; i < std::ssize(cases); ++i) {
@@ -37,7 +37,7 @@ std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vec
   return {loads, given};
 }
 
-/// H = D_delta^T G, by the columns of every plate's R that are in use.
+/// H = D_delta^T G from the columns of every plate's R that are in use.
 MatrixXd friction_matrix(const JointModel& joint, const std::vector<FrictionColumn>& columns, const MatrixXd& D_delta) {
   MatrixXd H(D_delta.cols(), std::ssize(columns));
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
@@ -58,7 +58,7 @@ MatrixXd friction_matrix(const JointModel& joint, const std::vector<FrictionColu
   return H;
 }
 
-/// Stiffness of the softer of each plane's plates at its discs, (n).
+/// Stiffness of the softer plate of each plane at its discs, (n).
 VectorXd own_stiffness(const JointModel& joint) {
   VectorXd own(joint.n_planes());
   for (Index j = 0; j < own.size(); ++j) {
@@ -80,17 +80,17 @@ VectorXd without_rounding(const VectorXd& q, double largest_load) {
 }
 
 void set_reference(CondensedSystem& system, const VectorXd& own, const std::vector<Index>& rims) {
-  constexpr double nothing = 1e-13;  // of what a plate that one fastener alone holds resists
-  constexpr double more = 1.05, negligible = 1e-9, rounding = 1e-12;
+  constexpr double floating = 1e-13;  // S_ud over the plate's stiffness if the plate has a single fastener
+  constexpr double margin = 1.05, negligible = 1e-9, rounding = 1e-12;
   const Index n = own.size(), a = own.size() == 0 ? 0 : (system.S_ud.rows() - system.n_moments) / n;
   MatrixXd& S = system.S_ud;
   const VectorXd of_rows = S.topRows(n * a).cwiseAbs().rowwise().sum();
   for (Index i = 0; i < n * a; ++i) {
-    if (of_rows[i] > nothing * own[i / a]) continue;
+    if (of_rows[i] > floating * own[i / a]) continue;
     S.row(i).setZero();
     S.col(i).setZero();
   }
-  const VectorXd rows = more * S.cwiseAbs().rowwise().sum();
+  const VectorXd rows = margin * S.cwiseAbs().rowwise().sum();
   const double largest = n > 0 ? rows.head(n * a).maxCoeff() : 0;
   system.stiffness.resize(n + std::ssize(rims));
   system.stiffness.head(n) = own;
@@ -126,9 +126,9 @@ CondensedSystem condense(const JointModel& joint) {
   system.Q = system.D_delta.transpose() * loads;
   system.Q_scale.resize(loads.cols());
   for (Index i = 0; i < loads.cols(); ++i) {
-    const VectorXd amounts = loads.col(i).cwiseAbs();
-    system.Q_scale[i] = std::max((system.rigid.Z().transpose() * amounts).lpNorm<Eigen::Infinity>(),
-                                 (Y.transpose() * amounts).lpNorm<Eigen::Infinity>());
+    const VectorXd forces = loads.col(i).cwiseAbs();
+    system.Q_scale[i] = std::max((system.rigid.Z().transpose() * forces).lpNorm<Eigen::Infinity>(),
+                                 (Y.transpose() * forces).lpNorm<Eigen::Infinity>());
   }
   system.D_load = given + system.rigid.moved(loads);
   system.friction = friction_layout(joint);

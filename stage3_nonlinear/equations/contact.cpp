@@ -3,7 +3,7 @@
 
 namespace fastjoint::stage3 {
 
-VectorXd amounts(const VectorXd& vectors, Index n_directions) {
+VectorXd magnitudes(const VectorXd& vectors, Index n_directions) {
   if (n_directions == 1) return vectors;
   return vectors.reshaped(n_directions, vectors.size() / n_directions).colwise().norm().transpose();
 }
@@ -21,7 +21,7 @@ ContactState contact_state(const std::vector<PlacedInterface>& interfaces, const
     state.F.segment(row, n) = part.F;
     state.delta.segment(row, n) = part.delta;
     state.Lambda.segment(friction, part.Lambda.size()) = part.Lambda;
-    if (part.spent >= 0) state.spent = row + part.spent;
+    if (part.failed >= 0) state.failed = row + part.failed;
   }
   for (Index j = 0; j < n_planes; ++j) {
     const VectorXd here = c.segment(j * n_directions, n_directions);

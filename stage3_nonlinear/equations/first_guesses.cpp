@@ -6,13 +6,13 @@
 namespace fastjoint::stage3 {
 
 LinearForces linear_forces(const JointEquations& equations, const VectorXd& flexibility, double load_factor) {
-  constexpr int most_tries = 8;
+  constexpr int max_tries = 8;
   const auto rims = equations.rim_sizes();
   MatrixXd A = equations.system->S_ud * flexibility.asDiagonal();
   A.diagonal().array() += 1;
   const VectorXd rhs = equations.rigid_forces(load_factor);
   LinearForces result{TangentFactor(A, rims).solve(rhs), 1, !equations.has_cosine_friction};
-  while (!result.consistent && result.solves < most_tries) {
+  while (!result.consistent && result.solves < max_tries) {
     const MatrixXd friction = equations.friction_matrix(result.F);
     result.F = TangentFactor(A + friction, rims).solve(rhs);
     result.consistent = equations.friction_matrix(result.F) == friction;

@@ -10,23 +10,23 @@ namespace fastjoint::stage3 {
 /// Bearing forces when every fastener is a linear spring.
 struct LinearForces {
   VectorXd F;               ///< (r) force
-  int solves = 0;           ///< with friction the sides that bear are found by trial
-  bool consistent = false;  ///< friction acts on the sides that bear
+  int solves = 0;           ///< number of trials, since with friction the bearing sides are found by trial
+  bool consistent = false;  ///< friction acts on the bearing sides
 };
 
-/// Solves (I + S_ud diag(flexibility) + H E) F = lambda q, with the columns of H by the sides that bear
-/// (docs/theory.md, section 8.8).
+/// Solves (I + S_ud diag(flexibility) + H E) F = lambda q, with the columns of H for the bearing sides (docs/theory.md,
+/// section 8.8).
 ///
 /// @param flexibility One for each row, length / force, >= 0, shape (r); zero is a rigid fastener.
 [[nodiscard]] LinearForces linear_forces(const JointEquations& equations, const VectorXd& flexibility,
                                          double load_factor);
 
-/// Bearing forces to start from (Bortman & Szabo, section 6.1): of rigid fasteners, of linear ones of one
-/// stiffness (default: the mean of the plates' own, diag S_ud), or the rigid ones' sum spread equally over
-/// the planes; rims as if their springs also pulled. Shape (r), force.
+/// Bearing forces to start from (Bortman & Szabo, section 6.1), shape (r), force: those of rigid fasteners, those of
+/// linear ones of one stiffness (default: the mean of the plates' own, diag S_ud), or the mean of the rigid ones; the
+/// springs of rims are taken as linear.
 [[nodiscard]] VectorXd guessed_forces(const JointEquations& equations, const InitialScene& initial, double load_factor);
 
-/// Contact coordinates at which the bearing forces are F, or about that, (r), force.
+/// Contact coordinates at which the bearing forces are approximately F, (r), force.
 [[nodiscard]] VectorXd guessed_coordinates(const JointEquations& equations, const VectorXd& F);
 
 /// The user's guess, then the others, as contact coordinates; each of shape (r), force.

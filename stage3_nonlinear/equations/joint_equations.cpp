@@ -13,17 +13,17 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Gives vanishing slopes a trace of stiffness in the Jacobian, not in the residual. The trace falls with the residual,
-/// so that the last steps are quick also where springs as weak as the trace hold a plate (docs/theory.md, section 8.5).
+/// Adds a small stiffness to vanishing slopes in the Jacobian, not in the residual. It falls with the residual, so that
+/// Newton's method converges fast also if a plate has springs as weak as this (docs/theory.md, section 8.5).
 void add_trace(const JointEquations& equations, double residual, ContactState& state) {
-  constexpr double share = 1e-7;
-  constexpr double least = 1e-11;  // rounding over this is still a small step
-  const double trace = std::clamp(share * residual, least, share);
+  constexpr double max_trace = 1e-7;
+  constexpr double min_trace = 1e-11;  // rounding divided by this is still a small step
+  const double trace = std::clamp(max_trace * residual, min_trace, max_trace);
   for (Index i = 0; i < std::ssize(state.parts); ++i)
     equations.interfaces[i].interface->add_trace(trace, state.parts[i]);
 }
 
-/// Throws where something would rub that has no friction in the condensed joint.
+/// Throws if a hole has friction here but none in the condensed joint.
 void check_friction(const JointModel& joint, const Parameters& parameters) {
   Index at = 0;
   for (const auto& fastener : joint.fasteners)
@@ -32,7 +32,7 @@ void check_friction(const JointModel& joint, const Parameters& parameters) {
         throw std::logic_error("make_equations: friction in a hole that has none in the condensed joint");
 }
 
-/// Appends an interface behind the others.
+/// Appends an interface to the others.
 void place(std::shared_ptr<const Interface> interface, std::vector<PlacedInterface>& to) {
   Index row = 0, friction = 0;
   if (!to.empty()) {
@@ -50,18 +50,19 @@ void place_fasteners(const JointModel& joint, JointEquations& equations) {
     const Index n_planes = fastener.n_planes(), n_holes = std::ssize(fastener.holes);
     const VectorXd mu = equations.parameters.mu.segment(hole, n_holes);
     equations.has_cosine_friction = equations.has_cosine_friction || (layout.n_columns[i] > 0 && !mu.isZero(0));
-    place(std::make_shared<FastenerInterface>(
-              std::vector(equations.contacts.begin() + plane, equations.contacts.begin() + plane + n_planes),
-              FastenerInterface::Place{plane, hole, joint.n_directions(), fastener.law_includes_friction,
-                                       std::vector(mu.begin(), mu.end()), layout.rubbing[i], layout.n_columns[i]}),
-          equations.interfaces);
+    place(
+        std::make_shared<FastenerInterface>(
+            std::vector(equations.contacts.begin() + plane, equations.contacts.begin() + plane + n_planes),
+            FastenerInterface::Place{plane, hole, joint.n_directions(), fastener.law_includes_friction,
+                                     std::vector(mu.begin(), mu.end()), layout.friction_holes[i], layout.n_columns[i]}),
+        equations.interfaces);
     plane += n_planes;
     hole += n_holes;
   }
 }
 
-/// Rims of contact, each with the gap and the friction of the fastener in it.
-/// @param like Of the same rims with other numbers, if they are made already.
+/// Appends the rims of contact, each with the gap and the friction of the fastener in it.
+/// @param like The same rims with other parameters, if there are any.
 void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const RimProblem>>& like,
                 JointEquations& equations) {
   const auto places = rim_places(joint);
@@ -76,24 +77,24 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
             ? like[i]->with(gap, mu)
             : RimProblem(RimContact(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves, rim.area, k)));
     equations.has_friction = equations.has_friction || mu != 0;
-    place(std::make_shared<RimInterface>(equations.rims.back(), i, equations.system->friction.rim_rubs[i]),
+    place(std::make_shared<RimInterface>(equations.rims.back(), i, equations.system->friction.rim_has_friction[i]),
           equations.interfaces);
   }
 }
 
-/// Forces of rigid fasteners by amounts of the load cases, (r).
+/// Forces of rigid fasteners by the loads of the load cases, (r).
 VectorXd rigid_forces_by(const CondensedSystem& system, const VectorXd& cases) {
   return without_rounding(system.Q * cases, cases.cwiseAbs().cwiseProduct(system.Q_scale).lpNorm<Eigen::Infinity>());
 }
 
-/// Values of those load cases that act at a load factor, by a value of each load, (l).
-VectorXd of_acting(const JointEquations& equations, double load_factor, const VectorXd& values) {
+/// Values of the load cases, (l), from a value of each load; zero for cases that are not active at a load factor.
+VectorXd of_active_cases(const JointEquations& equations, double load_factor, const VectorXd& values) {
   const auto& cases = equations.system->cases;
   const VectorXd load = equations.parameters.load_at(load_factor);
   return VectorXd::NullaryExpr(std::ssize(cases), [&](Index i) {
     const Index at = cases[i].load;
-    const double rate = equations.parameters.load[at];  // a load that is not there would grow as a positive one
-    return acts(cases[i].sense, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
+    const double rate = equations.parameters.load[at];  // a load of zero counts as one that grows with the load factor
+    return is_active(cases[i].sign, load[at], rate != 0 ? rate : load_factor) ? values[at] : 0;
   });
 }
 
@@ -169,13 +170,15 @@ void JointEquations::commit(const VectorXd& c) {
 }
 
 VectorXd JointEquations::load_at(double load_factor) const {
-  return of_acting(*this, load_factor, parameters.load_at(load_factor));
+  return of_active_cases(*this, load_factor, parameters.load_at(load_factor));
 }
 
-VectorXd JointEquations::load_rates(double load_factor) const { return of_acting(*this, load_factor, parameters.load); }
+VectorXd JointEquations::load_rates(double load_factor) const {
+  return of_active_cases(*this, load_factor, parameters.load);
+}
 
-VectorXd JointEquations::load_acting(double load_factor) const {
-  return of_acting(*this, load_factor, VectorXd::Ones(parameters.load.size()));
+VectorXd JointEquations::active_cases(double load_factor) const {
+  return of_active_cases(*this, load_factor, VectorXd::Ones(parameters.load.size()));
 }
 
 VectorXd JointEquations::q_at(double load_factor) const {

@@ -13,20 +13,20 @@
 
 namespace fastjoint::stage3 {
 
-/// The nonlinear equations of a joint for the numbers of one run: the condensed system with the interfaces put in, for
-/// the contact coordinates c = F + k delta: those of the n shear planes in a directions, then those of the long waves
-/// of each rim of contact, r in all.
+/// The nonlinear equations of a joint for the parameters of one run: the condensed system and the interfaces, with the
+/// contact coordinates c = F + k delta as unknowns: those of the n shear planes in a directions, then those of the long
+/// waves of each rim of contact, r in all.
 struct JointEquations {
   std::shared_ptr<const CondensedSystem> system;
   Parameters parameters;
   std::vector<Contact> contacts;                        ///< (n)
   std::vector<std::shared_ptr<const RimProblem>> rims;  ///< (g)
   std::vector<PlacedInterface> interfaces;              ///< fastener after fastener, then rim after rim
-  VectorXd q, q_reversed;             ///< (r) q_at of load factors > 0, and < 0, from no load on; force
+  VectorXd q, q_reversed;             ///< (r) q_at for load factors > 0, and < 0, if it starts unloaded; force
   bool rises = true;                  ///< no law falls
-  bool has_friction = false;          ///< something rubs
-  bool has_cosine_friction = false;   ///< friction follows from the bearing forces of a fastener
-  std::vector<History> history = {};  ///< of each interface, at the begin of the increment; none: nothing yet
+  bool has_friction = false;          ///< in any interface
+  bool has_cosine_friction = false;   ///< some friction follows from the bearing forces of a fastener
+  std::vector<History> history = {};  ///< of each interface, at the start of the increment; empty: none yet
 
   [[nodiscard]] Index n_planes() const { return contacts.size(); }
   /// Number a of directions.
@@ -35,72 +35,71 @@ struct JointEquations {
   [[nodiscard]] Index n_plane_rows() const { return n_unknowns() - system->n_moments; }
   /// Number r of unknowns.
   [[nodiscard]] Index n_unknowns() const { return system->S_ud.rows(); }
-  /// Plane of an unknown, or number of planes plus rim of contact.
+  /// Index of the plane of an unknown, or number of planes plus index of the rim of contact.
   [[nodiscard]] Index entry_of(Index row) const;
   /// Numbers of moments of the rims, rim after rim.
   [[nodiscard]] std::vector<Index> rim_sizes() const;
-  /// Coordinates of a rim of contact among all, (n_long).
+  /// Coordinates of a rim of contact, (n_long).
   [[nodiscard]] VectorXd of_rim(const VectorXd& c, Index rim) const;
   /// True if a disc is larger than the rim of contact around it.
   [[nodiscard]] bool has_interference() const;
-  /// CondensedSystem::metric, which makes the solution the place where a convex function is least (docs/theory.md,
-  /// section 8.4); empty if a law falls.
+  /// CondensedSystem::metric, with which the solution minimises a convex function (docs/theory.md, section 8.4); empty
+  /// if a law falls.
   [[nodiscard]] const MatrixXd& metric() const;
-  /// Force that the greatest clearance would take of the plates beside it, and the greatest gap or interference of the
-  /// springs of its rim, force.
+  /// Largest force that would deform the plates by a clearance, or the springs of a rim by its gap or interference,
+  /// force.
   [[nodiscard]] double force_of_clearances() const;
   [[nodiscard]] double force_of_gaps() const;
-  /// What a unit of the load factor adds to the forces of rigid fasteners, at a load factor, (r).
+  /// Derivative of the forces of rigid fasteners by the load factor, (r).
   [[nodiscard]] VectorXd q_at(double load_factor) const;
-  /// Makes the interfaces remember a solution of an increment, with the contact coordinates c, (r).
+  /// Updates the histories of the interfaces with the solution of an increment, the contact coordinates c, (r).
   void commit(const VectorXd& c);
   /// True if there is no load at load factor 0.
   [[nodiscard]] bool starts_unloaded() const { return parameters.load_before.size() == 0; }
   /// Forces of rigid fasteners at a load factor, (r), force.
   [[nodiscard]] VectorXd rigid_forces(double load_factor) const;
-  /// Amounts of the load cases at a load factor, and what a unit of it adds to them there, (l).
+  /// Loads of the load cases at a load factor, and their derivatives by it, (l).
   [[nodiscard]] VectorXd load_at(double load_factor) const;
   [[nodiscard]] VectorXd load_rates(double load_factor) const;
-  /// 1 of a load case that acts at a load factor, else 0, (l).
-  [[nodiscard]] VectorXd load_acting(double load_factor) const;
+  /// 1 for load cases that are active at a load factor, else 0, (l).
+  [[nodiscard]] VectorXd active_cases(double load_factor) const;
   /// F + S_ud delta and, with friction, H Lambda, (r), force.
   [[nodiscard]] VectorXd asked(const ContactState& state, bool friction) const;
-  /// F + S_ud delta + H Lambda less the forces of rigid fasteners, (r), force.
+  /// F + S_ud delta + H Lambda minus the forces of rigid fasteners, (r), force.
   [[nodiscard]] VectorXd residual(const ContactState& state, double load_factor) const;
-  /// Derivative of the forces H Lambda of cosine friction by F on the sides that bear under F, (r, r), dimensionless.
+  /// Derivative of the forces H Lambda of cosine friction by F for the sides that bear under F, (r, r), dimensionless.
   [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
 };
 
-/// @param system Of the joint. @param parameters Instead of those that JOINT.json gives.
-/// @param like Rims of equations of the same joint, whose work is taken over; their solutions are where those of these
-/// begin.
+/// @param system Condensed system of the joint. @param parameters Used instead of those in JOINT.json.
+/// @param like Rims of other equations of the same joint to copy from; the new rims start at their last solutions.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint, std::shared_ptr<const CondensedSystem> system,
                                             Parameters parameters,
                                             const std::vector<std::shared_ptr<const RimProblem>>& like = {});
-/// Condenses the joint and takes the numbers that JOINT.json gives.
+/// Condenses the joint and takes the parameters in JOINT.json.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint);
 
 /// @param c Contact coordinates, shape (r), force.
 [[nodiscard]] ContactState contact_state(const JointEquations& equations, const VectorXd& c);
 
-/// Gradients at the residuals, (r, columns), of the convex function that `metric` makes.
+/// Gradients at the residuals, (r, columns), of the convex function of `metric`.
 [[nodiscard]] MatrixXd gradient(const JointEquations& equations, const MatrixXd& residuals);
 
-/// Derivative of the forces of friction by c, (r, r), dimensionless, added to J.
+/// Adds the derivative of the forces of friction by c to J, (r, r), dimensionless.
 void add_friction_slopes(const CondensedSystem& system, const ContactState& state, MatrixXd& J);
 
 /// Derivative of the residual by c, shape (r, r), at the state of the contact coordinates c.
 ///
-/// @param friction False: without that of friction.
+/// @param friction If false, the derivative of friction is left out.
 [[nodiscard]] MatrixXd tangent(const CondensedSystem& system, const ContactState& state, bool friction = true);
 
-/// Hessian of that convex function, symmetric, shape (r, r), length / force:
-/// W^-1 - d delta / dc, and the tangent is W times it (docs/theory.md, section 8.4). To be called where no law falls.
+/// Hessian of that convex function, symmetric, shape (r, r), length / force: W^-1 - d delta / dc. The tangent is W
+/// times it (docs/theory.md, section 8.4). Only for joints without a law that falls.
 [[nodiscard]] MatrixXd hessian(const JointEquations& equations, const ContactState& state);
 
-/// The equations at a load factor, unknowns and residuals over `scale` (force).
+/// The equations at a load factor, with unknowns and residuals divided by `scale` (force).
 ///
-/// @param frozen If not null, friction acts as in this state instead of its own.
+/// @param frozen If not null, friction is constant and that of this state.
 [[nodiscard]] RootProblem root_problem(const JointEquations& equations, double load_factor, double scale,
                                        const ContactState* frozen = nullptr);
 

@@ -9,15 +9,15 @@
 
 namespace fastjoint::stage3 {
 
-/// Load that a joint surely does not exceed.
+/// Upper bound of the limit load of a joint.
 struct LimitLoad {
-  double factor;              ///< amount of the load factor, > 0
-  std::vector<Index> planes;  ///< that carry all that their laws allow there
+  double factor;              ///< absolute value of the load factor, > 0
+  std::vector<Index> planes;  ///< planes at the maximum force of their laws
 };
 
-/// Upper bound of the limit load by the motions that nothing but the laws resists (docs/theory.md, section 9.2), the
-/// least that is found; none where no such motion meets the load, where a law that it moves allows any force, or where
-/// friction adds to the laws' forces.
+/// Upper bound of the limit load by the kinematic theorem, for motions that only the laws resist (docs/theory.md,
+/// section 9.2), the smallest that is found. None if the load does no work on such a motion, if a law that it moves has
+/// no maximum force, or if friction adds to the forces of the laws.
 /// @param sign Of the load factors.
 [[nodiscard]] std::optional<LimitLoad> limit_load(const JointEquations& equations, double sign);
 

@@ -17,8 +17,8 @@ namespace {
 
 using SparseMatrix = RigidJoint::SparseMatrix;
 
-/// Stage 2's rounding leaves a floating plate about 1e-12 of its stiffness; a long chain of fasteners needs 1e-6, a
-/// floating plate the stiffness of what holds it over its own.
+/// Reciprocal condition below which a joint is a mechanism. The rounding of stage 2 gives a floating plate about 1e-12;
+/// a long chain of fasteners has 1e-6, a plate on soft supports the stiffness of these over its own.
 constexpr double singular = 1e-10;
 
 /// First unknown of a disc in the joint's list.
@@ -27,23 +27,24 @@ Index disc(const JointModel& joint, const HoleModel& hole) { return joint.offset
 /// Stiffness of the stiffest disc of a plate.
 double own_stiffness(const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); }
 
-/// Hole of a fastener that the others lie behind: that in the stiffest plate, or the ground, which is behind the last.
+/// Reference hole of a fastener: that in the stiffest plate, or the ground, which counts as the one after the last.
 Index reference(const JointModel& joint, const FastenerModel& fastener) {
   if (fastener.grounded) return std::ssize(fastener.holes);
   const auto own = [&](const HoleModel& hole) { return own_stiffness(joint.plates[hole.plate]); };
   return std::ranges::max_element(fastener.holes, {}, own) - fastener.holes.begin();
 }
 
-SparseMatrix behind_planes(const JointModel& joint) {
+/// Matrix Y: displacements of all unknowns per relative displacement and moment.
+SparseMatrix relative_motions(const JointModel& joint) {
   std::vector<Eigen::Triplet<double>> Y;
   for (Index at = 0; at < joint.n_planes(); ++at) {
     const ShearPlane& plane = joint.planes[at];
     const auto& holes = joint.fasteners[plane.fastener].holes;
-    const bool beyond = reference(joint, joint.fasteners[plane.fastener]) > plane.first;
+    const bool before = reference(joint, joint.fasteners[plane.fastener]) > plane.first;
     for (Index d = 0; d < joint.n_directions(); ++d)
       for (Index hole = 0; hole < std::ssize(holes); ++hole)
-        if ((hole <= plane.first) == beyond)
-          Y.emplace_back(disc(joint, holes[hole]) + d, at * joint.n_directions() + d, beyond ? 1 : -1);
+        if ((hole <= plane.first) == before)
+          Y.emplace_back(disc(joint, holes[hole]) + d, at * joint.n_directions() + d, before ? 1 : -1);
   }
   Index column = joint.n_planes() * joint.n_directions();
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
@@ -54,7 +55,7 @@ SparseMatrix behind_planes(const JointModel& joint) {
   return result;
 }
 
-/// Gives each free unknown that follows no other its column of Z, and those of a fastener that of its stiffest plate;
+/// Matrix Z: each independent unknown has its own column, and all discs of a fastener have that of its reference hole;
 /// the ground has none.
 SparseMatrix free_unknowns(const JointModel& joint) {
   const Index N = joint.n_unknowns();
@@ -85,10 +86,9 @@ SparseMatrix free_unknowns(const JointModel& joint) {
   return result;
 }
 
-/// Motions of a scaled stiffness that meet no stiffness, (z, their number).
+/// Null space of a scaled stiffness, (z, its dimension).
 MatrixXd motions_without_stiffness(const MatrixXd& S_z) {
-  // A little above the limit of what is held, whose rcond is an estimate in another norm.
-  constexpr double small = 1e3 * singular;
+  constexpr double small = 1e3 * singular;  // since rcond is an estimate in another norm
   const auto eigen = matrices::symmetric_eigen(S_z);
   const auto n = (eigen.values.array() <= small * eigen.values.maxCoeff()).count();
   return eigen.vectors.leftCols(n);
@@ -103,17 +103,17 @@ MatrixXd motions_without_stiffness(const MatrixXd& S_z) {
       names.push_back(fmt::format("\"{}\"", joint.plates[i].name));
   }
   throw NumericalError(
-      fmt::format("{}: the joint is a mechanism: plate {} can move freely even with rigid fasteners, nothing "
-                  "holds the joint there; give a plate a support (stage 1), hold an external with "
-                  "\"displacement\": 0, or a fastener by the \"ground\"",
+      fmt::format("{}: the joint is a mechanism: plate {} can move freely even with rigid fasteners; give a plate "
+                  "a support (stage 1), fix an external with \"displacement\": 0, or connect a fastener to the "
+                  "\"ground\"",
                   joint.file, fmt::join(names, " with plate ")));
 }
 
 }  // namespace
 
 RigidJoint::RigidJoint(const JointModel& joint, const MatrixXd& S)
-    : Z_(free_unknowns(joint)), Y_(behind_planes(joint)), scale_(VectorXd::Zero(Z_.cols())) {
-  VectorXd own(joint.n_unknowns());  // of the stiffest plate at each unknown
+    : Z_(free_unknowns(joint)), Y_(relative_motions(joint)), scale_(VectorXd::Zero(Z_.cols())) {
+  VectorXd own(joint.n_unknowns());  // stiffness of the plate of each unknown
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(own_stiffness(joint.plates[i]));
   for (Index j = 0; j < Z_.outerSize(); ++j)

@@ -9,25 +9,25 @@
 
 namespace fastjoint::stage3 {
 
-/// A joint whose shear planes do not move, as the Cholesky factor of its stiffness, scaled so that units and the
-/// stiffness of one unknown against the next do not matter.
+/// A joint with rigid fasteners as the Cholesky factor of its stiffness, scaled so that the factor does not depend on
+/// units and on ratios of stiffness between unknowns.
 ///
-/// The displacements of all N unknowns are Z z + Y delta + given ones: those of the stiffest plate's disc of each
-/// fastener are in z, the others lie behind it by the delta of the planes between. All discs of a fastener that the
-/// ground holds lie behind the ground. The moments of rims are entries of delta themselves.
+/// The displacements of all N unknowns are Z z + Y delta + prescribed ones. For each fastener, z holds the displacement
+/// of its disc in the stiffest plate, and the other discs differ from it by the delta of the planes between. The discs
+/// of a grounded fastener differ from the ground in the same way. The moments of rims are entries of delta.
 class RigidJoint {
  public:
   using SparseMatrix = Eigen::SparseMatrix<double>;
 
   RigidJoint() = default;
-  /// @param S (N, N) of all plates. @throws NumericalError naming the plates that can move if nothing holds them.
+  /// @param S (N, N) stiffness of all plates. @throws NumericalError naming the plates that can move freely.
   RigidJoint(const JointModel& joint, const MatrixXd& S);
 
   [[nodiscard]] const SparseMatrix& Z() const { return Z_; }  ///< (N, z) of 0 and 1
   [[nodiscard]] const SparseMatrix& Y() const { return Y_; }  ///< (N, r) of -1, 0 and 1
   /// L^-1 Z^T f of forces f on all unknowns, (N, columns), where Z^T S Z = L L^T: (z, columns).
   [[nodiscard]] MatrixXd half_solve(const MatrixXd& f) const;
-  /// Displacements Z L^-T of that: of all unknowns under the forces, (N, columns), length.
+  /// Displacements Z L^-T half of all unknowns, (N, columns), length.
   [[nodiscard]] MatrixXd restore(const MatrixXd& half) const;
   /// Displacements of all unknowns under forces on them, (N, columns), length.
   [[nodiscard]] MatrixXd moved(const MatrixXd& f) const { return restore(half_solve(f)); }

@@ -11,19 +11,19 @@ namespace {
 
 thread_local Index factorised = 0;
 
-/// What a free motion of unknowns may change of a force without leaving it undetermined.
+/// Largest change of a force by a unit vector of the null space with which the force still has a derivative.
 constexpr double motion_of_force = 1e-6;
 
-/// Divides the columns of A whose largest entry exceeds 1 by it, and returns what they were divided by. Small ones
-/// stay: contact coordinates have a tangent of order 1, and what is small in it is lack of stiffness.
+/// Divides the columns of A whose largest entry exceeds 1 by it, and returns the divisors. Small columns stay: the
+/// tangent by contact coordinates is of order 1, and small columns are a lack of stiffness.
 VectorXd scale_columns(MatrixXd& A) {
   VectorXd scale = A.cwiseAbs().colwise().maxCoeff().transpose().cwiseMax(1.0);
   A.array().rowwise() /= scale.transpose().array();
   return scale;
 }
 
-/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), where it is W times a symmetric Hessian
-/// H, without friction, rims of contact and laws that fall, and H is surely regular.
+/// Inverse of the tangent, I + H^-1 d delta / dc (docs/theory.md, section 8.4), if the tangent is W times a symmetric
+/// Hessian H, without friction, rims of contact and laws that fall, and H is certainly regular.
 std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const ContactState& state) {
   constexpr double surely_regular = 1e3 * singular_tangent;
   if (!equations.rises || equations.has_friction || !equations.rims.empty()) return std::nullopt;
@@ -36,8 +36,8 @@ std::optional<MatrixXd> inverse_tangent(const JointEquations& equations, const C
   return J;
 }
 
-/// Coordinates a little beyond the corners that planes under load are on. Only laws that are linear between corners
-/// have others than that of their gap, at which they carry nothing.
+/// Coordinates slightly beyond the corners for planes under load that may be on one. Only piecewise linear laws have
+/// corners other than that of their gap, at which the force is zero.
 VectorXd beyond_corners(const JointEquations& equations, const ContactState& state, VectorXd c) {
   constexpr double beyond = 1 + 1e-9;
   const Index a = equations.n_directions();
@@ -58,7 +58,7 @@ SolvedPoint::SolvedPoint(JointEquations equations, double load_factor, VectorXd 
       state_(contact_state(equations_, c_)),
       beyond_(contact_state(equations_, beyond_corners(equations_, state_, c_))) {
   factorise();
-  if (equations_.has_friction && state_.F.isZero(0)) bear();
+  if (equations_.has_friction && state_.F.isZero(0)) find_bearing_sides();
   if (factor_) check_ = check_tangent(equations_, beyond_, *factor_, scale_);
 }
 
@@ -73,11 +73,11 @@ void SolvedPoint::factorise() {
   factor_ = std::make_unique<TangentFactor>(std::move(J), equations_.rim_sizes());
 }
 
-/// Replaces the forces without load, under which no rim bears yet, by those of a small load, whose sides tell how
-/// friction acts.
-void SolvedPoint::bear() {
-  constexpr int most_tries = 8;
-  for (int i = 0; i < most_tries && equations_.has_cosine_friction; ++i) {
+/// Replaces the forces at no load, under which no rim bears, by those of a small load, which determine the sides on
+/// which friction acts.
+void SolvedPoint::find_bearing_sides() {
+  constexpr int max_tries = 8;
+  for (int i = 0; i < max_tries && equations_.has_cosine_friction; ++i) {
     const MatrixXd before = equations_.friction_matrix(beyond_.F);
     beyond_.F = slopes(-equations_.q).F;
     if (i > 0 && equations_.friction_matrix(beyond_.F) == before) return;
@@ -96,9 +96,8 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
     return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
   }
   const Index r = c_.size();
-  if (!(factor_->least_stretch() > singular_tangent))
-    return residual ? slopes_of_singular(-*residual) : back_from_singular();
-  if (!residual) {  // from the few forces back
+  if (!(factor_->rcond() > singular_tangent)) return residual ? slopes_of_singular(-*residual) : back_from_singular();
+  if (!residual) {  // the transposed system has fewer right-hand sides: one for each force
     const MatrixXd F_c = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), r), &Response::dF);
     const MatrixXd back = factor_->solve_transposed(scale_.cwiseInverse().asDiagonal() * F_c.transpose());
     return {-back.transpose(), {}, {}, {}};
@@ -107,7 +106,7 @@ Slopes SolvedPoint::slopes(const std::optional<MatrixXd>& residual) const {
   return {-beyond_.product(&Response::dF, dc), -dc, {}, {}};
 }
 
-/// Forces that the free motions of the unknowns change have no derivative; every column is given one.
+/// Slopes for the identity if J is singular: forces that change along its null space have no derivative.
 Slopes SolvedPoint::back_from_singular() const {
   const MatrixXd F_x = beyond_.times(MatrixXd::Identity(equations_.n_plane_rows(), c_.size()), &Response::dF) *
                        scale_.cwiseInverse().asDiagonal();
@@ -119,10 +118,10 @@ Slopes SolvedPoint::back_from_singular() const {
   return slopes;
 }
 
-/// Least squares where J is singular: what is left of the right-hand side has no solution near, and forces that the
-/// free motions of the unknowns change have no derivative.
+/// Slopes by least squares if J is singular: columns with a remaining residual, and forces that change along the null
+/// space, have no derivative.
 Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
-  constexpr double left = 1e-6;  // beyond what the solver's tolerance leaves out of balance
+  constexpr double max_residual = 1e-6;  // above the imbalance by the tolerance of the solver
   const auto [dx, free] = factor_->solve_singular(rhs, singular_tangent);
   const MatrixXd F_x =
       beyond_.times(MatrixXd::Identity(c_.size(), c_.size()), &Response::dF) * scale_.cwiseInverse().asDiagonal();
@@ -132,20 +131,20 @@ Slopes SolvedPoint::slopes_of_singular(const MatrixXd& rhs) const {
                 {}};
   const MatrixXd rest = factor_->matrix() * dx - rhs, F_free = F_x * free;
   for (Index i = 0; i < rhs.cols(); ++i)
-    if (rest.col(i).norm() > left * rhs.col(i).norm()) slopes.no_column.push_back(i);
+    if (rest.col(i).norm() > max_residual * rhs.col(i).norm()) slopes.no_column.push_back(i);
   for (Index i = 0; i < F_free.rows(); ++i)
     if (F_free.row(i).norm() > motion_of_force) slopes.no_row.push_back(i);
   return slopes;
 }
 
-MatrixXd SolvedPoint::of_amounts(const Slopes& slopes) const {
+MatrixXd SolvedPoint::of_magnitudes(const Slopes& slopes) const {
   const Index a = beyond_.direction.rows(), n = beyond_.direction.cols();
   MatrixXd result = slopes.F.topRows(n);
   if (a > 1) {
     for (Index j = 0; j < result.rows(); ++j) {
       const auto block = slopes.F.middleRows(j * a, a);
       result.row(j) = beyond_.direction.col(j).transpose() * block;
-      // Without load there is no direction; the amount then grows whatever the direction is.
+      // Without load there is no direction, and the derivative of the magnitude is the norm of that of the vector.
       if (c_.segment(j * a, a).isZero(0)) result.row(j) = block.colwise().norm();
     }
   }

@@ -13,9 +13,9 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// The motion that the tangent does not resist, and the planes that take part in it by more than a share of its largest
-/// entry: those that are open, and those that bear on a level piece of their law. A law that rises again behind a level
-/// piece, as after a slip, is no limit.
+/// The motion without stiffness, and the planes that move by more than a small fraction of its norm: those that are
+/// open, and those that bear on a horizontal piece of their law. A law that rises again after a horizontal piece, as
+/// after a slip, is no limit.
 /// @param J With columns divided by `scale`.
 Mechanism mechanism(const JointEquations& equations, const ContactState& state, const TangentFactor& J,
                     const VectorXd& scale) {
@@ -48,27 +48,27 @@ MatrixXd square_root(const MatrixXd& A) {
   return eigen.vectors * eigen.values.cwiseMax(0).cwiseSqrt().asDiagonal() * eigen.vectors.transpose();
 }
 
-/// Eigenvalues of the tangent whose real part is less than `least`.
-Index soft_modes(const JointEquations& equations, const ContactState& state, double least) {
+/// Number of eigenvalues of the tangent with a real part below a limit.
+Index soft_modes(const JointEquations& equations, const ContactState& state, double limit) {
   const CondensedSystem& system = *equations.system;
-  if (equations.has_friction) return (matrices::eigenvalues(tangent(system, state)).real().array() < least).count();
+  if (equations.has_friction) return (matrices::eigenvalues(tangent(system, state)).real().array() < limit).count();
   // P S P + dF/dc with P^2 = d delta/dc is symmetric and similar to the tangent (docs/theory.md, section 9.3).
   ContactState root = state;
   for (Response& part : root.parts) part.ddelta = square_root(part.ddelta);
   const MatrixXd PS = root.times(system.S_ud, &Response::ddelta).transpose();
   MatrixXd A = root.times(PS, &Response::ddelta);
   state.add(1, &Response::dF, A);
-  return (matrices::symmetric_eigenvalues(A).array() < least).count();
+  return (matrices::symmetric_eigenvalues(A).array() < limit).count();
 }
 
-/// A norm of the friction matrix H E, which none of its eigenvalues exceeds.
+/// A norm of the friction matrix H E, an upper bound of its eigenvalues.
 double friction_norm(const MatrixXd& H) {
   return std::min(H.cwiseAbs().rowwise().sum().maxCoeff(), H.cwiseAbs().colwise().sum().maxCoeff());
 }
 
-/// True if the tangent J of laws that rise has no eigenvalue that `soft_modes` would count, as it surely has not where
-/// the symmetric part of d delta/dc^T J is positive definite: that of the tangent stiffness J (d delta/dc)^-1, which
-/// the joint's displacements meet. Planes of rigid laws, along which nothing moves, have no part in it.
+/// True if the tangent J certainly has no eigenvalue that `soft_modes` would count. A sufficient condition for laws
+/// that rise is that the symmetric part of d delta/dc^T J is positive definite, and with it that of the tangent
+/// stiffness J (d delta/dc)^-1. Planes of rigid laws do not move and are left out.
 bool surely_stable(const JointEquations& equations, const ContactState& state, const MatrixXd& J) {
   if (!equations.rises) return false;
   constexpr double rigid = 1e-12;
@@ -92,10 +92,10 @@ bool surely_stable(const JointEquations& equations, const ContactState& state, c
   return matrices::is_positive_definite(std::move(A));
 }
 
-/// Ritz values of a linear map of n unknowns by Arnoldi's method, (steps or fewer): those at the edge of its spectrum
-/// are near eigenvalues (Saad, Numerical Methods for Large Eigenvalue Problems, 2011, section 6.2).
+/// Ritz values of a linear map of n unknowns by Arnoldi's method, (steps or fewer), which approximate the eigenvalues
+/// at the edge of its spectrum (Saad, Numerical Methods for Large Eigenvalue Problems, 2011, section 6.2).
 Eigen::VectorXcd ritz_values(const std::function<VectorXd(const VectorXd&)>& map, Index n, Index steps) {
-  constexpr double nothing = 1e-12;  // of a new direction: all that the start reaches is found
+  constexpr double negligible = 1e-12;  // a new direction this small ends an invariant subspace
   MatrixXd V(n, steps + 1), H = MatrixXd::Zero(steps + 1, steps);
   V.col(0) = VectorXd::NullaryExpr(n, [](Index i) { return std::cos(double(i) * double(i)); }).normalized();
   for (Index j = 0; j < steps; ++j) {
@@ -107,15 +107,15 @@ Eigen::VectorXcd ritz_values(const std::function<VectorXd(const VectorXd&)>& map
       H.col(j).head(j + 1) += along;
     }
     H(j + 1, j) = next.norm();
-    if (!(H(j + 1, j) > nothing * size)) return matrices::eigenvalues(H.topLeftCorner(j + 1, j + 1));
+    if (!(H(j + 1, j) > negligible * size)) return matrices::eigenvalues(H.topLeftCorner(j + 1, j + 1));
     V.col(j + 1) = next / H(j + 1, j);
   }
   return matrices::eigenvalues(H.topRows(steps));
 }
 
-/// True if no eigenvalue of a large tangent J shows that `soft_modes` would count. Its own Ritz values show those that
-/// are far to the left; those that are near zero are the largest of (J + s)^-1, the shift s being a little more than
-/// what counts, since open fasteners leave J singular.
+/// True if the Ritz values of a large tangent J show no eigenvalue that `soft_modes` would count. Those of J
+/// approximate eigenvalues far to the left; eigenvalues near zero are the largest of (J + s)^-1, with a shift s
+/// slightly above the limit, since J is singular if fasteners are open.
 bool seems_stable(const JointEquations& equations, const MatrixXd& J) {
   constexpr Index few = 400, steps = 60;
   constexpr double shift = 1e-6, left = -1e-8;
@@ -130,8 +130,8 @@ bool seems_stable(const JointEquations& equations, const MatrixXd& J) {
   return leftmost(inverse) > left * inverse.cwiseAbs().maxCoeff();
 }
 
-/// Takes away what the force of a plane rises along c, and its friction with it.
-void lower(const JointEquations& equations, ContactState& state, Index plane) {
+/// Sets a positive slope of the force of a plane along c, and that of its friction, to zero.
+void remove_stiffness(const JointEquations& equations, ContactState& state, Index plane) {
   const Index a = state.direction.rows();
   Index row = plane * a;
   for (Index i = 0; i < std::ssize(state.parts); ++i) {
@@ -153,7 +153,7 @@ std::optional<double> self_locking(const JointEquations& equations, const Vector
   if (!equations.has_cosine_friction) return std::nullopt;
   const MatrixXd H = equations.friction_matrix(F);
   if (friction_norm(H) < 1) return std::nullopt;
-  constexpr double real = 1e-9;  // imaginary part of a real eigenvalue, by rounding
+  constexpr double real = 1e-9;  // max imaginary part of a real eigenvalue, by rounding
   double largest = 0;
   const Eigen::VectorXcd values = matrices::eigenvalues(-H);
   for (const auto& value : values)
@@ -165,14 +165,14 @@ std::optional<double> self_locking(const JointEquations& equations, const Vector
 TangentCheck check_tangent(const JointEquations& equations, const ContactState& state, const TangentFactor& factor,
                            const VectorXd& scale) {
   TangentCheck check;
-  if (!(factor.least_stretch() > singular_tangent)) {
+  if (!(factor.rcond() > singular_tangent)) {
     Mechanism found = mechanism(equations, state, factor, scale);
     if (!found.open.empty() || !found.level.empty()) {
       check.mechanism = std::move(found);
       return check;
     }
   }
-  // Only friction makes a joint of rising laws unstable, cosine friction only where it is large.
+  // A joint of rising laws is unstable only by friction, and by cosine friction only if it is large.
   bool falls = false;
   for (Index j = 0; j < equations.n_planes(); ++j) falls = falls || state.along(&Response::dF, j) < 0;
   const bool rims_rub = std::ranges::any_of(equations.rims, [](const auto& rim) { return rim->contact().mu() > 0; });
@@ -186,24 +186,24 @@ TangentCheck check_tangent(const JointEquations& equations, const ContactState& 
 }
 
 std::vector<Index> level_planes(const JointEquations& equations, const VectorXd& c) {
-  constexpr double nearly_level = 1e-3, nearly_singular = 1e-4;  // where a try that failed ended
+  constexpr double nearly_level = 1e-3, nearly_singular = 1e-4;  // at the last iterate of a failed try
   ContactState state = contact_state(equations, c);
-  const Index spent = state.spent ? equations.entry_of(*state.spent) : -1;
+  const Index failed = state.failed ? equations.entry_of(*state.failed) : -1;
   std::vector<Index> level;
   for (Index j = 0; j < equations.n_planes(); ++j) {
     const Index a = equations.n_directions();
     const bool open = state.F.segment(j * a, a).isZero(0);
     const Contact& contact = equations.contacts[j];
-    const double amount = c.segment(j * a, a).norm();
-    // A law that rises again behind a level piece, as after a slip, is no limit.
+    const double length = c.segment(j * a, a).norm();
+    // A law that rises again after a horizontal piece, as after a slip, is no limit.
     const bool rises_again = std::ranges::any_of(std::array{1.5, 3.0, 10.0, 100.0}, [&](double further) {
-      return contact.law->at(further * amount, contact.stiffness, contact.clearance).dF > nearly_level;
+      return contact.law->at(further * length, contact.stiffness, contact.clearance).dF > nearly_level;
     });
-    if (spent != j && (open || state.along(&Response::dF, j) > nearly_level || rises_again)) continue;
+    if (failed != j && (open || state.along(&Response::dF, j) > nearly_level || rises_again)) continue;
     level.push_back(j);
-    lower(equations, state, j);
+    remove_stiffness(equations, state, j);
   }
-  if (state.spent || soft_modes(equations, state, nearly_singular) > 0) return level;
+  if (state.failed || soft_modes(equations, state, nearly_singular) > 0) return level;
   return {};
 }
 
@@ -215,7 +215,7 @@ std::vector<Index> planes_that_may_snap(const JointEquations& equations) {
     const Law& law = *equations.contacts[j].law;
     if (law.rises()) continue;
     falling.push_back(j);
-    for (Index d = 0; d < a; ++d) S(j * a + d, j * a + d) += law.least_slope();
+    for (Index d = 0; d < a; ++d) S(j * a + d, j * a + d) += law.min_slope();
   }
   if (falling.empty() || matrices::is_positive_definite(S)) return {};
   return falling;

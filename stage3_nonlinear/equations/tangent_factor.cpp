@@ -11,21 +11,21 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Number of waves of a rim, from `first` on, before those that hardly act on unknowns elsewhere and these back on
-/// them: products of both couplings, as shares of both diagonals, know no units.
+/// Number of waves of a rim, from `first` on, up to the last that is coupled to unknowns outside the rim. The measure
+/// is the product of both couplings over both diagonal entries, which is dimensionless.
 Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index size) {
-  constexpr double hardly = 1e-4, nothing = std::numeric_limits<double>::min();
-  Eigen::ArrayXd most = Eigen::ArrayXd::Zero(size);
-  const auto look_at = [&](Index begin, Index end) {  // column by column, as J lies in memory
+  constexpr double max_coupling = 1e-4, not_zero = std::numeric_limits<double>::min();
+  Eigen::ArrayXd coupling = Eigen::ArrayXd::Zero(size);
+  const auto add = [&](Index begin, Index end) {  // column by column, as J is stored
     for (Index j = begin; j < end; ++j)
-      most =
-          most.max((J.col(j).segment(first, size).array() * J.row(j).segment(first, size).transpose().array()).abs() /
-                   std::max(std::abs(diagonal[j]), nothing));
+      coupling = coupling.max(
+          (J.col(j).segment(first, size).array() * J.row(j).segment(first, size).transpose().array()).abs() /
+          std::max(std::abs(diagonal[j]), not_zero));
   };
-  look_at(0, first);
-  look_at(first + size, J.cols());
+  add(0, first);
+  add(first + size, J.cols());
   Index n = size;
-  while (n > 0 && most[n - 1] <= hardly * std::abs(diagonal[first + n - 1])) --n;
+  while (n > 0 && coupling[n - 1] <= max_coupling * std::abs(diagonal[first + n - 1])) --n;
   return n;
 }
 
@@ -34,17 +34,17 @@ MatrixXd orthonormal(const MatrixXd& A) {
   return qr.householderQ() * MatrixXd::Identity(A.rows(), A.cols());
 }
 
-/// Corrects the solution by a factor until the residual is rounding or does not fall any more.
-/// @param norm Of J: where J is nearly singular x is large, and J x has rounding of its own.
+/// Refines a solution iteratively until the residual is rounding or does not fall any more.
+/// @param norm 1-norm of J: x is large if J is nearly singular, and then J x has rounding of its own.
 /// @param wanted Residual over b.
 template <typename Solve, typename Matrix>
 MatrixXd corrected(const Solve& solve, const Matrix& J, double norm, const MatrixXd& b, double wanted) {
-  constexpr int most = 8;
+  constexpr int max_steps = 8;
   constexpr double of_product = 1e-16, falls = 0.5;
   MatrixXd x = solve(b), residual = b - J * x;
   double before = std::numeric_limits<double>::infinity();
   const auto is_left = [&] { return residual.norm() > std::max(wanted * b.norm(), of_product * norm * x.norm()); };
-  for (int i = 0; i < most && is_left() && residual.norm() < falls * before; ++i) {
+  for (int i = 0; i < max_steps && is_left() && residual.norm() < falls * before; ++i) {
     before = residual.norm();
     x += solve(residual);
     residual = b - J * x;
@@ -52,7 +52,7 @@ MatrixXd corrected(const Solve& solve, const Matrix& J, double norm, const Matri
   return x;
 }
 
-/// The same, and where the residual has not become small, the solution by a factor of the whole matrix.
+/// The same, or the solution by a factor of the whole matrix if the residual has not become small.
 template <typename Solve, typename Matrix>
 MatrixXd surely_corrected(const Solve& solve, const Matrix& J, double norm, const MatrixXd& b, double wanted,
                           double enough) {
@@ -63,7 +63,7 @@ MatrixXd surely_corrected(const Solve& solve, const Matrix& J, double norm, cons
 }
 
 constexpr double rounding = 1e-14, nearly_rounding = 1e-10;
-constexpr double for_errors = 1e-11;  // J^T is asked for error bars
+constexpr double for_errors = 1e-11;  // enough for error bars, which need J^T
 
 }  // namespace
 
@@ -73,7 +73,7 @@ TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims)
   kept_.resize(first);
   std::iota(kept_.begin(), kept_.end(), Index{0});
   const VectorXd diagonal = J_.diagonal();
-  std::vector<Index> columns;  // of `small_`, at which the long waves of a rim with short ones begin
+  std::vector<Index> columns;  // of `schur_`, at which the long waves of a rim with short ones begin
   for (const Index size : rims) {
     const Index n = n_long(J_, diagonal, first, size);
     if (n < size) {
@@ -83,19 +83,19 @@ TangentFactor::TangentFactor(MatrixXd J, const std::vector<Index>& rims)
     for (Index i = 0; i < n; ++i) kept_.push_back(first + i);
     first += size;
   }
-  small_ = short_waves_.empty() ? J_ : MatrixXd(J_(kept_, kept_));
+  schur_ = short_waves_.empty() ? J_ : MatrixXd(J_(kept_, kept_));
   for (std::size_t i = 0; i < columns.size(); ++i) {
     auto& rim = short_waves_[i];
     const Index n = rim.end - rim.first, n_before = rim.first - rim.first_long;
-    rim.own = matrices::Lu(J_.block(rim.first, rim.first, n, n));
-    rim.by_long = rim.own.solve(J_.block(rim.first, rim.first_long, n, n_before));
+    rim.block = matrices::Lu(J_.block(rim.first, rim.first, n, n));
+    rim.by_long = rim.block.solve(J_.block(rim.first, rim.first_long, n, n_before));
     rim.on_kept = J_(kept_, Eigen::seqN(rim.first, n));
-    small_.middleCols(columns[i], n_before) -= rim.on_kept * rim.by_long;
+    schur_.middleCols(columns[i], n_before) -= rim.on_kept * rim.by_long;
   }
-  lu_ = matrices::Lu(small_);
+  lu_ = matrices::Lu(schur_);
 }
 
-double TangentFactor::least_stretch() const { return lu_.rcond() * std::min(1.0, lu_.norm()); }
+double TangentFactor::rcond() const { return lu_.rcond() * std::min(1.0, lu_.norm()); }
 
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve(b);
@@ -118,26 +118,26 @@ MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
                           rounding, nearly_rounding);
 }
 
-/// The smallest singular values and their vectors by inverse iteration with as many vectors as it takes for one of them
-/// to be none of the null space: a few solutions instead of all singular values.
-TangentFactor::NullSpace TangentFactor::find_null_space(double share) const {
-  const Index n = small_.rows();
-  constexpr double nearly = 1e-12;  // moved by this much a singular matrix has a factor
+/// Finds the smallest singular values and their vectors by inverse iteration. The number of vectors grows until one of
+/// them is outside the null space, which takes fewer operations than all singular values.
+TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const {
+  const Index n = schur_.rows();
+  constexpr double shift = 1e-12;  // makes a singular matrix regular
   constexpr int turns = 3, first = 8;
   const double norm = lu_.norm();
-  MatrixXd moved = small_;
-  moved.diagonal().array() += nearly * std::max(norm, std::numeric_limits<double>::min());
-  const matrices::Lu lu(std::move(moved));
+  MatrixXd shifted = schur_;
+  shifted.diagonal().array() += shift * std::max(norm, std::numeric_limits<double>::min());
+  const matrices::Lu lu(std::move(shifted));
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
   VectorXd x = VectorXd::NullaryExpr(n, [&] { return normal(random); });
-  double largest = 0;  // singular value, by power iteration
+  double largest = 0;  // largest singular value, by power iteration
   for (int i = 0; i < 2 * turns && x.norm() > 0; ++i) {
     x.normalize();
-    x = small_.transpose() * (small_ * x).eval();
+    x = schur_.transpose() * (schur_ * x).eval();
     largest = std::sqrt(x.norm());
   }
-  const double least = share * std::max(largest, 1.0);
+  const double max_null = tolerance * std::max(largest, 1.0);
   NullSpace result;
   for (Index k = std::min<Index>(first, n);; k = std::min(2 * k, n)) {
     const MatrixXd start = MatrixXd::NullaryExpr(n, k, [&] { return normal(random); });
@@ -146,30 +146,30 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double share) const {
       right = orthonormal(lu.solve(lu.solve_transposed(right)));
       left = orthonormal(lu.solve_transposed(lu.solve(left)));
     }
-    const auto of_right = matrices::singular_values(small_ * right);
-    const auto of_left = matrices::singular_values(small_.transpose() * left);
-    const Index found = std::max<Index>(1, (of_right.values.array() <= least).count());
+    const auto of_right = matrices::singular_values(schur_ * right);
+    const auto of_left = matrices::singular_values(schur_.transpose() * left);
+    const Index found = std::max<Index>(1, (of_right.values.array() <= max_null).count());
     if (found == k && k < n) continue;
     result.right = right * of_right.V.rightCols(found);
     result.left = left * of_left.V.rightCols(found);
     break;
   }
-  MatrixXd lifted = small_;
+  MatrixXd lifted = schur_;
   lifted.noalias() += std::max(largest, std::numeric_limits<double>::min()) * result.left * result.right.transpose();
   result.lifted = matrices::Lu(std::move(lifted));
   return result;
 }
 
-const TangentFactor::NullSpace& TangentFactor::null_space(double share) const {
-  const auto known = null_spaces_.find(share);
+const TangentFactor::NullSpace& TangentFactor::null_space(double tolerance) const {
+  const auto known = null_spaces_.find(tolerance);
   return known != null_spaces_.end() ? known->second
-                                     : null_spaces_.emplace(share, find_null_space(share)).first->second;
+                                     : null_spaces_.emplace(tolerance, find_null_space(tolerance)).first->second;
 }
 
-MatrixXd TangentFactor::free_motions(double share) const { return extended(null_space(share).right); }
+MatrixXd TangentFactor::free_motions(double tolerance) const { return extended(null_space(tolerance).right); }
 
-TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double share) const {
-  const NullSpace& null = null_space(share);
+TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double tolerance) const {
+  const NullSpace& null = null_space(tolerance);
   const auto solve = [&](const MatrixXd& f) -> MatrixXd {
     return null.lifted.solve(f - null.left * (null.left.transpose() * f));
   };
@@ -178,8 +178,8 @@ TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double 
   return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, rounding), free};
 }
 
-TangentFactor::Singular TangentFactor::solve_singular_transposed(const MatrixXd& b, double share) const {
-  const NullSpace& null = null_space(share);
+TangentFactor::Singular TangentFactor::solve_singular_transposed(const MatrixXd& b, double tolerance) const {
+  const NullSpace& null = null_space(tolerance);
   const auto solve = [&](const MatrixXd& f) -> MatrixXd {
     const MatrixXd x = null.lifted.solve_transposed(f);
     return x - null.left * (null.left.transpose() * x);
@@ -205,7 +205,7 @@ MatrixXd TangentFactor::by_factor(const MatrixXd& b, const Solve& solve) const {
   MatrixXd x = b, rest = b(kept_, Eigen::all);
   for (const auto& rim : short_waves_) {
     auto its = x.middleRows(rim.first, rim.end - rim.first);
-    its = rim.own.solve(its);
+    its = rim.block.solve(its);
     rest -= rim.on_kept * its;
   }
   x(kept_, Eigen::all) = solve(rest);
@@ -226,7 +226,7 @@ MatrixXd TangentFactor::by_factor_transposed(const MatrixXd& b, const Solve& sol
   for (const auto& rim : short_waves_) {
     auto its = x.middleRows(rim.first, rim.end - rim.first);
     its -= rim.on_kept.transpose() * kept;
-    its = rim.own.solve_transposed(its);
+    its = rim.block.solve_transposed(its);
   }
   return x;
 }

@@ -19,7 +19,7 @@ Branch branch(const Contact& contact, const VectorXd& c) {
   return contact.is_pulled_open(c) ? Branch::open(length, k) : contact.law->at(length, k, contact.clearance);
 }
 
-/// Matrix with an eigenvalue along e and another across.
+/// Matrix with one eigenvalue along e and another perpendicular to it.
 MatrixXd along_and_across(const VectorXd& e, double along, double across) {
   MatrixXd A = (along - across) * e * e.transpose();
   A.diagonal().array() += across;
@@ -33,7 +33,7 @@ std::vector<Corner> corners_of(const Contact& contact) {
   const double gap = law.gap(contact.clearance);
   std::vector<Corner> result;
   const auto corners = law.corners(k, contact.clearance);
-  // Among the corners of a law that is linear between them is that of its gap.
+  // The corners of a piecewise linear law include that of its gap.
   if (corners ? gap == 0 && contact.one_sided : gap > 0 || contact.one_sided)
     result.push_back({k * gap, CornerKind::contact});
   for (const double c : corners.value_or(std::vector<double>{})) {
@@ -50,7 +50,7 @@ std::vector<Corner> corners_of(const Contact& contact) {
 
 FastenerInterface::FastenerInterface(std::vector<Contact> planes, Place place)
     : planes_(std::move(planes)), place_(std::move(place)) {
-  for (const auto& hole : place_.rubbing) {
+  for (const auto& hole : place_.friction_holes) {
     auto& sides = sides_.emplace_back();
     for (const Side side : {plus_side, minus_side}) {
       const auto& its = hole.sides[side];
@@ -65,36 +65,38 @@ FastenerInterface::FastenerInterface(std::vector<Contact> planes, Place place)
 void FastenerInterface::balance() {
   for (Index i = 0; i < std::ssize(sides_); ++i)
     for (const Side side : {plus_side, minus_side}) {
-      const auto& [hole, direction, cases, disc, other] = place_.rubbing[i];
+      const auto& [hole, direction, cases, disc, other] = place_.friction_holes[i];
       double transferred = 1;
       for (Index of = 0; of < n_holes() && !place_.law_includes_friction; ++of)
-        transferred += part_of_mean_share(of, hole, direction, side);
-      Rubbing& rubbing = sides_[i][side];
-      const double change = transferred / (1 + rubbing.share());
-      for (double* each : {&rubbing.resultant, &rubbing.peak, &rubbing.bearing, &rubbing.across}) *each *= change;
+        transferred += part_of_mean_ratio(of, hole, direction, side);
+      HoleFriction& friction = sides_[i][side];
+      const double change = transferred / (1 + friction.friction_ratio());
+      for (double* each : {&friction.resultant, &friction.peak, &friction.bearing, &friction.across}) *each *= change;
     }
 }
 
-Index FastenerInterface::rubbing_at(Index hole, Index direction) const {
-  const auto found = std::ranges::find_if(
-      place_.rubbing, [&](const RubbingHole& each) { return each.hole == hole && each.direction == direction; });
-  return found == place_.rubbing.end() ? -1 : found - place_.rubbing.begin();
+Index FastenerInterface::friction_at(Index hole, Index direction) const {
+  const auto found = std::ranges::find_if(place_.friction_holes, [&](const FrictionHole& each) {
+    return each.hole == hole && each.direction == direction;
+  });
+  return found == place_.friction_holes.end() ? -1 : found - place_.friction_holes.begin();
 }
 
 bool FastenerInterface::has_case(Index hole) const {
-  return std::ranges::any_of(place_.rubbing, [&](const RubbingHole& each) {
+  return std::ranges::any_of(place_.friction_holes, [&](const FrictionHole& each) {
     return each.hole == hole && (each.sides[plus_side].column >= 0 || each.sides[minus_side].column >= 0);
   });
 }
 
-double FastenerInterface::part_of_mean_share(Index of, Index hole, Index direction, Side side) const {
-  const Index at = rubbing_at(of, direction);
+double FastenerInterface::part_of_mean_ratio(Index of, Index hole, Index direction, Side side) const {
+  const Index at = friction_at(of, direction);
   if (at < 0) return 0;
   const auto& sides = sides_[at];
   const double n = double(n_holes());
-  if (planes_.size() == 1) return sides[of == hole ? side : 1 - side].share() / n;
-  const auto bears = std::ranges::count_if(place_.rubbing[at].sides, [](const auto& each) { return each.column >= 0; });
-  return bears == 0 ? 0 : (sides[0].share() + sides[1].share()) / double(bears) / n;
+  if (planes_.size() == 1) return sides[of == hole ? side : 1 - side].friction_ratio() / n;
+  const auto bears =
+      std::ranges::count_if(place_.friction_holes[at].sides, [](const auto& each) { return each.column >= 0; });
+  return bears == 0 ? 0 : (sides[0].friction_ratio() + sides[1].friction_ratio()) / double(bears) / n;
 }
 
 double FastenerInterface::bearing(const VectorXd& F, Index hole, Index direction) const {
@@ -108,13 +110,13 @@ double FastenerInterface::bearing(const VectorXd& F, Index hole, Index direction
 VectorXd FastenerInterface::friction(const VectorXd& F) const {
   VectorXd Lambda = VectorXd::Zero(place_.n_columns);
   for (Index i = 0; i < std::ssize(sides_); ++i) {
-    const RubbingHole& hole = place_.rubbing[i];
+    const FrictionHole& hole = place_.friction_holes[i];
     const double b = bearing(F, hole.hole, hole.direction);
     const Side side = b < 0 ? minus_side : plus_side;
-    const Rubbing& rubbing = sides_[i][side];
-    if (hole.sides[side].column >= 0) Lambda[hole.sides[side].column] = rubbing.peak * std::abs(b);
-    Lambda[hole.disc] += (1 - rubbing.bearing) * b;
-    if (hole.other_disc) Lambda[*hole.other_disc] += rubbing.across * std::abs(b);
+    const HoleFriction& friction = sides_[i][side];
+    if (hole.sides[side].column >= 0) Lambda[hole.sides[side].column] = friction.peak * std::abs(b);
+    Lambda[hole.disc] += (1 - friction.bearing) * b;
+    if (hole.other_disc) Lambda[*hole.other_disc] += friction.across * std::abs(b);
   }
   return Lambda;
 }
@@ -124,18 +126,18 @@ MatrixXd FastenerInterface::friction_by_force(const VectorXd& F) const {
   MatrixXd slopes = MatrixXd::Zero(place_.n_columns, F.size());
   const Index a = place_.n_directions;
   for (Index i = 0; i < std::ssize(sides_); ++i) {
-    const RubbingHole& hole = place_.rubbing[i];
+    const FrictionHole& hole = place_.friction_holes[i];
     const bool minus = bearing(F, hole.hole, hole.direction) < 0;
-    const Rubbing& rubbing = sides_[i][minus ? minus_side : plus_side];
+    const HoleFriction& friction = sides_[i][minus ? minus_side : plus_side];
     const double sign = minus ? -1 : 1;
     for (const Index plane : {hole.hole - 1, hole.hole}) {
       if (plane < 0 || plane >= std::ssize(planes_)) continue;
       auto column = slopes.col(plane * a + hole.direction);
-      const double by = plane == hole.hole ? -1 : 1;  // of the plane on the force of bearing
+      const double by = plane == hole.hole ? -1 : 1;  // derivative of the bearing force by the force of the plane
       if (const Index at = hole.sides[minus ? minus_side : plus_side].column; at >= 0)
-        column[at] += sign * by * rubbing.peak;
-      column[hole.disc] += by * (1 - rubbing.bearing);
-      if (hole.other_disc) column[*hole.other_disc] += sign * by * rubbing.across;
+        column[at] += sign * by * friction.peak;
+      column[hole.disc] += by * (1 - friction.bearing);
+      if (hole.other_disc) column[*hole.other_disc] += sign * by * friction.across;
     }
   }
   return slopes;
@@ -148,10 +150,10 @@ Response FastenerInterface::respond(const VectorXd& c, const History& /*history*
     const VectorXd here = c.segment(j * a, a), e = along(here);
     const double length = here.norm();
     const Branch on = branch(planes_[j], here);
-    if (on.spent) response.spent = j * a;
+    if (on.failed) response.failed = j * a;
     response.F.segment(j * a, a) = on.F * e;
     response.delta.segment(j * a, a) = on.delta * e;
-    // Across, at c = 0, the limits of F / |c| and delta / |c|.
+    // The eigenvalues perpendicular to c are F / |c| and delta / |c|, or their limits at c = 0.
     response.dF.block(j * a, j * a, a, a) = along_and_across(e, on.dF, length > 0 ? on.F / length : on.dF);
     response.ddelta.block(j * a, j * a, a, a) =
         along_and_across(e, on.ddelta, length > 0 ? on.delta / length : on.ddelta);
@@ -161,8 +163,8 @@ Response FastenerInterface::respond(const VectorXd& c, const History& /*history*
   return response;
 }
 
-/// The trace is of open and yielded fasteners: without it the Jacobian is singular where such fasteners alone hold a
-/// plate.
+/// Adds the small stiffness to open and yielded fasteners: without it the Jacobian is singular if a plate has no other
+/// constraint.
 void FastenerInterface::add_trace(double trace, Response& response) const {
   const Index a = place_.n_directions;
   for (Index j = 0; j < std::ssize(planes_); ++j) {
@@ -245,24 +247,24 @@ void FastenerInterface::add_law_changes(const VectorXd& c, const MatrixXd& by_fo
   }
 }
 
-/// Bearing forces change by their logarithms: what friction in one hole adds, the others of its fastener share.
+/// Differentiates the logarithms of the bearing forces: friction in one hole changes those of all holes of a fastener.
 Change FastenerInterface::change_by_mu(Index hole, const VectorXd& F) const {
   const VectorXd none = VectorXd::Zero(F.size());
   Change change{NumberKind::mu, place_.first_hole + hole, 0, none, none, VectorXd::Zero(place_.n_columns)};
   const double mu = place_.mu[hole];
   for (Index i = 0; i < std::ssize(sides_); ++i) {
-    const RubbingHole& its = place_.rubbing[i];
+    const FrictionHole& its = place_.friction_holes[i];
     const double b = bearing(F, its.hole, its.direction);
     const Side side = b < 0 ? minus_side : plus_side;
-    const Rubbing& rubbing = sides_[i][side];
-    const double transferred = rubbing.bearing + rubbing.resultant;
-    double relative = its.hole == hole ? -rubbing.resultant / transferred / mu : 0;  // d ln bearing / d mu
+    const HoleFriction& friction = sides_[i][side];
+    const double transferred = friction.bearing + friction.resultant;
+    double relative = its.hole == hole ? -friction.resultant / transferred / mu : 0;  // d ln bearing / d mu
     if (!place_.law_includes_friction)
-      relative += part_of_mean_share(hole, its.hole, its.direction, side) / transferred / mu;
+      relative += part_of_mean_ratio(hole, its.hole, its.direction, side) / transferred / mu;
     const double rises = relative + (its.hole == hole ? 1 / mu : 0);
-    if (its.sides[side].column >= 0) change.Lambda[its.sides[side].column] += rises * rubbing.peak * std::abs(b);
-    change.Lambda[its.disc] -= relative * rubbing.bearing * b;
-    if (its.other_disc) change.Lambda[*its.other_disc] += rises * rubbing.across * std::abs(b);
+    if (its.sides[side].column >= 0) change.Lambda[its.sides[side].column] += rises * friction.peak * std::abs(b);
+    change.Lambda[its.disc] -= relative * friction.bearing * b;
+    if (its.other_disc) change.Lambda[*its.other_disc] += rises * friction.across * std::abs(b);
   }
   return change;
 }
@@ -272,11 +274,11 @@ VectorXd FastenerInterface::transferred(const VectorXd& F, Index side) const {
   VectorXd result = F;
   for (Index j = 0; j < std::ssize(planes_); ++j)
     for (Index d = 0; d < a; ++d) {
-      const Index hole = std::min(j + side, n_holes() - 1);  // the ground gets what leaves the last hole
-      const Index at = rubbing_at(hole, d);
+      const Index hole = std::min(j + side, n_holes() - 1);  // the force on the ground is that of the last hole
+      const Index at = friction_at(hole, d);
       if (at < 0) continue;
-      const Rubbing& rubbing = sides_[at][bearing(F, hole, d) < 0 ? minus_side : plus_side];
-      result[j * a + d] *= rubbing.bearing + rubbing.resultant;
+      const HoleFriction& friction = sides_[at][bearing(F, hole, d) < 0 ? minus_side : plus_side];
+      result[j * a + d] *= friction.bearing + friction.resultant;
     }
   return result;
 }

@@ -12,52 +12,52 @@
 namespace fastjoint::stage3 {
 
 /// Law of a shear plane as a map from its contact coordinate c, a vector in force units with one entry for each
-/// direction of the joint's discs: F and delta are along c, and their amounts those of the law at |c|. With one
-/// direction the law is odd; with two the clearance is a circle.
+/// direction of the joint's discs: F and delta are along c, with the magnitudes of the law at |c|. With one direction
+/// the law is odd; with two the clearance is a circle.
 struct Contact {
   LawPointer law;
   double clearance = 0;    ///< length
-  double stiffness = 1;    ///< k, force / length: of the plates at this plane, so that F and k delta balance
+  double stiffness = 1;    ///< k, force / length: that of the plates at this plane, so that F and k delta are alike
   bool one_sided = false;  ///< open for every c < 0; one direction only
 
-  /// True if it is one-sided and c, shape (a), is on its other side.
+  /// True if the plane is one-sided and open at c, shape (a).
   [[nodiscard]] bool is_pulled_open(const VectorXd& c) const { return one_sided && c[0] < 0; }
 };
 
 /// A hole of a fastener with friction, in one of the joint's directions, with the friction columns of the interface.
-struct RubbingHole {
+struct FrictionHole {
   Index hole;  ///< of the fastener
   Index direction;
-  std::array<FrictionCase, 2> sides;  ///< by Side; their columns are the interface's
+  std::array<FrictionCase, 2> sides;  ///< by Side, with the columns of the interface
   Index disc;                         ///< column of the force on the disc along the direction
-  std::optional<Index> other_disc;    ///< and along the other one, of discs with two
+  std::optional<Index> other_disc;    ///< column of that along the other direction, if there are two
 };
 
 /// A fastener through its holes: the laws of its shear planes, and the cosine friction on the rims, which follows from
 /// the bearing forces (docs/theory.md, sections 6.5 and 7.4).
 ///
-/// The rows are the planes, directions inner. Each hole bears with the force with which bearing and friction together
-/// transfer the load of the plane, so that a fastener with unlike friction in its holes is in equilibrium.
+/// The rows are the planes, directions inner. In each hole bearing and friction together transfer the load of the
+/// plane, so that a fastener with different friction in its holes is in equilibrium.
 class FastenerInterface : public Interface {
  public:
-  /// Friction of a hole for one side that bears, per unit of the law's force there.
-  struct Rubbing {
+  /// Friction of a hole with one side bearing, per unit of the law's force there.
+  struct HoleFriction {
     double peak = 0;       ///< stress Lambda of the case, 1 / length^2
     double resultant = 0;  ///< force of friction on the rim
-    double bearing = 1;    ///< force of bearing on the rim; what differs from 1 has been put into friction
-    double across = 0;     ///< force that the disc takes across
+    double bearing = 1;    ///< force of bearing on the rim; its difference from 1 is a force on the disc in Lambda
+    double across = 0;     ///< force of the disc along the other axis
 
     /// Force of friction over that of bearing.
-    [[nodiscard]] double share() const { return resultant / bearing; }
+    [[nodiscard]] double friction_ratio() const { return resultant / bearing; }
   };
-  /// Place and friction of the fastener in a joint.
+  /// Indices and friction of the fastener in a joint.
   struct Place {
-    Index first_plane = 0, first_hole = 0;  ///< of all of the joint
+    Index first_plane = 0, first_hole = 0;  ///< counted over the whole joint
     Index n_directions = 1;
-    bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
-    std::vector<double> mu{};            ///< (h) of each hole
-    std::vector<RubbingHole> rubbing{};  ///< empty without friction
-    Index n_columns = 0;                 ///< of friction
+    bool law_includes_friction = false;          ///< the laws give the transferred load, not the bearing force alone
+    std::vector<double> mu{};                    ///< (h) of each hole
+    std::vector<FrictionHole> friction_holes{};  ///< empty without friction
+    Index n_columns = 0;                         ///< of friction
   };
 
   FastenerInterface(std::vector<Contact> planes, Place place);
@@ -80,20 +80,22 @@ class FastenerInterface : public Interface {
   /// The law's force on a plate in a hole along a direction.
   [[nodiscard]] double bearing(const VectorXd& F, Index hole, Index direction) const;
   [[nodiscard]] VectorXd friction(const VectorXd& F) const;
-  /// Part that friction in the hole `of` adds to the mean share of friction, where `hole` bears on `side`. The two
-  /// holes of a single plane bear on opposite sides; of several planes each may bear on any, and its sides count alike.
-  [[nodiscard]] double part_of_mean_share(Index of, Index hole, Index direction, Side side) const;
+  /// Contribution of the hole `of` to the mean ratio of friction to bearing over the holes, if `hole` bears on `side`.
+  /// The two holes of a single plane bear on opposite sides. With several planes each hole may bear on either side, and
+  /// the mean over its sides counts.
+  [[nodiscard]] double part_of_mean_ratio(Index of, Index hole, Index direction, Side side) const;
+  /// Scales bearing and friction of each hole so that the holes of the fastener are in equilibrium.
   void balance();
-  /// True if the hole has cosine friction; one of a rim of contact has none, whatever its coefficient.
+  /// True if the hole has cosine friction; a rim of contact has none, whatever its coefficient.
   [[nodiscard]] bool has_case(Index hole) const;
-  /// Entry of the rubbing hole, or -1.
-  [[nodiscard]] Index rubbing_at(Index hole, Index direction) const;
+  /// Index in Place::friction_holes, or -1.
+  [[nodiscard]] Index friction_at(Index hole, Index direction) const;
   void add_law_changes(const VectorXd& c, const MatrixXd& by_force, std::vector<Change>& result) const;
   [[nodiscard]] Change change_by_mu(Index hole, const VectorXd& F) const;
 
   std::vector<Contact> planes_;
   Place place_;
-  std::vector<std::array<Rubbing, 2>> sides_;  ///< of each of Place::rubbing
+  std::vector<std::array<HoleFriction, 2>> sides_;  ///< of each of Place::friction_holes
 };
 
 }  // namespace fastjoint::stage3

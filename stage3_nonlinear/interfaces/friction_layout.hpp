@@ -8,24 +8,24 @@
 
 namespace fastjoint::stage3 {
 
-/// What a unit of friction's amounts Lambda does to a plate: a case of its R, or a force on a disc, which takes part of
-/// a bearing force on itself.
+/// Load on a plate per unit of an amplitude Lambda of friction: a case of its R, or a force on a disc that carries a
+/// part of the bearing force.
 struct FrictionColumn {
   Index plate;
   Index case_at;  ///< column of PlateModel::R; -1: a force on the disc
-  Index disc;     ///< of such a force
+  Index disc;     ///< disc of such a force
 };
 
-/// The friction columns of a joint and who makes their amounts: fastener after fastener, then rim after rim.
+/// The friction columns of a joint and their origin: fastener after fastener, then rim after rim.
 struct FrictionLayout {
   std::vector<FrictionColumn> columns;
-  std::vector<std::vector<RubbingHole>> rubbing;  ///< of each fastener
-  std::vector<Index> n_columns;                   ///< of each fastener
-  std::vector<bool> rim_rubs;                     ///< of each of rim_places
+  std::vector<std::vector<FrictionHole>> friction_holes;  ///< of each fastener
+  std::vector<Index> n_columns;                           ///< of each fastener
+  std::vector<bool> rim_has_friction;                     ///< of each of rim_places
 };
 [[nodiscard]] FrictionLayout friction_layout(const JointModel& joint);
 
-/// Loads on all unknowns of a joint by amounts of friction: what must act from outside for it, (N, columns).
+/// External forces on all unknowns of a joint in equilibrium with friction of amplitudes Lambda, (N, columns).
 /// @param Lambda (columns of the layout, columns).
 [[nodiscard]] MatrixXd friction_loads(const JointModel& joint, const std::vector<FrictionColumn>& columns,
                                       const MatrixXd& Lambda);

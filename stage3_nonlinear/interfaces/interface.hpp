@@ -10,41 +10,41 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// What an interface keeps of the path that has led to a state. No kind of today keeps anything: it is empty.
+/// Internal variables of an interface at a state of the path. No interface has any so far: it is empty.
 using History = VectorXd;
 
-/// Answer of an interface to its n contact coordinates c, with derivatives by c.
+/// Forces and displacements of an interface at its n contact coordinates c, with derivatives by c.
 struct Response {
   VectorXd F, delta;    ///< (n) forces between the bodies, and their relative displacements; force, length
-  VectorXd Lambda;      ///< (t) amounts of what friction adds (FrictionColumn)
+  VectorXd Lambda;      ///< (t) amplitudes of friction (FrictionColumn)
   MatrixXd dF, ddelta;  ///< (n, n), symmetric without friction; dimensionless, length / force
   MatrixXd dLambda;     ///< (t, n) per force
-  Index spent = -1;     ///< a row past all that the interface can carry, if there is one
+  Index failed = -1;    ///< a row past the limit load of its interface, or -1
 };
 
-/// Kind of a corner: before the rim of a fastener bears, where it begins to, after; or of a rim of contact: where it
-/// begins to touch its disc anywhere, and ceases to touch it all around.
+/// Kind of a corner. Of a fastener: before its rim bears (slip), where it begins to bear (contact), after (yield). Of a
+/// rim of contact: where it begins to touch its disc (touch), and where it loses full contact (part).
 enum class CornerKind { slip, contact, yield, touch, part };
 
-/// Place at which something happens to an interface.
+/// Position at which the branch of an interface changes.
 struct Corner {
-  double at;  ///< Interface::position, or its amount where the interface bears both ways; >= 0, force
+  double at;  ///< Interface::position, or its magnitude if the interface bears both ways; >= 0, force
   CornerKind kind;
 };
 
-/// Kind of a number of the input.
+/// Kind of an input parameter.
 enum class NumberKind { clearance, law, mu, rim_mu, gap };
 
-/// Change of a response with a number of the input, c and the history being fixed.
+/// Derivative of a response by an input parameter at fixed c and history.
 struct Change {
   NumberKind kind;
-  Index at;          ///< plane of a clearance or a law, hole of mu, rim of contact of the rest; of all of the joint
-  Index number = 0;  ///< of a law
+  Index at;          ///< plane of a clearance or law, hole of mu, or rim of contact, counted over the whole joint
+  Index number = 0;  ///< which parameter of a law
   VectorXd F, delta, Lambda;
 };
 
-/// What acts between bodies of a joint at some rows of its equations: it answers contact coordinates with forces and
-/// displacements, and with amounts of friction on the bodies.
+/// Constitutive relation between bodies of a joint at some rows of its equations: it maps contact coordinates to
+/// forces, relative displacements and amplitudes of friction.
 class Interface {
  public:
   virtual ~Interface() = default;
@@ -57,10 +57,10 @@ class Interface {
   [[nodiscard]] virtual Response respond(const VectorXd& c, const History& history) const = 0;
   /// The history once the joint has come to rest at c.
   [[nodiscard]] virtual History commit(const VectorXd& /*c*/, const History& history) const { return history; }
-  /// Gives a response whose slopes vanish a trace of stiffness (docs/theory.md, section 8.5).
+  /// Adds a small stiffness where the slopes of a response vanish (docs/theory.md, section 8.5).
   virtual void add_trace(double trace, Response& response) const = 0;
-  /// Derivatives of Lambda by F, (t, n), where friction follows from the forces alone, on the sides that bear under F;
-  /// empty if it does not.
+  /// Derivatives of Lambda by F, (t, n), on the sides that bear under F, if friction depends only on the forces; else
+  /// empty.
   [[nodiscard]] virtual MatrixXd friction_by_force(const VectorXd& /*F*/) const { return {}; }
   /// Corners of each of its entries, ascending: a fastener has one entry for each plane, a rim of contact one for
   /// touching and one for parting.
@@ -68,13 +68,13 @@ class Interface {
   /// Position of an entry between its corners, force, and its derivative by c, (n).
   [[nodiscard]] virtual double position(const VectorXd& c, Index entry) const = 0;
   [[nodiscard]] virtual VectorXd slope(const VectorXd& c, Index entry) const = 0;
-  /// True if positions below zero are no mirror image of those above.
+  /// True if the interface does not bear in both directions.
   [[nodiscard]] virtual bool is_one_sided(Index /*entry*/) const { return true; }
-  /// Coordinates at which the forces are F, or about that, (n), force.
+  /// Coordinates at which the forces are approximately F, (n), force.
   [[nodiscard]] virtual VectorXd coordinates(const VectorXd& F) const = 0;
-  /// Load that each shear plane passes on, friction included, by that of its first (0) or its second (1) hole, (n).
+  /// Load that each shear plane transfers, with the friction of its first (0) or its second (1) hole, (n).
   [[nodiscard]] virtual VectorXd transferred(const VectorXd& F, Index /*side*/) const { return F; }
-  /// Changes with all numbers that it knows.
+  /// Derivatives by all input parameters of the interface.
   [[nodiscard]] virtual std::vector<Change> changes(const VectorXd& c, const Response& response) const = 0;
 };
 

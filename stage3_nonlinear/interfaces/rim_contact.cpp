@@ -35,15 +35,15 @@ double RimContact::extremum(const VectorXd& m, double angle, double sign) const 
   double low = angle - step, high = angle + step;
   if (!pressures_.is_whole())
     low = std::max(low, samples_->angles[0]), high = std::min(high, samples_->angles[samples_->angles.size() - 1]);
-  // The secant, whose older end counts half if the newer one is hit twice (Illinois): the slope falls from low to
-  // high.
+  // The Illinois method finds the zero of the slope, which falls from low to high: a secant method that halves the
+  // value at an end that stays twice.
   const auto slope = [&](double at) { return sign * pressures_.sum_at(m, at).second; };
   double at_low = slope(low), at_high = slope(high);
   if (at_low <= 0 || at_high >= 0) return at_low <= 0 ? low : high;
-  constexpr int most = 60;
-  constexpr double near = 1e-13;
+  constexpr int max_steps = 60;
+  constexpr double tolerance = 1e-13;
   int side = 0;
-  for (int i = 0; i < most && high - low > near; ++i) {
+  for (int i = 0; i < max_steps && high - low > tolerance; ++i) {
     const double middle = low + (high - low) * at_low / (at_low - at_high), here = slope(middle);
     if (here == 0) return middle;
     if (here > 0) {
@@ -65,7 +65,7 @@ std::vector<RimContact::Point> RimContact::points(const VectorXd& m, const Vecto
   for (Index i = pressures_.is_whole() ? 0 : 1; i < last; ++i) {
     const double sign = depth[i] > 0 ? -1 : 1, here = sign * depth[i];
     const double before = sign * depth[i > 0 ? i - 1 : last - 1], after = sign * depth[i + 1];
-    // Between the samples it rises above the highest of three by less than that is above the lowest.
+    // The function rises above the highest of three samples by less than their range.
     if (before > here || after > here || 2 * here < std::min(before, after)) continue;
     double angle = extremum(m, samples_->angles[i], sign);
     const double there = this->depth(m, angle);
@@ -82,7 +82,7 @@ Touching RimContact::touching(const VectorXd& m) const {
   Touching result{{}, MatrixXd::Zero(size(), size())};
   if (std::ranges::all_of(all, [](const Point& at) { return at.depth >= 0; })) {
     result.arcs.push_back({all.front().angle, all.back().angle});
-    result.share.setIdentity();
+    result.gram.setIdentity();
     return result;
   }
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -94,12 +94,12 @@ Touching RimContact::touching(const VectorXd& m) const {
   if (all.back().depth > 0) result.arcs.back().to = all.back().angle;
   std::vector<rim::SignedRange> pieces;
   for (const auto& arc : result.arcs) pieces.push_back({arc.from, arc.to});
-  if (!pieces.empty()) result.share = pressures_.products(pieces) / pressures_.sweep;
+  if (!pieces.empty()) result.gram = pressures_.products(pieces) / pressures_.sweep;
   return result;
 }
 
 VectorXd RimContact::forces(const Touching& at, const VectorXd& m) const {
-  return stiffness_ * (at.share * m - gap_ * at.share.col(0));
+  return stiffness_ * (at.gram * m - gap_ * at.gram.col(0));
 }
 
 double RimContact::deepest(const VectorXd& m, double sign) const {

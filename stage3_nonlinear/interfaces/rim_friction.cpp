@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Mean over the rim of the products of shears with pressures where it touches, each times -sign(sin(theta -
+/// Mean over the rim of the products of shears with pressures on the arcs of contact, times -sign(sin(theta -
 /// direction)).
-MatrixXd signed_share(const rim::Harmonics& pressures, const Touching& at, double direction) {
+MatrixXd signed_products(const rim::Harmonics& pressures, const Touching& at, double direction) {
   std::vector<rim::SignedRange> pieces;
   for (const auto& arc : at.arcs) {
     std::vector<double> ends{arc.from, arc.to};
@@ -37,34 +37,34 @@ RimFriction rim_friction(const RimContact& rim, const Touching& at, const Vector
   by_pressure << pressures.push(0).transpose(), pressures.push(1).transpose();
   by_shear << pressures.drag(0).transpose(), pressures.drag(1).transpose();
   const Vector2d b = by_pressure * rim.forces(at, m);
-  const double amount = b.norm();
+  const double normal = b.norm();
   RimFriction result{VectorXd::Zero(pressures.n_shears()), MatrixXd::Zero(pressures.n_shears(), rim.size())};
-  if (!(amount > 0)) return result;
-  const Vector2d along = b / amount;
+  if (!(normal > 0)) return result;
+  const Vector2d along = b / normal;
   const double direction = result.direction = std::atan2(along.y(), along.x());
-  result.slopes = rim.mu() * signed_share(pressures, at, direction);
+  result.slopes = rim.mu() * signed_products(pressures, at, direction);
   VectorXd c = rim.stiffness() * m;
   c[0] -= rim.stiffness() * rim.gap();
   result.forces = result.slopes * c;
-  const MatrixXd db = by_pressure * at.share;  // by c
-  const Eigen::RowVectorXd turn = Eigen::RowVector2d(-along.y(), along.x()) * db / amount;
+  const MatrixXd db = by_pressure * at.gram;  // by c
+  const Eigen::RowVectorXd turn = Eigen::RowVector2d(-along.y(), along.x()) * db / normal;
   VectorXd by_turn = VectorXd::Zero(pressures.n_shears());
-  for (const double side : {1.0, -1.0}) {  // where shear jumps
+  for (const double side : {1.0, -1.0}) {  // the two angles at which the shear jumps
     const double angle = direction + (side > 0 ? 0 : std::numbers::pi);
     const double pressure = rim.stiffness() * std::max(rim.depth(m, angle), 0.0);
     if (pressures.is_whole()) by_turn += side * 2 * rim.mu() / pressures.sweep * pressure * pressures.shears_at(angle);
   }
   result.slopes += by_turn * turn;
-  const Vector2d drag = by_shear * result.forces;
-  const double share = along.dot(drag) / amount;
-  if (!(share > 1)) return result;
+  const Vector2d tangential = by_shear * result.forces;
+  const double ratio = along.dot(tangential) / normal;
+  if (!(ratio > 1)) return result;
   const Vector2d across(-along.y(), along.x());
-  const Eigen::RowVectorXd d_drag = along.transpose() * by_shear * result.slopes + across.dot(drag) * turn;
-  const Eigen::RowVectorXd d_share = (d_drag - share * along.transpose() * db) / amount;
-  result.slopes = (result.slopes - result.forces / share * d_share) / share;
-  result.forces /= share;
+  const Eigen::RowVectorXd d_tangential = along.transpose() * by_shear * result.slopes + across.dot(tangential) * turn;
+  const Eigen::RowVectorXd d_ratio = (d_tangential - ratio * along.transpose() * db) / normal;
+  result.slopes = (result.slopes - result.forces / ratio * d_ratio) / ratio;
+  result.forces /= ratio;
   result.slips = false;
-  result.share = share;
+  result.excess = ratio;
   return result;
 }
 

@@ -24,7 +24,7 @@ Response RimInterface::respond(const VectorXd& c, const History& /*history*/) co
   Response response{its.forces.head(n), {}, VectorXd::Zero(t), {}, {}, MatrixXd::Zero(t, n)};
   if (!its.converged) response.F.setConstant(std::numeric_limits<double>::quiet_NaN());
   response.delta = (c - response.F) / rim_->k();
-  response.dF = contact.stiffness() * its.touching.share.topRows(n) * its.w_by_c;
+  response.dF = contact.stiffness() * its.touching.gram.topRows(n) * its.w_by_c;
   if (t > 0 && contact.mu() > 0) {
     response.Lambda = its.friction.forces.head(t) / rim_->area();
     response.dLambda = contact.stiffness() / rim_->area() * its.friction.slopes.topRows(t) * its.w_by_c;
@@ -41,14 +41,16 @@ void RimInterface::add_trace(double trace, Response& response) const {
   response.dF.diagonal().array() += trace;
 }
 
-/// A loose bolt lies anywhere, and touches where it presses by more than the little force that a solution leaves.
+/// The position of a bolt with clearance that carries no load is indeterminate, so that a small force must be exceeded
+/// for contact.
 std::vector<std::vector<Corner>> RimInterface::corners() const {
-  constexpr double little = 1e-6;  // of the gap
+  constexpr double min_depth = 1e-6;  // of the gap
   const RimContact& contact = rim_->contact();
-  return {{{little * contact.stiffness() * std::max(contact.gap(), 0.0), CornerKind::touch}}, {{0, CornerKind::part}}};
+  return {{{min_depth * contact.stiffness() * std::max(contact.gap(), 0.0), CornerKind::touch}},
+          {{0, CornerKind::part}}};
 }
 
-/// The depth of the disc where it is largest, or minus that where it is least, times the stiffness.
+/// The largest depth of the disc, or minus the smallest, times the stiffness.
 double RimInterface::position(const VectorXd& c, Index entry) const {
   const RimContact& contact = rim_->contact();
   const double sign = sign_of(entry);
@@ -56,7 +58,7 @@ double RimInterface::position(const VectorXd& c, Index entry) const {
   return sign * contact.stiffness() * contact.depth(w, contact.deepest(w, sign));
 }
 
-/// The place of an extremum moves along the rim without changing it.
+/// At an extremum the derivative by the angle is zero.
 VectorXd RimInterface::slope(const VectorXd& c, Index entry) const {
   const RimContact& contact = rim_->contact();
   const double sign = sign_of(entry);
@@ -68,8 +70,8 @@ VectorXd RimInterface::coordinates(const VectorXd& F) const {
   return (1 + rim_->k() / rim_->contact().stiffness()) * F;
 }
 
-/// Shears are proportional to the coefficient where the rim slips, and do not know it where it sticks. The gap acts as
-/// the first wave does, but for that wave itself.
+/// Shears are proportional to the coefficient if the rim slips, and independent of it if the rim sticks. The gap enters
+/// like a constant displacement, which is the first wave.
 std::vector<Change> RimInterface::changes(const VectorXd& c, const Response& response) const {
   const double k = rim_->k();
   std::vector<Change> result{
@@ -80,7 +82,7 @@ std::vector<Change> RimInterface::changes(const VectorXd& c, const Response& res
   const VectorXd none = VectorXd::Zero(size());
   Change by_mu{NumberKind::rim_mu, at_, 0, none, none, VectorXd::Zero(n_friction())};
   if (its.friction.slips) {
-    by_mu.F = contact.stiffness() * its.touching.share.topRows(size()) * its.w_by_mu;
+    by_mu.F = contact.stiffness() * its.touching.gram.topRows(size()) * its.w_by_mu;
     by_mu.delta = -by_mu.F / k;
     by_mu.Lambda = response.Lambda / contact.mu() +
                    contact.stiffness() / rim_->area() * its.friction.slopes.topRows(n_friction()) * its.w_by_mu;

@@ -12,7 +12,7 @@ namespace fastjoint::stage3 {
 namespace {
 
 constexpr double rounding = 1e-14;
-constexpr int most_steps = 100, most_halvings = 40;
+constexpr int max_steps = 100, max_halvings = 40;
 
 }  // namespace
 
@@ -20,14 +20,14 @@ double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves
   if (!rim.disk.is_given()) return rim.modulus * rim.area;
   MatrixXd compliance = waves.M / rim.area;
   compliance.diagonal().head(waves.n_long).array() += 1 / k;
-  constexpr double enough = 2, margin = 1.5;  // times what would leave a wave no compliance
-  double stiffness = enough * rim.area / waves.least_yield;
+  constexpr double factor = 2, margin = 1.5;  // over the stiffness at which a wave would have no compliance
+  double stiffness = factor * rim.area / waves.min_compliance;
   const auto rest = [&](double yield) {
     MatrixXd less = compliance;
     less.diagonal().array() -= yield;
     return less;
   };
-  while (!matrices::is_positive_definite(rest(margin / stiffness))) stiffness *= enough;
+  while (!matrices::is_positive_definite(rest(margin / stiffness))) stiffness *= factor;
   return stiffness;
 }
 
@@ -37,23 +37,23 @@ RimProblem::RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> wav
       area_(area),
       k_(k),
       is_diagonal_(waves_->M.isDiagonal(1e-12)),
-      more_(VectorXd::Constant(waves_->n, waves_->yield.size() > 0 ? -1 / contact_.stiffness() : 0)) {
-  more_.head(n_long()).array() += 1 / k;
+      diagonal_(VectorXd::Constant(waves_->n, waves_->disk_compliance.size() > 0 ? -1 / contact_.stiffness() : 0)) {
+  diagonal_.head(n_long()).array() += 1 / k;
   if (is_diagonal_) {
     M_tau_ = waves_->M_tau.sparseView();
-    root_ = (waves_->M.diagonal() / area + more_).cwiseSqrt();
+    root_ = (waves_->M.diagonal() / area + diagonal_).cwiseSqrt();
   } else {
     MatrixXd M = waves_->M / area;
-    M.diagonal() += more_;
+    M.diagonal() += diagonal_;
     root_ = M.llt().matrixL();
   }
 }
 
 VectorXd RimProblem::against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const {
-  if (waves_->yield.size() == 0) return w;
-  const VectorXd by_pressure = waves_->yield.cwiseProduct(pressure) - pressure / modulus();
+  if (waves_->disk_compliance.size() == 0) return w;
+  const VectorXd by_pressure = waves_->disk_compliance.cwiseProduct(pressure) - pressure / modulus();
   if (shear.size() == 0) return w + by_pressure;
-  return w + by_pressure + waves_->yield_by_shear * shear;
+  return w + by_pressure + waves_->disk_by_shear * shear;
 }
 
 RimProblem RimProblem::with(double gap, double mu) const {
@@ -79,7 +79,7 @@ MatrixXd RimProblem::solve_root(const MatrixXd& x) const {
 }
 
 MatrixXd RimProblem::curvature(const Touching& touching) const {
-  MatrixXd H = contact_.stiffness() * touching.share;
+  MatrixXd H = contact_.stiffness() * touching.gram;
   if (is_diagonal_) {
     H.array().colwise() *= root_.col(0).array();
     H.array().rowwise() *= root_.col(0).transpose().array();
@@ -90,49 +90,49 @@ MatrixXd RimProblem::curvature(const Touching& touching) const {
   return H;
 }
 
-RimProblem::State RimProblem::frictionless(const VectorXd& b, VectorXd s) const {
+RimProblem::State RimProblem::frictionless_state(const VectorXd& b, VectorXd s) const {
   State at;
   at.w = b + forward(s);
   at.s = std::move(s);
   at.touching = contact_.touching(at.w);
   at.forces = contact_.forces(at.touching, at.w);
-  at.pushed = back(at.forces);
+  at.scaled_forces = back(at.forces);
   return at;
 }
 
-/// Newton's method for s: s + root^T f(b + root s) is the gradient of a convex function, whose second derivative is 1
-/// and more. A step is halved until the slope along it hardly rises.
-RimProblem::State RimProblem::without_friction(const VectorXd& b, const VectorXd& w) const {
+/// Newton's method for s: s + root^T f(b + root s) is the gradient of a convex function with second derivatives of at
+/// least 1. A step is halved until the slope along it is at most a small fraction of the slope at its start.
+RimProblem::State RimProblem::solve_frictionless(const VectorXd& b, const VectorXd& w) const {
   const double by_gap = back(contact_.stiffness() * contact_.gap() * VectorXd::Unit(b.size(), 0)).norm();
-  State at = frictionless(b, solve_root(w - b));
-  for (int i = 0; i < most_steps; ++i) {
-    const VectorXd gradient = at.s + at.pushed;
-    const double before = gradient.norm(), scale = at.s.norm() + at.pushed.norm() + by_gap;
+  State at = frictionless_state(b, solve_root(w - b));
+  for (int i = 0; i < max_steps; ++i) {
+    const VectorXd gradient = at.s + at.scaled_forces;
+    const double before = gradient.norm(), scale = at.s.norm() + at.scaled_forces.norm() + by_gap;
     if (before <= rounding * scale) break;
     const VectorXd step = -curvature(at.touching).llt().solve(gradient);
     const double slope = gradient.dot(step);
     double length = 1;
-    State there = frictionless(b, at.s + step);
-    constexpr double little = 0.1;
-    for (int j = 0; j < most_halvings && (there.s + there.pushed).dot(step) > -little * slope; ++j) {
+    State there = frictionless_state(b, at.s + step);
+    constexpr double max_slope = 0.1;
+    for (int j = 0; j < max_halvings && (there.s + there.scaled_forces).dot(step) > -max_slope * slope; ++j) {
       length /= 2;
-      there = frictionless(b, at.s + length * step);
+      there = frictionless_state(b, at.s + length * step);
     }
-    constexpr double near = 1e-11;  // where only rounding is left to fall
-    if (before <= near * scale && (there.s + there.pushed).norm() > 0.5 * before) break;
+    constexpr double near = 1e-11;  // the residual may be rounding only
+    if (before <= near * scale && (there.s + there.scaled_forces).norm() > 0.5 * before) break;
     at = std::move(there);
   }
   return at;
 }
 
-RimProblem::State RimProblem::rubbing(const VectorXd& b, VectorXd w) const {
+RimProblem::State RimProblem::state_with_friction(const VectorXd& b, VectorXd w) const {
   State at;
   at.w = std::move(w);
   at.touching = contact_.touching(at.w);
   at.forces = contact_.forces(at.touching, at.w);
   at.friction = rim_friction(contact_, at.touching, at.w);
   at.residual = at.w - b + (waves_->M * at.forces + waves_->M_tau * at.friction.forces) / area_;
-  at.residual += more_.cwiseProduct(at.forces);
+  at.residual += diagonal_.cwiseProduct(at.forces);
   return at;
 }
 
@@ -140,30 +140,30 @@ MatrixXd RimProblem::jacobian(const State& at) const {
   MatrixXd J;
   if (is_diagonal_) {
     J = modulus() * (M_tau_ * at.friction.slopes);
-    J += modulus() * waves_->M.diagonal().asDiagonal() * at.touching.share;
+    J += modulus() * waves_->M.diagonal().asDiagonal() * at.touching.gram;
   } else {
     J = modulus() * waves_->M_tau * at.friction.slopes;
-    J += modulus() * waves_->M * at.touching.share;
+    J += modulus() * waves_->M * at.touching.gram;
   }
-  J += contact_.stiffness() * more_.asDiagonal() * at.touching.share;
+  J += contact_.stiffness() * diagonal_.asDiagonal() * at.touching.gram;
   J.diagonal().array() += 1;
   return J;
 }
 
-/// Newton's method, whose steps are halved until the residual falls.
-bool RimProblem::with_friction(const VectorXd& b, State& at) const {
-  for (int i = 0; i < most_steps; ++i) {
+/// Newton's method with steps that are halved until the residual falls.
+bool RimProblem::solve_with_friction(const VectorXd& b, State& at) const {
+  for (int i = 0; i < max_steps; ++i) {
     const double before = at.residual.norm(), scale = at.w.norm() + b.norm() + std::abs(contact_.gap());
     if (before <= rounding * scale) return true;
     const VectorXd step = -matrices::Lu(jacobian(at)).solve(at.residual);
     double length = 1;
-    State there = rubbing(b, at.w + step);
+    State there = state_with_friction(b, at.w + step);
     const auto falls = [&] { return there.residual.norm() < (1 - 0.1 * length) * before; };
-    for (int j = 0; j < most_halvings && !falls(); ++j) {
+    for (int j = 0; j < max_halvings && !falls(); ++j) {
       length /= 2;
-      there = rubbing(b, at.w + length * step);
+      there = state_with_friction(b, at.w + length * step);
     }
-    constexpr double near = 1e-12;  // where only rounding is left to fall
+    constexpr double near = 1e-12;  // the residual may be rounding only
     if (!falls()) return before <= near * scale;
     at = std::move(there);
   }
@@ -189,15 +189,15 @@ RimSolution RimProblem::solution(const VectorXd& c, const VectorXd& start) const
   State at;
   RimSolution result;
   if (contact_.mu() > 0) {
-    if (start.size() > 0) at = rubbing(b, start);
-    if (start.size() == 0 || !with_friction(b, at)) {
-      at = rubbing(b, without_friction(b, b).w);
-      result.converged = with_friction(b, at);
+    if (start.size() > 0) at = state_with_friction(b, start);
+    if (start.size() == 0 || !solve_with_friction(b, at)) {
+      at = state_with_friction(b, solve_frictionless(b, b).w);
+      result.converged = solve_with_friction(b, at);
     }
     if (at.friction.slips) rhs.rightCols(1) = -waves_->M_tau * at.friction.forces / (area_ * contact_.mu());
     rhs = matrices::Lu(jacobian(at)).solve(std::move(rhs));
   } else {
-    at = without_friction(b, start.size() > 0 ? start : b);
+    at = solve_frictionless(b, start.size() > 0 ? start : b);
     rhs = solve_root(rhs);
     curvature(at.touching).llt().solveInPlace(rhs);
     for (auto column : rhs.colwise()) column = forward(column);

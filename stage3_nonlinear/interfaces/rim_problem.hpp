@@ -11,33 +11,32 @@
 
 namespace fastjoint::stage3 {
 
-/// Solution of a rim's own problem.
+/// Solution of the local problem of a rim.
 struct RimSolution {
-  VectorXd w;             ///< (n) all waves of the disc's normal displacement against the sheet, without what an
-                          ///< elastic disk yields, length
+  VectorXd w;             ///< (n) all waves of the disc's normal displacement relative to the sheet, without the
+                          ///< compliance of an elastic disk, length
   Touching touching;      ///< where disc and rim touch
   VectorXd forces;        ///< (n) all waves of the pressure times the area, force
-  RimFriction friction;   ///< of all waves; of no forces if nothing rubs
+  RimFriction friction;   ///< of all waves; empty without friction
   MatrixXd w_by_c;        ///< (n, n_long) derivative by the contact coordinates, length / force
-  VectorXd w_by_mu;       ///< (n) by the coefficient of friction, length; 0 if nothing rubs
-  bool converged = true;  ///< where there is no friction there is one solution, which is always found
+  VectorXd w_by_mu;       ///< (n) by the coefficient of friction, length; 0 without friction
+  bool converged = true;  ///< without friction there is one solution, which is always found
 };
 
 /// Stiffness K A of the springs between a rim and its disc, or of those that keep an elastic disk from overlapping,
-/// force / length. @param k Of the rim's contact coordinates, likewise.
+/// force / length. @param k Stiffness of the rim's contact coordinates, force / length.
 [[nodiscard]] double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves, double k);
 
-/// The problem of a rim of contact of its own: which waves its displacement and pressure have, short ones included, for
-/// given contact coordinates c = F + k delta of its long waves (docs/theory.md, section 6.4),
-///   w + M_k f + M_tau tau = (c / k, 0),   f = K A <w - g>_+ in waves,   M_k = M / A, and 1 / k more of long waves.
-/// Without friction it is the place at which a strictly convex function is least.
+/// The local problem of a rim of contact: all waves of its displacement and pressure, short ones included, for given
+/// contact coordinates c = F + k delta of its long waves (docs/theory.md, section 6.4),
+///   w + M_k f + M_tau tau = (c / k, 0),   f = K A <w - g>_+ in waves,   M_k = M / A, plus 1 / k for long waves.
+/// Without friction the solution minimises a strictly convex function.
 ///
-/// An elastic disk has its own compliance in M_k and yields nothing else: the rims must not overlap. Springs that are
-/// stiffer than any wave of the disk see to that, and what they yield is taken off M_k again (docs/theory.md,
-/// section 6.7).
+/// The compliance of an elastic disk is in M_k, and the rims must not overlap. Penalty springs stiffer than any wave of
+/// the disk ensure that; their compliance is subtracted from M_k (docs/theory.md, section 6.7).
 class RimProblem {
  public:
-  /// @param area Of the rim, length^2. @param k Stiffness of the coordinates, force / length.
+  /// @param area Area of the rim, length^2. @param k Stiffness of the coordinates, force / length.
   RimProblem(RimContact contact, std::shared_ptr<const ShortWaves> waves, double area, double k);
 
   [[nodiscard]] const RimContact& contact() const { return contact_; }
@@ -45,24 +44,25 @@ class RimProblem {
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double k() const { return k_; }
   [[nodiscard]] Index n_long() const { return waves_->n_long; }
-  /// Pressure per overlap of the rims, force / length^3.
+  /// Pressure per unit of overlap of the rims, force / length^3.
   [[nodiscard]] double modulus() const { return contact_.stiffness() / area_; }
-  /// Waves of the disc's normal displacement against the sheet, with what an elastic disk yields, (n), length.
+  /// Waves of the disc's normal displacement relative to the sheet, with the compliance of an elastic disk, (n),
+  /// length.
   /// @param shear Waves of the shear on the sheet, none without friction.
   [[nodiscard]] VectorXd against_sheet(const VectorXd& w, const VectorXd& pressure, const VectorXd& shear) const;
-  /// The same rim with another gap and friction, whose first solution begins at the last one of this.
+  /// The same rim with another gap and friction, whose first iteration starts at the last solution of this one.
   [[nodiscard]] RimProblem with(double gap, double mu) const;
 
-  /// @param c (n_long) force. The last solution is kept, since it is asked for again, and the next one begins there.
+  /// Solution at contact coordinates c, (n_long), force. The last one is kept for repeated calls and as the next start.
   [[nodiscard]] const RimSolution& solve(const VectorXd& c) const;
 
  private:
   [[nodiscard]] RimSolution solution(const VectorXd& c, const VectorXd& start) const;
-  /// A displacement w = b + root s, (n), with what it makes.
+  /// Contact at a displacement w = b + root s, (n).
   struct State {
     VectorXd s, w;
     Touching touching;
-    VectorXd forces, pushed;  ///< f, and root^T f
+    VectorXd forces, scaled_forces;  ///< f, and root^T f
     RimFriction friction;
     VectorXd residual;  ///< w + M_k f + M_tau tau - b
   };
@@ -70,21 +70,21 @@ class RimProblem {
   [[nodiscard]] VectorXd back(const VectorXd& f) const;              ///< root^T f
   [[nodiscard]] MatrixXd solve_root(const MatrixXd& x) const;        ///< root^-1 x
   [[nodiscard]] MatrixXd curvature(const Touching& touching) const;  ///< 1 + root^T df/dw root
-  [[nodiscard]] State frictionless(const VectorXd& b, VectorXd s) const;
-  [[nodiscard]] State without_friction(const VectorXd& b, const VectorXd& w) const;
-  [[nodiscard]] State rubbing(const VectorXd& b, VectorXd w) const;
-  [[nodiscard]] bool with_friction(const VectorXd& b, State& at) const;
+  [[nodiscard]] State frictionless_state(const VectorXd& b, VectorXd s) const;
+  [[nodiscard]] State solve_frictionless(const VectorXd& b, const VectorXd& w) const;
+  [[nodiscard]] State state_with_friction(const VectorXd& b, VectorXd w) const;
+  [[nodiscard]] bool solve_with_friction(const VectorXd& b, State& at) const;
   /// Derivative of the residual by w, (n, n), dimensionless.
   [[nodiscard]] MatrixXd jacobian(const State& at) const;
 
   RimContact contact_;
   std::shared_ptr<const ShortWaves> waves_;
   double area_, k_;
-  bool is_diagonal_;  ///< M_k, as in an isotropic sheet
-  VectorXd more_;     ///< (n) what M_k has on its diagonal besides M / A, length / force
-  Eigen::SparseMatrix<double, Eigen::RowMajor> M_tau_;  ///< of a diagonal M_k, since few entries are not zero
-  MatrixXd root_;                                       ///< M_k = root root^T; of a diagonal one its diagonal, (n, 1)
-  mutable bool is_solved_ = false;                      ///< of these numbers; else of the rim that this was made of
+  bool is_diagonal_;                                    ///< M_k, as in an isotropic sheet
+  VectorXd diagonal_;                                   ///< (n) M_k - M / A, which is diagonal, length / force
+  Eigen::SparseMatrix<double, Eigen::RowMajor> M_tau_;  ///< used if M_k is diagonal: few entries are not zero
+  MatrixXd root_;                   ///< M_k = root root^T; only its diagonal, (n, 1), if M_k is diagonal
+  mutable bool is_solved_ = false;  ///< last_ is of this rim; else of the rim that this one was copied from
   mutable VectorXd last_c_;
   mutable RimSolution last_;
 };

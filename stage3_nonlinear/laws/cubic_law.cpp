@@ -17,29 +17,29 @@ struct Cubic {
   std::array<double, 3> a;
 
   static Cubic through(const std::array<double, 3>& x, const std::array<double, 3>& F) {
-    // F / x is a parabola: Newton's divided differences give its coefficients. What they are by rounding alone would
-    // decide whether a straight line rises.
+    // F / x is a parabola: Newton's divided differences give its coefficients. Those within rounding are set to zero,
+    // since their signs would decide whether a straight line rises.
     const std::array<double, 3> g = {F[0] / x[0], F[1] / x[1], F[2] / x[2]};
     const double rounding = 4 * std::numeric_limits<double>::epsilon() * *std::max_element(g.begin(), g.end());
     const auto change = [&](int i) { return std::abs(g[i + 1] - g[i]) > rounding ? g[i + 1] - g[i] : 0; };
     const double g01 = change(0) / (x[1] - x[0]), g12 = change(1) / (x[2] - x[1]);
-    const double doubt = rounding / std::abs(x[1] - x[0]) + rounding / std::abs(x[2] - x[1]);
-    const double g012 = std::abs(g12 - g01) > doubt ? (g12 - g01) / (x[2] - x[0]) : 0;
+    const double error = rounding / std::abs(x[1] - x[0]) + rounding / std::abs(x[2] - x[1]);
+    const double g012 = std::abs(g12 - g01) > error ? (g12 - g01) / (x[2] - x[0]) : 0;
     return {{F[0] / x[0] - g01 * x[0] + g012 * x[0] * x[1], g01 - g012 * (x[0] + x[1]), g012}};
   }
 
   [[nodiscard]] double force(double x) const { return x * (a[0] + x * (a[1] + x * a[2])); }
   [[nodiscard]] double slope(double x) const { return a[0] + x * (2 * a[1] + x * 3 * a[2]); }
 
-  /// Place between 0 and `end` at which the slope, a parabola, is least: an end or the parabola's vertex.
-  [[nodiscard]] double least(double end) const {
+  /// The x between 0 and `end` at which the slope, a parabola, has its minimum: an end or the parabola's vertex.
+  [[nodiscard]] double min_slope_at(double end) const {
     double worst = end < infinity && slope(end) < slope(0) ? end : 0;
     const double vertex = a[2] != 0 ? -a[1] / (3 * a[2]) : 0;
     if (vertex > 0 && vertex < end && slope(vertex) < slope(worst)) worst = vertex;
     return worst;
   }
 
-  /// Place at which the force rises again after it has fallen; infinite if it never does.
+  /// The x at which the force rises again after it has fallen; infinite if it never does.
   [[nodiscard]] double second_rise() const {
     const double root = a[1] * a[1] - 3 * a[0] * a[2];
     return a[2] > 0 && root > 0 ? (std::sqrt(root) - a[1]) / (3 * a[2]) : infinity;
@@ -48,8 +48,8 @@ struct Cubic {
 
 /// Cubic through (0, 0) and three measured points: Bortman & Szabo, equation (8).
 ///
-/// It may lose monotonicity. The fastener is spent where the cubic is negative, as none pushes on in the direction of
-/// its stretch, and from where the cubic, fallen beyond its last point, rises again: no test showed the fastener do so.
+/// The cubic may fall. The fastener counts as failed where the cubic is negative, and past a minimum of the cubic
+/// beyond its last point, from where it would rise again: no test has shown such a rise.
 class CubicLaw final : public Law {
  public:
   /// @param delta Three different stretches > 0, length.
@@ -59,7 +59,7 @@ class CubicLaw final : public Law {
         x_{delta[0] / last_, delta[1] / last_, delta[2] / last_},
         cubic_(Cubic::through(x_, F)) {
     const bool rises_far_out = cubic_.a[2] > 0 || (cubic_.a[2] == 0 && cubic_.a[1] >= 0);
-    rises_ = rises_far_out && cubic_.slope(cubic_.least(infinity)) >= 0;
+    rises_ = rises_far_out && cubic_.slope(cubic_.min_slope_at(infinity)) >= 0;
     const double valley = cubic_.second_rise();
     end_ = !rises_ && valley > 1 ? valley : infinity;
   }
@@ -69,12 +69,12 @@ class CubicLaw final : public Law {
     if (s < 0) return Branch::open(c, k);
     if (!rises_) {
       const double x = s / (k * last_);
-      const bool spent = x > end_ || cubic_.force(x) < 0;
-      return {.F = spent ? std::max(cubic_.force(std::min(x, end_)), 0.0) : cubic_.force(x),
+      const bool failed = x > end_ || cubic_.force(x) < 0;
+      return {.F = failed ? std::max(cubic_.force(std::min(x, end_)), 0.0) : cubic_.force(x),
               .delta = c / k,
-              .dF = spent ? 0 : cubic_.slope(x) / (k * last_),
+              .dF = failed ? 0 : cubic_.slope(x) / (k * last_),
               .ddelta = 1 / k,
-              .spent = spent};
+              .failed = failed};
     }
     const auto excess = [&](double x) {
       return std::pair(cubic_.force(x) + k * last_ * x - s, cubic_.slope(x) + k * last_);
@@ -84,7 +84,7 @@ class CubicLaw final : public Law {
     return {.F = cubic_.force(x), .delta = clearance + x * last_, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
   }
 
-  /// Follows the secant to the last point.
+  /// Uses the secant to the last point.
   [[nodiscard]] double coordinate(double F, double k, double clearance) const override {
     const double delta = clearance + last_ * F / cubic_.force(1);
     return rises_ ? F + k * delta : k * delta;
@@ -92,11 +92,11 @@ class CubicLaw final : public Law {
 
   [[nodiscard]] bool rises() const override { return rises_; }
 
-  [[nodiscard]] double least_slope() const override {
+  [[nodiscard]] double min_slope() const override {
     if (rises_) return 0;
-    double spent = 1;  // from here on, about, or never
-    while (spent < end_ && cubic_.force(spent) > 0 && spent < 1e6) spent *= 2;
-    return std::min(0.0, cubic_.slope(cubic_.least(spent)) / last_);
+    double end = 1;  // the fastener fails before or near this x, or never
+    while (end < end_ && cubic_.force(end) > 0 && end < 1e6) end *= 2;
+    return std::min(0.0, cubic_.slope(cubic_.min_slope_at(end)) / last_);
   }
 
   [[nodiscard]] double last_delta(double clearance) const override { return clearance + last_; }
@@ -107,9 +107,9 @@ class CubicLaw final : public Law {
 
   [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
     const Branch on = at(c, k, clearance);
-    if (c < k * clearance || on.spent) return std::vector<Slope>(4, {0, 0});
+    if (c < k * clearance || on.failed) return std::vector<Slope>(4, {0, 0});
     const double x = (on.delta - clearance) / last_;
-    // At constant c = F + k delta part of what the force gains shortens delta.
+    // At constant c = F + k delta a gain of force reduces delta.
     const auto slope = [&](double gain) {
       return rises_ ? Slope{k * gain * on.ddelta, -gain * on.ddelta} : Slope{gain, 0};
     };
@@ -123,7 +123,7 @@ class CubicLaw final : public Law {
   }
 
   [[nodiscard]] std::vector<program::Warning> doubts() const override {
-    const double worst = cubic_.least(1);
+    const double worst = cubic_.min_slope_at(1);
     if (cubic_.slope(worst) > 0) return {};
     return {{"cubic-falls",
              fmt::format("the cubic does not rise everywhere up to its last delta {}: its slope at delta = {:.4g} is "
@@ -136,7 +136,8 @@ class CubicLaw final : public Law {
   std::array<double, 3> x_;  ///< delta / last
   Cubic cubic_;
   bool rises_;
-  double end_;  ///< stretch / last beyond the last point from which the fastener is spent, or infinite
+  double end_;  ///< stretch / last of the minimum beyond the last point, past which the fastener counts as failed, or
+                ///< infinite
 };
 
 }  // namespace

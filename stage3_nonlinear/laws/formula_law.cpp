@@ -13,14 +13,14 @@ namespace {
 
 /// Numbers of one fastener and the sheets that it joins, for published formulas, in any consistent units.
 ///
-/// In double shear sheet 1 is the one in the middle and sheet 2 one of the two equal straps around it.
+/// In double shear sheet 1 is the one in the middle and sheet 2 one of the two equal straps on its sides.
 struct FastenerGeometry {
   std::array<double, 2> t;  ///< thickness, length
   std::array<double, 2> E;  ///< Young's modulus of the sheets along the load, force / length^2
   double d;                 ///< diameter of the shank, length
   double E_f;               ///< Young's modulus of the fastener, force / length^2
-  int n_shear = 1;          ///< shear planes: 1, or 2 where the formula knows them
-  double nu_f = 0;          ///< Poisson's ratio of the fastener, where the formula uses it
+  int n_shear = 1;          ///< shear planes: 1, or 2 if the formula covers double shear
+  double nu_f = 0;          ///< Poisson's ratio of the fastener, if the formula uses it
   // Numbers of the row of fasteners, for formulas with correlations for it.
   std::array<double, 2> E_z{};      ///< Young's modulus of the sheets through the thickness, force / length^2
   double d_head = 0;                ///< diameter of the head, length
@@ -29,26 +29,26 @@ struct FastenerGeometry {
   double c_f = 0;                   ///< factor of the kind of fastener
 };
 
-/// Flexibility by a formula, length / force: the bearing of the sheets, which the springs around a modelled hole have
-/// already, and what the fastener itself gives.
+/// Flexibility by a formula, length / force: the bearing of the sheets, which springs around a modelled hole represent
+/// too, and the fastener itself.
 struct Flexibility {
   double of_sheets, of_fastener;
 };
 
-/// A published formula for the flexibility of a fastener: relative displacement of the sheets, beyond their own
-/// stretch, per force of the whole fastener (in double shear: of both its planes together).
+/// A published formula for the flexibility of a fastener: relative displacement of the sheets, without their own
+/// elongation, per force of the whole fastener (in double shear: of both its planes together).
 struct FlexibilityFormula {
   const char* name;
   Flexibility (*flexibility)(const FastenerGeometry&);
   bool knows_double_shear;
-  std::vector<const char*> uses;  ///< keys of the input besides those that all formulas use
+  std::vector<const char*> uses;  ///< keys of the input in addition to those that all formulas use
   const char* provenance;         ///< who, where, when
 };
 
 /// C = ((t1 + t2) / (2 d))^a b / n (1 / (t1 E1) + 1 / (n t2 E2) + 1 / (2 t1 E_f) + 1 / (2 n t2 E_f)).
 ///
-/// Equation (31) of LBF FB-172; its reprint in STP 927 is known for a slip, n for the 2 of the third term. Sheet 1 is
-/// the middle one in double shear: it bears all the load, each strap half.
+/// This is equation (31) of LBF FB-172; its reprint in STP 927 has a misprint, n for the 2 of the third term. In double
+/// shear sheet 1 is the middle one: it bears the whole load, each strap half of it.
 Flexibility huth(const FastenerGeometry& g, double a, double b) {
   const double n = g.n_shear;
   const double factor = std::pow((g.t[0] + g.t[1]) / (2 * g.d), a) * b / n;
@@ -60,7 +60,7 @@ Flexibility huth_bolt(const FastenerGeometry& g) { return huth(g, 2.0 / 3.0, 3.0
 Flexibility huth_rivet(const FastenerGeometry& g) { return huth(g, 2.0 / 5.0, 2.2); }
 Flexibility huth_composite(const FastenerGeometry& g) { return huth(g, 2.0 / 3.0, 4.2); }
 
-/// C = 5 / (d E_f) + 0.8 (1 / (t1 E1) + 1 / (t2 E2)); all moduli were equal in the tests behind it.
+/// C = 5 / (d E_f) + 0.8 (1 / (t1 E1) + 1 / (t2 E2)); all moduli were equal in the underlying tests.
 Flexibility swift(const FastenerGeometry& g) {
   return {0.8 / (g.t[0] * g.E[0]) + 0.8 / (g.t[1] * g.E[1]), 5 / (g.d * g.E_f)};
 }
@@ -76,8 +76,8 @@ Flexibility boeing(const FastenerGeometry& g) {
   return sum;
 }
 
-/// C = (t1 + t2)^2 / (E_f d^3) + 3.7 (1 / (t1 E1) + 1 / (t2 E2)). Some reviews print d for d^3, which is no
-/// length / force.
+/// C = (t1 + t2)^2 / (E_f d^3) + 3.7 (1 / (t1 E1) + 1 / (t2 E2)). Some reviews print d for d^3, which does not have the
+/// unit length / force.
 Flexibility grumman(const FastenerGeometry& g) {
   const double grip = g.t[0] + g.t[1];
   return {3.7 / (g.t[0] * g.E[0]) + 3.7 / (g.t[1] * g.E[1]), grip * grip / (g.E_f * g.d * g.d * g.d)};
@@ -113,7 +113,7 @@ Flexibility morris(const FastenerGeometry& g) {
 
 constexpr const char* huth_source = "H. Huth, LBF report FB-172, 1984, and ASTM STP 927, 1986";
 
-/// All formulas that the program knows; a new one is one function and one line here.
+/// All formulas of the program; a new one needs one function and one line here.
 const std::vector<FlexibilityFormula> formulas{
     {"huth bolt", huth_bolt, true, {}, huth_source},
     {"huth rivet", huth_rivet, true, {}, huth_source},
@@ -155,7 +155,7 @@ std::array<double, 2> read_pair(const input::Value& law, const char* key) {
 
 FastenerGeometry read_geometry(const input::Value& law, const FlexibilityFormula& formula, int n_shear) {
   constexpr double incompressible = 0.5;
-  constexpr int most_rows = 100;
+  constexpr int max_rows = 100;
   const auto number = [&](const char* key) { return law.at(key).number(input::positive); };
   FastenerGeometry g{read_pair(law, "t"), read_pair(law, "E"), number("d"), number("E_f"), n_shear};
   const auto uses = [&](const char* key) {
@@ -169,7 +169,7 @@ FastenerGeometry read_geometry(const input::Value& law, const FlexibilityFormula
   if (uses("d_head")) g.d_head = number("d_head");
   if (uses("pitch")) g.pitch = number("pitch");
   if (uses("row_pitch")) g.row_pitch = number("row_pitch");
-  if (uses("rows")) g.rows = law.at("rows").integer(1, most_rows);
+  if (uses("rows")) g.rows = law.at("rows").integer(1, max_rows);
   if (uses("c_f")) g.c_f = number("c_f");
   return g;
 }
@@ -180,8 +180,8 @@ FastenerGeometry read_geometry(const input::Value& law, const FlexibilityFormula
 /// "t": [t1, t2], "E": [E1, E2], "d": d, "E_f": E_f}, and "nu_f" and the other numbers of FastenerGeometry where
 /// the formula uses them.
 ///
-/// In mode "total" the law takes all of the flexibility, for sheets whose holes have springs that hardly give; in
-/// "fastener only" all but the bearing of the sheets, which the springs around the holes have.
+/// In mode "total" the law has the whole flexibility, for sheets whose holes have nearly rigid springs; in mode
+/// "fastener only" it lacks the bearing of the sheets, which the springs around the holes represent.
 LawPointer read_formula_law(const input::Value& law) {
   law.only({"type", "formula", "mode", "shear", "t", "E", "d", "E_f", "nu_f", "E_z", "d_head", "pitch", "row_pitch",
             "rows", "c_f", "one_sided"});

@@ -8,7 +8,7 @@
 
 namespace fastjoint::stage3 {
 
-/// Readers, one for each "type" of a law, each beside the law that it reads; "one_sided" is left to the caller.
+/// Readers, one for each "type" of a law, defined in the law's own file; "one_sided" is left to the caller.
 using LawReader = LawPointer(const input::Value& law);
 LawReader read_linear_law, read_power_law, read_cubic_law, read_bilinear_law, read_four_stage_law, read_table_law,
     read_formula_law, read_rigid_law;

@@ -15,42 +15,41 @@ namespace fastjoint::stage3 {
 
 /// A point of a fastener's curve, delta >= 0, with derivatives by the contact coordinate c.
 struct Branch {
-  double F;            ///< bearing force, force
-  double delta;        ///< relative displacement of the discs, length
-  double dF;           ///< dF / dc, dimensionless
-  double ddelta;       ///< d delta / dc, length / force
-  bool spent = false;  ///< past all that the fastener can carry: no place for a solution
+  double F;             ///< bearing force, force
+  double delta;         ///< relative displacement of the discs, length
+  double dF;            ///< dF / dc, dimensionless
+  double ddelta;        ///< d delta / dc, length / force
+  bool failed = false;  ///< past the limit load of the fastener: no solution here
 
-  /// Point at which nothing bears: all of c moves the discs.
+  /// Point of an open fastener: F = 0 and k delta = c.
   static Branch open(double c, double k) { return {.F = 0, .delta = c / k, .dF = 0, .ddelta = 1 / k}; }
 };
 
-/// Change of the point with the coordinate c by a number of the law, c and k being fixed.
+/// Derivatives of the point with the coordinate c by a parameter of the law, at fixed c and k.
 struct Slope {
-  double F;      ///< dF / d number
-  double delta;  ///< d delta / d number
+  double F;      ///< dF / d parameter
+  double delta;  ///< d delta / d parameter
 };
 
-/// A number of a law as the input names it; its unit is length^length force^force.
+/// A parameter of a law with its name in the input; its unit is length^length force^force.
 struct Parameter {
   std::string name;
   double length, force;
 };
 
-/// Origin of the numbers of a law that do not stand in the input: a formula for these sheets and this shank.
+/// Origin of parameters of a law that are not in the input: a formula for these sheets and this shank.
 struct Source {
-  std::string text;       ///< for the summary: formula, who and where
-  bool bearing_of_plate;  ///< whether they hold the bearing of the sheet, which springs around a modelled hole have too
+  std::string text;                ///< for the summary: formula, author and publication
+  bool bearing_of_plate;           ///< the bearing of the sheet is included, as in springs around a modelled hole
   std::array<double, 2> t{}, E{};  ///< of the sheets: thickness, length; Young's modulus, stress
   double d = 0;                    ///< diameter, length
-  int n_shear = 1;                 ///< shear planes; of two, sheet 1 is the one in the middle
+  int n_shear = 1;                 ///< shear planes; with two, sheet 1 is the one in the middle
 };
 
 /// Force of a fastener against the relative displacement of its discs, delta >= 0, its clearance included.
 ///
-/// The curve is given by a contact coordinate c >= 0 in force units: c = F + k delta of a law that never falls,
-/// c = k delta of one that falls somewhere (docs/theory.md, section 8.2). docs/developing.md says what a new law
-/// takes.
+/// The parameter of the curve is a contact coordinate c >= 0 in force units: c = F + k delta if the law never falls,
+/// else c = k delta (docs/theory.md, section 8.2). docs/developing.md describes how to add a law.
 class Law {
  public:
   virtual ~Law() = default;
@@ -58,17 +57,17 @@ class Law {
   /// @param c Contact coordinate, force, c >= 0.
   /// @param k Reference stiffness > 0, force / length.
   [[nodiscard]] virtual Branch at(double c, double k, double clearance) const = 0;
-  /// Coordinate at which the force is F > 0, or about that: first guesses start from it.
+  /// Coordinate at which the force is approximately F > 0, for first guesses.
   [[nodiscard]] virtual double coordinate(double F, double k, double clearance) const = 0;
   /// Displacement up to which the rim does not bear, length.
   [[nodiscard]] virtual double gap(double clearance) const { return clearance; }
   /// True if the force never falls: then the coordinate is c = F + k delta.
   [[nodiscard]] virtual bool rises() const { return true; }
-  /// Force that it never exceeds, if there is one.
-  [[nodiscard]] virtual double most_force() const { return std::numeric_limits<double>::infinity(); }
-  /// Least dF/ddelta anywhere, force / length; 0 if the law rises.
-  [[nodiscard]] virtual double least_slope() const { return 0; }
-  /// Coordinates c > 0 of the corners, at which the slope jumps, ascending, if the law is linear between them.
+  /// Upper bound of the force, infinite if there is none.
+  [[nodiscard]] virtual double max_force() const { return std::numeric_limits<double>::infinity(); }
+  /// Minimum of dF/ddelta, force / length; 0 if the law never falls.
+  [[nodiscard]] virtual double min_slope() const { return 0; }
+  /// Coordinates c > 0 at which the slope jumps, ascending, if the law is linear between them.
   [[nodiscard]] virtual std::optional<std::vector<double>> corners(double /*k*/, double /*clearance*/) const {
     return std::nullopt;
   }
@@ -76,7 +75,7 @@ class Law {
   [[nodiscard]] virtual double last_delta(double /*clearance*/) const {
     return std::numeric_limits<double>::infinity();
   }
-  /// The numbers of the law that results can be differentiated by.
+  /// The parameters of the law by which results can be differentiated.
   [[nodiscard]] virtual std::vector<Parameter> parameters() const { return {}; }
   /// Derivatives of F and delta at fixed c and k: first by the clearance, then by each of parameters(), in their order.
   [[nodiscard]] virtual std::vector<Slope> slopes(double c, double k, double clearance) const = 0;
@@ -100,20 +99,20 @@ using TestPoints = std::vector<std::array<double, 2>>;
 
 /// Reads points in the order of the file.
 ///
-/// A text file of two columns, parted by commas, semicolons or tabs, with decimal points; a first line of two names is
-/// passed over, and so are empty lines and what follows a '#'. Throws InputError with file, line, what was found and
-/// what is allowed; FileError if the file cannot be read.
+/// The text file has two columns, separated by commas, semicolons or tabs, with decimal points; a first line of two
+/// names, empty lines and text after a '#' are skipped. Throws InputError with file, line, what was found and what is
+/// allowed; FileError if the file cannot be read.
 [[nodiscard]] TestPoints read_points(const std::string& path);
 
-/// Root of a rising function of one variable between low and high, where it is <= 0 and >= 0: Newton's method within
-/// bounds that close in, bisection where it leaves them.
+/// Root of a rising function of one variable between low and high, where it is <= 0 and >= 0: Newton's method within a
+/// shrinking bracket, bisection where it leaves the bracket.
 ///
 /// @param at x -> {value, derivative}
 template <class Function>
 [[nodiscard]] double rising_root(Function at, double low, double high) {
-  constexpr int most = 200;
+  constexpr int max_iterations = 200;
   double x = high;
-  for (int i = 0; i < most && low < high; ++i) {
+  for (int i = 0; i < max_iterations && low < high; ++i) {
     const auto [value, derivative] = at(x);
     (value > 0 ? high : low) = x;
     double next = x - value / derivative;

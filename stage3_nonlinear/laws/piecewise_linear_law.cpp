@@ -20,10 +20,10 @@ struct Vertex {
 /// Piecewise linear curve: from (0, 0) through its vertices, then on with a last slope.
 struct Polyline {
   std::vector<Vertex> vertices;  ///< neither delta nor F falls
-  double last_slope;             ///< force / length, >= 0; infinite of a rigid law
+  double last_slope;             ///< force / length, >= 0; infinite for a rigid law
 };
 
-/// Number of the input and what it does to the curve.
+/// Parameter of the input and the derivative of the curve by it.
 struct PolylineParameter {
   Parameter parameter;
   Polyline derivative;  ///< of every vertex and of the last slope
@@ -55,11 +55,11 @@ class PiecewiseLinearLaw final : public Law {
       c0 = c1;
       F0 = v.F;
     }
-    // A curve that ends level does not reach F: its last corner then.
+    // A curve with a last slope of zero does not reach F, and the last corner is returned.
     return curve_.last_slope > 0 ? c0 + (F - F0) * (1 + k / curve_.last_slope) : c0;
   }
 
-  [[nodiscard]] double most_force() const override {
+  [[nodiscard]] double max_force() const override {
     return curve_.last_slope > 0 ? infinite : curve_.vertices.back().F;
   }
 
@@ -99,7 +99,7 @@ class PiecewiseLinearLaw final : public Law {
  private:
   /// Piece of the curve in terms of c, from its first point on.
   struct Piece {
-    std::size_t end;  ///< vertex at its end; behind the last: number of vertices
+    std::size_t end;  ///< vertex at its end; number of vertices after the last
     double c, F, delta, dF, ddelta;
   };
 
@@ -124,7 +124,7 @@ class PiecewiseLinearLaw final : public Law {
     return {curve_.vertices.size(), c0, start.F, start.delta, dF, 1 / sum};
   }
 
-  /// Change of F at fixed c with a number that changes the curve by `derivative`.
+  /// Derivative of F at fixed c by a parameter for which the curve has `derivative`.
   [[nodiscard]] double force_slope(const Piece& piece, double c, double k, double clearance,
                                    const Polyline& derivative) const {
     const Vertex start = piece.end > 0 ? derivative.vertices[piece.end - 1] : Vertex{0, 0};
@@ -158,19 +158,19 @@ LawPointer linear_law(double k, std::optional<Source> source) {
   return piecewise_linear_law({{{0, 0}}, k}, 0, {{{"k", -1, 1}, {{{0, 0}}, 1}}}, std::move(source));
 }
 
-/// {"type": "linear", "k": force / length}
+/// Reads {"type": "linear", "k": force / length}.
 LawPointer read_linear_law(const input::Value& law) {
   law.only({"type", "k", "one_sided"});
   return linear_law(law.at("k").number(input::positive), std::nullopt);
 }
 
-/// {"type": "rigid"}: any force without displacement.
+/// Reads {"type": "rigid"}: any force without displacement.
 LawPointer read_rigid_law(const input::Value& law) {
   law.only({"type", "one_sided"});
   return piecewise_linear_law({{{0, 0}}, infinite}, 0, {});
 }
 
-/// {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.
+/// Reads {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.
 LawPointer read_bilinear_law(const input::Value& law) {
   law.only({"type", "k", "F_yield", "k_yield", "one_sided"});
   const double k = law.at("k").number(input::positive);
@@ -185,8 +185,8 @@ LawPointer read_bilinear_law(const input::Value& law) {
 /// Reads {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo,
 /// Figure 2.
 ///
-/// Static friction sticks up to F_slip, the joint slips by "slip" and the fastener's clearance, bears elastically up to
-/// F_yield, yields beyond.
+/// Static friction holds up to F_slip; then the joint slips by "slip" plus the clearance, bears elastically up to
+/// F_yield and yields beyond.
 LawPointer read_four_stage_law(const input::Value& law) {
   law.only({"type", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield", "one_sided"});
   const double k_stick = law.at("k_stick").number(input::positive);

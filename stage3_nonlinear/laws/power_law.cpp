@@ -43,15 +43,15 @@ class PowerLaw final : public Law {
   [[nodiscard]] std::vector<Slope> slopes(double c, double k, double clearance) const override {
     const Branch on = at(c, k, clearance);
     if (c < k * gap(clearance)) return std::vector<Slope>(4, {0, 0});
-    // delta(F) moves while c = F + k delta stays (docs/theory.md, section 10).
-    const auto slope = [&](double moves) { return Slope{-k * moves * on.dF, moves * on.dF}; };
+    // The change of delta at fixed F, converted to fixed c = F + k delta (docs/theory.md, section 10).
+    const auto slope = [&](double d_delta) { return Slope{-k * d_delta * on.dF, d_delta * on.dF}; };
     const double x = stretch(on.F);
     const double x_log = on.F > 0 ? x * std::log(on.F / A_) : 0;  // its limit at first contact
     return {slope(1), slope(-x / (n_ * A_)), slope(-x_log / (n_ * n_)), slope(1)};
   }
 
   [[nodiscard]] std::vector<program::Warning> doubts() const override {
-    constexpr double practical = 0.4;  // below (7) in the paper
+    constexpr double practical = 0.4;  // stated below equation (7) of the paper
     if (n_ >= practical) return {};
     return {{"exponent-low", fmt::format("n = {} is below the practical range {} to 1", n_, practical)}};
   }
@@ -63,10 +63,10 @@ class PowerLaw final : public Law {
   /// Force where F + k (F / A)^(1/n) is s > 0.
   [[nodiscard]] double force(double s, double k) const {
     if (n_ == 1) return s * (A_ / (A_ + k));
-    // Convex and rising in F: from above Newton's method falls to the root and stays above it.
-    constexpr int most = 100;
+    // The function is convex and rises with F: started above the root, Newton's method approaches it from above.
+    constexpr int max_iterations = 100;
     double F = std::min(s, A_ * std::pow(s / k, n_));
-    for (int i = 0; i < most; ++i) {
+    for (int i = 0; i < max_iterations; ++i) {
       const double x = k * stretch(F);
       const double next = F - (F + x - s) / (1 + x / (n_ * F));
       if (!(next < F)) break;

@@ -19,8 +19,8 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Measured curve that never falls: piecewise cubic through its points with continuous slope, monotone between points
-/// that are (Steffen, Astronomy & Astrophysics 239, 1990); beyond the last point straight on.
+/// Measured curve that never falls: a piecewise cubic through its points with continuous slope that preserves their
+/// monotonicity (Steffen, Astronomy & Astrophysics 239, 1990); linear beyond the last point.
 class TableLaw final : public Law {
  public:
   /// @param points (0, 0) and at least two more: delta rises, F does not fall.
@@ -37,7 +37,7 @@ class TableLaw final : public Law {
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
     const double s = c - k * clearance;
     if (s < 0) return Branch::open(c, k);
-    // Between the two points around s = F + k x.
+    // The root lies between the two points around s = F + k x.
     std::size_t i = 0;
     while (i + 1 < x_.size() && F_[i + 1] + k * x_[i + 1] < s) ++i;
     const double low = x_[i], high = i + 1 < x_.size() ? x_[i + 1] : s / k;
@@ -50,7 +50,7 @@ class TableLaw final : public Law {
     return {.F = F, .delta = clearance + x, .dF = slope / (slope + k), .ddelta = 1 / (slope + k)};
   }
 
-  /// Follows chords: first guesses ask for no more.
+  /// Uses the chords, which are accurate enough for first guesses.
   [[nodiscard]] double coordinate(double F, double k, double clearance) const override {
     std::size_t i = 0;
     while (i + 2 < x_.size() && F_[i + 1] < F) ++i;
@@ -59,7 +59,7 @@ class TableLaw final : public Law {
     return F + k * (clearance + x);
   }
 
-  [[nodiscard]] double most_force() const override {
+  [[nodiscard]] double max_force() const override {
     return force_and_slope(x_.back())[1] > 0 ? std::numeric_limits<double>::infinity() : F_.back();
   }
 
@@ -75,10 +75,10 @@ class TableLaw final : public Law {
 
  private:
   [[nodiscard]] std::array<double, 2> force_and_slope(double x) const {
-    const double inside = std::min(x, x_.back());
-    const double F = gsl_interp_eval(spline_.get(), x_.data(), F_.data(), inside, nullptr);
-    const double slope = gsl_interp_eval_deriv(spline_.get(), x_.data(), F_.data(), inside, nullptr);
-    return {F + slope * (x - inside), std::max(slope, 0.0)};  // rounding may make a level piece fall
+    const double in_range = std::min(x, x_.back());
+    const double F = gsl_interp_eval(spline_.get(), x_.data(), F_.data(), in_range, nullptr);
+    const double slope = gsl_interp_eval_deriv(spline_.get(), x_.data(), F_.data(), in_range, nullptr);
+    return {F + slope * (x - in_range), std::max(slope, 0.0)};  // rounding may make a horizontal piece fall
   }
 
   std::vector<double> x_, F_;  ///< points with (0, 0): stretch, length; force
@@ -113,7 +113,7 @@ std::optional<double> number(std::string_view field) {
   return value;
 }
 
-/// Two names; a slip of the pen in the first point is none: it begins as a number does.
+/// Tells whether a line holds two names; a field that begins like a number is a mistyped number, not a name.
 bool is_header(const Fields& fields) {
   return std::ranges::all_of(fields, [](std::string_view field) {
     return !field.empty() && !number(field) && std::string_view("0123456789+-.").find(field.front()) == field.npos;
@@ -127,11 +127,11 @@ double checked(std::string_view field, const std::string& place) {
   return *value;
 }
 
-/// Points that stand in the law itself.
-TestPoints points_inside(const input::Value& law) {
+/// Points given in the law itself, not in a file.
+TestPoints points_of(const input::Value& law) {
   law.only({"type", "delta", "F", "one_sided"});
-  constexpr std::size_t most = 100000;
-  const auto delta = law.at("delta").numbers(2, most, input::not_negative);
+  constexpr std::size_t max_points = 100000;
+  const auto delta = law.at("delta").numbers(2, max_points, input::not_negative);
   const auto F = law.at("F").numbers(delta.size(), delta.size(), input::not_negative);
   TestPoints points;
   for (std::size_t i = 0; i < delta.size(); ++i) points.push_back({delta[i], F[i]});
@@ -163,13 +163,13 @@ TestPoints read_points(const std::string& path) {
   return points;
 }
 
-/// {"type": "table", "file": CSV} or {"type": "table", "delta": [...], "F": [...]}: points of a test, without (0, 0) or
-/// with it.
+/// Reads {"type": "table", "file": CSV} or {"type": "table", "delta": [...], "F": [...]}: points of a test, with or
+/// without (0, 0).
 LawPointer read_table_law(const input::Value& law) {
   const auto file = law.find("file");
   const auto path = file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : std::string();
   if (file) law.only({"type", "file", "one_sided"});
-  auto points = file ? read_points(path) : points_inside(law);
+  auto points = file ? read_points(path) : points_of(law);
   const auto& place = file ? *file : law;
   if (points[0][0] != 0) points.insert(points.begin(), {0, 0});
   if (points[0][1] > 0)

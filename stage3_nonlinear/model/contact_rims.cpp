@@ -16,15 +16,15 @@ bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const
          a_carried.waves == b_carried.waves && a_carried.compliance == b_carried.compliance;
 }
 
-/// Adds what an elastic disk yields to waves of which D is known, if it is.
-void press_with(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
-  a.M.diagonal() = a.yield = contact.disk.yield(contact.radius, full);
-  a.M_tau = a.yield_by_shear = contact.disk.yield_by_shear(contact.radius, full);
-  a.give_way = contact.disk.give_way(contact.radius, full);
-  VectorXd all = a.yield;
+/// Adds the compliance of an elastic disk to waves, after D if that is known.
+void add_disk(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
+  a.M.diagonal() = a.disk_compliance = contact.disk.yield(contact.radius, full);
+  a.M_tau = a.disk_by_shear = contact.disk.yield_by_shear(contact.radius, full);
+  a.disk_tangential = contact.disk.give_way(contact.radius, full);
+  VectorXd all = a.disk_compliance;
   if (a.D.size() > 0) all += a.D.diagonal().head(a.n);
-  const Index first = full.is_whole() ? 3 : 2;  // of order 2, of a quarter 4
-  a.least_yield = first < a.n ? all.tail(a.n - first).minCoeff() : all[0];
+  const Index first = full.is_whole() ? 3 : 2;  // the first wave of order 2, or 4 on a quarter
+  a.min_compliance = first < a.n ? all.tail(a.n - first).minCoeff() : all[0];
 }
 
 }  // namespace
@@ -38,17 +38,17 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.G = MatrixXd::Zero(s, a.n_long);
   a.G_t = MatrixXd::Zero(s, a.n_long_shears);
   a.E = MatrixXd::Zero(a.n_long, s_t);
-  a.C_held = MatrixXd::Zero(a.n_long, a.n_long);
-  a.R_held = MatrixXd::Zero(a.n_long, a.n_long_shears);
+  a.C_fixed = MatrixXd::Zero(a.n_long, a.n_long);
+  a.R_fixed = MatrixXd::Zero(a.n_long, a.n_long_shears);
   a.M = MatrixXd::Zero(a.n, a.n);
   a.M_tau = MatrixXd::Zero(a.n, a.n_shears);
   if (carried.has_closed_form()) a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
-  if (contact.disk.is_given()) press_with(contact, full, a);
+  if (contact.disk.is_given()) add_disk(contact, full, a);
   if (!carried.has_closed_form() || s == 0) {
     a.D.resize(0, 0);
     return a;
   }
-  constexpr double rounding = 1e-13;  // what couples waves of different order in an isotropic sheet
+  constexpr double rounding = 1e-13;  // waves of different order are uncoupled in an isotropic sheet
   a.D = (a.D.array().abs() > rounding * a.D.cwiseAbs().maxCoeff()).select(a.D, 0).eval();
   const MatrixXd nn = a.D.topLeftCorner(a.n, a.n), nt = a.D.topRightCorner(a.n, a.n_shears);
   const MatrixXd own = nn.bottomRightCorner(s, s), to_short = nn.bottomLeftCorner(s, a.n_long);
@@ -56,15 +56,15 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.G = softened.solve(to_short);
   a.G_t = softened.solve(nt.bottomLeftCorner(s, a.n_long_shears));
   a.E = nt.topRightCorner(a.n_long, s_t) - contact.modulus * a.G.transpose() * nt.bottomRightCorner(s, s_t);
-  const MatrixXd held = own.llt().solve(to_short).transpose();  // long waves by the short ones that pressure holds
-  a.C_held = held * a.G;
-  a.R_held = held * a.G_t;
+  const MatrixXd reaction = own.llt().solve(to_short).transpose();  // short pressures that fix the short waves
+  a.C_fixed = reaction * a.G;
+  a.R_fixed = reaction * a.G_t;
   a.M.bottomRows(s) += nn.bottomRows(s);
   a.M.topRightCorner(a.n_long, s) += to_short.transpose();
-  a.M.topLeftCorner(a.n_long, a.n_long) += held * to_short;
+  a.M.topLeftCorner(a.n_long, a.n_long) += reaction * to_short;
   a.M_tau.bottomRows(s) += nt.bottomRows(s);
   a.M_tau.topRightCorner(a.n_long, s_t) += nt.topRightCorner(a.n_long, s_t);
-  a.M_tau.topLeftCorner(a.n_long, a.n_long_shears) += held * nt.bottomLeftCorner(s, a.n_long_shears);
+  a.M_tau.topLeftCorner(a.n_long, a.n_long_shears) += reaction * nt.bottomLeftCorner(s, a.n_long_shears);
   return a;
 }
 
@@ -81,7 +81,7 @@ std::vector<std::shared_ptr<const ShortWaves>> short_waves_of(const formats::Pla
 
 RimMatrices rim_matrices(const formats::PlateMatrices& a, Index level) {
   std::vector<Index> pressures, shears;  // rows of W
-  std::vector<double> areas;             // of pressures
+  std::vector<double> areas;             // of each of `pressures`
   Index next = 0;
   for (Index i = 0; i < std::ssize(a.contact); ++i) {
     const auto& rim = a.waves[i];

@@ -10,15 +10,15 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// What to type instead of clearances, "write "gap": 0.03 instead".
+/// Input to write instead of clearances, "write "gap": 0.03 instead".
 std::string advice(const std::vector<double>& gaps) {
   if (gaps.empty())
-    return "gaps of which the two in the holes of each shear plane add up to its clearance, 0 in holes whose springs "
-           "also pull, or other springs";
+    return "gaps that add up to the clearance in the two holes of each shear plane and are 0 in holes whose springs "
+           "act in tension too, or other springs";
   std::vector<std::string> texts;
   for (const double gap : gaps) texts.push_back(fmt::format("{:.12g}", gap));  // halves in full
   const bool one = std::ranges::all_of(texts, [&](const auto& text) { return text == texts[0]; });
-  return fmt::format("0, or write \"gap\": {} instead, with which the sheets move as far before the fastener bears",
+  return fmt::format("0, or write \"gap\": {} instead, which lets the sheets move as far before the fastener bears",
                      one ? texts[0] : fmt::format("[{}]", fmt::join(texts, ", ")));
 }
 
@@ -34,13 +34,13 @@ double gap_of(const FastenerScene& fastener, Index at, const PlateModel& plate) 
 void check_gap(const FastenerScene& fastener, const std::string& hole, const PlateModel& plate, double gap) {
   if (gap != 0 && !plate.is_in_contact(hole))
     refuse(fastener.where_gap(),
-           fmt::format("the springs of hole \"{}\" of {} also pull: they fill it", hole, plate.file),
+           fmt::format("the springs of hole \"{}\" of {} act in tension too and leave no gap", hole, plate.file),
            "a gap in holes with \"compression_only\", \"clearance\" in others");
 }
 
 std::vector<double> equal_gaps(const std::vector<double>& clearance, const std::vector<bool>& in_contact) {
-  // Every gap is offset + sign s, s the first one: neighbours add up to their clearance. The ground counts as a last
-  // hole, without a gap.
+  // Every gap is offset + sign s with s the first gap, since neighbours add up to their clearance. The ground counts as
+  // a last hole without a gap.
   const Index n = std::ssize(clearance) + 1;
   std::vector<double> offset(n, 0), sign(n, 1);
   double low = 0, high = std::numeric_limits<double>::infinity();
@@ -73,8 +73,8 @@ void check_clearance(const JointModel& model, const FastenerScene& scene, const 
     for (Index hole = plane; hole < std::min(plane + 2, std::ssize(fastener.holes)); ++hole)
       if (in_contact[hole])
         refuse(scene.where + "/clearance",
-               fmt::format("{} is free play of a law, but the springs of hole \"{}\" push and do not pull: the play is "
-                           "that of the gap in each such hole",
+               fmt::format("{} is free play of a law, but hole \"{}\" has compression-only springs: the free play of "
+                           "such holes is their \"gap\"",
                            scene.clearance[plane], model.name(fastener.holes[hole])),
                advice(equal_gaps(scene.clearance, in_contact)));
   }

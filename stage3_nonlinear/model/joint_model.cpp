@@ -27,7 +27,7 @@ std::vector<PlateMatrices> read_all(const JointScene& scene) {
     try {
       all.push_back(formats::read_plate_matrices(plate.file));
     } catch (const FileError& e) {
-      std::error_code unreachable;  // such as of a name that is too long
+      std::error_code unreachable;  // for example if the name is too long
       const bool absent = !std::filesystem::exists(plate.file, unreachable) && !unreachable;
       throw FileError(fmt::format("{}: {}{}", plate.where, e.what(),
                                   absent ? fmt::format("; stage2_extract PLATE.h5 -o {} makes it", plate.file) : ""));
@@ -79,7 +79,7 @@ std::string directions_at(const PlateModel& plate, Index first_disc) {
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
-/// Refuses a fastener some of whose discs can move where others cannot.
+/// Refuses a fastener whose discs do not all have the same directions.
 void check_directions(const JointModel& model, const FastenerScene& scene, const FastenerModel& fastener) {
   const auto directions = [&](const HoleModel& hole) { return directions_at(model.plates[hole.plate], hole.disc); };
   const HoleModel& first = fastener.holes[0];
@@ -113,7 +113,8 @@ FrictionCase friction_case(const PlateModel& plate, const std::string& hole, dou
                   plate.file, hole, bearing, mu));
 }
 
-/// Sides of a fastener's hole that its planes can make bear: F > 0 pushes the second plate to +, the first to -.
+/// Sides of a fastener's hole on which its planes can bear: F > 0 acts on the second plate along +, on the first along
+/// -.
 std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& fastener, Index hole) {
   std::array<bool, 2> sides{};
   for (Index plane = hole > 0 ? hole - 1 : 0; plane < std::min(hole + 1, std::ssize(fastener.law)); ++plane) {
@@ -124,8 +125,8 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
   return sides;
 }
 
-/// Refuses a half hole along the normal of its line of symmetry: the whole hole that it stands for stays on that line,
-/// but the bearing of half a rim would push its disc off.
+/// Refuses a half hole whose disc may move along the normal of its line of symmetry: by symmetry the disc of the whole
+/// hole stays on that line, but bearing on half a rim would move it off.
 void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
   for (Index i = 0; i < std::ssize(plate.friction_hole); ++i)
     if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0) && !plate.is_in_contact(hole))
@@ -177,7 +178,7 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
   for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
   check_directions(model, fastener, result);
   check_clearance(model, fastener, result);
-  for (const auto& hole : result.holes)  // a disc takes the friction of a rim of contact: the shank carries both
+  for (const auto& hole : result.holes)  // at a rim of contact the force on the disc includes friction already
     result.law_includes_friction |= model.plates[hole.plate].is_in_contact(model.plates[hole.plate].hole_of(hole.disc));
   model.fasteners.push_back(std::move(result));
 }
@@ -187,7 +188,7 @@ std::string second_plate(const JointModel& joint, const ShearPlane& plane) {
   return joint.is_to_ground(plane) ? ground_name : joint.plates[joint.second_hole(plane).plate].name;
 }
 
-/// Place of a fastener in a hole of a plate; one without gap and friction if the hole has none.
+/// The hole of a plate with its fastener; one without gap and friction if no fastener is in it.
 const HoleModel& fastened(const JointModel& joint, Index plate, const std::string& hole) {
   static const HoleModel none;
   for (const auto& fastener : joint.fasteners)
@@ -196,7 +197,7 @@ const HoleModel& fastened(const JointModel& joint, Index plate, const std::strin
   return none;
 }
 
-/// @param factors Load factors that are asked for.
+/// @param factors The requested load factors.
 void apply_load(JointModel& model, const LoadScene& load, const std::vector<double>& factors) {
   const Reference& name = load.external;
   PlateModel& plate = model.plates[index_of(model.plates, name.plate, &PlateModel::name)];
@@ -224,11 +225,11 @@ void apply_load(JointModel& model, const LoadScene& load, const std::vector<doub
 
 void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
   for (const double factor : factors) {
-    bool acts = load.value * factor == 0;
+    bool has_side = load.value * factor == 0;
     for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      acts = acts || (plate.tractions[i] == plate.tractions[traction] &&
-                      fastjoint::stage3::acts(plate.sense(i), factor * load.value));
-    if (!acts)
+      has_side = has_side || (plate.tractions[i] == plate.tractions[traction] &&
+                              is_active(plate.bearing_sign(i), factor * load.value));
+    if (!has_side)
       refuse(load.external.where,
              fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
                          "that would bear",

@@ -23,27 +23,27 @@ using Eigen::VectorXd;
 /// Names of the axes.
 inline constexpr std::array axis_names{"x", "y"};
 
-/// The matrices of a plate at the last of its degrees up to that of the joint, rising; S, T, R as PlateModel has them.
+/// The matrices of a plate at its last degrees up to that of the joint, ascending; S, T, R are those of PlateModel.
 struct PlateDegrees {
   Eigen::VectorXi p;
   std::vector<MatrixXd> S, T;
   std::vector<MatrixXd> C;  ///< (q, q) C_t, length / force
-  std::vector<MatrixXd> R;  ///< of the last two degrees alone
+  std::vector<MatrixXd> R;  ///< only those of the last two degrees
 };
 
-/// A plate at one degree p: its m discs first, hole after hole, then its e rigid externals, then the k moments of
-/// contact of the rims whose springs push but do not pull (RimContact), as unknowns of one list.
+/// A plate at one degree p. Its unknowns u are the displacements of its m discs, hole after hole, those of its e rigid
+/// externals, and the k contact moments of the rims with compression-only springs (RimContact).
 ///
-/// Forces that must act on it from outside: S u + R Lambda + T f (docs/theory.md, section 4). The springs of such a rim
-/// are not in S: what they transmit is minus the force on its moments.
+/// The external forces in equilibrium with them are S u + R Lambda + T f (docs/theory.md, section 4). S does not hold
+/// the springs of a rim of contact: the force that they transmit is minus the force on its moments.
 struct PlateModel {
   std::string name, file;
   std::string matrices_digest, plate_digest;             ///< of its MATRICES.h5, and of its PLATE.h5
-  std::vector<std::string> holes, externals, tractions;  ///< (m / a), (e), (q), where both sides of a hole are cases
-  std::vector<int> axes;                                 ///< (a) of each hole's discs in their order: 0 x, 1 y
-  std::vector<Index> discs;                              ///< those m that the file has: a line of symmetry holds others
+  std::vector<std::string> holes, externals, tractions;  ///< (m / a), (e), (q): each side of a hole is a case
+  std::vector<int> axes;                                 ///< (a) directions of each hole's discs in order: 0 x, 1 y
+  std::vector<Index> discs;                              ///< of m, those in the file: symmetry fixes the others
   std::vector<bool> on_springs;                          ///< (m / a) the plate's own bearing is in S
-  std::vector<formats::ContactRim> contact;              ///< (g) rims whose springs push but do not pull
+  std::vector<formats::ContactRim> contact;              ///< (g) rims with compression-only springs
   MatrixXd S;                                            ///< (m+e+k, m+e+k), force / length
   /// (m+e+k, h + s) by friction cases, then by the shears of rims of contact, length^2
   MatrixXd R;
@@ -53,33 +53,33 @@ struct PlateModel {
   VectorXd friction_resultant_across;                        ///< (h), length^2; empty: all 0
   VectorXd traction_resultant_across;                        ///< (q), dimensionless; empty: all 0
   std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
-  std::vector<int> unsupported_axes;                         ///< along which no support of stage 1 takes a force
-  PlateDegrees degrees;                                      ///< whose sequence shows the error of S
-  MatrixXd S_error;  ///< (m+e+k, m+e+k) the file's; infinite where it does not know it or p is not its highest
+  std::vector<int> unsupported_axes;                         ///< axes along which no support of stage 1 reacts
+  PlateDegrees degrees;                                      ///< their sequence shows the error of S
+  MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
   formats::PlateStresses stresses;        ///< as the file has them
   std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
   std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
-  std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) waves beyond those, in closed form
+  std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) the waves of higher order, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses
-  std::vector<MatrixXd> wave_rows{};  ///< PlateCases::W of all rims at the joint's degree and the one before
-  bool peaks_alone = false;           ///< of hoop stresses neither errors nor where friction acts against the slip
-  Index file_unit_cases = 0;          ///< of the file, the columns of wave_rows
-  Index n_loaded_waves = 0;           ///< of which this many are waves of contact
+  std::vector<MatrixXd> wave_rows{};         ///< PlateCases::W of all rims at the joint's degree and the one before
+  bool peaks_alone = false;                  ///< no errors of hoop stresses and no check of friction against the slip
+  Index file_unit_cases = 0;                 ///< number of unit cases of the file, the columns of wave_rows
+  Index n_loaded_waves = 0;                  ///< of which this many are waves of contact
   std::vector<std::string> traction_hole{};  ///< (q) hole that each traction presses on, "" for an edge
   VectorXd traction_unit_force{};            ///< (q) force per unit peak of its cosine pressure, length^2
   // Loads at load factor 1.
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
   VectorXd traction_force;                                   ///< (q) the same for both sides of a hole
-  /// (q) side of the hole that bears under the force of this case, "+x", ...; "" or none of edges
+  /// (q) side of the hole that bears under the force of this case, "+x", ...; "" or no list for edges
   std::vector<std::string> traction_bearing{};
 
-  /// Sign of the force under which a traction's side of its hole bears; 0 of edges.
-  [[nodiscard]] int sense(Index traction) const {
+  /// Sign of the force under which a traction's side of its hole bears; 0 for edges.
+  [[nodiscard]] int bearing_sign(Index traction) const {
     if (traction >= std::ssize(traction_bearing) || traction_bearing[traction].empty()) return 0;
     return traction_bearing[traction][0] == '+' ? 1 : -1;
   }
-  /// True of a traction case for the other side of the hole of the case before.
+  /// True if a traction case is the other side of the hole of the case before.
   [[nodiscard]] bool is_other_side(Index traction) const {
     return traction > 0 && traction < std::ssize(tractions) && tractions[traction] == tractions[traction - 1];
   }
@@ -90,11 +90,11 @@ struct PlateModel {
   [[nodiscard]] const std::string& hole_of(Index disc) const { return holes[disc / axes.size()]; }
   [[nodiscard]] int axis_of(Index disc) const { return axes[disc % axes.size()]; }
   [[nodiscard]] Index n_unknowns() const { return S.rows(); }
-  /// True if the springs of a hole push but do not pull.
+  /// True if a hole has compression-only springs.
   [[nodiscard]] bool is_in_contact(const std::string& hole) const {
     return std::ranges::find(contact, hole, &formats::ContactRim::hole) != contact.end();
   }
-  /// False of a direction in which a line of symmetry holds the hole's disc.
+  /// False if a line of symmetry fixes this displacement of the hole's disc.
   [[nodiscard]] bool has_disc(Index disc) const { return std::ranges::binary_search(discs, disc); }
   /// Column of R of the first shear of a rim of contact.
   [[nodiscard]] Index first_shear(const formats::ContactRim& rim) const {
@@ -106,32 +106,32 @@ struct PlateModel {
   [[nodiscard]] Index first_moment() const { return n_discs() + n_externals(); }
 };
 
-/// The matrices at degree p, checked: names that stand once, S symmetric and positive semi-definite. Throws FileError
-/// or InputError with the file and the dataset.
+/// The matrices at degree p, checked: names are unique, S is symmetric and positive semi-definite. Throws FileError or
+/// InputError with the file and the dataset.
 /// @param axes Those of the joint; the file's own if empty.
 [[nodiscard]] PlateModel make_plate(const std::string& name, const std::string& file, formats::PlateMatrices matrices,
                                     int p, const std::vector<int>& axes = {});
 
-/// Entry i of a list that is empty where all of it is 0.
+/// Entry i of a list; an empty list stands for zeros.
 [[nodiscard]] inline double entry_or_0(const VectorXd& list, Index i) { return list.size() == 0 ? 0 : list[i]; }
 
-/// Directions of the discs of all files together, in the order of the first hole that has both, else x before y; 0 x, 1
-/// y. Throws FileError for a word that names none.
+/// Directions of the discs of all files, in the order of the first hole that has both, else x before y; 0 x, 1 y.
+/// Throws FileError for a word that is no direction.
 [[nodiscard]] std::vector<int> joint_axes(std::span<const std::string> files,
                                           std::span<const formats::PlateMatrices> all);
 
 /// Side of a rim that bears, under a bearing force on the plate along + or - the axis.
 enum Side : Index { plus_side, minus_side };
 
-/// Friction of a hole while one of its sides bears, per unit of its peak stress.
+/// Friction of a hole while one of its sides bears, per unit of its peak shear stress.
 struct FrictionCase {
   Index column = -1;      ///< of PlateModel::R; -1 where no rim can bear
   double unit_force = 0;  ///< c: force of bearing, length^2
-  double resultant = 0;   ///< amount of the force of friction along the direction, length^2
-  double across = 0;      ///< and along + the other axis, which the disc takes, length^2
+  double resultant = 0;   ///< magnitude of the friction force along the direction, length^2
+  double across = 0;      ///< component of that force along the other axis, carried by the disc, length^2
 };
 
-/// Place at which a fastener holds a plate.
+/// A hole of a plate with a fastener in it.
 struct HoleModel {
   Index plate = 0;
   Index disc = 0;  ///< first unknown of its disc among the plate's
@@ -139,24 +139,24 @@ struct HoleModel {
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
   /// Empty without friction, and at a rim of contact, whose friction follows its pressure (RimFriction).
   std::vector<std::array<FrictionCase, 2>> friction;
-  double gap = 0;  ///< radial, between the fastener and a rim whose springs push but do not pull, length
+  double gap = 0;  ///< radial, between the fastener and a rim with compression-only springs, length
 };
 
 /// A fastener through its holes in their order.
 struct FastenerModel {
   std::string id;
   std::vector<HoleModel> holes;
-  bool law_includes_friction = false;  ///< the laws give the load that is transferred, not that of bearing alone
-  bool grounded = false;  ///< its last plane lies between the last hole and the ground, which does not move
+  bool law_includes_friction = false;  ///< the laws give the transferred load, not the bearing force alone
+  bool grounded = false;               ///< its last plane is between the last hole and the fixed ground
 
   [[nodiscard]] Index n_planes() const { return std::ssize(holes) - (grounded ? 0 : 1); }
 };
 
-/// Plane between two neighbouring holes of a fastener: delta = D(first) - D(second); it pushes the second plate with +F
-/// and the first with -F. The second may be the ground, D = 0.
+/// Plane between two neighbouring holes of a fastener: delta = D(first) - D(second). The force on the second plate is
+/// +F, that on the first -F. The second may be the ground, D = 0.
 struct ShearPlane {
   Index fastener = 0;
-  Index first = 0;  ///< hole of the fastener; the second is the next, or the ground behind the last
+  Index first = 0;  ///< hole of the fastener; the second is the next, or the ground after the last
   LawPointer law;
   std::string law_name;
   double clearance = 0;  ///< length
@@ -177,7 +177,7 @@ struct JointModel {
 
   [[nodiscard]] Index n_directions() const { return axes.size(); }
   [[nodiscard]] Index n_planes() const { return planes.size(); }
-  /// Number of moments of contact of each rim of contact, plate after plate, and of all.
+  /// Number of contact moments of each rim of contact, plate after plate, and their sum.
   [[nodiscard]] std::vector<Index> rim_sizes() const;
   [[nodiscard]] Index n_moments() const;
   /// "x" or "y": direction d of the discs.
@@ -211,7 +211,7 @@ struct JointModel {
   [[nodiscard]] std::string short_name(const ShearPlane& plane) const;
 };
 
-/// Refuses a force whose side of its hole the model does not have. @param factors Load factors that are asked for.
+/// Refuses a force on a side of a hole that the model does not have. @param factors The requested load factors.
 void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors);
 
 /// Reads the matrices of all plates and resolves every name.

@@ -25,7 +25,7 @@ std::vector<LoadCase> load_cases(const JointModel& joint) {
     const PlateModel& plate = joint.plates[at_plate];
     Index at = first;
     do {
-      cases.push_back({load, at_plate, at, is_traction, is_displacement, is_traction ? plate.sense(at) : 0});
+      cases.push_back({load, at_plate, at, is_traction, is_displacement, is_traction ? plate.bearing_sign(at) : 0});
     } while (is_traction && plate.is_other_side(++at));
   }
   return cases;

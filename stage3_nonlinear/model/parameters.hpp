@@ -15,25 +15,25 @@ struct Load {
 };
 [[nodiscard]] std::vector<Load> loads_of(const JointModel& joint);
 
-/// A column of the condensed system: a load, or one on one side of a hole, which bears under it.
+/// A column of the condensed system: a load, or the part of a load on a hole that acts on one side of the hole.
 struct LoadCase {
   Index load;  ///< among loads_of
   Index plate;
   Index at;  ///< external, or traction
   bool is_traction, is_displacement;
-  int sense = 0;  ///< 1 or -1: acts while its amount has this sign; 0: always
+  int sign = 0;  ///< 1 or -1: active while the load has this sign; 0: always active
 };
 [[nodiscard]] std::vector<LoadCase> load_cases(const JointModel& joint);
 
-/// True if a case of a sense acts under an amount of its load, of which 0 has the sign of how it grows.
-[[nodiscard]] inline bool acts(int sense, double amount, double rate = 0) {
-  return sense != (amount < 0 || (amount == 0 && rate < 0) ? 1 : -1);
+/// Tells whether a load case with a sign is active under a load; a load of zero has the sign of its rate.
+[[nodiscard]] inline bool is_active(int sign, double load, double rate = 0) {
+  return sign != (load < 0 || (load == 0 && rate < 0) ? 1 : -1);
 }
 
-/// Numbers of a run of a joint, by index: all that may change while its condensed system stays. Friction may act where
-/// it does in JOINT.json; planes that share a law there share it in a run, and its numbers keep their names.
+/// Numbers of one run of a joint, by index: all that may change without a new condensed system. Only holes that have
+/// friction in JOINT.json may have friction; planes with a common law there have a common law in a run too.
 struct Parameters {
-  VectorXd load;                ///< what a unit of the load factor adds to each of loads_of, force or length
+  VectorXd load;                ///< each of loads_of per unit of the load factor, force or length
   std::vector<LawPointer> law;  ///< (n) of each plane
   VectorXd clearance;           ///< (n) length
   VectorXd mu, gap;             ///< of each fastener in each of its holes, fastener after fastener; gap: length
@@ -47,10 +47,10 @@ struct Parameters {
 
 /// The numbers that JOINT.json gives.
 [[nodiscard]] Parameters parameters_of(const JointModel& joint);
-/// Those of a scene that differs from the joint's in numbers alone. Throws InputError where a number is not allowed.
+/// The numbers of a scene that differs from the joint's only in numbers. Throws InputError where one is not allowed.
 [[nodiscard]] Parameters parameters_of(const JointModel& joint, const JointScene& scene);
 
-/// Place of a rim of contact.
+/// Indices of a rim of contact.
 struct RimPlace {
   Index plate, at;  ///< among PlateModel::contact
   Index hole = -1;  ///< of all holes of fasteners, in the order of Parameters::gap; -1 without a fastener

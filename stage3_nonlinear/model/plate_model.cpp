@@ -14,7 +14,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Rounding of stage 2 is far below; laboratory matrices must be made symmetric before they come here.
+/// The rounding of stage 2 is far smaller; measured matrices must be made symmetric before they come here.
 constexpr double symmetry_tolerance = 1e-8;
 
 void check_once(const std::string& file, const char* dataset, const std::vector<std::string>& names) {
@@ -35,8 +35,8 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
   return axes;
 }
 
-/// Names the holes, and gives each disc of the file its place among the discs of all directions. Discs of a hole must
-/// stand one behind the other; a direction that stands twice is taken for another hole, which check_once refuses.
+/// Names the holes, and finds the index of each disc of the file among the discs of all directions. Discs of a hole
+/// must follow each other; a repeated direction counts as another hole, which check_once refuses.
 void place_discs(const std::string& file, const formats::PlateMatrices& a, PlateModel& plate) {
   const auto axes = axes_of(file, "disc/direction", a.disc_direction);
   for (Index i = 0; i < std::ssize(axes); ++i) {
@@ -48,7 +48,7 @@ void place_discs(const std::string& file, const formats::PlateMatrices& a, Plate
     const Index at = first + index_of(plate.axes, axes[i]);
     if (!plate.discs.empty() && at <= plate.discs.back())
       throw FileError(
-          fmt::format("{}:disc/direction: hole \"{}\" has {} behind {}, expected each direction once, all in "
+          fmt::format("{}:disc/direction: hole \"{}\" has {} after {}, expected each direction once, all in "
                       "one order",
                       file, a.disc_hole[i], a.disc_direction[i], a.disc_direction[i - 1]));
     plate.discs.push_back(at);
@@ -63,7 +63,7 @@ bool is_other_side(const formats::PlateMatrices& a, Index traction) {
   return !bearing.empty() && !before.empty() && bearing[0] != before[0];
 }
 
-/// Rims of contact are looked for by their holes, in which discs press on them.
+/// Refuses rims of contact whose hole has no disc, and more than one rim of a hole.
 void check_contact(const std::string& file, const formats::PlateMatrices& a, const PlateModel& plate) {
   std::vector<std::string> names;
   for (const auto& rim : a.contact) {
@@ -92,12 +92,12 @@ void check_not_negative(const std::string& file, const MatrixXd& S) {
   MatrixXd lifted = S;
   lifted.diagonal().array() += allowed;
   if (matrices::is_positive_definite(lifted)) return;
-  const double least = matrices::symmetric_eigenvalues(S)[0];
-  if (!(least >= -allowed))
+  const double smallest = matrices::symmetric_eigenvalues(S)[0];
+  if (!(smallest >= -allowed))
     throw FileError(
         fmt::format("{}:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue {:.6g}, expected none "
-                    "below zero: a plate cannot give energy",
-                    file, least));
+                    "below zero: the strain energy of a plate is not negative",
+                    file, smallest));
 }
 
 MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
@@ -106,45 +106,45 @@ MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
   return A;
 }
 
-/// Matrix S, or its error, of its parts.
+/// Matrix S, or its error, from its blocks.
 MatrixXd joined(const MatrixXd& dd, const MatrixXd& ed, const MatrixXd& ee) {
   MatrixXd A(dd.rows() + ee.rows(), dd.rows() + ee.rows());
   A << dd, ed.transpose(), ed, ee;
   return A;
 }
 
-/// Gives pressures that load no function of the sheet's degree, whose waves are too short for it, a little compliance.
+/// Raises the compliance of pressures whose waves are too short for the sheet's degree to a small minimum.
 void soften_unresolved(const formats::PlateMatrices& a, MatrixXd& compliance) {
-  constexpr double little = 1e-3;  // of the largest of the rim
+  constexpr double min_ratio = 1e-3;  // to the largest eigenvalue of the rim
   Index row = 0;
   for (Index i = 0; i < std::ssize(a.contact); ++i) {
     const Index k = a.waves[i].waves.size();
     const auto eigen = matrices::symmetric_eigen(compliance.block(row, row, k, k));
-    const double least = little * eigen.values[k - 1];
-    const auto n = (eigen.values.array() < least).count();
+    const double min_value = min_ratio * eigen.values[k - 1];
+    const auto n = (eigen.values.array() < min_value).count();
     const auto unresolved = eigen.vectors.leftCols(n);
-    compliance.block(row, row, k, k) += least * unresolved * unresolved.transpose();
+    compliance.block(row, row, k, k) += min_value * unresolved * unresolved.transpose();
     row += k;
   }
 }
 
-/// Takes the short waves of its rims out of a plate: brings its moments d to those of ShortWaves, delta = d + C_held p
-/// + R_held tau, in which the force on the moments is minus p times the area. In an isotropic sheet both are the same.
-void hold_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ShortWaves>>& rims,
-                      PlateDegrees& degrees) {
+/// Fixes the short waves of the rims of a plate at zero: replaces its moments d by those of ShortWaves, delta = d +
+/// C_fixed p + R_fixed tau, where p is minus the force on the moments over the area. In an isotropic sheet d = delta.
+void fix_short_waves(const formats::PlateMatrices& a, const std::vector<std::shared_ptr<const ShortWaves>>& rims,
+                     PlateDegrees& degrees) {
   MatrixXd &S = degrees.S.back(), &R = degrees.R.back(), &T = degrees.T.back();
   Index k = 0, n_shears = 0;
-  bool nothing = true;
+  bool uncoupled = true;
   for (const auto& rim : rims) {
     k += rim->n_long;
     n_shears += rim->n_long_shears;
-    nothing = nothing && rim->C_held.isZero(0) && rim->R_held.isZero(0);
+    uncoupled = uncoupled && rim->C_fixed.isZero(0) && rim->R_fixed.isZero(0);
   }
-  if (nothing) return;
+  if (uncoupled) return;
   MatrixXd C = MatrixXd::Zero(k, k), by_shear = MatrixXd::Zero(k, R.cols());  // by forces, and by all columns of R
   for (Index i = 0, row = 0, column = R.cols() - n_shears; i < std::ssize(rims); ++i) {
-    C.block(row, row, rims[i]->n_long, rims[i]->n_long) = rims[i]->C_held / a.contact[i].area;
-    by_shear.block(row, column, rims[i]->n_long, rims[i]->n_long_shears) = rims[i]->R_held;
+    C.block(row, row, rims[i]->n_long, rims[i]->n_long) = rims[i]->C_fixed / a.contact[i].area;
+    by_shear.block(row, column, rims[i]->n_long, rims[i]->n_long_shears) = rims[i]->R_fixed;
     row += rims[i]->n_long, column += rims[i]->n_long_shears;
   }
   R -= S.rightCols(k) * by_shear;
@@ -163,10 +163,10 @@ void hold_short_waves(const formats::PlateMatrices& a, const std::vector<std::sh
   S = (0.5 * (S + S.transpose())).eval();
 }
 
-/// Replaces the matrices of a plate with all its springs, in which its rims of contact have pressures q beside them, by
-/// those of the plate with the moments of these rims as unknowns and their springs outside. F = S u + B^T q + R Lambda
-/// + T f and m = B u - C q + R_p Lambda + T_p f give q, and the force on the moments is K A m - q (docs/theory.md,
-/// section 6.3). Behind the friction cases of R stand the shears of these rims.
+/// Replaces the matrices of a plate with all its springs, whose rims of contact carry pressures q in addition, by those
+/// of the plate without the springs of these rims and with their moments as unknowns. F = S u + B^T q + R Lambda + T f
+/// and m = B u - C q + R_p Lambda + T_p f give q, and the force on the moments is K A m - q (docs/theory.md,
+/// section 6.3). The shears of these rims follow the friction cases in R.
 void free_rims(const std::string& file, const formats::PlateMatrices& a, Index level,
                const std::vector<std::shared_ptr<const ShortWaves>>& short_waves, PlateDegrees& degrees) {
   const Index n = degrees.S.back().rows();
@@ -183,12 +183,12 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   const MatrixXd& B = rims.B;
   MatrixXd compliance = rims.C;
   auto inverse = matrices::inverse_of_positive(compliance);
-  constexpr double stiffest = 1e6;  // of the springs
-  if (!inverse || !((inverse->diagonal().array() / springs.array()).maxCoeff() < stiffest)) {
+  constexpr double max_ratio = 1e6;  // to the stiffness of the springs
+  if (!inverse || !((inverse->diagonal().array() / springs.array()).maxCoeff() < max_ratio)) {
     soften_unresolved(a, compliance);
     inverse = matrices::inverse_of_positive(compliance);
   }
-  if (!inverse) throw FileError(file + ":W: what unit pressures take off is not positive definite");
+  if (!inverse) throw FileError(file + ":W: the compliance under unit pressures is not positive definite");
   const MatrixXd& stiffness = *inverse;
   const MatrixXd by_motion = stiffness * B, by_traction = stiffness * rims.T;
   const auto extended = [&](MatrixXd& load, const MatrixXd& moments) {
@@ -207,12 +207,12 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
   S << degrees.S.back() + B.transpose() * by_motion, -by_motion.transpose(), -by_motion, stiffness;
   S.diagonal().tail(k) -= springs;
   degrees.S.back() = std::move(S);
-  hold_short_waves(a, short_waves, degrees);
+  fix_short_waves(a, short_waves, degrees);
 }
 
-/// Adds to the matrices, of discs of the file, those of directions in which holes have no disc, since a line of
-/// symmetry holds them: nothing couples to these, and a stiffness that no force meets keeps them where they are.
-void add_held_discs(const PlateModel& plate, PlateDegrees& degrees) {
+/// Adds rows and columns for the displacements of discs that the file does not have, since symmetry fixes them. They
+/// are uncoupled from the others and have a stiffness of their own but no force, so that they stay zero.
+void add_fixed_discs(const PlateModel& plate, PlateDegrees& degrees) {
   const Index n_file = std::ssize(plate.discs), more = plate.n_discs() - n_file;
   if (more == 0) return;
   const Index n = degrees.S.back().rows() + more;
@@ -234,8 +234,8 @@ void add_held_discs(const PlateModel& plate, PlateDegrees& degrees) {
 
 PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices& a, Index level,
                            const std::vector<std::shared_ptr<const ShortWaves>>& short_waves) {
-  constexpr Index most = 4;  // no estimate looks further back
-  const Index n = std::min(level + 1, most), first = level + 1 - n;
+  constexpr Index max_degrees = 4;  // no error estimate needs more
+  const Index n = std::min(level + 1, max_degrees), first = level + 1 - n;
   PlateDegrees degrees{a.p.segment(first, n), {}, {}, {}, {}};
   for (Index i = first; i <= level; ++i) {
     degrees.S.push_back(joined(a.S_dd[i], a.S_ed[i], a.S_ee[i]));
@@ -252,7 +252,7 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
 
 std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::PlateMatrices> all) {
   std::set<int> found;
-  std::vector<int> of_one_hole;  // the order of directions is that of a hole with both: a half hole has one alone
+  std::vector<int> of_one_hole;  // the order is that of a hole with both directions: a half hole has only one
   for (Index i = 0; i < std::ssize(all); ++i) {
     const auto axes = axes_of(files[i], "disc/direction", all[i].disc_direction);
     for (Index disc = 0; disc < std::ssize(axes); ++disc) {
@@ -288,7 +288,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   check_symmetric(file, "S_ee", a.S_ee[level]);
   plate.short_waves = short_waves_of(a);
   plate.degrees = degrees_up_to(file, a, level, plate.short_waves);
-  add_held_discs(plate, plate.degrees);
+  add_fixed_discs(plate, plate.degrees);
   plate.S = plate.degrees.S.back();
   plate.R = plate.degrees.R.back();
   plate.T = plate.degrees.T.back();

@@ -26,7 +26,7 @@ SpringWaves make(const formats::WaveRim& rim) {
       const double to = std::min(arc.to + turns * rim::full_turn, full.start + full.sweep);
       if (from < to) sprung_arcs.push_back({from, to});
     }
-  // K times the mean over the rim of products, where springs act
+  // K times the mean over the rim of the products, integrated over the arcs with springs only.
   const MatrixXd sprung = rim.modulus / full.sweep * full.products(sprung_arcs);
   MatrixXd shear = MatrixXd::Zero(full.n_shears(), quarters);
   for (int i = 0; i < points; ++i) {

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double same = 0.05 * (1 + 1e-9);  // relative difference of diameters that are taken for one
 
-/// Diameter of a hole in its sheet, length; 0 if the sheet's matrices do not tell it.
+/// Diameter of a hole in its sheet, length; 0 if the sheet's matrices do not have it.
 double diameter_in_sheet(const JointModel& joint, const HoleModel& hole) {
   const PlateModel& plate = joint.plates[hole.plate];
   const std::string& name = plate.hole_of(hole.disc);
@@ -24,7 +24,7 @@ double diameter_in_sheet(const JointModel& joint, const HoleModel& hole) {
 
 }  // namespace
 
-std::vector<program::Warning> unlike_diameters(const JointScene& scene, const JointModel& joint) {
+std::vector<program::Warning> diameter_warnings(const JointScene& scene, const JointModel& joint) {
   std::vector<Doubt> given, of_sheets;
   for (Index i = 0; i < std::ssize(scene.fasteners); ++i) {
     const FastenerScene& fastener = scene.fasteners[i];
@@ -41,7 +41,7 @@ std::vector<program::Warning> unlike_diameters(const JointScene& scene, const Jo
   }
   for (const ShearPlane& plane : joint.planes) {
     const FastenerScene& fastener = scene.fasteners[plane.fastener];
-    if (joint.is_to_ground(plane) || fastener.diameter) continue;  // gaps by the diameter make all holes fit it
+    if (joint.is_to_ground(plane) || fastener.diameter) continue;  // the gaps follow from that diameter
     const HoleModel &first = joint.first_hole(plane), &second = joint.second_hole(plane);
     const double one = diameter_in_sheet(joint, first), other = diameter_in_sheet(joint, second);
     const double apart = std::abs((one - 2 * first.gap) - (other - 2 * second.gap));

@@ -108,7 +108,7 @@ formats::PeakSlopes peak_slopes(const JointModel& joint, const JointNumbers& num
           .gap = next(std::ssize(numbers.gap))};
 }
 
-/// A field with a comma, a quote or a line break stands in quotes.
+/// Encloses a field with a comma, a quote or a line break in quotes.
 std::string field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
@@ -116,7 +116,7 @@ std::string field(const std::string& text) {
   return quoted + "\"";
 }
 
-/// Values of a hole's columns at a step, a comma before each; empty if not known.
+/// Values of a hole's columns at a step, each after a comma; empty if not known.
 std::string rim_fields(const formats::RimHistory& rims, const std::string& hole, Index step) {
   const int at = index_of(rims.hole, hole);
   std::string fields;
@@ -128,7 +128,7 @@ std::string rim_fields(const formats::RimHistory& rims, const std::string& hole,
   return fields;
 }
 
-/// Heads of the columns with their units; the components of delta and F where there are two directions.
+/// Heads of the columns with their units, with components of delta and F if there are two directions.
 std::string csv_heads(const JointModel& joint) {
   const std::string length = unit(joint.units, 1, 0), force = unit(joint.units, 0, 1);
   const auto with_unit = [](const std::string& name, const std::string& unit) { return name + " [" + unit + "]"; };
@@ -172,8 +172,8 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
     result.event.push_back(event_text(joint, step.events));
     result.delta_vector.row(i) = step.delta;
     result.F_vector.row(i) = step.F;
-    result.delta.row(i) = amounts(step.delta, a);
-    result.F.row(i) = amounts(step.F, a);
+    result.delta.row(i) = magnitudes(step.delta, a);
+    result.F.row(i) = magnitudes(step.F, a);
     for (Index j = 0; j < n; ++j)
       result.transferred.row(i).segment<2>(2 * j) << states[i].transferred_first[j], states[i].transferred_second[j];
   }

@@ -13,7 +13,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr std::size_t least_name = 12;
+constexpr std::size_t min_name_width = 12;
 constexpr const char* legend =
     "  forces on a plate are positive along +x, +y; delta = D(first plate) - D(second plate), and F > 0 (F_x, F_y > 0 "
     "where there are two) pushes the second along +\n  share: of what all fasteners transfer between the same two "
@@ -21,7 +21,7 @@ constexpr const char* legend =
 
 /// Width of the column of names: fasteners and plates share it.
 std::size_t name_width(const JointModel& joint) {
-  std::size_t width = least_name;
+  std::size_t width = min_name_width;
   for (const auto& plane : joint.planes) width = std::max(width, joint.short_name(plane).size());
   for (const auto& plate : joint.plates) width = std::max(width, plate.name.size());
   return width;
@@ -36,7 +36,7 @@ double rounded(double force, double largest) {
   return std::abs(force) <= rounding * largest ? 0 : force;
 }
 
-/// Name of what solved the increments.
+/// Name of the solver of the increments.
 const std::string& method(const JointScene& scene, const JointModel& joint) {
   const Method chosen =
       iterative_method(scene.solver.method, joint.n_planes() * joint.n_directions() + joint.n_moments());
@@ -73,7 +73,7 @@ std::string fastener_table(const JointModel& joint, const PathStep& step, const 
     text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
   text += fmt::format(" {:>20} {:>9}\n", head("transferred", force), "share [%]");
   const VectorXd share = shares(joint, state.transferred_first);
-  const VectorXd delta = amounts(step.delta, a), F = amounts(step.F, a);
+  const VectorXd delta = magnitudes(step.delta, a), F = magnitudes(step.F, a);
   for (Index j = 0; j < std::ssize(F); ++j) {
     text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}", joint.short_name(joint.planes[j]), width, delta[j], F[j]);
     for (Index d = 0; d < n_components; ++d)
@@ -112,7 +112,7 @@ std::string error_bar(const JointModel& joint, const formats::JointResult& resul
                      joint.name(joint.planes[plane]), step + 1);
 }
 
-/// Column of the summary's table; its unit, if it has one, stands below the heading.
+/// Column of the summary's table; its unit, if it has one, is printed below the heading.
 struct Column {
   double RimState::*value;
   const char* heading;
@@ -130,17 +130,17 @@ constexpr auto columns = std::to_array<Column>({
     {&RimState::peak_error, "+-", 9, "{:.1e}", false, "?"},
     {&RimState::gross_concentration, "Kt gross", 8, "{:.3f}"},
     {&RimState::net_concentration, "Kt net", 8, "{:.3f}"},
-    {&RimState::across, "held across", 12, "{:.6g}", true},
+    {&RimState::across, "reaction", 12, "{:.6g}", true},
 });
 
-/// The quantity that a column shows; only `across`, a force, is no quantity of RESULT.h5.
+/// The quantity in a column; `across`, a force, is the only one that is not in RESULT.h5.
 formats::RimQuantity shown(const Column& column) {
   for (const auto& quantity : formats::rim_quantities())
     if (column.value == quantity.value) return quantity;
   return {"across", nullptr, formats::Dimension::force, ""};
 }
 
-/// @param cell Text in each column, which stands to the right.
+/// A row of the table. @param cell Text in each column, right-aligned.
 template <class Cell>
 std::string row(const std::string& name, Cell cell) {
   std::string text = fmt::format("  {:<24}", name);
@@ -148,7 +148,7 @@ std::string row(const std::string& name, Cell cell) {
   return text + "\n";
 }
 
-/// Every hole of every plate at one increment. Empty if no plate has stresses.
+/// Table of all holes of all plates at one increment; empty if no plate has stresses.
 std::string rim_table(const JointModel& joint, const JointState& state) {
   std::string rows;
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
@@ -170,7 +170,7 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   return rows.empty() ? rows : row("hole", std::mem_fn(&Column::heading)) + row("", unit_below) + rows;
 }
 
-/// Every rim of contact of every plate at one increment. Empty if there is none.
+/// Table of all rims of contact at one increment; empty if there is none.
 std::string contact_table(const JointModel& joint, const formats::JointResult& result, Index step) {
   std::string rows;
   for (const auto& plate : result.plates)
@@ -217,8 +217,9 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
           "degrees of PLATE.h5\n",
           plate.file, plate.name, joint.p);
     if (joint.n_directions() == 1)
-      text += fmt::format("the force that holds the discs of {} across {} is not known without stresses\n", plate.name,
-                          joint.axis_name(0));
+      text +=
+          fmt::format("the {} displacement of the discs of {} is fixed; the reaction is not known without stresses\n",
+                      axis_names[1 - joint.axes[0]], plate.name);
   }
   const double last = std::abs(path.steps.back().load_factor);
   const bool past_peak =

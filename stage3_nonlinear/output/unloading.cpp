@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Warnings of fasteners that are unloaded, of which neither laws nor friction keep a memory.
+// Warnings of unloaded fasteners: neither laws nor friction depend on the history.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,23 +10,25 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Largest of the vectors of a plane so far, and whether the next falls short of it or turns from it.
+/// Largest vector of a plane so far.
 class Largest {
  public:
-  explicit Largest(Index n_directions) : most_(VectorXd::Zero(n_directions)) {}
+  explicit Largest(Index n_directions) : largest_(VectorXd::Zero(n_directions)) {}
 
-  [[nodiscard]] double amount() const { return most_.norm(); }
-  /// @param little Amounts that do not count.
-  [[nodiscard]] bool falls_short(const VectorXd& next, double little = 0) {
-    constexpr double less = 1 - 1e-6, turned = 0.5;  // of the largest; the cosine of how far a force may turn
-    const double before = most_.norm(), now = next.norm();
-    const bool falls = before > little && (now < less * before || most_.dot(next) < turned * now * before);
-    if (now > before) most_ = next;
+  [[nodiscard]] double magnitude() const { return largest_.norm(); }
+  /// Tells whether the next vector is smaller or turns away, and keeps it if it is larger.
+  /// @param negligible Magnitudes up to this do not count.
+  [[nodiscard]] bool falls_short(const VectorXd& next, double negligible = 0) {
+    constexpr double min_ratio = 1 - 1e-6, min_cosine = 0.5;  // to the largest; of the angle between both
+    const double before = largest_.norm(), now = next.norm();
+    const bool falls =
+        before > negligible && (now < min_ratio * before || largest_.dot(next) < min_cosine * now * before);
+    if (now > before) largest_ = next;
     return falls;
   }
 
  private:
-  VectorXd most_;
+  VectorXd largest_;
 };
 
 /// First hole of a plane among all holes of fasteners.
@@ -42,20 +44,20 @@ void warn_of_turning_friction(const JointModel& joint, const JointEquations& equ
                               std::vector<program::Warning>& result) {
   constexpr double rounding = 1e-9;
   const Index a = equations.n_directions();
-  std::vector<Largest> most(equations.n_planes(), Largest(a));
+  std::vector<Largest> largest(equations.n_planes(), Largest(a));
   for (const PathStep& step : path.steps) {
     std::vector<Index> turned;
-    for (Index j = 0; j < std::ssize(most); ++j) {
+    for (Index j = 0; j < std::ssize(largest); ++j) {
       const ShearPlane& plane = joint.planes[j];
       const Index n_holes = std::ssize(joint.holes(plane));
-      const bool rubs = equations.parameters.mu.segment(first_hole(joint, plane), n_holes).maxCoeff() > 0;
-      if (rubs && most[j].falls_short(step.F.segment(j * a, a), rounding * step.scale)) turned.push_back(j);
+      const bool has_friction = equations.parameters.mu.segment(first_hole(joint, plane), n_holes).maxCoeff() > 0;
+      if (has_friction && largest[j].falls_short(step.F.segment(j * a, a), rounding * step.scale)) turned.push_back(j);
     }
     if (turned.empty()) continue;
     result.push_back(
         {"friction-turns",
-         fmt::format("{} unloads {}, where friction goes on as if it slipped in the sense of the force: real friction "
-                     "first sticks and then turns, so that forces from this increment on differ from theirs",
+         fmt::format("{} unloads {}, where friction still acts as if it slipped in the direction of the force: real "
+                     "friction first sticks and then turns, so that real forces differ from this increment on",
                      increment_text(path, step), names(joint, turned))});
     return;
   }
@@ -65,12 +67,12 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
                        std::vector<program::Warning>& result) {
   const ContactCorners corners(equations);
   const Index a = equations.n_directions();
-  std::vector<Largest> most(equations.n_planes(), Largest(a));
+  std::vector<Largest> largest(equations.n_planes(), Largest(a));
   for (const PathStep& step : path.steps) {
     std::vector<Index> unloaded;
-    for (Index j = 0; j < std::ssize(most); ++j) {
-      const double before = most[j].amount();
-      const bool falls = most[j].falls_short(step.c.segment(j * a, a));
+    for (Index j = 0; j < std::ssize(largest); ++j) {
+      const double before = largest[j].magnitude();
+      const bool falls = largest[j].falls_short(step.c.segment(j * a, a));
       const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
       const Contact& contact = equations.contacts[j];
       const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
@@ -81,8 +83,8 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
     if (unloaded.empty()) continue;
     result.push_back(
         {"permanent-set",
-         fmt::format("{} unloads {} along its loading curve: laws have no memory, but real fasteners keep a permanent "
-                     "set, so that forces from this increment on differ from theirs",
+         fmt::format("{} unloads {} along its loading curve: laws do not depend on the history, but real fasteners "
+                     "keep a permanent set, so that real forces differ from this increment on",
                      increment_text(path, step), names(joint, unloaded))});
     return;
   }

@@ -15,21 +15,21 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// First step of which a statement is true, or null.
+/// First step for which a condition is true, or null.
 template <class Is>
 const PathStep* first_step(const LoadPath& path, Is is) {
   const auto found = std::ranges::find_if(path.steps, is);
   return found == path.steps.end() ? nullptr : &*found;
 }
 
-/// Warns of each plane at the first increment at which it happens.
+/// Warns of each plane at the first increment at which it is beyond the last point of its law.
 void warn_beyond_last_point(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                             std::vector<program::Warning>& result) {
   std::vector<Doubt> beyond;
   for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     const Contact& contact = equations.contacts[j];
     const double last = contact.law->last_delta(contact.clearance);
-    const auto delta = [&](const PathStep& step) { return amounts(step.delta, joint.n_directions())[j]; };
+    const auto delta = [&](const PathStep& step) { return magnitudes(step.delta, joint.n_directions())[j]; };
     const auto is_beyond = [&](const PathStep& step) {
       return std::abs(delta(step)) > last && !(contact.one_sided && delta(step) < 0);
     };
@@ -42,7 +42,7 @@ void warn_beyond_last_point(const JointModel& joint, const JointEquations& equat
   add_worst(result, "beyond-last-point", beyond);
 }
 
-/// Motion of each plate by its discs: "plate \"b\" by up to 1 along x".
+/// Motion of each plate by its discs: "plate \"b\" by 1 along x".
 std::string motion_text(const JointModel& joint, const VectorXd& motion) {
   constexpr double moves = 1e-3;  // of the largest displacement of the motion
   std::vector<std::string> parts;
@@ -63,12 +63,13 @@ void warn_of_soft_plates(const JointModel& joint, std::vector<program::Warning>&
   const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
   const PlateModel& stiffest = *std::ranges::max_element(joint.plates, {}, stiffness);
   for (const auto& plate : joint.plates)
-    if (const double share = stiffness(plate) / stiffness(stiffest); share > 0 && share < soft)
+    if (const double ratio = stiffness(plate) / stiffness(stiffest); ratio > 0 && ratio < soft)
       result.push_back(
           {"plate-soft",
-           fmt::format("plate \"{}\" is {:.1e} times as stiff as plate \"{}\": see that both have the same units, and "
-                       "that its moduli and thickness are meant",
-                       plate.name, share, stiffest.name)});
+           fmt::format(
+               "plate \"{}\" is {:.1e} times as stiff as plate \"{}\": check that both have the same units, and "
+               "check its moduli and thickness",
+               plate.name, ratio, stiffest.name)});
 }
 
 /// Warns once for each law.
@@ -81,8 +82,8 @@ void warn_of_bearing_twice(const JointModel& joint, std::vector<program::Warning
       if (joint.plates[hole.plate].on_springs[hole.disc / joint.n_directions()] && said.insert(plane.law_name).second)
         result.push_back(
             {"bearing-twice",
-             fmt::format("/laws/{}: mode \"total\" holds the bearing of the sheets, which the springs around hole "
-                         "\"{}\" have already: the joint comes out too soft; take \"fastener only\"",
+             fmt::format("/laws/{}: mode \"total\" includes the bearing of the sheets, which the springs around hole "
+                         "\"{}\" represent already: the joint is too soft; take \"fastener only\"",
                          plane.law_name, joint.name(hole))});
   }
 }
@@ -96,12 +97,12 @@ void warn_of_mechanisms(const JointModel& joint, const LoadPath& path, std::vect
                                           motion_text(joint, step->check.mechanism->motion))});
   };
   say(false, "free-within-gaps",
-      "at {} the joint is a mechanism within the gaps of {}: the forces are right, the displacements are one of many; "
+      "at {} the joint is a mechanism within the gaps of {}: the forces are determinate, the displacements are not; "
       "in proportion, it is free to move {}",
       &Mechanism::open);
   say(true, "limit-load",
-      "limit load reached at {}: the laws of {} allow no more force, and nothing else holds the joint; it moves on "
-      "without more load, in proportion {}",
+      "limit load reached at {}: the laws of {} are at their maximum force, and the joint has no other stiffness; it "
+      "moves without more load, in proportion {}",
       &Mechanism::level);
 }
 
@@ -117,9 +118,9 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
               "another";
     result.push_back(
         {"several-solutions",
-         fmt::format(
-             "the law of {} falls more steeply than the plates hold against: the solution may be one of several; {}",
-             names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0))});
+         fmt::format("the law of {} falls more steeply than the stiffness of the plates: the solution may be one of "
+                     "several; {}",
+                     names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0))});
   }
   const auto snaps = [](const PathStep& step) { return step.check.unstable > 0 && !step.check.locking; };
   if (const PathStep* step = first_step(path, snaps))
@@ -127,16 +128,17 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
         {"unstable-balance",
          fmt::format(
              "at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality "
-             "it snaps through before; take a law that does not fall, or hold the joint by displacements",
+             "it snaps through before; take a law that does not fall, or prescribe displacements instead of forces",
              increment_text(path, *step),
              step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable))});
 }
 
-/// @param factor At most 1.
+/// Sentence about self-locking. @param factor Friction reserve, at most 1.
 std::string locking_text(double factor) {
   return fmt::format(
-      "with friction {:.4g} times as large the joint locks itself: friction alone carries the load there, and beyond "
-      "it a solution need neither exist nor be the only one",
+      "with friction {:.4g} times as large the joint is self-locking: friction alone carries the load there, and "
+      "beyond "
+      "it a solution may not exist or not be unique",
       factor);
 }
 
@@ -146,7 +148,7 @@ void warn_of_locking(const LoadPath& path, std::vector<program::Warning>& result
         {"self-locking", fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking))});
 }
 
-/// Names the rims of contact that interference holds, at the first increment of each.
+/// Warns of the rims of contact that stick, at the first increment of each.
 void warn_of_sticking(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                       std::vector<program::Warning>& result) {
   std::vector<Doubt> sticking;
@@ -200,7 +202,7 @@ void add_worst(std::vector<program::Warning>& warnings, const char* code, const 
   const std::string& worst = std::ranges::max_element(kind, {}, &Doubt::first)->second;
   warnings.push_back({code, kind.size() == 1
                                 ? worst
-                                : fmt::format("{} ({} more likewise, this is the worst)", worst, kind.size() - 1)});
+                                : fmt::format("{} ({} more of this kind, this is the worst)", worst, kind.size() - 1)});
 }
 
 std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
@@ -213,24 +215,26 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
   if (failure.unbalanced)
     return fmt::format(
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
-        "carries load there: see that fasteners or supports hold each plate in the sense of its load; of matrices made "
-        "by hand see that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1, across to "
-        "-friction/resultant_across and -traction/resultant_across",
+        "errors act as loads there: check that fasteners or supports fix each plate in the direction of its load; for "
+        "matrices made by hand check that R_df and R_ef sum to -friction/resultant, T_d and T_e to -1, along the other "
+        "axis to -friction/resultant_across and -traction/resultant_across",
         scene.file, increment, failure.unbalanced->what, failure.unbalanced->by, failure.unbalanced->allowed, kept);
   const std::string locking =
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
   if (!failure.level.empty())
     return fmt::format(
-        "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} allow no more "
-        "force (a law that ends level holds its last one, a cubic that falls is past its peak){}; {} did not converge. "
-        "{} {}Take smaller loads or displacements, or more or stronger fasteners; what others carry once these have "
-        "failed, a joint without these shows",
+        "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} are at their "
+        "maximum force (the last one of a law that ends horizontally, the peak of a cubic that falls){}; {} did not "
+        "converge. {} {}Take smaller loads or displacements, or more or stronger fasteners; a joint without these "
+        "shows "
+        "the load of the others after their failure",
         scene.file, failure.reached, names(joint, failure.level),
-        failure.limit ? fmt::format(", and load factor {:.6g} is the most that can balance", *failure.limit) : "",
+        failure.limit ? fmt::format(", and load factor {:.6g} is an upper bound of the limit load", *failure.limit)
+                      : "",
         increment, kept, locking);
   const std::string at = std::isfinite(failure.residual)
                              ? fmt::format("worst residual {:.2e} of the load, at", failure.residual)
-                             : std::string("every try ended past all that the law carries, at");
+                             : std::string("every try ended past the limit load of the law, at");
   const Index rim = failure.entry - joint.n_planes();
   const std::string place =
       rim < 0 ? joint.name(joint.planes[failure.entry]) : fmt::format("the rim of hole \"{}\"", joint.rims()[rim]);
@@ -239,7 +243,7 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       "factor {:.6g} was reached; {} {}. {} {}Check the law, the gap and the clearance of the fastener there, take "
       "smaller "
       "increments, allow more than {} or, if the residual is close to it, a larger tolerance than {:.0e}; and see that "
-      "each plate is held in the sense of its load: one that only fasteners hold has no stiffness while all of them "
+      "each plate is fixed in the direction of its load: one without supports has no stiffness while all its fasteners "
       "are open, and one-sided fasteners cannot pull it",
       scene.file, increment, max_halvings, failure.reached, at, place, kept, locking,
       program::counted(scene.solver.max_iterations, "iteration"), scene.solver.tolerance);

@@ -115,8 +115,8 @@ std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const Vecto
 std::string event_text(const JointModel& joint, const std::vector<ContactEvent>& events) {
   const auto rims = joint.rims();
   const auto name = [&](const ContactEvent& event) {
-    const Index behind = event.plane - joint.n_planes();
-    return behind < 0 ? joint.short_name(joint.planes[event.plane]) : rims[behind / 2];
+    const Index entry = event.plane - joint.n_planes();
+    return entry < 0 ? joint.short_name(joint.planes[event.plane]) : rims[entry / 2];
   };
   std::vector<std::string> parts;
   for (const bool back : {false, true})

@@ -17,21 +17,20 @@ namespace {
 using Eigen::VectorXi;
 
 constexpr double together = 1e-9;           // events whose load factors differ by less are one
-constexpr double touching_together = 1e-6;  // those of rims, which touch by more than a millionth of their gap
-constexpr int most_halvings_in_doubt = 4;
-constexpr int most_halvings_for_certain = 30;
+constexpr double touching_together = 1e-6;  // the same for touching rims, which are known to a millionth of their gap
+constexpr int max_halvings_in_doubt = 4;
+constexpr int max_halvings_for_certain = 30;
 
-/// Place at which something happens.
+/// State with its events.
 struct EventPlace {
   Place place;
   int iterations = 0;
   std::vector<ContactEvent> events = {};
 };
 
-/// Adds events behind those before; ones closer than `least` to the place before happen there.
-void add(std::vector<EventPlace>& to, const Place& place, int iterations, const std::vector<ContactEvent>& events,
-         double least = together) {
-  if (to.empty() || place.load_factor - to.back().place.load_factor > least) to.push_back({place, iterations});
+/// Appends events; those within `together` of the last state are added to it.
+void add(std::vector<EventPlace>& to, const Place& place, int iterations, const std::vector<ContactEvent>& events) {
+  if (to.empty() || place.load_factor - to.back().place.load_factor > together) to.push_back({place, iterations});
   to.back().events.insert(to.back().events.end(), events.begin(), events.end());
 }
 
@@ -41,13 +40,13 @@ struct FoundEvents {
   std::optional<double> failed;    ///< a load factor that could not be reached; the events are those before it
 };
 
-/// Search of the load factors from first_load_factor on for events, by states that a walk solves.
+/// Search for events from first_load_factor on, by states that a walk solves.
 class Search {
  public:
   Search(const JointEquations& equations, const ContactCorners& corners, Walk& walk)
       : equations_(equations), corners_(corners), walk_(walk), touches_(equations, corners) {}
 
-  /// @param loads Load factors, ascending, that are solved first; the search ends at the last.
+  /// @param loads Load factors that are solved first, ascending; the search ends at the last.
   FoundEvents run(const std::vector<double>& loads) {
     const auto first = solved(first_load_factor);
     if (!first) return std::move(found_);
@@ -69,22 +68,22 @@ class Search {
     return std::nullopt;
   }
 
-  /// Finds what happens between two states; false if a state between cannot be solved.
+  /// Finds the events between two states; false if a state between cannot be solved.
   bool between(const Sample& a, const Sample& b, int depth) {
     if (b.load - a.load <= (touches_.make_the_difference(a, b) ? touching_together : together))
       return note_unresolved(a, b);
     if (a.passed == b.passed) {
-      const bool doubtful = depth < most_halvings_in_doubt && points_beyond_a_corner(a, b);
+      const bool doubtful = depth < max_halvings_in_doubt && points_beyond_a_corner(a, b);
       return !doubtful || halve(a, b, depth);
     }
     if (const auto first = first_crossing(a, b)) {
       const auto& [load, c] = first->place;
       if (!between(a, {load, c, a.passed}, depth + 1)) return false;
-      const Sample behind{load, c, passed_behind(a, b, c)};
-      add(found_.events, first->place, first->iterations, corners_.between(a.passed, behind.passed));
-      return between(behind, b, depth);
+      const Sample after{load, c, passed_after(a, b, c)};
+      add(found_.events, first->place, first->iterations, corners_.between(a.passed, after.passed));
+      return between(after, b, depth);
     }
-    return depth < most_halvings_for_certain ? halve(a, b, depth) : note_unresolved(a, b);
+    return depth < max_halvings_for_certain ? halve(a, b, depth) : note_unresolved(a, b);
   }
 
   bool halve(const Sample& a, const Sample& b, int depth) {
@@ -95,7 +94,7 @@ class Search {
     return middle && between(a, *middle, depth + 1) && between(*middle, b, depth + 1);
   }
 
-  /// Too close to be told apart: what differs happens at the end.
+  /// Adds the events between two states that are too close for a search to the second state.
   bool note_unresolved(const Sample& a, const Sample& b) {
     if (a.passed != b.passed) add(found_.events, {b.load, b.c}, 0, corners_.between(a.passed, b.passed));
     return true;
@@ -111,7 +110,7 @@ class Search {
 
   /// Solves for the load factor and all c with one plane on a corner.
   [[nodiscard]] std::optional<EventPlace> crossing(const Sample& a, const Sample& b, Index plane, double corner) const {
-    // A loose bolt may be moved to its rim at any load factor: it touches where solved states do.
+    // The position of a bolt without load is indeterminate, so that only solved states show where it touches.
     if (corners_.of(plane).front().kind == CornerKind::touch) return std::nullopt;
     const Index rows = equations_.n_unknowns();
     double unit = 1;
@@ -130,19 +129,19 @@ class Search {
       return J;
     };
     const double from = corners_.position(a.c, plane), to = corners_.position(b.c, plane);
-    const double share = from == to ? 0.5 : std::clamp((corner - from) / (to - from), 0.0, 1.0);
-    VectorXd c = (1 - share) * a.c + share * b.c;
+    const double fraction = from == to ? 0.5 : std::clamp((corner - from) / (to - from), 0.0, 1.0);
+    VectorXd c = (1 - fraction) * a.c + fraction * b.c;
     if (corners_.slope(c, plane).isZero(0)) return std::nullopt;
     constexpr double tolerance = 1e-13, enough = 1e-11;
-    constexpr int most_iterations = 60;
-    double load = (1 - share) * a.load + share * b.load;
+    constexpr int max_iterations = 60;
+    double load = (1 - fraction) * a.load + fraction * b.load;
     int iterations = 0;
-    for (const bool again : {false, true}) {  // relative to the full load, then if need be to its own
+    for (const bool again : {false, true}) {  // relative to the full load, then if necessary to its own
       unit =
           again ? force_scale(equations_, load) : std::max(force_scale(equations_, 1), force_scale(equations_, a.load));
       VectorXd start(rows + 1);
       start << c / unit, load;
-      const Root root = newton_root(problem, start, {again ? enough : tolerance, most_iterations});
+      const Root root = newton_root(problem, start, {again ? enough : tolerance, max_iterations});
       if (!(root.residual.lpNorm<Eigen::Infinity>() <= enough)) {
         if (again) break;
         return std::nullopt;
@@ -153,7 +152,7 @@ class Search {
     }
     const Index n_directions = plane < equations_.n_planes() ? equations_.n_directions() : 0;
     if (n_directions == 1) c[plane] = corner;  // exactly: then nothing bears yet
-    // An amount is rounded: beyond the corner, where the fastener bears more, and not before it.
+    // A magnitude is rounded to beyond the corner, to the side of more bearing.
     if (n_directions > 1) {
       constexpr double beyond = 1 + 4 * std::numeric_limits<double>::epsilon();
       c.segment(plane * n_directions, n_directions) *= beyond * corner / corners_.position(c, plane);
@@ -161,18 +160,18 @@ class Search {
     return EventPlace{{load, std::move(c)}, iterations};
   }
 
-  /// First crossing of those between two states, if it is found to be the first: planes are tried in the order in which
-  /// straight lines between the states meet their corners.
+  /// The first crossing between two states, if one is found. Planes are tried in the order in which straight lines
+  /// between the states meet their corners.
   [[nodiscard]] std::optional<EventPlace> first_crossing(const Sample& a, const Sample& b) const {
-    std::vector<std::pair<double, Index>> planes;  // share of the way to the corner, and the plane
+    std::vector<std::pair<double, Index>> planes;  // fraction of the way to the corner, and the plane
     for (Index j = 0; j < std::ssize(a.passed); ++j) {
       if (a.passed[j] == b.passed[j]) continue;
       const double from = corners_.position(a.c, j), to = corners_.position(b.c, j);
       planes.emplace_back(from == to ? 0.5 : (next_corner(j, a.passed[j], b.passed[j]) - from) / (to - from), j);
     }
     std::ranges::sort(planes);
-    constexpr std::size_t most_tries = 3;
-    for (std::size_t i = 0; i < std::min(most_tries, planes.size()); ++i) {
+    constexpr std::size_t max_tries = 3;
+    for (std::size_t i = 0; i < std::min(max_tries, planes.size()); ++i) {
       const Index j = planes[i].second;
       const double corner = next_corner(j, a.passed[j], b.passed[j]);
       auto found = crossing(a, b, j, corner);
@@ -184,9 +183,9 @@ class Search {
     return std::nullopt;
   }
 
-  /// Tells whether on the way to a crossing no plane has passed a corner but those that are on it there.
+  /// Tells whether no plane passes a corner before a crossing, other than those that are on their corner there.
   [[nodiscard]] bool is_first(const Sample& a, const Sample& b, const VectorXd& c) const {
-    if (contact_state(equations_, c).spent) return false;
+    if (contact_state(equations_, c).failed) return false;
     const VectorXi here = corners_.passed(c);
     for (Index j = 0; j < std::ssize(here); ++j) {
       const bool passes = a.passed[j] != b.passed[j] && is_on(c, j, next_corner(j, a.passed[j], b.passed[j]));
@@ -199,8 +198,8 @@ class Search {
     return std::abs(corners_.position(c, plane) - corner) <= corners_.nearness(c, std::abs(corner));
   }
 
-  /// Corners passed behind a crossing: all planes that are on the corner they pass have passed it.
-  [[nodiscard]] VectorXi passed_behind(const Sample& a, const Sample& b, const VectorXd& c) const {
+  /// Corners passed just after a crossing: all planes that are on the corner they pass have passed it.
+  [[nodiscard]] VectorXi passed_after(const Sample& a, const Sample& b, const VectorXd& c) const {
     VectorXi passed = a.passed;
     for (Index j = 0; j < std::ssize(passed); ++j)
       if (passed[j] != b.passed[j] && is_on(c, j, next_corner(j, passed[j], b.passed[j])))
@@ -208,7 +207,7 @@ class Search {
     return passed;
   }
 
-  /// Tells whether a plane may pass a corner and come back between two states that have passed the same corners: by the
+  /// Tells whether a plane may pass a corner and return between two states that have passed the same corners, by the
   /// cubic through its coordinates and their rates at both.
   [[nodiscard]] bool points_beyond_a_corner(const Sample& a, const Sample& b) const {
     const double length = b.load - a.load;
@@ -272,7 +271,7 @@ std::optional<Interference> search_interference(const JointEquations& equations,
                                                 const LoadPath& path) {
   if (!path.assembled) return std::nullopt;
   const ContactCorners corners(equations, true);
-  std::vector<double> loads;  // that the path has gone up to
+  std::vector<double> loads;  // the maxima of the load factor along the path
   for (const auto& step : path.steps)
     if (step.load_factor > (loads.empty() ? first_load_factor : loads.back())) loads.push_back(step.load_factor);
   Interference result{VectorXd(std::ssize(equations.rims)), loads.empty() ? 0 : loads.back()};

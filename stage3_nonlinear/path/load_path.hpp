@@ -15,7 +15,8 @@ namespace fastjoint::stage3 {
 
 /// Passing of a corner by a plane, away from the origin or back.
 struct ContactEvent {
-  Index plane;  ///< behind the n planes stand two entries of each rim of contact: n + 2 rim touches, the next parts
+  Index
+      plane;  ///< a plane, or after the n planes two entries of each rim: n + 2 rim for touching, the next for parting
   CornerKind kind;
   bool back;
 
@@ -26,13 +27,13 @@ struct ContactEvent {
 class ContactCorners {
  public:
   /// @param equations         Outlives this.
-  /// @param interference_alone Only the corners at which rims with interference lose full contact.
+  /// @param interference_alone Only the corners at which rims with interference lose full contact are kept.
   explicit ContactCorners(const JointEquations& equations, bool interference_alone = false);
 
   /// Corners of a plane, ascending: where its rim begins to bear, and those of a law that is linear between them.
   [[nodiscard]] const std::vector<Corner>& of(Index plane) const { return corners_[plane]; }
-  /// Contact coordinate of a plane, or with two directions its amount; of a rim the depth of its disc where it is
-  /// largest, or minus that where it is least, times the rim's stiffness, force.
+  /// Contact coordinate of a plane, with two directions its magnitude; for a rim the largest depth of its disc, or
+  /// minus the smallest, times the stiffness of the rim, force.
   ///
   /// @param c Contact coordinates, shape (r), force.
   [[nodiscard]] double position(const VectorXd& c, Index plane) const;
@@ -42,7 +43,7 @@ class ContactCorners {
   [[nodiscard]] Eigen::VectorXi passed(const VectorXd& c) const;
   /// Events on the way from one vector of passed() to another.
   [[nodiscard]] std::vector<ContactEvent> between(const Eigen::VectorXi& before, const Eigen::VectorXi& after) const;
-  /// Events of planes at c, on the corners themselves, coming from `before`, and of rims by then.
+  /// Events of planes that are on a corner at c, coming from `before`, and of rims up to c.
   /// @param passed_before passed() of `before`.
   [[nodiscard]] std::vector<ContactEvent> at(const VectorXd& before, const Eigen::VectorXi& passed_before,
                                              const VectorXd& c) const;
@@ -55,7 +56,7 @@ class ContactCorners {
   std::vector<std::pair<const PlacedInterface*, Index>> at_;  ///< interface of each entry, and its number there
 };
 
-/// "1, 3 close; 2 yields", empty if nothing happens.
+/// "1, 3 close; 2 yields", empty without events.
 [[nodiscard]] std::string event_text(const JointModel& joint, const std::vector<ContactEvent>& events);
 
 /// Number of times that a step that does not converge is halved before the path ends.
@@ -69,18 +70,18 @@ struct PathStep {
   double residual;    ///< largest, over `scale`
   TangentCheck check;
   VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
-  VectorXd Lambda = {};                   ///< (t) amounts of friction
-  std::vector<ContactEvent> events = {};  ///< what happens exactly here, or to rims since the increment before
+  VectorXd Lambda = {};                   ///< (t) amplitudes of friction
+  std::vector<ContactEvent> events = {};  ///< events of planes exactly here, and of rims since the increment before
   VectorXd c = {};                        ///< (r) contact coordinates, force
-  /// Against which residuals count: force_scale, or rounding of clearances over the tolerance, force.
+  /// Reference force of residuals: force_scale, or rounding of clearances over the tolerance.
   double scale = 0;
 
   /// Forces and displacements of all rows of the condensed system, (r).
-  [[nodiscard]] VectorXd all_F() const { return behind(F, rim_F); }
-  [[nodiscard]] VectorXd all_delta() const { return behind(delta, moments); }
+  [[nodiscard]] VectorXd all_F() const { return joined(F, rim_F); }
+  [[nodiscard]] VectorXd all_delta() const { return joined(delta, moments); }
 
  private:
-  static VectorXd behind(const VectorXd& planes, const VectorXd& rims) {
+  static VectorXd joined(const VectorXd& planes, const VectorXd& rims) {
     VectorXd all(planes.size() + rims.size());
     all << planes, rims;
     return all;
@@ -96,15 +97,15 @@ struct Imbalance {
 /// Place and reason of an early end of a path.
 struct PathFailure {
   Index increment;     ///< 0-based
-  double load_factor;  ///< that was asked for
-  double reached;      ///< largest part of it that converged
-  Index entry;         ///< with the worst residual in the best try: a plane, or behind the n planes a rim of contact
-  double residual;     ///< there, relative to the load asked for; infinite if each try left it spent
-  /// Planes that in the best try carry all that their laws allow, if nothing else holds the joint there: a limit load.
+  double load_factor;  ///< the requested one
+  double reached;      ///< load factor up to which the path converged
+  Index entry;         ///< of the largest residual in the best try: a plane, or after the n planes a rim of contact
+  double residual;     ///< there, relative to the requested load; infinite if each try ended past a limit load
+  /// Planes at the maximum force of their laws in the best try, if the joint is then a mechanism: a limit load.
   std::vector<Index> level;
-  std::optional<double> locking;             ///< TangentCheck's, for the sides that bear or would bear
-  std::optional<Imbalance> unbalanced = {};  ///< if that ended the path
-  std::optional<double> limit = {};  ///< load factor beyond which surely nothing balances (limit_load), with its sign
+  std::optional<double> locking;             ///< TangentCheck::locking, for the sides that bear or would bear
+  std::optional<Imbalance> unbalanced = {};  ///< the reason, if the path ended by an imbalance
+  std::optional<double> limit = {};          ///< upper bound of the limit load (limit_load), with the sign of the load
 };
 
 /// The first load factor whose solution is not on the path from no load.
@@ -113,68 +114,68 @@ struct PathLeft {
   bool guessed;  ///< found from a first guess; else by a jump from the state before
 };
 
-/// Rims of contact of a joint in which some have interference.
+/// Loss of full contact of the rims with interference.
 struct Interference {
-  /// Load factor at which each rim with interference first loses full contact, 0 of one that has none below
-  /// first_load_factor, infinite if it is not lost up to `followed`, and of other rims, (g).
+  /// (g) load factor at which each rim with interference first loses full contact: 0 if it has none at
+  /// first_load_factor, infinite if it keeps it up to `followed`, and for other rims.
   VectorXd lost;
   double followed;  ///< largest load factor of the path's increments, or as far as the search went
 };
 
 struct LoadPath {
-  Index n_increments = 0;  ///< asked for
+  Index n_increments = 0;  ///< number of requested increments
   std::vector<PathStep> steps;
   std::optional<PathFailure> failure;
-  std::optional<PathLeft> left = {};       ///< the first such place; only where the solution may be one of several
+  std::optional<PathLeft> left = {};       ///< only if the solution may be one of several
   std::optional<VectorXd> assembled = {};  ///< (r) contact coordinates of a joint with interference at no load, force
   std::optional<Interference> interference = {};
-  std::vector<History> history = {};  ///< of each interface, behind the last increment
+  std::vector<History> history = {};  ///< of each interface, after the last increment
 };
 
 struct PathOptions {
   InitialScene initial;
   SolverScene solver;
   std::ostream* log = nullptr;  ///< gets a line for each iteration of each try
-  /// Takes each increment with the tangent of its solution; the path ends before one of which it returns something.
+  /// Called with each increment and the tangent of its solution; if it returns something, the path ends before that.
   std::function<std::optional<Imbalance>(SolvedPoint, const PathStep&)> each = {};
   std::optional<VectorXd> start = {};  ///< (r) contact coordinates at load factor 0, force; none: those of no load
 };
 
 /// Follows the load factors, each increment from the last: the chosen solver in the contact coordinates from the last
-/// state, then damped Newton, then both in half steps. A load factor that cannot be reached so is tried from
-/// the first guesses: by the same solvers, with friction also by damped Newton in turns, each under the friction of the
-/// turn before, and at last in half steps.
+/// state, then damped Newton, then both in half steps. If that fails, the load factor is tried from the first guesses
+/// by the same solvers, with friction also by damped Newton under the friction of the iterate before, and finally in
+/// half steps.
 ///
-/// The first increment begins with the first guesses, unless the solution may be one of several: then at no load. There
-/// each step must also agree with two half steps; one that does not, however short, is a jump.
+/// The first increment starts from the first guesses, or from no load if the solution may be one of several. In the
+/// latter case each step must also agree with two half steps; a step that does not, however short, is a jump.
 [[nodiscard]] LoadPath follow(const JointEquations& equations, const std::vector<double>& load_factors,
                               const PathOptions& options);
 
-/// Least load factor that is searched for events: from no load on what happens below is there from the start.
+/// Smallest load factor of the search for events; events below it count as present at no load.
 inline constexpr double first_load_factor = 1e-6;
 
 /// Follows the joint to load factor 1 with an increment at every load factor in (0, 1] at which a fastener passes a
 /// corner of its law (ContactCorners), and one at 1.
 ///
-/// Interfaces remember at increments alone: all events are sought with what they remember at load factor 0.
-/// The load factor becomes an unknown of Newton's method while the fastener stays on its corner, between solved states
-/// whose interval is halved where the order of events is in doubt (docs/theory.md, section 8.7).
+/// Histories of interfaces change at increments only: all events are searched with those at load factor 0. Newton's
+/// method solves for the load factor at which the fastener is on its corner, between solved states; the interval is
+/// halved if the order of events is in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);
 
-/// Searches between the increments of a path of a joint with interference for the events at which full contact is lost,
-/// as follow_events does, up to the largest load factor. Empty without interference, and if no load was not solved.
+/// Searches for the events at which rims with interference lose full contact, as follow_events does, up to the largest
+/// load factor of a path. Empty without interference, and if the state at no load was not solved.
 [[nodiscard]] std::optional<Interference> search_interference(const JointEquations& equations,
                                                               const PathOptions& options, const LoadPath& path);
 
-/// A straight part of a path through the loads of a joint.
+/// A proportional part of a load path.
 struct Segment {
-  VectorXd load;                     ///< (l) at its end, as Parameters has them; at its begin those of the one before
-  std::vector<double> load_factors;  ///< of its increments, from 0 at its begin to 1 at its end; none: at every event
+  VectorXd load;                     ///< (l) at its end, as in Parameters; at its start those of the segment before
+  std::vector<double> load_factors;  ///< of its increments, from 0 at its start to 1 at its end; none: at every event
 };
 
-/// Follows a joint from no load through segments, each from where the one before has ended; the last is the first that
+/// Follows a joint from no load through segments, each from the end of the one before; it ends with the first that
 /// fails.
-/// @param parameters Of all segments, but for the loads.
+/// @param parameters Those of all segments; their loads are not used.
 [[nodiscard]] std::vector<LoadPath> follow_segments(const JointModel& joint,
                                                     const std::shared_ptr<const CondensedSystem>& system,
                                                     const Parameters& parameters, const std::vector<Segment>& segments,

@@ -24,10 +24,10 @@ bool TouchSearch::make_the_difference(const Sample& a, const Sample& b) const {
 
 std::optional<double> TouchSearch::place_between(const Sample& a, const Sample& b) {
   if (!make_the_difference(a, b)) return std::nullopt;
-  constexpr double further = 0.02, at_ends = 1e-3, hardly_less = 0.9;
+  constexpr double further = 0.02, at_ends = 1e-3, min_reduction = 0.9;
   const double length = b.load - a.load, before = std::exchange(last_length_, length);
-  // The rim of a loose bolt can touch by rounding, and then tells nothing.
-  if (length < before && length > hardly_less * before) return std::nullopt;
+  // The rim of a bolt with clearance can touch by rounding, and then gives no estimate.
+  if (length < before && length > min_reduction * before) return std::nullopt;
   std::optional<double> first;
   std::array<std::optional<VectorXd>, 2> rates;
   for (Index j = 0; j < std::ssize(a.passed); ++j) {
@@ -39,20 +39,20 @@ std::optional<double> TouchSearch::place_between(const Sample& a, const Sample& 
     if (!there->allFinite()) return std::nullopt;
     const double depth = corners_.position(pressed.c, j) - corners_.of(j).front().at;
     const double by = load_from_touch(j, pressed.load, depth / corners_.slope(pressed.c, j).dot(*there));
-    const double share = (1 + further) * -by / (loose.load - pressed.load);  // of the way to the loose state
-    if (!(share > 0 && share < 1 - at_ends)) return std::nullopt;
-    const double load = pressed.load + std::max(share, at_ends) * (loose.load - pressed.load);
+    const double fraction = (1 + further) * -by / (loose.load - pressed.load);  // of the way to the loose state
+    if (!(fraction > 0 && fraction < 1 - at_ends)) return std::nullopt;
+    const double load = pressed.load + std::max(fraction, at_ends) * (loose.load - pressed.load);
     if (!first || load < *first) first = load;
   }
   return first;
 }
 
 double TouchSearch::load_from_touch(Index entry, double load, double ratio) {
-  constexpr double usual = 0.9, least = 0.3, most = 1.5;
+  constexpr double usual = 0.9, min_exponent = 0.3, max_exponent = 1.5;
   const auto [place, before] = std::exchange(last_[entry], {load, ratio});
   const double found = (load - place) / (ratio - before);
   const bool known = before != 0 && std::isfinite(found);
-  return ratio * (known ? std::clamp(found, least, most) : usual);
+  return ratio * (known ? std::clamp(found, min_exponent, max_exponent) : usual);
 }
 
 }  // namespace fastjoint::stage3

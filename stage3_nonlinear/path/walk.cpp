@@ -13,7 +13,7 @@
 
 namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
-  constexpr double of_gaps = 1e-4;  // rounding of their displacements stays far below a solver's tolerance of it
+  constexpr double of_gaps = 1e-4;  // rounding of their displacements is far below the tolerance times this
   const double load = equations.rigid_forces(load_factor).lpNorm<Eigen::Infinity>();
   const double scale = std::max(load, (load == 0 ? 1 : of_gaps) * equations.force_of_gaps());
   return scale > 0 ? scale : 1;
@@ -35,10 +35,10 @@ bool Walk::is_small(double residual) const {
 }
 
 bool Walk::reach(double target) {
-  constexpr Index quick = 400;  // rows of planes, of which the bound takes less time than a try
+  constexpr Index quick = 400;  // up to this number of rows the bound takes less time than a try
   iterations_ = 0;
   if (equations_.n_plane_rows() <= quick) (void)limit(target);
-  if (is_known_too_much(target)) {  // how far the joint holds is all that is left to tell
+  if (is_known_beyond_limit(target)) {  // only the largest load factor that converges remains to be found
     constexpr double just_below = 1 - 1e-9;
     if (solve_from_here(std::copysign(just_below * limit(target)->factor, target))) return false;
   }
@@ -95,7 +95,7 @@ bool Walk::record(LoadPath& path, std::vector<ContactEvent> events) {
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) {
-  if (is_known_too_much(load_factor)) {
+  if (is_known_beyond_limit(load_factor)) {
     const auto& [factor, planes] = *limit(load_factor);
     PathFailure failure{increment,       load_factor, here_.load_factor,   planes.front(),
                         worst_residual_, planes,      locking(load_factor)};
@@ -114,10 +114,10 @@ std::optional<double> Walk::locking(double load_factor) const {
   return last && rigid ? std::min(*last, *rigid) : last ? last : rigid;
 }
 
-/// Uses the last state only.
+/// Goes to a load factor from the last state, in half steps if necessary.
 bool Walk::follow(double target, int halvings_left) {
   const Place start = here_;
-  const bool whole = !is_known_too_much(target) && solve_from_here(target);
+  const bool whole = !is_known_beyond_limit(target) && solve_from_here(target);
   if (whole && (target == 0 || !may_snap_)) return true;
   const Place there = here_;
   const double middle = 0.5 * (start.load_factor + target);
@@ -137,10 +137,10 @@ bool Walk::follow(double target, int halvings_left) {
 }
 
 bool Walk::guess(double target, int halvings_left) {
-  if (!is_known_too_much(target) && (begin(target) || solve_from_guesses(target))) return true;
+  if (!is_known_beyond_limit(target) && (begin(target) || solve_from_guesses(target))) return true;
   if (halvings_left == 0) return false;
   const double middle = 0.5 * (here_.load_factor + target);
-  if (gives_way() || is_known_too_much(target))  // how far the joint holds is all that is left to tell
+  if (at_limit() || is_known_beyond_limit(target))  // only the largest load factor that converges remains to be found
     return follow(middle, halvings_left - 1) && follow(target, halvings_left - 1);
   return guess(middle, halvings_left - 1) && guess(target, halvings_left - 1);
 }
@@ -159,22 +159,22 @@ bool Walk::begin(double target) {
   const bool remembers =
       std::ranges::any_of(equations_.history, [](const History& history) { return history.size() > 0; });
   if (target != 0 || remembers || equations_.has_interference() || !equations_.starts_unloaded()) return false;
-  here_ = {0, VectorXd::Zero(equations_.n_unknowns())};  // the joint as it was built is in equilibrium, exactly
+  here_ = {0, VectorXd::Zero(equations_.n_unknowns())};  // the undeformed joint is in exact equilibrium
   return true;
 }
 
 bool Walk::solve_from_guesses(double target) {
   auto starts = first_guesses(equations_, options_.initial, target);
   starts.insert(here_.load_factor != 0 || !here_.c.isZero(0) ? starts.begin() : starts.end(), here_.c);
-  if (const auto place = loose_without_friction(starts.front(), target)) starts.insert(starts.begin(), *place);
-  if (may_snap_)  // far out, where nothing else has led to any of several solutions
+  if (const auto place = frictionless_start(starts.front(), target)) starts.insert(starts.begin(), *place);
+  if (may_snap_)  // starts at large coordinates, for a solution that the others do not lead to
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
-  return solve_from(starts, target) || (!is_known_too_much(target) && solve_by_turns(target));
+  return solve_from(starts, target) || (!is_known_beyond_limit(target) && solve_with_lagged_friction(target));
 }
 
-std::optional<VectorXd> Walk::loose_without_friction(const VectorXd& start, double target) {
-  const bool loose = std::ranges::all_of(equations_.rims, [](const auto& rim) { return rim->contact().gap() > 0; });
-  if (equations_.rims.empty() || !loose || !equations_.has_friction || !equations_.rises) return std::nullopt;
+std::optional<VectorXd> Walk::frictionless_start(const VectorXd& start, double target) {
+  const bool all_gaps = std::ranges::all_of(equations_.rims, [](const auto& rim) { return rim->contact().gap() > 0; });
+  if (equations_.rims.empty() || !all_gaps || !equations_.has_friction || !equations_.rises) return std::nullopt;
   const ContactState at_rest = contact_state(equations_, VectorXd::Zero(equations_.n_unknowns()));
   const Root root = run(root_problem(equations_, target, scale_, &at_rest), start, newton_root);
   if (!root.converged) return std::nullopt;
@@ -187,13 +187,13 @@ const std::optional<LimitLoad>& Walk::limit(double target) {
   return *known;
 }
 
-bool Walk::is_too_much(double target) {
+bool Walk::is_beyond_limit(double target) {
   constexpr double rounding = 1e-9;
   return limit(target) && std::abs(target) > (1 + rounding) * limit(target)->factor;
 }
 
-bool Walk::gives_way() const {
-  constexpr double close = 1e-4;  // to the limit load, which may then be reached from elsewhere
+bool Walk::at_limit() const {
+  constexpr double close = 1e-4;  // so close to the limit load another start may reach it
   return !may_snap_ && std::isfinite(worst_residual_) && worst_residual_ > close &&
          !level_planes(equations_, best_).empty();
 }
@@ -205,23 +205,23 @@ bool Walk::solve_from(const std::vector<VectorXd>& starts, double target) {
       const Root root = run(problem, start, solver);
       if (take(root, target)) return true;
       if (solver != newton_root) continue;
-      note_failure(root);  // it descends: where it ends is where the joint gives way
-      // Without friction it ends there from wherever it starts.
-      if (is_too_much(target) || (!equations_.has_friction && gives_way())) return false;
+      note_failure(root);  // Newton's method descends, so that its end shows the limit load
+      // Without friction it ends there from every start.
+      if (is_beyond_limit(target) || (!equations_.has_friction && at_limit())) return false;
     }
     return false;
   };
   return solved_by(solver_) || (solver_ != newton_root && solved_by(newton_root));
 }
 
-/// Friction of the turn before as a load: each turn then has a solution that damped Newton finds, and the turns
-/// converge where friction changes the forces by less than themselves.
-bool Walk::solve_by_turns(double target) {
-  constexpr int most_turns = 50;
+/// Fixed-point iteration with the friction of the iterate before as a load. Each step has a solution that damped Newton
+/// finds, and the iteration converges if friction changes the forces by less than themselves.
+bool Walk::solve_with_lagged_friction(double target) {
+  constexpr int max_turns = 50;
   if (!equations_.has_friction || !equations_.rises) return false;
   const auto problem = root_problem(equations_, target, scale_);
   VectorXd c = here_.c;
-  for (int turn = 0; turn < most_turns; ++turn) {
+  for (int turn = 0; turn < max_turns; ++turn) {
     const ContactState before = contact_state(equations_, c);
     const Root root = run(root_problem(equations_, target, scale_, &before), c, newton_root);
     if (!root.converged) return false;
@@ -269,17 +269,17 @@ bool Walk::take(const Root& root, double target) {
   if (!converged(root)) return false;
   VectorXd c = scale_ * root.x;
   const Index planes = equations_.n_plane_rows();
-  if (!equations_.rims.empty()) {   // loose fasteners carry nothing, as far as the joint then still balances
-    constexpr double little = 1e3;  // times what without_rounding leaves out
-    constexpr double more = 10;     // times what a solution may be out of balance
-    VectorXd loose = c;
-    loose.head(planes) = without_rounding(c.head(planes), little * scale_);
-    const VectorXd r = equations_.residual(contact_state(equations_, loose), target);
-    if (is_small(r.lpNorm<Eigen::Infinity>() / more)) c = loose;
+  if (!equations_.rims.empty()) {        // small forces are set to zero if the joint then still balances
+    constexpr double max_force = 1e3;    // over the limit of without_rounding
+    constexpr double max_residual = 10;  // over that of a solution
+    VectorXd rounded = c;
+    rounded.head(planes) = without_rounding(c.head(planes), max_force * scale_);
+    const VectorXd r = equations_.residual(contact_state(equations_, rounded), target);
+    if (is_small(r.lpNorm<Eigen::Infinity>() / max_residual)) c = rounded;
   }
-  if (const auto spent = contact_state(equations_, c).spent) {
+  if (const auto failed = contact_state(equations_, c).failed) {
     if (std::isinf(worst_residual_)) {
-      worst_row_ = *spent;
+      worst_row_ = *failed;
       best_ = c;
     }
     return false;
@@ -288,9 +288,9 @@ bool Walk::take(const Root& root, double target) {
   return true;
 }
 
-/// Keeps the try that came closest.
+/// Keeps the try with the smallest residual.
 void Walk::note_failure(const Root& root) {
-  if (converged(root)) return;  // past all that a law carries
+  if (converged(root)) return;  // `take` has refused it as past a limit load
   Index at = 0;
   const double worst = root.residual.cwiseAbs().maxCoeff(&at);
   if (!(worst < worst_residual_)) return;

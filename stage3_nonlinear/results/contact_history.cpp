@@ -11,7 +11,7 @@ namespace {
 
 double in_degrees(double angle) { return rim::wrapped(angle) / rim::degree; }
 
-/// Arcs of a rim, of which those that meet at the start of a whole one are one.
+/// Arcs of a rim, with those that meet at the start of a whole rim joined to one.
 std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim::AngleRange> arcs) {
   const auto& [highest, start, sweep] = rim.pressures();
   if (!rim.pressures().is_whole() || arcs.size() < 2 || arcs.front().from > start || arcs.back().to < start + sweep)
@@ -21,7 +21,7 @@ std::vector<rim::AngleRange> joined_arcs(const RimContact& rim, std::vector<rim:
   return arcs;
 }
 
-/// Writes what a rim does at a step.
+/// Writes the contact of a rim at a step.
 void describe(const RimProblem& problem, const VectorXd& c, Index step, Index at, formats::ContactHistory& a) {
   const RimContact& rim = problem.contact();
   const RimSolution& solution = problem.solve(c);

@@ -22,7 +22,7 @@ std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const Condensed
     MatrixXd& change = changes.emplace_back();
     if (S.size() < 2) continue;
     const MatrixXd dS = S[S.size() - 2] - S.back();
-    const auto D = system.D_delta.middleRows(joint.offset(i), m);  // behind them moments are unknowns themselves
+    const auto D = system.D_delta.middleRows(joint.offset(i), m);  // moments are unknowns themselves
     change = D.transpose() * (dS.topLeftCorner(m, m) * D);
     if (k > 0) {
       const MatrixXd mixed = D.transpose() * dS.topRightCorner(m, k);
@@ -36,8 +36,8 @@ std::vector<MatrixXd> stiffness_changes(const JointModel& joint, const Condensed
   return changes;
 }
 
-/// Part of a plate in the errors of all forces, (n).
-/// @param A  (n, r) change of each force per rise of the residual of each row; w = A D^T.
+/// Errors of all forces by one plate, (n).
+/// @param A  (n, r) change of each force per unit of the residual of each row; w = A D^T.
 /// @param D  (m + e + k, r) rows of D_delta. @param dS The plate's stiffness_changes.
 VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::Ref<const MatrixXd>& D,
                       const MatrixXd& dS, const PlateState& state) {
@@ -47,7 +47,7 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
   const PlateDegrees& degrees = plate.degrees;
   const auto n = degrees.S.size();
   if (n < 2) return (A * D.transpose()).cwiseAbs() * (plate.S_error * u.cwiseAbs());
-  constexpr double least = 0.25;                     // of the bound
+  constexpr double of_bound = 0.25;                  // min error over the bound by energies
   const auto load = [&](Index before) -> VectorXd {  // at a degree before the last
     const auto R = degrees.R.rbegin() + before;
     return degrees.S[n - 1 - before] * u + degrees.T[n - 1 - before] * f + *R * state.Lambda;
@@ -60,7 +60,7 @@ VectorXd plate_errors(const PlateModel& plate, const MatrixXd& A, const Eigen::R
   const VectorXd change = A * (D.transpose() * (load(1) - load(0)));
   const MatrixXd A_dS = A * dS.triangularView<Eigen::Lower>();
   const VectorXd fall_by_w = 2 * (A_dS.cwiseProduct(A) * VectorXd::Ones(A.cols())).cwiseAbs();
-  return more * (change.cwiseAbs2() + least * least * fall * fall_by_w).cwiseSqrt();
+  return more * (change.cwiseAbs2() + of_bound * of_bound * fall * fall_by_w).cwiseSqrt();
 }
 
 }  // namespace
@@ -72,8 +72,8 @@ ForceErrors::ForceErrors(const JointModel& joint, const JointEquations& equation
 
 VectorXd ForceErrors::at(const SolvedPoint& point, const JointState& state) const {
   Slopes slopes = point.slopes();
-  slopes.no_column.clear();  // errors of S exert no net force on a floating plate, so that these columns do not count
-  const MatrixXd A = point.of_amounts(slopes);
+  slopes.no_column.clear();  // errors of S have no resultant on a floating plate, so that these columns do not count
+  const MatrixXd A = point.of_magnitudes(slopes);
   VectorXd result = VectorXd::Zero(A.rows());
   for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
     const PlateModel& plate = joint_.plates[i];

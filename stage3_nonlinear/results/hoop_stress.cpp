@@ -13,9 +13,10 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 using namespace std::complex_literals;
-constexpr double step = rim::full_turn / TractionWaves::n_points, first_angle = step / 2;  // jumps lie on round angles
+constexpr double step = rim::full_turn / TractionWaves::n_points,
+                 first_angle = step / 2;  // off the multiples of 90 degrees, at which tractions jump
 
-/// Waves m = 0..n/2-1 of two real functions by their values at the points, (2, n / 2).
+/// Waves m = 0..n/2-1 of two real functions from their values at the points, (2, n / 2).
 Eigen::Matrix2Xcd waves_of(const Eigen::VectorXcd& values) {
   Eigen::FFT<double> fft;
   Eigen::VectorXcd F;
@@ -45,7 +46,7 @@ Eigen::Matrix2Xcd sums(const Eigen::Matrix2Xcd& waves, Index first) {
   return result;
 }
 
-/// Waves m = 0.. of a function with coefficients of the whole circle's distributions.
+/// Waves m = 0.. of a function from its coefficients of the distributions on the whole circle.
 Eigen::VectorXcd complex_waves(const Eigen::VectorXd& coefficients) {
   const Index highest = coefficients.size() / 2;
   Eigen::VectorXcd f(highest + 1);
@@ -55,7 +56,7 @@ Eigen::VectorXcd complex_waves(const Eigen::VectorXd& coefficients) {
   return f;
 }
 
-/// Waves 0..n-1 along x and y of normal and tangential waves 0..n.
+/// Waves 0..n-1 along x and y from normal and tangential waves 0..n.
 Eigen::Matrix2Xcd cartesian(const Eigen::VectorXcd& normal, const Eigen::VectorXcd& tangential) {
   const Index n = normal.size() - 1;
   Eigen::Matrix2Xcd u(2, n);
@@ -84,15 +85,15 @@ Eigen::VectorXd TractionWaves::angles() {
 }
 
 Eigen::Vector2d TractionWaves::at(double angle) const {
-  double inside = rim::wrapped(angle, rim_.start), sign = 1;
+  double modelled = rim::wrapped(angle, rim_.start), sign = 1;
   if (!rim_.is_whole()) {
-    const double past = inside - rim_.start;
+    const double past = modelled - rim_.start;
     const int part = static_cast<int>(past / rim_.sweep);
     const double rest = past - part * rim_.sweep;
     if (part % 2 == 1) sign = -1;
-    inside = rim_.start + (sign > 0 ? rest : rim_.sweep - rest);
+    modelled = rim_.start + (sign > 0 ? rest : rim_.sweep - rest);
   }
-  const Eigen::Vector2d on_rim = tractions_(inside);
+  const Eigen::Vector2d on_rim = tractions_(modelled);
   const double p = on_rim.x(), t = sign * on_rim.y(), c = std::cos(angle), s = std::sin(angle);
   return {p * c - t * s, p * s + t * c};
 }
@@ -113,7 +114,7 @@ HoopStress::HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& wa
 }
 
 double HoopStress::strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const {
-  // What the tractions are at this place is known; only the other part of their short waves needs the sum.
+  // The real part of the short waves is the traction minus its long waves; only the imaginary part needs the sum.
   const Complex turn = std::polar(1.0, -angle);
   const Eigen::Matrix2Xcd& T = tractions_->waves();
   Eigen::Vector2d rest = traction - T.col(0).real();

@@ -11,14 +11,14 @@
 
 namespace fastjoint::stage3 {
 
-/// Pressure and shear on the sheet at an angle of the rim that the model has, stress.
+/// Pressure and shear on the sheet at an angle on the modelled part of the rim, stress.
 using Tractions = std::function<Eigen::Vector2d(double angle)>;
 
-/// Tractions on a rim at points in equal steps around the whole circle, and their waves.
+/// Tractions on a rim at equidistant points around the whole circle, and their waves.
 class TractionWaves {
  public:
-  /// @param rim       A whole rim, or a part that repeats.
-  /// @param tractions On the sheet; asked for angles on the part of the rim that the model has.
+  /// @param rim       A whole rim, or a part of one by symmetry.
+  /// @param tractions Those on the sheet; called with angles on the modelled part of the rim.
   TractionWaves(const rim::Harmonics& rim, Tractions tractions);
 
   /// Tractions along x and y at any angle of the whole circle, stress.
@@ -39,17 +39,17 @@ class TractionWaves {
   Eigen::Matrix2Xcd waves_;
 };
 
-/// Hoop stress around a rim as a function of the angle, from the displacements of the rim in long waves and from its
-/// known tractions (docs/theory.md, section 11).
+/// Hoop stress around a rim as a function of the angle, from the long waves of its displacement and from its known
+/// tractions (docs/theory.md, section 11).
 ///
-/// The strain along the rim is that of the long waves, which the finite elements give by energy products, and beyond
-/// them that which the tractions make in an infinite sheet, by RimCompliance: only what falls off within the hole's
-/// own neighbourhood is taken from there. Hooke's law and the tractions then give the hoop stress.
+/// The hoop strain is the sum of the long waves, which the finite elements give by energy products, and of the short
+/// waves by the tractions in an infinite sheet (RimCompliance), which decay close to the hole. Hooke's law and the
+/// tractions then give the hoop stress.
 class HoopStress {
  public:
-  /// @param waves        A whole rim, or a part that repeats.
-  /// @param displacement Normal, then tangential displacement of the disc against the sheet, or of the sheet against
-  ///                     any rigid body with the opposite sign, (size + n_shears), length.
+  /// @param waves        A whole rim, or a part of one by symmetry.
+  /// @param displacement Normal, then tangential displacement of the disc relative to the sheet, or minus that of the
+  ///                     sheet relative to any rigid body, (size + n_shears), length.
   HoopStress(const rim::RimCompliance& sheet, const rim::Harmonics& waves, const Eigen::VectorXd& displacement,
              std::shared_ptr<const TractionWaves> tractions);
 
@@ -60,15 +60,15 @@ class HoopStress {
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
 
  private:
-  /// Hoop stress of a strain along the rim.
+  /// Hoop stress by the hoop strain.
   [[nodiscard]] double hoop(double angle, double strain, const Eigen::Vector2d& traction) const;
-  /// Strain along the rim.
-  /// @param short_waves  Their sum over m >= first_short of (X_m, Y_m) e^(-i m angle).
+  /// Hoop strain.
+  /// @param short_waves  Sum over m >= first_short of (X_m, Y_m) e^(-i m angle).
   [[nodiscard]] double strain(double angle, const Eigen::Vector2cd& short_waves, const Eigen::Vector2d& traction) const;
 
   rim::RimCompliance sheet_;
   std::shared_ptr<const TractionWaves> tractions_;
-  int first_short_;      ///< lowest order along x and y that follows from the tractions
+  int first_short_;      ///< lowest order along x and y that is computed from the tractions
   Eigen::Matrix2Xcd u_;  ///< (2, first_short) waves m = 0.. of the displacements along x and y, length
   Eigen::VectorXd angles_, values_;
 };

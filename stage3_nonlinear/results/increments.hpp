@@ -15,30 +15,30 @@
 
 namespace fastjoint::stage3 {
 
-/// What is wanted of each increment.
+/// Requested results of each increment.
 struct Wanted {
   double tolerance;               ///< of the solver
   bool sensitivities = false;     ///< derivatives of forces, and at the last increment those of peaks
   bool keep_loaded_rims = false;  ///< PlateState::loaded, which takes memory
 };
 
-/// Results of all increments of a path, each made while the tangent of its solution is at hand.
+/// Results of all increments of a path, computed with the tangent of each solution.
 struct Increments {
   std::vector<JointState> states;
   std::optional<MatrixXd> F_error;                     ///< (steps, n) force; none if not known (ForceErrors)
   std::vector<std::vector<LoadStiffness>> stiffness;   ///< of each increment
-  JointNumbers numbers;                                ///< that results are differentiated by, if wanted
+  JointNumbers numbers;                                ///< parameters of the derivatives, if wanted
   std::vector<Sensitivity> sensitivity;                ///< of each increment, if wanted
   std::optional<PeakSensitivity> peak = std::nullopt;  ///< at the last increment, if wanted
 };
 
-/// Part of a state that is out of balance, if it is by more than 1e-8 of the largest force or what the solver's
-/// tolerance leaves.
+/// Part of a state that is out of balance by more than 1e-8 of the largest force and more than ten times the solver's
+/// tolerance, if there is one.
 [[nodiscard]] std::optional<Imbalance> imbalance(const JointState& state, double tolerance);
 
-/// Follows a joint and keeps the results of each increment. The path ends where forces do not balance to 1e-8 of the
-/// largest or to what the solver's tolerance leaves, since rounding errors would count as load.
-/// @param load_factors None: increments at every event (follow_events).
+/// Follows a joint and keeps the results of each increment. The path ends at an imbalance, since rounding errors would
+/// then act as loads.
+/// @param load_factors If empty, there are increments at every event (follow_events).
 [[nodiscard]] std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint,
                                                                   const JointEquations& equations,
                                                                   const std::vector<double>& load_factors,

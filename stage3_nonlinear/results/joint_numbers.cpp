@@ -21,17 +21,17 @@ void add_friction(const JointModel& joint, JointNumbers& numbers) {
   Index column = 1 + numbers.n_planes + std::ssize(numbers.law);
   for (const auto& fastener : joint.fasteners)
     for (const auto& hole : fastener.holes) {
-      const bool rubs = hole.mu > 0 && !hole.friction.empty();
-      numbers.of_friction.push_back(rubs ? column++ : -1);
-      if (rubs) numbers.friction.push_back(joint.name(hole));
+      const bool has_friction = hole.mu > 0 && !hole.friction.empty();
+      numbers.of_friction.push_back(has_friction ? column++ : -1);
+      if (has_friction) numbers.friction.push_back(joint.name(hole));
     }
   numbers.gap = joint.rims();
   const auto places = rim_places(joint);
   for (Index i = 0; i < std::ssize(places); ++i) {
     const auto& [plate, at, hole] = places[i];
-    const bool rubs = joint.mu(plate, joint.plates[plate].contact[at].hole) != 0;
-    numbers.of_rim.push_back(rubs ? column++ : -1);
-    if (rubs) numbers.rim_friction.push_back(numbers.gap[i]);
+    const bool has_friction = joint.mu(plate, joint.plates[plate].contact[at].hole) != 0;
+    numbers.of_rim.push_back(has_friction ? column++ : -1);
+    if (has_friction) numbers.rim_friction.push_back(numbers.gap[i]);
   }
 }
 

@@ -10,20 +10,20 @@
 
 namespace fastjoint::stage3 {
 
-/// Numbers of the input that forces are differentiated by, by name, and the columns of their derivatives: the load
-/// factor, the clearances of all n planes, the numbers of laws, the coefficients of friction of fasteners, then of rims
-/// of contact, forces, displacements, gaps.
+/// Names of the input parameters by which forces are differentiated, and the columns of the derivatives: the load
+/// factor, the clearances of all n planes, the parameters of laws, the coefficients of friction of fasteners, then of
+/// rims of contact, forces, displacements, gaps.
 struct JointNumbers {
   Index n_planes = 0;
-  /// (l) names and numbers of the laws in the order of the planes; planes with one law share its numbers.
+  /// (l) names and parameters of the laws in the order of the planes, once for planes with the same law.
   std::vector<std::pair<std::string, Parameter>> law;
   std::vector<std::string> friction;      ///< (f) "plate:hole" of each hole of a fastener with friction
   std::vector<std::string> rim_friction;  ///< (s) "plate:hole" of each rim of contact with friction
   std::vector<std::string> force;         ///< (u) "plate:external" without a given displacement, loaded or not
   std::vector<std::string> displacement;  ///< (v) "plate:external" with a given one
   std::vector<std::string> gap;           ///< (g) "plate:hole" of each rim of contact
-  // Columns, -1 where a number has none.
-  std::vector<Index> of_law;       ///< (n) of the first number of each plane's law
+  // Columns, -1 if a parameter has none.
+  std::vector<Index> of_law;       ///< (n) of the first parameter of each plane's law
   std::vector<Index> of_friction;  ///< of each hole of a fastener, fastener after fastener
   std::vector<Index> of_rim;       ///< (g) of the coefficient of each rim of contact
   std::vector<Index> of_load;      ///< of each of loads_of

@@ -10,16 +10,16 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Load that each plane transfers by one of its holes, by amount where the discs have two directions, (n).
+/// Load that each plane transfers, with the friction of one of its holes, (n); the magnitude with two directions.
 VectorXd transferred(const JointEquations& equations, const VectorXd& F, Index side) {
   VectorXd result(F.size());
   for (const auto& [interface, row, friction] : equations.interfaces)
     if (const Index n = interface->size(); row + n <= F.size())
       result.segment(row, n) = interface->transferred(F.segment(row, n), side);
-  return amounts(result, equations.n_directions());
+  return magnitudes(result, equations.n_directions());
 }
 
-/// The laws' forces on all discs, with what friction puts on them instead, (N) by unknowns, force.
+/// Forces of the laws on all discs, minus the part that friction carries, (N), force.
 VectorXd forces_on_discs(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
   const Index a = joint.n_directions();
   VectorXd forces = VectorXd::Zero(joint.n_unknowns());
@@ -35,8 +35,8 @@ VectorXd forces_on_discs(const JointModel& joint, const JointEquations& equation
   return forces;
 }
 
-/// Sets the forces of friction on the discs of a plate by the peak stresses of its cases, and takes those of the shears
-/// of rims of contact, which are in the discs' forces, out of the bearing.
+/// Sets the friction forces on the discs of a plate from the peak stresses of its cases. At rims of contact the forces
+/// on the discs include friction, which is subtracted from the bearing forces.
 void set_friction(const PlateModel& plate, PlateState& state) {
   for (Index i = 0; i < std::ssize(plate.friction_hole); ++i) {
     const auto hole = std::ranges::find(plate.holes, plate.friction_hole[i]);
@@ -60,16 +60,16 @@ void set_friction(const PlateModel& plate, PlateState& state) {
   }
 }
 
-/// Amounts of the unit cases of a plate's file.
-VectorXd unit_case_amounts(const PlateModel& plate, const PlateState& state) {
+/// Coefficients of the unit cases of a plate's file.
+VectorXd unit_case_coefficients(const PlateModel& plate, const PlateState& state) {
   const Index h = std::ssize(plate.friction_hole);
   const VectorXd D = state.D(plate.discs);
-  VectorXd amounts(state.De.size() + D.size() + state.waves.size() + h + state.traction.size());
-  amounts << state.De, D, state.waves, state.Lambda.head(h), state.traction;
-  return amounts;
+  VectorXd coefficients(state.De.size() + D.size() + state.waves.size() + h + state.traction.size());
+  coefficients << state.De, D, state.waves, state.Lambda.head(h), state.traction;
+  return coefficients;
 }
 
-/// The discs that the plate's file has, with their forces.
+/// The discs in the plate's file with their forces.
 LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
   LoadedDiscs discs{{}, {}, state.bearing(plate.discs), state.friction(plate.discs)};
   for (const Index disc : plate.discs) {
@@ -81,7 +81,7 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 
 /// @param rim_F     (k) forces of the moments of the plate's rims.
 /// @param on_discs  (m) results of forces_on_discs.
-/// @param worst_row Raised to what the plate's worst row is out of balance, force.
+/// @param worst_row Maximum of its value and the largest imbalance of a row of the plate, force.
 void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorXd& on_discs, double scale,
                    PlateState& state, double& worst_row) {
   const Index m = plate.n_discs(), k = rim_F.size();
@@ -93,7 +93,7 @@ void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorX
   state.friction = VectorXd::Zero(m);
   set_friction(plate, state);
   if (plate.stress_level)
-    state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_amounts(plate, state),
+    state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_coefficients(plate, state),
                             loaded_discs(plate, state), scale, state.loaded);
   worst_row = std::max(
       {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
@@ -110,8 +110,7 @@ void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorX
   state.by_supports = -(state.applied + state.by_fasteners);
 }
 
-/// Worst component of what the holes of a fastener give it altogether, bearing and friction, of all fasteners that
-/// the ground does not hold, force.
+/// Largest component of the resultant of bearing and friction on a fastener, over all that are not grounded, force.
 double worst_fastener(const JointModel& joint, const std::vector<PlateState>& plates) {
   double worst = 0;
   for (const auto& fastener : joint.fasteners) {
@@ -175,7 +174,7 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
     const ContactLoad& load = contacts[i];
     const double modulus = plate.contact[i].modulus;
     const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
-    append(wave_amounts(load, *plate.short_waves[i], modulus), waves);
+    append(wave_coefficients(load, *plate.short_waves[i], modulus), waves);
     append(load.w, w);
     append((load.pressure - modulus * load.w).head(of_field.size()), added);
     append(load.shear.head(of_field.n_shears()), added);
@@ -186,7 +185,7 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
   state.waves = vector(waves);
   state.w = vector(w);
   state.added = vector(added);
-  if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_amounts(plate, state), contacts);
+  if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_coefficients(plate, state), contacts);
 }
 
 JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
@@ -210,7 +209,7 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
     balance_plate(plate, step.rim_F.segment(first_moment, k), on_discs.segment(joint.offset(i), plate.n_discs()),
                   step.scale, its, state.out_of_balance);
     first_moment += k;
-    // Matrices do not tell: a sheet that supports hold without statical indeterminacy moves without force as well.
+    // The matrices alone do not show the axes: a sheet with statically determinate supports has no stiffness either.
     for (const int axis : plate.unsupported_axes)
       state.plates_out_of_balance = std::max(state.plates_out_of_balance.value_or(0), std::abs(its.by_supports[axis]));
     for (const VectorXd* forces : {&its.Pe, &its.traction})
@@ -225,7 +224,7 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
 
 VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   constexpr double rounding = 1e-9;
-  VectorXd passed = transferred;  // with the sign that it has when the lower plate comes first; amounts have none
+  VectorXd passed = transferred;                // with the sign for the lower plate as the first; magnitudes have none
   std::vector<std::pair<Index, Index>> plates;  // of each plane, ascending
   for (Index j = 0; j < std::ssize(passed); ++j) {
     const ShearPlane& plane = joint.planes[j];
@@ -237,13 +236,13 @@ VectorXd shares(const JointModel& joint, const VectorXd& transferred) {
   }
   VectorXd result(passed.size());
   for (Index j = 0; j < std::ssize(result); ++j) {
-    double sum = 0, amount = 0;
+    double sum = 0, sum_of_magnitudes = 0;
     for (Index i = 0; i < std::ssize(result); ++i) {
       if (plates[i] != plates[j]) continue;
       sum += passed[i];
-      amount += std::abs(passed[i]);
+      sum_of_magnitudes += std::abs(passed[i]);
     }
-    const bool known = std::abs(sum) > rounding * amount;
+    const bool known = std::abs(sum) > rounding * sum_of_magnitudes;
     result[j] = known ? 100 / sum * passed[j] : std::numeric_limits<double>::quiet_NaN();
   }
   return result;

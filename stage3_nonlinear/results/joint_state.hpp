@@ -18,56 +18,55 @@ struct PlateState {
   VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
   VectorXd moments;            ///< (k) long waves of the rims of contact, length
   VectorXd w;                  ///< all waves of the disc's normal displacement at the rims of contact, length
-  VectorXd waves;              ///< amount of each loaded wave of its file, stress
-  VectorXd added;              ///< the same of all waves of contact by which fields are made, stress
+  VectorXd waves;              ///< coefficient of each loaded wave of its file, stress
+  VectorXd added;              ///< coefficients of all waves of contact that the fields use, stress
   VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
-  // Of every hole, and of those with waves and a closed form, if its matrices hold stresses at the joint's degree:
+  // If its matrices hold stresses at the joint's degree: of every hole, and of rims with waves and a closed form.
   std::vector<RimState> rims = {};
   std::vector<std::optional<LoadedRim>> loaded = {};
-  // Sums of the forces that act on the plate along x and y, force.
+  // Resultants of the forces on the plate along x and y, force.
   Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
   Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction
-  Eigen::Vector2d by_supports{0, 0};   ///< the remainder: what stage 1's supports must give
+  Eigen::Vector2d by_supports{0, 0};   ///< minus the sum of both: the reaction of the supports of stage 1
 };
 
 /// The whole joint at one increment, from the plates' own matrices.
 struct JointState {
   std::vector<PlateState> plates;
-  /// Force that each plane transfers, friction included, by that of its first and of its second hole, by amount where
-  /// the discs have two directions, (n), force; a fastener in balance transfers one and the same.
+  /// (n) force that each plane transfers, with the friction of its first and of its second hole; the magnitude if the
+  /// discs have two directions. Both are equal for a fastener in balance.
   VectorXd transferred_first, transferred_second;
   double largest_force = 0;  ///< of externals, tractions and fasteners, and PathStep::scale
-  // Over the largest force:
-  double out_of_balance = 0;            ///< worst row of S D + R Lambda + T f + B F - P
-  double fasteners_out_of_balance = 0;  ///< worst sum of what the holes of one without ground give it
-  /// Worst sum of all forces on a plate along an axis along which its file says that nothing supports it; none if there
-  /// is none.
+  // Imbalances over the largest force.
+  double out_of_balance = 0;            ///< largest row of S D + R Lambda + T f + B F - P
+  double fasteners_out_of_balance = 0;  ///< largest resultant on a fastener that is not grounded
+  /// Largest resultant of a plate along an axis without supports according to its file; none without such an axis.
   std::optional<double> plates_out_of_balance;
 };
 
-/// Sets what the loads on a plate make of its rims, `w`, `waves`, `added` and `loaded`, by its displacements, Lambda
-/// and tractions.
-/// @param contacts Of the rims of contact.
+/// Sets the state of the rims of a plate, `w`, `waves`, `added` and `loaded`, from its displacements, Lambda and
+/// tractions.
+/// @param contacts One for each rim of contact.
 void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, PlateState& state);
 
-/// Displacements of all unknowns, (N, columns), length, by amounts of the load cases, (l, columns), relative
-/// displacements of planes and moments, (r, columns), and amounts of friction, (t, columns).
+/// Displacements of all unknowns, (N, columns), length, from the loads of the load cases, (l, columns), relative
+/// displacements of planes and moments, (r, columns), and amplitudes of friction, (t, columns).
 [[nodiscard]] MatrixXd displacements(const JointModel& joint, const CondensedSystem& system, const MatrixXd& load,
                                      const MatrixXd& delta, const MatrixXd& Lambda);
 
-/// What loads, displacements and friction make of each plate: D, De, moments, Lambda, tractions and forces Pe, and what
-/// load_rims adds.
-/// @param rims Of contact, of all plates. @param D (N).
+/// State of each plate from loads, displacements and friction: D, De, moments, Lambda, tractions and forces Pe, and the
+/// results of load_rims.
+/// @param contacts One for each rim of contact of all plates. @param D (N).
 [[nodiscard]] std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSystem& system,
                                                   const std::vector<ContactLoad>& contacts, const VectorXd& D,
                                                   const VectorXd& load, const VectorXd& Lambda);
 
 [[nodiscard]] JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step);
 
-/// Shares in per cent of the sum over all planes between the same two plates, or a plate and the ground, whichever
-/// their fasteners name first, shape (n); NaN where the sum is nothing but rounding.
+/// Share of each plane in per cent of the sum over all planes between the same two plates, or a plate and the ground,
+/// in either order, shape (n); NaN if the sum is only rounding.
 [[nodiscard]] VectorXd shares(const JointModel& joint, const VectorXd& transferred);
 
 }  // namespace fastjoint::stage3

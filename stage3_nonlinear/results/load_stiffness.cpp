@@ -21,15 +21,15 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Solv
   const CondensedSystem& system = *equations.system;
   const VectorXd rates = equations.load_rates(point.load_factor());
   const Slopes slopes = point.slopes(-equations.q_at(point.load_factor()));
-  const bool gives_way = point.check().at_limit_load() || !slopes.no_column.empty();
-  // Rates with the load factor: displacements, and forces on all unknowns as far as they are friction's.
+  const bool at_limit = point.check().at_limit_load() || !slopes.no_column.empty();
+  // Rates with the load factor of displacements, and of the friction forces on all unknowns.
   const VectorXd delta = point.beyond().product(&Response::ddelta, slopes.c);
   const VectorXd Lambda = point.beyond().friction_by(slopes.c);
   const VectorXd D = displacements(joint, system, rates, delta, Lambda);
   const VectorXd friction = friction_loads(joint, system.friction.columns, Lambda);
   std::vector<LoadStiffness> result;
   for (Index i = 0; i < std::ssize(system.cases); ++i) {
-    const auto& [load, at_plate, at, is_traction, is_displacement, sense] = system.cases[i];
+    const auto& [load, at_plate, at, is_traction, is_displacement, sign] = system.cases[i];
     if (rates[i] == 0) continue;
     const PlateModel& plate = joint.plates[at_plate];
     const Index first = joint.offset(at_plate), row = plate.n_discs() + at;
@@ -39,7 +39,7 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Solv
     const double reaction = is_traction ? 0 : plate.S.row(row).dot(u) + plate.T.row(row).dot(f) + friction[first + row];
     const double force = is_displacement ? reaction : rates[i];
     const double moved = is_traction ? plate.degrees.C.back().row(at).dot(f) - plate.T.col(at).dot(u) : u[row];
-    result.push_back({plate.name + ":" + name, gives_way ? 0 : force / moved});
+    result.push_back({plate.name + ":" + name, at_limit ? 0 : force / moved});
   }
   return result;
 }

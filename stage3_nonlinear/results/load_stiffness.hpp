@@ -14,9 +14,9 @@ struct LoadStiffness {
   double stiffness;      ///< force / length; infinite where the boundary does not move, 0 at a limit load
 };
 
-/// Rise of force over that of displacement along the direction of each boundary with a load other than zero, as all
-/// loads grow together (docs/theory.md, section 10): plate after plate, rigid externals before tractions. The mean
-/// displacement under a traction lacks what friction on rims adds to it while discs and rigid externals rest.
+/// Rate of force over that of displacement along the direction of each boundary with a load other than zero, under
+/// proportional load (docs/theory.md, section 10): plate after plate, rigid externals before tractions. The mean
+/// displacement under a traction does not include that by friction on rims at fixed discs and rigid externals.
 [[nodiscard]] std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const SolvedPoint& point);
 
 }  // namespace fastjoint::stage3

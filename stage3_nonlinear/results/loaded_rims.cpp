@@ -15,39 +15,41 @@ namespace {
 
 double sign_of(double x) { return x > 0 ? 1 : x < 0 ? -1 : 0; }
 
-/// A cosine pressure or a cosine friction on half of the rim, of an amount.
+/// A cosine pressure or a cosine friction on half of the rim.
 struct HalfLoad {
-  double direction, amount;
+  double direction, peak;
 };
 
-/// What is known of the tractions on a rim that is not in contact, besides the pressure of its springs.
+/// Given tractions on a rim that is not in contact, in addition to the pressure of its springs.
 struct KnownLoads {
   std::vector<HalfLoad> pressures, frictions;
 
   [[nodiscard]] Eigen::Vector2d at(double angle) const {
     Eigen::Vector2d result{0, 0};
-    for (const auto& [direction, amount] : pressures) result.x() += amount * cosine_bearing(angle, direction);
-    for (const auto& [direction, amount] : frictions) result.y() += amount * cosine_friction(angle, direction);
+    for (const auto& [direction, peak] : pressures) result.x() += peak * cosine_bearing(angle, direction);
+    for (const auto& [direction, peak] : frictions) result.y() += peak * cosine_friction(angle, direction);
     return result;
   }
 };
 
-KnownLoads known_loads(const PlateModel& plate, const std::string& hole, const VectorXd& amounts) {
+KnownLoads known_loads(const PlateModel& plate, const std::string& hole, const VectorXd& coefficients) {
   KnownLoads loads;
   const Index q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
   for (Index i = 0; i < h; ++i)
-    if (const double amount = amounts[amounts.size() - q - h + i]; plate.friction_hole[i] == hole && amount != 0)
+    if (const double amount = coefficients[coefficients.size() - q - h + i];
+        plate.friction_hole[i] == hole && amount != 0)
       loads.frictions.push_back({direction_of(plate.friction_bearing[i]), amount});
   for (Index i = 0; i < std::ssize(plate.traction_hole); ++i)
-    if (const double amount = amounts[amounts.size() - q + i]; plate.traction_hole[i] == hole && amount != 0) {
-      const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;  // a unit force is along + on both sides
+    if (const double amount = coefficients[coefficients.size() - q + i];
+        plate.traction_hole[i] == hole && amount != 0) {
+      const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;  // a unit force acts along + on both sides
       loads.pressures.push_back(
           {direction_of(plate.traction_bearing[i]), sign * amount / plate.traction_unit_force[i]});
     }
   return loads;
 }
 
-/// Tractions on a rim that is not in contact: the pressure of its springs, if it has any, and what is known.
+/// Tractions on a rim that is not in contact: the pressure of its springs, if it has any, and the given ones.
 Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, const VectorXd& long_w,
                       const KnownLoads& known) {
   if (!springs) return [known](double angle) { return known.at(angle); };
@@ -56,8 +58,8 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
   if (!springs->only_friction || !known.frictions.empty()) {
     shape = springs->full;
     VectorXd by_quarter = VectorXd::Zero(springs->by_friction.cols());
-    for (const auto& [direction, amount] : known.frictions)
-      by_quarter[std::lround(direction / (rim::full_turn / 4))] += amount;
+    for (const auto& [direction, peak] : known.frictions)
+      by_quarter[std::lround(direction / (rim::full_turn / 4))] += peak;
     w.resize(shape.size());
     w << long_w, springs->by_long * long_w + springs->by_friction * by_quarter;
   }
@@ -67,7 +69,7 @@ Tractions springs_and(const formats::WaveRim& rim, const SpringWaves* springs, c
   };
 }
 
-/// Tractions of contact: what the springs push with, and friction in proportion.
+/// Tractions of contact: the pressure of the springs, and friction proportional to it.
 Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contour) {
   return [gap = load.gap, modulus = load.modulus, contour](double angle) -> Eigen::Vector2d {
     const double p = modulus * std::max(contour.shape.sum_at(contour.w, angle).first - gap, 0.0);
@@ -78,13 +80,13 @@ Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contou
 /// @param w Waves of the displacement, as many as the rim's.
 ContactLoad::Contour contour_of(const RimContact& rim, const Touching& touching, const RimFriction& friction,
                                 const VectorXd& w) {
-  ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.share, friction.direction, {}};
+  ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.excess, friction.direction, {}};
   for (const auto& arc : touching.arcs) contour.ends.insert(contour.ends.end(), {arc.from, arc.to});
   return contour;
 }
 
-/// Brings the displacement of the elements, whose short waves are those of springs that also pull, to that under the
-/// load of contact.
+/// Corrects the displacement of the elements, where short waves are those of linear springs, to that under the contact
+/// load.
 void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, VectorXd& displacement) {
   if (rim.is_empty()) return;
   const Index s = rim.n - rim.n_long, s_t = rim.n_shears - rim.n_long_shears;
@@ -96,8 +98,8 @@ void correct(const ContactLoad& load, const ShortWaves& rim, double modulus, Vec
       rows.middleCols(rim.n_long, s) * (p_s - modulus * w_s) + rows.rightCols(s_t) * tau_s;
 }
 
-/// Waves of the disc's displacement along the rim against the sheet, (n_shears).
-/// @param along Long ones, with the disc rigid.
+/// Waves of the tangential displacement of the disc relative to the sheet, (n_shears).
+/// @param along The long ones, for a rigid disc.
 VectorXd slip_of(const ContactLoad& load, const ShortWaves& rim, const VectorXd& along) {
   VectorXd slip(rim.n_shears);
   slip.head(along.size()) = along;
@@ -106,8 +108,8 @@ VectorXd slip_of(const ContactLoad& load, const ShortWaves& rim, const VectorXd&
     const auto rows = rim.D.bottomRows(s_t);
     slip.tail(s_t) = -(rows.leftCols(rim.n) * load.pressure + rows.rightCols(rim.n_shears) * load.shear);
   }
-  if (rim.yield.size() > 0)
-    slip -= rim.yield_by_shear.transpose() * load.pressure + rim.give_way.cwiseProduct(load.shear);
+  if (rim.disk_compliance.size() > 0)
+    slip -= rim.disk_by_shear.transpose() * load.pressure + rim.disk_tangential.cwiseProduct(load.shear);
   return slip;
 }
 
@@ -144,14 +146,14 @@ ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
           contour_of(half, of_half, rim_friction(half, of_half, w_half), w_half)};
 }
 
-VectorXd wave_amounts(const ContactLoad& load, const ShortWaves& rim, double modulus) {
+VectorXd wave_coefficients(const ContactLoad& load, const ShortWaves& rim, double modulus) {
   VectorXd w = load.w.head(rim.n_long);
   if (!rim.is_empty())
     w += rim.G.transpose() * (load.pressure - modulus * load.w).tail(rim.n - rim.n_long) +
          rim.E * load.shear.tail(rim.n_shears - rim.n_long_shears);
-  VectorXd amounts(rim.n_carried());
-  amounts << load.pressure.head(rim.n_long) - modulus * w, load.shear.head(rim.n_long_shears);
-  return amounts;
+  VectorXd coefficients(rim.n_carried());
+  coefficients << load.pressure.head(rim.n_long) - modulus * w, load.shear.head(rim.n_long_shears);
+  return coefficients;
 }
 
 VectorXd LoadedRim::places() const {
@@ -184,7 +186,7 @@ std::shared_ptr<const TractionWaves> LoadedRim::traction_waves(const Tractions& 
   return std::make_shared<const TractionWaves>(rim.waves, tractions);
 }
 
-std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& amounts,
+std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& coefficients,
                                                   const std::vector<ContactLoad>& contacts) {
   std::vector<std::optional<LoadedRim>> result;
   Index row = 0;
@@ -195,9 +197,9 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     if (!rim.has_closed_form()) continue;
     const bool in_contact = i < std::ssize(contacts);
     loaded = LoadedRim{rim, {}, in_contact, {}, {}, {}};
-    const KnownLoads known = known_loads(plate, rim.hole, amounts);
+    const KnownLoads known = known_loads(plate, rim.hole, coefficients);
     for (const auto& rows : plate.wave_rows | std::views::take(plate.peaks_alone ? 1 : plate.wave_rows.size())) {
-      VectorXd displacement = rows.middleRows(first, rim.size()) * amounts / rim.area;
+      VectorXd displacement = rows.middleRows(first, rim.size()) * coefficients / rim.area;
       if (in_contact) correct(contacts[i], *plate.short_waves[i], rim.modulus, displacement);
       const Tractions tractions =
           in_contact ? of_contact(contacts[i], contacts[i].all)
@@ -213,7 +215,7 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
             slip_of(contacts[i], *plate.short_waves[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
       }
       constexpr double of_root = 1.5;
-      if (plate.short_waves[i]->yield.size() > 0 && contacts[i].all.mu > 0) loaded->beyond_half = of_root;
+      if (plate.short_waves[i]->disk_compliance.size() > 0 && contacts[i].all.mu > 0) loaded->beyond_half = of_root;
       loaded->by_half = of_contact(contacts[i], contacts[i].half);
     }
     if (!in_contact && rim.modulus > 0)

@@ -12,9 +12,9 @@
 
 namespace fastjoint::stage3 {
 
-/// Displacements of a rim in its long waves and the tractions on it, of one degree.
+/// Long waves of the displacement of a rim, and the tractions on it, at one degree.
 struct RimWaves {
-  VectorXd displacement;  ///< of the disc against the sheet, normal, then tangential, (size + n_shears), length
+  VectorXd displacement;  ///< of the disc relative to the sheet: normal, then tangential, (size + n_shears), length
   Tractions tractions;
 };
 
@@ -23,57 +23,57 @@ struct LoadedRim {
   formats::WaveRim rim;
   std::vector<RimWaves> degrees;  ///< the joint's, then the one below if there is one
   bool in_contact;
-  std::vector<double> kinks;  ///< places where tractions have kinks or jumps, radians
-  // In contact: tractions and their kinks by waves of half the order.
+  std::vector<double> kinks;  ///< angles at which tractions have kinks or jumps, radians
+  // Only in contact: tractions and their kinks by waves up to half the order.
   Tractions by_half{};
   std::vector<double> kinks_by_half{};
-  /// What waves beyond the last may change the peak by, over what the upper half of them does: with friction on an
-  /// elastic disk the peak is that of a root at the end of contact, and comes as N^-1/2.
+  /// Estimated change of the peak by all further waves over that by the upper half of the waves. With friction on an
+  /// elastic disk the stress behaves like a square root at the end of contact, and the peak converges as N^-1/2.
   double beyond_half = 0.5;
-  VectorXd
-      slip{};  ///< all waves of the disc's displacement along the rim against the sheet, length; none without friction
-  rim::Harmonics all{1};  ///< of which it has the shears
+  VectorXd slip{};        ///< all waves of the tangential displacement of the disc relative to the sheet, length; none
+                          ///< without friction
+  rim::Harmonics all{1};  ///< its shears are the waves of `slip`
 
-  /// Part of the rim on which friction acts against the slip, degrees.
+  /// Angle of the rim on which friction acts against the slip, degrees.
   [[nodiscard]] double against_slip() const;
 
-  /// Places one degree apart around the rim, or from end to end of a part of one in equal steps of about that, degrees.
+  /// Angles one degree apart around the rim, or in about such steps from end to end of a part of a rim, degrees.
   [[nodiscard]] VectorXd places() const;
-  /// Stresses of the sheet at places in degrees: sigma_rr, sigma_tt, sigma_rt, (n, 3).
+  /// Stresses of the sheet at angles in degrees: sigma_rr, sigma_tt, sigma_rt, (n, 3).
   [[nodiscard]] MatrixXd stresses(const VectorXd& places) const;
   [[nodiscard]] std::shared_ptr<const TractionWaves> traction_waves(const Tractions& tractions) const;
-  /// Hoop stress by the displacements of one degree up to an order.
+  /// Hoop stress from the displacements of one degree up to an order.
   [[nodiscard]] HoopStress hoop(Index degree, const rim::Harmonics& shape,
                                 std::shared_ptr<const TractionWaves> tractions) const;
 };
 
-/// What a rim of contact of a plate bears.
+/// Displacement and tractions of a rim of contact.
 struct ContactLoad {
-  VectorXd w;           ///< (n) all waves of the disc's normal displacement against the sheet, length
+  VectorXd w;           ///< (n) all waves of the disc's normal displacement relative to the sheet, length
   VectorXd pressure;    ///< (n) waves of the pressure on the sheet, stress
   VectorXd shear;       ///< waves of the shear on it, stress; 0 without friction
-  double gap, modulus;  ///< radial, length; pressure per overlap of the rims, force / length^3
-  /// The tractions as functions of the angle, by waves of the displacement up to an order, which is that of `shape`.
+  double gap, modulus;  ///< radial, length; pressure per unit of overlap of the rims, force / length^3
+  /// The tractions as functions of the angle, from the waves of the displacement up to the order of `shape`.
   struct Contour {
     rim::Harmonics shape;
-    VectorXd w;                ///< without what an elastic disk yields, length
-    double mu;                 ///< shear over pressure; less than the fastener's where the rim sticks
-    double direction;          ///< of the force of the pressure on the sheet, radians
-    std::vector<double> ends;  ///< of the arcs on which they touch, radians
+    VectorXd w;                ///< without the compliance of an elastic disk, length
+    double mu;                 ///< shear over pressure; less than that of the fastener if the rim sticks
+    double direction;          ///< of the resultant of the pressure on the sheet, radians
+    std::vector<double> ends;  ///< of the arcs of contact, radians
   };
-  Contour all, half;  ///< by all waves, and by those of half the order, to tell what those beyond may do
+  Contour all, half;  ///< from all waves, and from those up to half the order, to estimate the effect of further ones
 };
-/// @param w Waves of the displacement, (n), length.
+/// Contact for given waves w of the displacement, (n), length.
 [[nodiscard]] ContactLoad contact_load(const RimProblem& rim, const VectorXd& w);
 
-/// Amounts of the waves that the elements carry under a load of contact: of pressures those that are added to what the
-/// springs of the base bear, then of shears, (n_carried), stress.
-[[nodiscard]] VectorXd wave_amounts(const ContactLoad& load, const ShortWaves& rim, double modulus);
+/// Coefficients of the waves of the elements under a contact load: pressures in excess of that of the springs in S,
+/// then shears, (n_carried), stress.
+[[nodiscard]] VectorXd wave_coefficients(const ContactLoad& load, const ShortWaves& rim, double modulus);
 
-/// Rims of a plate with waves and a closed form, in the order of PlateModel::waves; none where there is no closed form.
-/// @param amounts  Of the file's unit cases, (file_unit_cases).
-/// @param contacts Of the rims of contact.
-[[nodiscard]] std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& amounts,
+/// Rims of a plate in the order of PlateModel::waves; none for rims without a closed form.
+/// @param coefficients  Of the file's unit cases, (file_unit_cases).
+/// @param contacts One for each rim of contact.
+[[nodiscard]] std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& coefficients,
                                                                 const std::vector<ContactLoad>& contacts);
 
 }  // namespace fastjoint::stage3

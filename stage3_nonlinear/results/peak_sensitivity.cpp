@@ -15,8 +15,8 @@ namespace {
 struct PeakHole {
   Index plate, rim;                   ///< rim among PlateModel::waves
   double angle;                       ///< of the peak, radians
-  bool is_loaded;                     ///< else any place may become the peak
-  std::optional<std::size_t> kink{};  ///< LoadedRim::kinks that it is on
+  bool is_loaded;                     ///< else any angle may become that of the peak
+  std::optional<std::size_t> kink{};  ///< index in LoadedRim::kinks if the peak is on a kink
 };
 
 std::vector<PeakHole> holes_with_peaks(const JointModel& joint, const JointState& state) {
@@ -33,8 +33,8 @@ std::vector<PeakHole> holes_with_peaks(const JointModel& joint, const JointState
   return holes;
 }
 
-/// Hoop stress at the place of a peak as the peak is found there: on a kink, which the place then moves with, or on the
-/// parabola through the nearest three of HoopStress::values.
+/// Hoop stress at the angle of a peak by the method of the peak search: at a kink, with which the angle moves, or on
+/// the parabola through the nearest three of HoopStress::values.
 double at_place(const HoopStress& hoop, const PeakHole& peak, const std::vector<double>& kinks) {
   const auto& values = hoop.values();
   if (peak.kink && *peak.kink < kinks.size()) return hoop.at(kinks[*peak.kink]);
@@ -47,7 +47,7 @@ double at_place(const HoopStress& hoop, const PeakHole& peak, const std::vector<
   return at + x * (after - before) / 2 + x * x * (after - 2 * at + before) / 2;
 }
 
-/// States of a joint beside one, and their hoop stresses at fixed places.
+/// States of a joint near a given one, and their hoop stresses at fixed angles.
 class NearbyStates {
  public:
   NearbyStates(const JointModel& joint, const JointNumbers& numbers, const StateSlopes& slopes,
@@ -71,19 +71,19 @@ class NearbyStates {
     }
   }
 
-  /// Change of a number that changes the state by about a part of it; 0 if it does nothing.
+  /// Change of a parameter that changes the state by about a given fraction; 0 if the state does not depend on it.
   [[nodiscard]] double change_for(Index column, double part) const {
-    const auto share = [](const auto& change, const VectorXd& all) {
+    const auto ratio = [](const auto& change, const VectorXd& all) {
       const double largest = all.lpNorm<Eigen::Infinity>();
       return largest > 0 ? change.template lpNorm<Eigen::Infinity>() / largest : 0;
     };
-    const double does =
-        std::max({share(slopes_.F.col(column), state_.F), share(slopes_.delta.col(column), state_.delta),
-                  share(slopes_.Lambda.col(column), state_.Lambda), share(slopes_.load.col(column), load_)});
-    return does > 0 ? part / does : 0;
+    const double rate =
+        std::max({ratio(slopes_.F.col(column), state_.F), ratio(slopes_.delta.col(column), state_.delta),
+                  ratio(slopes_.Lambda.col(column), state_.Lambda), ratio(slopes_.load.col(column), load_)});
+    return rate > 0 ? part / rate : 0;
   }
 
-  /// Hoop stresses after a change of a number, (holes).
+  /// Hoop stresses after a change of a parameter, (holes).
   [[nodiscard]] VectorXd hoop_stresses(Index column, double change) const {
     const auto plates = plates_after(column, change);
     VectorXd result(std::ssize(holes_));
@@ -96,7 +96,7 @@ class NearbyStates {
   }
 
  private:
-  /// The plates after a change of a number: their loads and rims.
+  /// Loads and rims of the plates after a change of a parameter.
   [[nodiscard]] std::vector<PlateState> plates_after(Index column, double change) const {
     std::vector<ContactLoad> contacts;
     for (Index i = 0; i < std::ssize(equations_.rims); ++i) contacts.push_back(contact_after(i, column, change));
@@ -104,7 +104,7 @@ class NearbyStates {
                        load_ + change * slopes_.load.col(column), state_.Lambda + change * slopes_.Lambda.col(column));
   }
 
-  /// A rim of contact: all its waves change by their derivatives.
+  /// A rim of contact after a change of a parameter: all its waves change by their derivatives.
   [[nodiscard]] ContactLoad contact_after(Index i, Index column, double change) const {
     const RimProblem& rim = *equations_.rims[i];
     const RimSolution& solution = rim.solve(equations_.of_rim(point_.c(), i));

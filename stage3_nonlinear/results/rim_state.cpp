@@ -17,20 +17,20 @@ namespace {
 using Eigen::Index;
 using Eigen::VectorXd;
 
-/// Error where one degree alone says nothing.
+/// Error if there is only one degree.
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// Half width of what is left out around a jump of friction, degrees: the point itself and its neighbours.
-constexpr double left_out = 7.5;
+/// Half width of the excluded range around a jump of friction, degrees: the point itself and its neighbours.
+constexpr double excluded = 7.5;
 
 double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 
-/// Friction whose peak is below 1 % of the bearing stress does not jump: that of the other axis must not hide the peak
-/// beside the hole under a force almost along one axis. The cosine distribution's peak stress over F / (d t) is twice
-/// its resultant over F.
-constexpr double hardly_jumps = 0.01 / 2;
+/// Minimum friction over bearing force of a jump: friction with a peak below 1 % of the bearing stress is ignored, so
+/// that the small component along one axis does not exclude the peak of a force almost along the other. The peak stress
+/// of the cosine distribution over F / (d t) is twice its resultant over F.
+constexpr double min_jump = 0.01 / 2;
 
-/// Places, degrees, at which friction jumps that has a case for each side: at the bearing direction along either axis.
+/// Angles, degrees, at which friction with a case for each side jumps: the bearing direction along either axis.
 std::vector<double> jumps_of_sides(const Eigen::Vector2d& friction) {
   std::vector<double> jumps;
   for (const int axis : {0, 1})
@@ -40,7 +40,7 @@ std::vector<double> jumps_of_sides(const Eigen::Vector2d& friction) {
 
 /// Pressure at points of a rim.
 struct RimPressure {
-  VectorXd angle;     ///< (n) equal steps all around or from end to end, degrees
+  VectorXd angle;     ///< (n) in equal steps all around or from end to end, degrees
   VectorXd pressure;  ///< (n) stress
   bool is_whole;
 
@@ -53,14 +53,14 @@ struct RimPressure {
     pressure = angle.unaryExpr([&](double at) { return rim.degrees[0].tractions(at * rim::degree).x(); });
   }
 
-  /// Part of all pressure, by amount, on the half that bears under a force.
-  [[nodiscard]] double bearing_share(const Eigen::Vector2d& force) const {
+  /// Fraction of the absolute pressure on the half that bears under a force.
+  [[nodiscard]] double bearing_fraction(const Eigen::Vector2d& force) const {
     const Eigen::ArrayXd at = angle.array() * rim::degree;
     const auto bears = force[0] * at.cos() + force[1] * at.sin() > 0;
     return bears.select(pressure.array().abs(), 0).sum() / pressure.lpNorm<1>();
   }
 
-  /// Force on the rim along an axis by the pressure around a whole circle; NaN on part of a circle.
+  /// Force on the rim along an axis by the pressure around a whole circle; NaN on a part of a circle.
   /// @param area d t
   [[nodiscard]] double force(int axis, double area) const {
     if (!is_whole) return std::nan("");
@@ -69,11 +69,11 @@ struct RimPressure {
   }
 };
 
-/// Places, degrees, at which friction jumps that follows the pressure of contact: in the direction of its force, and
-/// opposite if there is pressure too.
+/// Angles, degrees, at which friction of contact jumps: the direction of the bearing force, and the opposite one if it
+/// has pressure too.
 std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
                                      const LoadedRim& rim) {
-  if (!(friction.norm() > hardly_jumps * bearing.norm())) return {};
+  if (!(friction.norm() > min_jump * bearing.norm())) return {};
   const double direction = std::atan2(bearing.y(), bearing.x()) / rim::degree;
   const auto& tractions = rim.degrees[0].tractions;
   const double there = tractions(direction * rim::degree).x(),
@@ -84,10 +84,10 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
 /// Peak of the hoop stress around a rim.
 class PeakSearch {
  public:
-  /// @param jumps Places at which friction jumps, degrees: close to them is no peak.
+  /// @param jumps Angles at which friction jumps, degrees; points close to them are excluded.
   PeakSearch(const LoadedRim& rim, const std::vector<double>& jumps) : rim_(rim), jumps_(jumps) {}
 
-  /// Sets the peak, its place and its error; nothing if jumps leave no place for one.
+  /// Sets the peak, its angle and its error; nothing if all points are excluded.
   void find(RimState& state) const {
     const auto tractions = rim_.traction_waves(rim_.degrees[0].tractions);
     const HoopStress hoop = rim_.hoop(0, rim_.rim.waves, tractions);
@@ -104,8 +104,8 @@ class PeakSearch {
     double value, angle;  ///< radians
   };
 
-  /// Largest of all values at the points of HoopStress and at kinks of the tractions, at the top of the parabola
-  /// through it and its neighbours if no kink is near.
+  /// Largest of all values at the points of HoopStress and at kinks of the tractions; the maximum of the parabola
+  /// through the largest and its neighbours if no kink is near.
   [[nodiscard]] std::optional<Peak> top(const HoopStress& hoop, const std::vector<double>& kinks) const {
     const auto &angle = hoop.angles(), &value = hoop.values();
     const Index n = angle.size();
@@ -117,7 +117,7 @@ class PeakSearch {
     const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
     const bool near_kink =
         std::ranges::any_of(kinks, [&](double kink) { return std::abs(rim::wrapped(kink - peak.angle)) < 2 * step; });
-    const bool is_top = peak.value >= std::max(before, after);  // and not where a jump begins or the model ends
+    const bool is_top = peak.value >= std::max(before, after);  // false next to an excluded point
     if (const double curvature = before - 2 * peak.value + after; curvature < 0 && is_top && !near_kink) {
       const double shift = (before - after) / (2 * curvature);
       peak = {peak.value - curvature * shift * shift / 2, peak.angle + shift * step};
@@ -128,19 +128,19 @@ class PeakSearch {
     return peak;
   }
 
-  /// True on the part of the rim that the model has, away from jumps of friction.
+  /// True on the modelled part of the rim, away from jumps of friction.
   [[nodiscard]] bool is_allowed(double angle) const {
     const auto& waves = rim_.rim.waves;
     constexpr double rounding = 1e-9;
     if (!waves.is_whole() && rim::wrapped(angle, waves.start - rounding) > waves.start + waves.sweep + rounding)
       return false;
     return std::ranges::none_of(jumps_,
-                                [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= left_out; });
+                                [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= excluded; });
   }
 
-  /// Twice the change to the degree below, what the changes by the last two pairs of orders leave for all orders to
-  /// come, and in contact a share of the change of the peak by the waves beyond half the order (docs/theory.md,
-  /// section 11.4).
+  /// Sum of twice the change from the degree below, the extrapolated change by all further orders, from that by the
+  /// last two pairs of orders, and in contact a fraction of the change of the peak by the waves beyond half the order
+  /// (docs/theory.md, section 11.4).
   [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak,
                              const std::shared_ptr<const TractionWaves>& tractions) const {
     if (rim_.degrees.size() < 2) return unknown;
@@ -150,10 +150,10 @@ class PeakSearch {
       shape.highest = std::max(all.highest - fewer, 1);
       return rim_.hoop(0, shape, tractions);
     };
-    const HoopStress less = up_to(2), least = up_to(4);
+    const HoopStress without_2 = up_to(2), without_4 = up_to(4);
     const double by_degree =
         change(hoop, rim_.hoop(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
-    const double last = change(hoop, less, peak.angle), before = change(less, least, peak.angle);
+    const double last = change(hoop, without_2, peak.angle), before = change(without_2, without_4, peak.angle);
     constexpr double fastest = 0.1, slowest = 0.8;  // fall of the changes from one pair of orders to the next
     const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
     double by_waves = 0;
@@ -163,12 +163,12 @@ class PeakSearch {
     return 2 * by_degree + last * fall / (1 - fall) + rim_.beyond_half * by_waves;
   }
 
-  /// Largest difference of two hoop stresses within 45 degrees of a place.
-  [[nodiscard]] double change(const HoopStress& a, const HoopStress& b, double place) const {
+  /// Largest difference of two hoop stresses within 45 degrees of an angle.
+  [[nodiscard]] double change(const HoopStress& a, const HoopStress& b, double at) const {
     constexpr double around = rim::full_turn / 8;
     double largest = 0;
     for (Index i = 0; i < a.angles().size(); ++i)
-      if (is_allowed(a.angles()[i]) && std::abs(rim::wrapped(a.angles()[i] - place)) <= around)
+      if (is_allowed(a.angles()[i]) && std::abs(rim::wrapped(a.angles()[i] - at)) <= around)
         largest = std::max(largest, std::abs(a.values()[i] - b.values()[i]));
     return largest;
   }
@@ -177,12 +177,13 @@ class PeakSearch {
   const std::vector<double>& jumps_;
 };
 
-/// @param forces       Over all sections of the plate, beside them those at the degree below if there is one, (s, 1 or
-/// 2).
+/// Sets the bypass load, its error and the concentrations.
+/// @param forces       Those of all sections of the plate; in a second column those at the degree below, if there is
+/// one.
 /// @param T            Force of the fastener along x, friction included.
-/// @param largest      Force anywhere on the plate.
-/// @param energy_error Relative error of the plate's fields in the energy norm, which that of a resultant of stresses
-///                     follows.
+/// @param largest      Largest force on the plate.
+/// @param energy_error Relative error of the plate's fields in the energy norm; resultants of stresses have about the
+///                     same.
 void read_sections(const formats::PlateStresses& a, const std::string& hole, const Eigen::MatrixXd& forces, double T,
                    double largest, double energy_error, RimState& state) {
   std::optional<Index> plus, minus;
@@ -192,8 +193,8 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
     if (a.section_side[i] == "-x") minus = i;
   }
   if (!plus && !minus) return;
-  // Tension is `right` on the side of +x and `left` on that of -x; T along +x takes left - right. It bears on the side
-  // that it pushes to.
+  // The tension is `right` on the side of +x and `left` on that of -x; T along +x is left - right and bears on the side
+  // of +x.
   const auto bypass = [&](const VectorXd& N) {
     const double right = plus ? N[*plus] : N[*minus] - T;
     const double left = minus ? N[*minus] : N[*plus] + T;
@@ -207,44 +208,44 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
-  // Discs pressed in make stresses whose resultants are errors alone.
+  // Interference makes stresses without resultants, so that these are errors only.
   if (forces.cols() > 1 && std::abs(force[loaded]) < state.bypass_error) return;
   state.in_tension = force[loaded] > 0;
   state.gross_concentration = state.peak_hoop * a.gross_area[loaded] / std::abs(force[loaded]);
   state.net_concentration = state.peak_hoop * a.net_area[loaded] / std::abs(force[loaded]);
 }
 
-/// Sets the peak, and what the pressure around the rim tells.
-/// @param axes Directions in which its disc moves.
+/// Sets the peak, and the values that follow from the pressure around the rim.
+/// @param axes Directions of its disc.
 void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
               const std::vector<int>& axes, double largest, const Eigen::RowVector2d& bearing_area, RimState& state) {
-  const Eigen::Vector2d jumps = (friction.array().abs() > hardly_jumps * bearing.norm()).select(friction, 0);
+  const Eigen::Vector2d jumps = (friction.array().abs() > min_jump * bearing.norm()).select(friction, 0);
   state.by_components = !rim.in_contact && jumps[0] != 0 && jumps[1] != 0;
   const auto places = rim.in_contact ? jumps_of_contact(bearing, friction, rim) : jumps_of_sides(jumps);
   PeakSearch(rim, places).find(state);
   const RimPressure around(rim);
   const double highest = around.pressure.lpNorm<Eigen::Infinity>();
-  constexpr double hardly = 0.05;  // all around it is about half, on an arc that bears all
+  constexpr double max_fraction = 0.05;  // springs all around have about half on the bearing side, those on it all
   if (!rim.in_contact && highest > 0) {
-    state.pulls = bearing.norm() > 1e-9 * largest && around.bearing_share(bearing) < hardly;
+    state.pulls = bearing.norm() > 1e-9 * largest && around.bearing_fraction(bearing) < max_fraction;
     const auto touched = (around.pressure.array().abs() > 1e-9 * highest).count();
-    state.filled = double(touched) > (1 - hardly) * double(around.pressure.size());
+    state.filled = double(touched) > (1 - max_fraction) * double(around.pressure.size());
     if (state.filled) state.pull = std::max(0.0, -around.pressure.minCoeff());
   }
   if (axes.size() == 1) state.across = around.force(1 - axes[0], bearing_area[1 - axes[0]]);
-  state.across_share = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
+  state.across_ratio = std::abs(state.across) / std::max(bearing.norm(), 0.01 * largest);
 }
 
 }  // namespace
 
-std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& amounts,
-                                 const LoadedDiscs& discs, double least,
+std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& coefficients,
+                                 const LoadedDiscs& discs, double scale,
                                  const std::vector<std::optional<LoadedRim>>& rims) {
   std::vector<RimState> states;
   Eigen::MatrixXd forces(a.section_force[level].rows(), level > 0 ? 2 : 1);
-  for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * amounts;
+  for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * coefficients;
   const double largest =
-      std::max({forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), least});
+      std::max({forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), scale});
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
     state.peak_error = unknown;

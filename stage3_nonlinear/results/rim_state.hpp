@@ -13,19 +13,20 @@
 
 namespace fastjoint::stage3 {
 
-/// One hole of a plate at one increment: what RESULT.h5 holds, and what only the summary and warnings need.
+/// One hole of a plate at one increment: the values in RESULT.h5, and those for the summary and warnings only.
 struct RimState : formats::RimValues {
-  /// The springs pull instead of pushing: they act on the side that does not bear.
+  /// The springs are in tension: they are on the side that does not bear.
   bool pulls = false;
   bool filled = false;  ///< springs act all around
-  double pull = 0;      ///< largest tension of springs all around; 0 of those on an arc, stress
-  /// Force that holds the disc across its one direction: the integral of the pressure around a whole circle. NaN of a
-  /// part of one, whose disc a line of symmetry holds, and of discs that move along x and y.
+  double pull = 0;      ///< largest tension of springs all around; 0 for springs on an arc, stress
+  /// Reaction of a disc with one direction along the other axis, where its displacement is fixed: the integral of the
+  /// pressure around a whole circle. NaN on a part of a circle, whose disc is fixed by symmetry, and for discs that
+  /// move along x and y.
   double across = std::numeric_limits<double>::quiet_NaN();
-  double across_share = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
-  /// Friction of both components acts: its stresses are not those of friction along the force.
+  double across_ratio = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
+  /// Friction acts along both axes: its stresses are not those of friction along the force.
   bool by_components = false;
-  bool in_tension = false;  ///< the section of the concentrations
+  bool in_tension = false;  ///< the section used for the concentrations is in tension
 };
 
 /// Forces of the fasteners on the m discs of a plate.
@@ -37,21 +38,21 @@ struct LoadedDiscs {
 
 /// States of all holes of a plate.
 ///
-/// A concentration is 0 where the force of its section is not known: within rounding, or within the error of the bypass
-/// load. The error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points
-/// within 7.5 degrees of a jump of friction are no candidates for the peak if the jump is more than 1 % of the bearing
-/// stress (11.5). The bypass load is the section force along x on the side of the hole that bears; its error is its
-/// change from the degree below, but no less than the square root of the relative error of S times the largest force on
-/// the plate (11.6).
-/// @param level    Of `a`, that of the joint's degree; the one below, if there is one, tells the errors.
-/// @param amounts  Of the unit cases, (n_cases).
-/// @param least    Forces are rounding beside this one at least: that against which the joint balances.
-/// @param rims     Those with waves and a closed form; other holes have no peak: 0 with an infinite error.
-[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& amounts,
-                                               const LoadedDiscs& discs, double least,
+/// A concentration is 0 if the force of its section is within rounding or within the error of the bypass load. The
+/// error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points within 7.5 degrees
+/// of a jump of friction are excluded from the search for the peak if the jump is more than 1 % of the bearing stress
+/// (11.5). The bypass load is the section force along x on the bearing side of the hole; its error is its change from
+/// the degree below, but at least the square root of the relative error of S times the largest force on the plate
+/// (11.6).
+/// @param level    Index in `a` of the joint's degree; the one below, if there is one, gives the errors.
+/// @param coefficients  Of the unit cases, (n_cases).
+/// @param scale    Reference force of the joint's residuals, for rounding.
+/// @param rims     Rims with waves and a closed form; other holes have no peak: 0 with an infinite error.
+[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& coefficients,
+                                               const LoadedDiscs& discs, double scale,
                                                const std::vector<std::optional<LoadedRim>>& rims);
 
-/// Number of sections across x that the plate has beside a hole.
+/// Number of sections normal to x of the plate next to a hole.
 [[nodiscard]] int n_sections(const formats::PlateStresses& a, const std::string& hole);
 
 /// The holes of a plate; their values at every increment are left to the caller.

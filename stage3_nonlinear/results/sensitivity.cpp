@@ -4,19 +4,19 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Changes of the load cases with all numbers, (l, columns).
+/// Derivatives of the load cases by all parameters, (l, columns).
 MatrixXd load_changes(const JointNumbers& numbers, const SolvedPoint& point) {
   const JointEquations& equations = point.equations();
   const auto& cases = equations.system->cases;
   MatrixXd changes = MatrixXd::Zero(std::ssize(cases), numbers.n_derivatives());
   changes.col(0) = equations.load_rates(point.load_factor());
-  const VectorXd acting = equations.load_acting(point.load_factor());
+  const VectorXd acting = equations.active_cases(point.load_factor());
   for (Index i = 0; i < std::ssize(cases); ++i)
     changes(i, numbers.of_load[cases[i].load]) = point.load_factor() * acting[i];
   return changes;
 }
 
-/// Forces of rigid fasteners by all numbers, (r, columns).
+/// Derivatives of the forces of rigid fasteners by all parameters, (r, columns).
 MatrixXd rigid_forces(const CondensedSystem& system, const MatrixXd& load) {
   MatrixXd q = system.Q * load;
   for (Index i = 0; i < q.cols(); ++i)
@@ -25,7 +25,7 @@ MatrixXd rigid_forces(const CondensedSystem& system, const MatrixXd& load) {
   return q;
 }
 
-/// What numbers do to the interfaces at fixed c: the parts of StateSlopes, and the rise of the residual.
+/// Adds the derivatives of the interfaces at fixed c to StateSlopes, and returns those of the residual.
 MatrixXd add_changes(const JointNumbers& numbers, const SolvedPoint& point, StateSlopes& slopes) {
   const CondensedSystem& system = *point.equations().system;
   MatrixXd residual = -rigid_forces(system, slopes.load);
@@ -62,7 +62,7 @@ StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point) 
 }
 
 Sensitivity sensitivity(const JointNumbers& numbers, const StateSlopes& slopes, const SolvedPoint& point) {
-  const MatrixXd dF = point.of_amounts({slopes.F, {}, slopes.none, slopes.no_row});
+  const MatrixXd dF = point.of_magnitudes({slopes.F, {}, slopes.none, slopes.no_row});
   Index column = 0;
   const auto next = [&](Index count) -> MatrixXd {
     column += count;

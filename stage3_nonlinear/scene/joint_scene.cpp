@@ -16,9 +16,9 @@ namespace {
 
 using input::Value;
 
-constexpr int most_increments = 100000;
-constexpr int most_iterations = 1000000;
-/// Rounding sets the lower end; a joint known to less than the upper end is not solved.
+constexpr int max_increments = 100000;
+constexpr int max_iterations = 1000000;
+/// The lower end is set by rounding; above the upper end a joint would not count as solved.
 constexpr input::Range tolerances{.low = 1e-14, .high = 1e-2};
 
 std::string where(const Value& value) { return fmt::format("{}: {}", value.file(), value.pointer()); }
@@ -29,7 +29,7 @@ std::string listed(const std::vector<Item>& items, std::string Item::*name) {
   return fmt::format("{}", fmt::join(items | std::views::transform(name), ", "));
 }
 
-/// Splits at the first colon: the names of holes may hold colons, those of plates may not.
+/// Reads "plate:name", split at the first colon: the names of holes may contain colons, those of plates may not.
 Reference read_reference(const Value& value, const JointScene& scene, const char* allowed) {
   const std::string text = value.text();
   const auto colon = text.find(':');
@@ -65,7 +65,7 @@ std::map<std::string, LawScene> read_laws(const Value& laws) {
   return result;
 }
 
-/// Doubts about the laws that fasteners have.
+/// Warnings about the laws of fasteners.
 std::vector<program::Warning> law_doubts(const Value& laws, const JointScene& scene) {
   std::set<std::string> used;
   for (const auto& fastener : scene.fasteners) used.insert(fastener.law.begin(), fastener.law.end());
@@ -76,7 +76,7 @@ std::vector<program::Warning> law_doubts(const Value& laws, const JointScene& sc
   return doubts;
 }
 
-/// A number for all holes, or {"plate": mu} where a plate left out has none.
+/// Reads a number for all holes, or {"plate": mu}, in which a missing plate has no friction.
 std::vector<double> read_friction(const Value& value, const std::vector<Reference>& between) {
   if (!value.is_object()) return std::vector<double>(between.size(), value.number(input::not_negative));
   std::vector<double> friction(between.size(), 0.0);
@@ -88,7 +88,7 @@ std::vector<double> read_friction(const Value& value, const std::vector<Referenc
   return friction;
 }
 
-/// One value for all of n shear planes or holes, or a list with one for each.
+/// Reads one value for all of n shear planes or holes, or a list with one for each.
 template <class Read>
 auto for_each_of(const Value& value, std::size_t n, Read read) {
   if (!value.is_array()) return std::vector(n, read(value));
@@ -97,12 +97,12 @@ auto for_each_of(const Value& value, std::size_t n, Read read) {
   return result;
 }
 
-/// Gaps, or the diameters that give them.
+/// Reads gaps, or the diameters from which they follow.
 void read_gaps(const Value& value, FastenerScene& fastener) {
   const auto gap = value.find("gap"), diameter = value.find("diameter"), of_holes = value.find("hole_diameter");
   if (const auto& given = gap ? gap : diameter; given && value.find("clearance"))
-    given->fail("given beside \"clearance\"", "one of them");
-  if (gap && diameter) diameter->fail("given beside \"gap\"", "one of them");
+    given->fail("given together with \"clearance\"", "one of them");
+  if (gap && diameter) diameter->fail("given together with \"gap\"", "one of them");
   if (of_holes && !diameter) of_holes->fail("given without \"diameter\"", "both, or \"gap\"");
   const std::size_t n = fastener.between.size();
   if (gap) fastener.gap = for_each_of(*gap, n, [](const Value& each) { return each.number(); });
@@ -137,9 +137,9 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   return fastener;
 }
 
-/// Reads all fasteners; ids stand once, and each hole has one fastener, which goes through each plate once.
+/// Reads all fasteners; ids are unique, and each hole has one fastener, which goes through each plate once.
 void read_fasteners(const Value& fasteners, JointScene& scene) {
-  std::set<std::string> ids, used, held;
+  std::set<std::string> ids, used, fastened;
   for (const auto& value : fasteners.items(1)) {
     const FastenerScene& fastener = scene.fasteners.emplace_back(read_fastener(value, scene));
     if (!ids.insert(fastener.id).second)
@@ -153,11 +153,11 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
         value.at("between").fail(fmt::format("goes through plate \"{}\" twice", hole.plate),
                                  "holes of different plates");
     }
-    held.merge(plates);
+    fastened.merge(plates);
   }
   for (const auto& plate : scene.plates)
-    if (!held.contains(plate.name))
-      refuse(plate.where, "no fastener holds this plate", "plates that a fastener names in \"between\"");
+    if (!fastened.contains(plate.name))
+      refuse(plate.where, "this plate has no fastener", "plates that a fastener names in \"between\"");
 }
 
 LoadScene read_load(const Value& value, const JointScene& scene) {
@@ -175,7 +175,7 @@ LoadScene read_load(const Value& value, const JointScene& scene) {
 void read_loads(const Value& loads, JointScene& scene) {
   for (const auto& item : loads.items(1)) {
     const LoadScene load = read_load(item, scene);
-    for (const auto& [before, amount, is_displacement] : scene.loads)
+    for (const auto& [before, value, is_displacement] : scene.loads)
       if (before.plate == load.external.plate && before.name == load.external.name)
         refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
                "one load per external boundary");
@@ -183,16 +183,16 @@ void read_loads(const Value& loads, JointScene& scene) {
   }
 }
 
-/// "events" gives none.
+/// Load factors of the increments; none for "events".
 std::vector<double> read_increments(const Value& value) {
   std::vector<double> factors;
   if (value.is_array()) {
-    for (const auto& item : value.items(1, most_increments)) factors.push_back(item.number());
+    for (const auto& item : value.items(1, max_increments)) factors.push_back(item.number());
   } else if (value.is_number()) {
-    const int n = value.integer(1, most_increments);
+    const int n = value.integer(1, max_increments);
     for (int i = 1; i <= n; ++i) factors.push_back(double(i) / n);
   } else if (!value.is_string() || value.text() != "events") {
-    value.not_allowed(fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", most_increments));
+    value.not_allowed(fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", max_increments));
   }
   return factors;
 }
@@ -212,7 +212,7 @@ SolverScene read_solver(const Value& value) {
   if (const auto method = value.find("method"))
     solver.method = static_cast<Method>(index_of(method_names, method->choice(method_names)) + 1);
   if (const auto tolerance = value.find("tolerance")) solver.tolerance = tolerance->number(tolerances);
-  if (const auto most = value.find("max_iterations")) solver.max_iterations = most->integer(1, most_iterations);
+  if (const auto given = value.find("max_iterations")) solver.max_iterations = given->integer(1, max_iterations);
   return solver;
 }
 

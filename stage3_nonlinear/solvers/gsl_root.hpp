@@ -27,13 +27,13 @@ inline auto view(const gsl_matrix* m) {
   return Strided(m->data, m->size1, m->size2, Eigen::OuterStride<>(m->tda));
 }
 
-/// The problem as GSL hands it to the functions below, and what they have thrown.
+/// The problem as GSL passes it to the functions below, and the exception that they have thrown.
 struct Payload {
   const RootProblem& problem;
-  std::exception_ptr thrown;  ///< for the caller to throw on: nothing may be thrown through C
+  std::exception_ptr thrown;  ///< rethrown by the caller: an exception must not pass through C
 };
 
-/// Sets `out` to a function of x, as GSL calls it; what the function throws is kept in the payload.
+/// Sets `out` to a function of x for GSL; an exception of the function is kept in the payload.
 template <class Function, class Out>
 int evaluate(Function RootProblem::*function, const gsl_vector* x, void* payload, Out* out) noexcept {
   auto& [problem, thrown] = *static_cast<Payload*>(payload);
@@ -55,7 +55,7 @@ inline int both(const gsl_vector* x, void* payload, gsl_vector* f, gsl_matrix* J
   return evaluated == GSL_SUCCESS ? jacobian(x, payload, J) : evaluated;
 }
 
-/// Solvers that use the Jacobian; another family has the same members.
+/// Solvers that use the Jacobian; another family would have the same members.
 template <const gsl_multiroot_fdfsolver_type*& type>
 struct WithDerivatives {
   using Handle = gsl_multiroot_fdfsolver;
@@ -83,7 +83,7 @@ Root solve(const RootProblem& problem, const Eigen::VectorXd& start, const RootO
   for (; status == GSL_SUCCESS; status = Family::iterate(solver.get())) {
     root.x = view(solver->x);
     root.residual = view(solver->f);
-    if (!root.residual.allFinite()) {  // at the start, where GSL does not ask
+    if (!root.residual.allFinite()) {  // at the start, which GSL does not check
       root.residual = infinite;
       root.ending = Ending::not_finite;
       break;
@@ -91,7 +91,7 @@ Root solve(const RootProblem& problem, const Eigen::VectorXd& start, const RootO
     if (options.report) options.report(root);
     root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance;
     if (root.converged || root.iterations == options.max_iterations) {
-      root.ending = root.converged ? Ending::converged : Ending::most_iterations;
+      root.ending = root.converged ? Ending::converged : Ending::max_iterations;
       break;
     }
     ++root.iterations;

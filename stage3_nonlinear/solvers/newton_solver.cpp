@@ -11,51 +11,52 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// The root so far, moved by `length` steps.
+/// The iterate moved by `length` times a step.
 Root moved(const RootProblem& problem, Root root, const VectorXd& step, double length) {
   root.x += length * step;
   root.residual = problem.residual(root.x);
   return root;
 }
 
-/// Moves as far as the residual's norm falls; none if it falls nowhere.
+/// Halves the step until the norm of the residual falls; none if it does not.
 std::optional<Root> move_by_norm(const RootProblem& problem, const VectorXd& step, const Root& root) {
-  constexpr int most_halvings = 40;
-  constexpr double least_fall = 1e-4;  // Armijo's share of what the tangent promises
+  constexpr int max_halvings = 40;
+  constexpr double min_decrease = 1e-4;  // Armijo's fraction of the decrease by the tangent
   const double norm = root.residual.norm();
   double length = 1;
-  for (int i = 0; i < most_halvings; ++i, length /= 2) {
+  for (int i = 0; i < max_halvings; ++i, length /= 2) {
     Root there = moved(problem, root, step, length);
-    if (there.residual.norm() <= (1 - least_fall * length) * norm) return there;
+    if (there.residual.norm() <= (1 - min_decrease * length) * norm) return there;
   }
   return std::nullopt;
 }
 
-/// Lengths of a step between which a convex function is least, by its slopes there.
+/// Bracket of the step length at which a convex function has its minimum, by its slopes.
 class Bracket {
  public:
   explicit Bracket(double before) : low_{0, before} {}
 
-  /// Tells whether the function is surely lower here than at 0: slopes only rise, so that it has fallen by at least
+  /// Tells whether the function is certainly lower here than at 0: slopes only rise, so that it has fallen by at least
   /// -slope * length up to `low` and risen by at most slope (length - low) since.
   [[nodiscard]] bool falls_to(double length, double slope) const {
     return slope <= 0 || slope * (length - low_.length) <= -0.5 * low_.slope * low_.length;
   }
 
-  /// Takes in a slope; returns the length to try next: out along the secant until the slope has turned, then in turn by
-  /// the secant through both ends, through the last two on the side that was hit (exact where that side is one linear
-  /// piece), and the mean of the lengths or of their logarithms.
+  /// Adds a slope and returns the length to try next: extrapolated along the secant until the slope has changed its
+  /// sign; then, in rotation, by the secant through both ends, by that through the last two lengths on the same side
+  /// (exact if that side is one linear piece), and as the mean of the lengths or of their logarithms.
   double next(double length, double slope) {
-    const bool behind = slope >= 0;
+    const bool past_minimum = slope >= 0;
     const Sample here{length, slope};
-    Sample& end = behind ? high_ : low_;
+    Sample& end = past_minimum ? high_ : low_;
     const Sample before = std::exchange(end, here);
-    constexpr double furthest = 9;  // times the last step out, also where the slope has not risen at all
+    constexpr double max_growth = 9;  // times the last increase, also if the slope has not risen at all
     if (!(high_.length > 0))
-      return length + (length - before.length) *
-                          (slope > before.slope ? std::clamp(slope / (before.slope - slope), 1.0, furthest) : furthest);
-    const bool again = behind == was_behind_ && before.length > 0;
-    was_behind_ = behind;
+      return length +
+             (length - before.length) *
+                 (slope > before.slope ? std::clamp(slope / (before.slope - slope), 1.0, max_growth) : max_growth);
+    const bool again = past_minimum == was_past_minimum_ && before.length > 0;
+    was_past_minimum_ = past_minimum;
     repeated_ = again ? repeated_ + 1 : 0;
     if (repeated_ % 3 != 2) {
       const double secant = repeated_ % 3 == 0 ? crossing(low_, high_) : crossing(before, here);
@@ -74,34 +75,34 @@ class Bracket {
   }
 
   Sample low_, high_{0, 0};  // high at 0: not known yet
-  bool was_behind_ = false;
+  bool was_past_minimum_ = false;
   int repeated_ = 0;
 };
 
-/// Moves to where the convex function surely is lower, and either its slope along the step has risen from `before` < 0
-/// to little, or as near as rounding lets it, or the residual is well below what it was; a whole step that brings it
-/// well below all before is taken as it is (docs/theory.md, section 8.4, shows that they may mix). None if there is no
-/// such place.
-/// @param unbounded Set where the function falls on and on: a convex function that still falls half as steeply so far
-/// out has no least value, and there is no root.
-std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, double before, double least_norm,
+/// Moves along the step to a length at which the convex function is certainly lower, and either its slope has risen
+/// from `before` < 0 to nearly zero, as far as rounding allows, or the norm of the residual has halved; a whole step
+/// that halves the smallest norm so far is accepted at once (docs/theory.md, section 8.4, shows that both may be
+/// mixed). None if there is no such length.
+/// @param unbounded Set if the convex function still falls half as steeply at a very large length: it then has no
+/// minimum, and there is no root.
+std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& step, double before, double min_norm,
                                   const Root& root, bool& unbounded) {
-  constexpr int most_tries = 100;
-  constexpr double little = 0.03;
-  constexpr double well = 0.5;
-  constexpr double far_out = 1e8;  // of the step
+  constexpr int max_tries = 100;
+  constexpr double max_slope = 0.03;  // of the slope before
+  constexpr double max_norm = 0.5;    // of the norm before
+  constexpr double max_length = 1e8;  // of the step
   const double norm_here = root.residual.norm();
   Bracket bracket(before);
   std::optional<Root> best;
   double best_slope = -before;
   double length = 1;
-  for (int i = 0; i < most_tries && best_slope > -little * before; ++i) {
+  for (int i = 0; i < max_tries && best_slope > -max_slope * before; ++i) {
     Root there = moved(problem, root, step, length);
     const double norm = there.residual.norm();
-    if (i == 0 && norm <= well * least_norm) return there;
+    if (i == 0 && norm <= max_norm * min_norm) return there;
     const double slope = problem.gradient(there.residual).dot(step);
-    if (norm <= well * norm_here && bracket.falls_to(length, slope)) return there;
-    unbounded = length > far_out && slope < 0.5 * before;
+    if (norm <= max_norm * norm_here && bracket.falls_to(length, slope)) return there;
+    unbounded = length > max_length && slope < 0.5 * before;
     if (unbounded) return std::nullopt;
     if (std::abs(slope) < best_slope && bracket.falls_to(length, slope)) {
       best = std::move(there);
@@ -112,10 +113,10 @@ std::optional<Root> move_downhill(const RootProblem& problem, const VectorXd& st
   return best;
 }
 
-std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double least_norm, const Root& root,
+std::optional<Root> move(const RootProblem& problem, const VectorXd& step, double min_norm, const Root& root,
                          bool& unbounded) {
   const double slope = problem.gradient ? problem.gradient(root.residual).dot(step) : 0;
-  auto there = slope < 0 ? move_downhill(problem, step, slope, least_norm, root, unbounded) : std::nullopt;
+  auto there = slope < 0 ? move_downhill(problem, step, slope, min_norm, root, unbounded) : std::nullopt;
   return there || unbounded ? there : move_by_norm(problem, step, root);
 }
 
@@ -131,15 +132,15 @@ const char* text_of(Ending ending) {
     case Ending::converged:
       return "converged";
     case Ending::no_progress:
-      return "no step leads on";
+      return "no step lowers the residual";
     case Ending::unbounded:
-      return "no solution: the joint gives way on and on";
+      return "no solution: the displacements grow without limit";
     case Ending::not_finite:
       return "a value is not finite";
-    case Ending::most_iterations:
+    case Ending::max_iterations:
       break;
   }
-  return "as many iterations as are allowed";
+  return "the limit of iterations is reached";
 }
 
 Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOptions& options) {
@@ -153,14 +154,14 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
     if (options.report) options.report(root);
   };
   report();
-  double least_norm = std::numeric_limits<double>::infinity();
+  double min_norm = std::numeric_limits<double>::infinity();
   while (!(root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) &&
          root.iterations < options.max_iterations) {
     ++root.iterations;
-    least_norm = std::min(least_norm, root.residual.norm());
+    min_norm = std::min(min_norm, root.residual.norm());
     const VectorXd step = newton_step(problem, root);
     bool unbounded = false;
-    auto there = step.allFinite() ? move(problem, step, least_norm, root, unbounded) : std::nullopt;
+    auto there = step.allFinite() ? move(problem, step, min_norm, root, unbounded) : std::nullopt;
     if (!there) {
       root.ending = !step.allFinite() ? Ending::not_finite : unbounded ? Ending::unbounded : Ending::no_progress;
       break;

@@ -18,16 +18,16 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 struct Uniform final : Distribution {
   double from, to;
   Uniform(double low, double high) : from(low), to(high) {}
-  [[nodiscard]] double at(double share) const override { return from + share * (to - from); }
+  [[nodiscard]] double at(double probability) const override { return from + probability * (to - from); }
 };
 
 struct Triangular final : Distribution {
   double from, mode, to;
   Triangular(double low, double peak, double high) : from(low), mode(peak), to(high) {}
-  [[nodiscard]] double at(double share) const override {
+  [[nodiscard]] double at(double probability) const override {
     const double width = to - from;
-    if (share * width <= mode - from) return from + std::sqrt(share * width * (mode - from));
-    return to - std::sqrt((1 - share) * width * (to - mode));
+    if (probability * width <= mode - from) return from + std::sqrt(probability * width * (mode - from));
+    return to - std::sqrt((1 - probability) * width * (to - mode));
   }
 };
 
@@ -35,15 +35,15 @@ struct Triangular final : Distribution {
 struct Normal final : Distribution {
   double mean, deviation;
   bool of_logarithm;
-  double below, within;  ///< shares of the whole distribution below and between the limits
+  double below, within;  ///< probabilities below and between the limits
   Normal(double m, double s, bool logarithm, double low, double high)
       : mean(m),
         deviation(s),
         of_logarithm(logarithm),
         below(gsl_cdf_ugaussian_P((low - m) / s)),
         within(gsl_cdf_ugaussian_P((high - m) / s) - below) {}
-  [[nodiscard]] double at(double share) const override {
-    const double x = mean + deviation * gsl_cdf_ugaussian_Pinv(below + share * within);
+  [[nodiscard]] double at(double probability) const override {
+    const double x = mean + deviation * gsl_cdf_ugaussian_Pinv(below + probability * within);
     return of_logarithm ? std::exp(x) : x;
   }
 };
@@ -55,8 +55,8 @@ struct Discrete final : Distribution {
     const double sum = sums.back();
     for (double& each : sums) each /= sum;
   }
-  [[nodiscard]] double at(double share) const override {
-    const auto found = std::upper_bound(sums.begin(), sums.end(), share) - sums.begin();
+  [[nodiscard]] double at(double probability) const override {
+    const auto found = std::upper_bound(sums.begin(), sums.end(), probability) - sums.begin();
     return values[std::min<std::size_t>(found, values.size() - 1)];
   }
   [[nodiscard]] double largest() const override { return std::ranges::max(values); }
@@ -81,14 +81,14 @@ std::shared_ptr<const Distribution> read_normal(const Value& value, bool of_loga
   }
   auto result = std::make_shared<Normal>(mean, deviation, of_logarithm, low, high);
   if (!(result->within > 1e-6))
-    value.fail("hardly anything between \"from\" and \"to\"", "limits that hold a millionth");
+    value.fail("too small a probability between \"from\" and \"to\"", "limits with a probability above 1e-6");
   return result;
 }
 
 std::shared_ptr<const Distribution> read_discrete(const Value& value) {
   value.only({"type", "values", "weights"});
-  constexpr std::size_t most = 1000000;
-  auto values = value.at("values").numbers(1, most, input::any_number);
+  constexpr std::size_t max_values = 1000000;
+  auto values = value.at("values").numbers(1, max_values, input::any_number);
   if (const auto weights = value.find("weights"))
     return std::make_shared<Discrete>(values, weights->numbers(values.size(), values.size(), input::positive));
   return discrete(std::move(values));

@@ -8,13 +8,13 @@
 
 namespace fastjoint::stage3 {
 
-/// Distribution of a number, by the value below which a share of all lies.
+/// Distribution of a number, by its quantiles.
 class Distribution {
  public:
   virtual ~Distribution() = default;
-  /// @param share In (0, 1).
-  [[nodiscard]] virtual double at(double share) const = 0;
-  /// The largest number, or one that hardly any exceeds.
+  /// Quantile of a probability in (0, 1).
+  [[nodiscard]] virtual double at(double probability) const = 0;
+  /// The largest number, or one that is exceeded with negligible probability.
   [[nodiscard]] virtual double largest() const { return at(1 - 1e-15); }
 };
 
@@ -22,7 +22,7 @@ class Distribution {
 /// be truncated by "from" and "to". Throws InputError.
 [[nodiscard]] std::shared_ptr<const Distribution> read_distribution(const input::Value& value);
 
-/// Values that come up equally often, in their order.
+/// Values of equal probability, in their order.
 [[nodiscard]] std::shared_ptr<const Distribution> discrete(std::vector<double> values);
 
 }  // namespace fastjoint::stage3

@@ -12,13 +12,13 @@ std::uint64_t word(std::uint64_t seed, std::uint64_t a, std::uint64_t b, std::ui
 
 }  // namespace
 
-double random_share(std::uint64_t seed, std::uint64_t sample, std::uint64_t variable) {
+double random_fraction(std::uint64_t seed, std::uint64_t sample, std::uint64_t variable) {
   constexpr double unit = 1.0 / (std::uint64_t{1} << 52U);
   return (double(word(seed, sample, variable, 0) >> 12U) + 0.5) * unit;
 }
 
 std::uint64_t random_place(std::uint64_t seed, std::uint64_t sample, std::uint64_t variable, std::uint64_t n) {
-  unsigned half = 1;  // bits of half a place
+  unsigned half = 1;  // bits of half an index
   while (half < 32 && (std::uint64_t{1} << (2 * half)) < n) ++half;
   const std::uint64_t mask = (std::uint64_t{1} << half) - 1;
   std::uint64_t place = sample;

@@ -36,10 +36,10 @@ struct Slice {
   bool is_whole = true;
 };
 
-/// "3/20"; all without the option.
+/// Reads a slice, "3/20"; the whole study without the option.
 Slice read_slice(const program::Arguments& arguments) {
   if (!arguments.flag("--slice")) return {};
-  if (arguments.flag("--merge")) throw InputError("--slice: given beside --merge; allowed: one of them");
+  if (arguments.flag("--merge")) throw InputError("--slice: given together with --merge; allowed: one of them");
   const std::string text = arguments.text("--slice");
   const char *at = text.data(), *end = text.data() + text.size();
   Slice slice{0, 0, false};
@@ -70,7 +70,7 @@ Study read_study(const program::Arguments& arguments) {
   return study;
 }
 
-/// The joint with friction wherever a sample may have some, which the condensed joint must know of.
+/// The joint with friction wherever a sample may have some, since the condensed joint has columns for it.
 JointScene with_all_friction(const Study& study, SampledJoint& sampled) {
   const std::vector<double> middle = middle_values(study.scene);
   JointScene all = sampled.scene(middle);
@@ -124,7 +124,7 @@ std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& stu
   return seed;
 }
 
-/// Warnings about the joint whose variables are in the middle, as a run of its own has them at the last increment.
+/// Warnings of a run of the joint with all variables in their middle, at the last increment.
 std::vector<program::Warning> middle_warnings(const JointModel& joint, const JointScene& scene,
                                               const Parameters& middle) {
   const JointEquations equations =
@@ -140,13 +140,13 @@ std::vector<program::Warning> middle_warnings(const JointModel& joint, const Joi
   return all;
 }
 
-/// The first samples that failed, and how to see one.
+/// Sentence with the first failed samples, and how to write the joint of one.
 std::string failures_text(const StudyBlocks& blocks) {
-  constexpr std::size_t most = 5;
+  constexpr std::size_t max_listed = 5;
   std::vector<std::uint64_t> failed;
-  for (int block = 0; block < blocks.n_blocks() && failed.size() < most; ++block) {
+  for (int block = 0; block < blocks.n_blocks() && failed.size() < max_listed; ++block) {
     const auto its = blocks.read(block);
-    for (Index i = 0; i < its.status.size() && failed.size() < most; ++i)
+    for (Index i = 0; i < its.status.size() && failed.size() < max_listed; ++i)
       if (its.status[i] != 0) failed.push_back(blocks.first(block) + i);
   }
   if (failed.empty()) return {};
@@ -154,7 +154,7 @@ std::string failures_text(const StudyBlocks& blocks) {
                      failed[0]);
 }
 
-/// The joint of the study, whose matrices must hold what it wants.
+/// Loads the joint of the study, whose matrices must have the requested results.
 JointModel load_studied(const program::Arguments& arguments, const Study& study, SampledJoint& sampled) {
   JointModel joint =
       load_joint(with_all_friction(study, sampled), arguments.integer("--p", 1, formats::highest_degree, 0));
@@ -168,7 +168,7 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
   return joint;
 }
 
-/// Solves those blocks from `first` to `end` that are not there.
+/// Solves the missing blocks from `first` to `end`.
 void solve_blocks(const StudyBlocks& blocks, int first, int end, bool quiet, Samples& samples, std::ostream& log) {
   int there = 0;
   program::report_share(0);
@@ -189,7 +189,7 @@ void check_all_there(const StudyBlocks& blocks) {
                                  blocks.folder(), missing));
 }
 
-/// Writes STUDY.h5 of all blocks, and returns the summary.
+/// Writes STUDY.h5 from all blocks, and returns the summary.
 std::string merge(const Study& study, const StudyContext& context, const StudyBlocks& blocks,
                   formats::StudyOrigin origin, const std::string& output, program::Timings& timings) {
   check_all_there(blocks);

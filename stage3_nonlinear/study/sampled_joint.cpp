@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Path of a file that a document names, from where another document stands.
+/// Converts the path of a file in a document to one relative to the folder of another document.
 void turn_path(json& path, const std::filesystem::path& from, const std::filesystem::path& to) {
   const std::filesystem::path file = path.get<std::string>();
   if (file.is_absolute()) return;
@@ -52,8 +52,8 @@ void SampledJoint::put(const std::vector<double>& values) {
                                                     : before + values[i];
       if (!std::isfinite(value))
         throw InputError(document_.file + ": a number of the sample is too large; allowed: finite numbers");
-      constexpr double most = 1e15;
-      if (is_integer && value == std::floor(value) && std::abs(value) < most)
+      constexpr double max_integer = 1e15;
+      if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
         *number = static_cast<std::int64_t>(value);
       else
         *number = value;

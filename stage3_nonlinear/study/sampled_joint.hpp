@@ -11,21 +11,21 @@
 
 namespace fastjoint::stage3 {
 
-/// JOINT.json with the values of a sample at the places that a study varies. Only laws, fasteners and loads with such
-/// places are read again. One thread uses it at a time.
+/// JOINT.json with the values of a sample for the variables of a study. Only laws, fasteners and loads with variables
+/// are read again. It must be used by one thread at a time.
 class SampledJoint {
  public:
-  /// @param scene Of the joint as it stands.
+  /// @param scene That of the unchanged joint.
   SampledJoint(const input::Document& joint, const StudyScene& study, JointScene scene);
 
   /// The joint's scene with the values of all variables. Throws InputError where one is not allowed.
   const JointScene& scene(const std::vector<double>& values);
-  /// The text of that JOINT.json at a path, from where its files are found.
+  /// The text of that JOINT.json for a file at a path, with the paths in it relative to there.
   [[nodiscard]] std::string text(const std::vector<double>& values, const std::string& path);
 
  private:
   void put(const std::vector<double>& values);
-  /// Number of JOINT.json that a variable sets, and what it is there.
+  /// A number of JOINT.json that a variable sets, and its original value.
   struct Target {
     nlohmann::json* number;
     double before;

@@ -21,26 +21,28 @@ struct Study {
 
 [[nodiscard]] std::vector<double> middle_values(const StudyScene& study);
 
-/// Samples of a study on all threads, each from the joint in the middle of the variables alone.
+/// Samples of a study on all threads. Each starts from the solution with all variables in their middle, so that it does
+/// not depend on other samples.
 class Samples {
  public:
-  /// Solves beside the middle for the slopes there. @param study, joint, solver Outlive this.
+  /// Solves near the middle for the slopes there. @param study, joint, solver Outlive this.
   Samples(const Study& study, std::uint64_t seed, const JointModel& joint, const StudySolver& solver);
 
-  /// (columns, v) change of each number with each variable in the middle; infinite if not known.
+  /// (columns, v) derivative of each number by each variable in the middle; infinite if not known.
   [[nodiscard]] const MatrixXd& sensitivity() const { return slopes_; }
   /// Solves the samples of a block and writes it.
   void solve_block(const StudyBlocks& blocks, int block);
 
  private:
-  /// Numbers of the joint with values of the variables.
+  /// Solves the joint for values of the variables.
   SampleNumbers of_values(const std::vector<double>& values);
-  /// Finds the changes of all numbers, and of the contact coordinates, with each variable in the middle, by central
+  /// Finds the derivatives of all numbers, and of the contact coordinates, by each variable in the middle, by central
   /// differences.
   void find_slopes();
-  /// Change of the contact coordinates from the middle to values of the variables, by these slopes; empty before.
+  /// Change of the contact coordinates from the middle to values of the variables, by these slopes; empty before they
+  /// are known.
   [[nodiscard]] VectorXd away(const std::vector<double>& values) const;
-  /// A joint for one thread at a time.
+  /// Takes an unused joint for the current thread; `give` returns it.
   std::unique_ptr<SampledJoint> take();
   void give(std::unique_ptr<SampledJoint> sampled);
 

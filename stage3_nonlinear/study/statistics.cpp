@@ -15,30 +15,29 @@ namespace {
 constexpr int bits_of_pass = 11;
 constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63U;
 
-/// Whole numbers in the order of the numbers.
+/// An integer key with the order of the numbers.
 std::uint64_t ordered(double x) {
   const auto bits = std::bit_cast<std::uint64_t>(x);
   return (bits & sign_bit) != 0 ? ~bits : bits | sign_bit;
 }
 double number_of(std::uint64_t key) { return std::bit_cast<double>((key & sign_bit) != 0 ? key & ~sign_bit : ~key); }
 
-/// Bits below those that are known before a pass.
+/// Number of bits that are not known before a pass.
 int below(int pass) { return std::max(64 - bits_of_pass * pass, 0); }
 
-/// Least k in [0, n] for which a binomial number of n is k or less with more than a probability.
-std::uint64_t least_with(double probability, double share, std::uint64_t n) {
+/// Smallest k in [0, n] for which a binomial number of n trials is k or less with more than a probability.
+std::uint64_t min_count_with(double probability, double fraction, std::uint64_t n) {
   std::uint64_t low = 0, high = n;
   while (low < high) {
     const std::uint64_t middle = low + (high - low) / 2;
-    // P(X <= k) of n and p is 1 - I_p(k + 1, n - k).
-    const double up_to = middle == n ? 1 : gsl_cdf_beta_Q(share, double(middle) + 1, double(n - middle));
+    // P(X <= k) is 1 - I_p(k + 1, n - k).
+    const double up_to = middle == n ? 1 : gsl_cdf_beta_Q(fraction, double(middle) + 1, double(n - middle));
     up_to > probability ? high = middle : low = middle + 1;
   }
   return low;
 }
 
-/// Value below which a beta distribution has a probability, by bisection: gsl_cdf_beta_Pinv does not converge for all
-/// large a and b.
+/// Quantile of a beta distribution by bisection: gsl_cdf_beta_Pinv does not converge for all large a and b.
 double beta_quantile(double probability, double a, double b) {
   double low = 0, high = 1;
   for (double middle = 0.5; middle > low && middle < high; middle = low + (high - low) / 2)
@@ -48,18 +47,19 @@ double beta_quantile(double probability, double a, double b) {
 
 }  // namespace
 
-QuantileRanks quantile_ranks(double share, std::uint64_t solved, std::uint64_t failed) {
+QuantileRanks quantile_ranks(double fraction, std::uint64_t solved, std::uint64_t failed) {
   const std::uint64_t n = solved + failed;
-  const auto at = std::clamp<std::uint64_t>(std::uint64_t(std::ceil(share * double(solved))), 1, solved);
-  // X samples lie below the quantile: it is above the low one if low <= X, and below the high one if X < high.
-  const std::uint64_t low = least_with(beyond_limit, share, n), high = least_with(1 - beyond_limit, share, n) + 1;
+  const auto at = std::clamp<std::uint64_t>(std::uint64_t(std::ceil(fraction * double(solved))), 1, solved);
+  // With X samples below the quantile it is above the low limit if low <= X, and below the high limit if X < high.
+  const std::uint64_t low = min_count_with(beyond_limit, fraction, n),
+                      high = min_count_with(1 - beyond_limit, fraction, n) + 1;
   return {at, low > failed ? low - failed : 0, std::min(high, solved + 1)};
 }
 
-Share share_of(std::uint64_t count, std::uint64_t solved, std::uint64_t failed) {
-  const double k = double(count), n = double(solved + failed), most = k + double(failed);
+Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t failed) {
+  const double k = double(count), n = double(solved + failed), max_k = k + double(failed);
   return {solved == 0 ? 0 : k / double(solved), count == 0 ? 0 : beta_quantile(beyond_limit, k, n - k + 1),
-          most >= n ? 1 : beta_quantile(1 - beyond_limit, most + 1, n - most)};
+          max_k >= n ? 1 : beta_quantile(1 - beyond_limit, max_k + 1, n - max_k)};
 }
 
 double Moments::deviation() const { return n_ < 2 ? 0 : std::sqrt(squares_ / double(n_ - 1)); }

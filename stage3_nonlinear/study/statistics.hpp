@@ -7,26 +7,26 @@
 
 namespace fastjoint::stage3 {
 
-/// Parts of all samples below the quantiles that a study tells, and what is left over on either side of a confidence
-/// limit: each pair holds the true value with 95 %.
-inline constexpr std::array quantile_shares{0.05, 0.5, 0.95, 0.99};
+/// Probabilities of the quantiles of a study, and the probability outside each confidence limit: a pair of limits
+/// contains the true value with 95 %.
+inline constexpr std::array quantile_levels{0.05, 0.5, 0.95, 0.99};
 inline constexpr double beyond_limit = 0.025;
 
-/// Order statistics that give a quantile and its confidence limits, which hold for any distribution: numbers of the
-/// samples in rising order, 1-based; of a limit 0 or one more than all if there are too few samples for it.
+/// Ranks of the order statistics that are a quantile and its confidence limits for any distribution: 1-based numbers of
+/// the samples in ascending order; 0 or one more than all if there are too few samples for a limit.
 struct QuantileRanks {
   std::uint64_t at, low, high;
 };
-/// @param failed Samples of which nothing is known: any may be below or above, which the limits allow for.
-[[nodiscard]] QuantileRanks quantile_ranks(double share, std::uint64_t solved, std::uint64_t failed);
+/// Ranks for a probability. @param failed Samples without a result: the limits allow for any of them below or above.
+[[nodiscard]] QuantileRanks quantile_ranks(double fraction, std::uint64_t solved, std::uint64_t failed);
 
-/// A share and its exact binomial limits (Clopper and Pearson 1934); failed samples count as either.
-struct Share {
+/// A fraction and its exact binomial limits (Clopper and Pearson 1934); failed samples count as either.
+struct Proportion {
   double value, low, high;
 };
-[[nodiscard]] Share share_of(std::uint64_t count, std::uint64_t solved, std::uint64_t failed);
+[[nodiscard]] Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t failed);
 
-/// Mean and deviation of numbers that come one after another (Welford 1962).
+/// Mean and deviation of a stream of numbers (Welford 1962).
 class Moments {
  public:
   void add(double x) {
@@ -43,8 +43,8 @@ class Moments {
   double mean_ = 0, squares_ = 0;
 };
 
-/// Exact order statistics of numbers that pass by several times, in memory that does not depend on how many there are:
-/// each pass finds eleven more bits of each.
+/// Exact order statistics of numbers in several passes, with memory that does not depend on how many there are: each
+/// pass finds eleven more bits of each.
 class Selection {
  public:
   static constexpr int n_passes = 6;
@@ -53,14 +53,14 @@ class Selection {
   void add(double x);
   /// Ends a pass.
   void next();
-  /// Behind the last pass the numbers of the ranks.
+  /// The numbers of the ranks, after the last pass.
   [[nodiscard]] std::vector<double> found() const;
 
  private:
   struct Target {
-    std::uint64_t rank;    ///< among the numbers that begin like it
-    std::uint64_t prefix;  ///< bits that are known, the rest 0
-    std::size_t counts;    ///< which of counts_
+    std::uint64_t rank;    ///< among the numbers with the same prefix
+    std::uint64_t prefix;  ///< the known bits, the others 0
+    std::size_t counts;    ///< index in counts_
   };
   void group();
   std::vector<Target> targets_;
@@ -71,7 +71,7 @@ class Selection {
 
 /// Spearman's rank correlation of two lists of equal length; 0 if one of them is constant.
 [[nodiscard]] double rank_correlation(const std::vector<double>& ranks_a, const std::vector<double>& ranks_b);
-/// Ranks of numbers, equal ones with their mean rank.
+/// Ranks of numbers; equal ones have their mean rank.
 [[nodiscard]] std::vector<double> ranks_of(const std::vector<double>& values);
 
 }  // namespace fastjoint::stage3

@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 std::string folder_of(const std::string& output) { return output + ".parts"; }
 
-/// A sixty-fourth of all samples, so that little is lost with a block, within what is still quick to write and to read.
+/// A sixty-fourth of all samples, so that the loss of a block costs little, within limits for fast writing and reading.
 int block_size(std::uint64_t n_samples) {
-  constexpr std::uint64_t parts = 64, least = 16, most = 8192;
-  return int(std::clamp((n_samples + parts - 1) / parts, least, most));
+  constexpr std::uint64_t parts = 64, min_size = 16, max_size = 8192;
+  return int(std::clamp((n_samples + parts - 1) / parts, min_size, max_size));
 }
 
 formats::StudyBlock read_block(const std::string& path) {

@@ -10,28 +10,28 @@
 
 namespace fastjoint::stage3 {
 
-/// The samples of a study in blocks, each a file in the folder STUDY.h5.parts that appears whole or not at all.
+/// The samples of a study in blocks, each a file in the folder STUDY.h5.parts that is written whole or not at all.
 class StudyBlocks {
  public:
-  /// @param output Path of STUDY.h5. @param n_columns Numbers of each sample.
+  /// @param output Path of STUDY.h5. @param n_columns How many numbers each sample has.
   StudyBlocks(const std::string& output, formats::StudyOrigin origin, std::uint64_t n_samples, Eigen::Index n_columns);
 
-  /// Seed of the blocks that are there, if there are any.
+  /// Seed of the existing blocks, if there are any.
   [[nodiscard]] static std::optional<std::string> seed_in(const std::string& output);
 
   [[nodiscard]] int n_blocks() const { return n_blocks_; }
   [[nodiscard]] std::uint64_t first(int block) const { return std::uint64_t(block) * size_; }
   [[nodiscard]] std::uint64_t end(int block) const { return std::min(first(block + 1), n_samples_); }
-  /// Blocks of a slice of n, 1-based, in which blocks follow each other.
+  /// First block and end of a slice of n, which is 1-based.
   [[nodiscard]] std::pair<int, int> of_slice(int slice, int n) const;
-  /// Throws InputError if a block that is there is of another study: before work that could not be merged with it.
+  /// Throws InputError if an existing block is of another study, before work that could not be merged with it.
   void check() const;
-  /// True if a block is there. Throws InputError if it is of another study, FileError if it is damaged.
+  /// True if a block exists. Throws InputError if it is of another study, FileError if it is damaged.
   [[nodiscard]] bool has(int block) const;
-  /// A block that is there, checked likewise.
+  /// Reads an existing block with the same checks.
   [[nodiscard]] formats::StudyBlock read(int block) const;
   void write(int block, Eigen::VectorXi status, formats::StudyRows values) const;
-  /// Samples of blocks that are not there, "0 to 99, 300 to 399"; empty if none is missing.
+  /// Samples of missing blocks, "0 to 99, 300 to 399"; empty if none is missing.
   [[nodiscard]] std::string missing() const;
   /// Removes the folder.
   void remove() const;

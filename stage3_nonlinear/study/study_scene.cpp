@@ -22,15 +22,15 @@ namespace {
 using input::Value;
 using nlohmann::json;
 
-constexpr std::uint64_t most_samples = 1000000000;
-constexpr std::size_t most_levels = 1000000;
+constexpr std::uint64_t max_samples = 1000000000;
+constexpr std::size_t max_levels = 1000000;
 
-/// A place in JOINT.json, and the words for its wildcards: the id of a fastener, the name of a law.
+/// A place in JOINT.json, and the names that its wildcards stand for: the id of a fastener, the name of a law.
 struct Found {
   std::string pointer, words;
 };
 
-/// Names, or numbers, of the members of a value.
+/// Keys of the members of an object, or indices of an array.
 std::vector<std::string> keys_of(const json& value) {
   std::vector<std::string> keys;
   if (value.is_object())
@@ -40,7 +40,7 @@ std::vector<std::string> keys_of(const json& value) {
   return keys;
 }
 
-/// The member of a value by a part of a pointer; null if there is none.
+/// The member of a value with a key or index; null if there is none.
 const json* member_of(const json& value, const std::string& key) {
   if (value.is_object()) {
     const auto found = value.find(key);
@@ -63,7 +63,7 @@ std::string escaped(const std::string& key) {
   return result;
 }
 
-/// Follows the parts of a pointer from the k-th on. The last may be missing from an object, which is then given it.
+/// Follows the parts of a pointer from the k-th on. The last may be a key that an object does not have yet.
 void look_up(const json& at, const std::vector<std::string>& parts, std::size_t k, const Found& so_far,
              std::vector<Found>& found) {
   if (k == parts.size()) {
@@ -107,28 +107,28 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
 
 std::vector<double> read_grid(const Value& grid) {
   grid.only({"from", "to", "n", "spacing"});
-  const int n = grid.at("n").integer(1, most_levels);
+  const int n = grid.at("n").integer(1, max_levels);
   const auto spacing = grid.find("spacing");
   const bool by_logarithm = spacing && spacing->choice({"linear", "logarithmic"}) == "logarithmic";
   const auto range = by_logarithm ? input::positive : input::any_number;
   const double from = grid.at("from").number(range), to = grid.at("to").number(range);
   std::vector<double> levels;
   for (int i = 0; i < n; ++i) {
-    const double share = n == 1 ? 0 : double(i) / (n - 1);
+    const double fraction = n == 1 ? 0 : double(i) / (n - 1);
     levels.push_back(i + 1 == n && n > 1 ? to
-                     : by_logarithm      ? from * std::pow(to / from, share)
-                                         : from + share * (to - from));
+                     : by_logarithm      ? from * std::pow(to / from, fraction)
+                                         : from + fraction * (to - from));
   }
   return levels;
 }
 
-/// Reads what the variable's numbers are.
+/// Reads the source of the variable's numbers.
 void read_numbers(const Value& value, Variable& variable) {
   const auto values = value.find("values"), grid = value.find("grid"), table = value.find("table"),
              distribution = value.find("distribution");
   if (!!values + !!grid + !!table + !!distribution != 1)
     value.fail("not one source of its numbers", "one of \"values\", \"grid\", \"table\" and \"distribution\"");
-  if (values) variable.levels = values->numbers(1, most_levels, input::any_number);
+  if (values) variable.levels = values->numbers(1, max_levels, input::any_number);
   if (grid) variable.levels = read_grid(*grid);
   if (distribution) variable.distribution = read_distribution(*distribution);
   if (!variable.levels.empty()) variable.distribution = discrete(variable.levels);
@@ -205,8 +205,8 @@ void read_number(const Value& root, StudyScene& study) {
     study.n_samples = 1;
     for (const auto& variable : study.variables) {
       study.n_samples *= variable.levels.size();
-      if (study.n_samples > most_samples)
-        root.at("variables").fail("a grid of too many samples", fmt::format("up to {}", most_samples));
+      if (study.n_samples > max_samples)
+        root.at("variables").fail("a grid of too many samples", fmt::format("up to {}", max_samples));
     }
     return;
   }
@@ -218,7 +218,7 @@ void read_number(const Value& root, StudyScene& study) {
     study.n_samples = rows;
     return;
   }
-  study.n_samples = root.at("samples").integer(1, int(most_samples));
+  study.n_samples = root.at("samples").integer(1, int(max_samples));
   if (study.n_samples > rows)
     given->fail(fmt::format("{}", study.n_samples), fmt::format("up to the {} rows of the table", rows));
 }
@@ -245,8 +245,8 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
     }
   if (const auto limits = root.find("limits")) {
     limits->only({"force", "peak"});
-    if (const auto force = limits->find("force")) study.most_force = force->number(input::positive);
-    if (const auto peak = limits->find("peak")) study.most_peak = peak->number(input::positive), study.peaks = true;
+    if (const auto force = limits->find("force")) study.max_force = force->number(input::positive);
+    if (const auto peak = limits->find("peak")) study.max_peak = peak->number(input::positive), study.peaks = true;
   }
   return study;
 }
@@ -254,7 +254,7 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
 std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, std::uint64_t sample) {
   std::vector<double> values(study.variables.size());
   std::uint64_t rest = sample;
-  for (std::size_t i = study.variables.size(); i-- > 0;) {  // of a grid the last variable runs fastest
+  for (std::size_t i = study.variables.size(); i-- > 0;) {  // in a grid the last variable changes fastest
     const Variable& variable = study.variables[i];
     if (!variable.column.empty()) {
       values[i] = variable.column[sample];
@@ -262,10 +262,10 @@ std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, s
       values[i] = variable.levels[rest % variable.levels.size()];
       rest /= variable.levels.size();
     } else {
-      double share = random_share(seed, sample, i);
+      double fraction = random_fraction(seed, sample, i);
       if (study.sampling == Sampling::latin_hypercube)
-        share = (double(random_place(seed, sample, i, study.n_samples)) + share) / double(study.n_samples);
-      values[i] = variable.distribution->at(std::clamp(share, 1e-300, 1 - 1e-16));
+        fraction = (double(random_place(seed, sample, i, study.n_samples)) + fraction) / double(study.n_samples);
+      values[i] = variable.distribution->at(std::clamp(fraction, 1e-300, 1 - 1e-16));
     }
   }
   return values;

@@ -12,46 +12,46 @@
 
 namespace fastjoint::stage3 {
 
-/// What a drawn number does at its places in JOINT.json.
+/// Use of a drawn number at its places in JOINT.json.
 enum class Use { value, factor, offset };
 
 enum class Sampling { grid, random, latin_hypercube };
 
-/// A number that a study varies, at one place of JOINT.json or at several together.
+/// A number that a study varies, at one place of JOINT.json or at several places together.
 struct Variable {
   std::string name;
   std::vector<std::string> places;  ///< JSON pointers
   Use use = Use::value;
   std::string where;  ///< in STUDY.json, for messages
-  // One of these:
-  std::shared_ptr<const Distribution> distribution{};  ///< also of `levels`, each as often
+  // One of these sources of its values:
+  std::shared_ptr<const Distribution> distribution{};  ///< given, or that of `levels` with equal probabilities
   std::vector<double> levels{};                        ///< of "values" and "grid"
-  std::vector<double> column{};                        ///< of a table: of each sample
+  std::vector<double> column{};                        ///< value of each sample, from a table
   std::string table{};                                 ///< path of that table
 };
 
-/// STUDY.json as it stands (schemas/study.schema.json).
+/// The contents of STUDY.json (schemas/study.schema.json).
 struct StudyScene {
   std::string file, name, text;
   std::vector<Variable> variables;
   Sampling sampling = Sampling::random;
   std::uint64_t n_samples = 0;
-  std::optional<std::uint64_t> seed;  ///< none: to be drawn
+  std::optional<std::uint64_t> seed;  ///< none: a random one
   bool peaks = false, displacements = false;
-  std::optional<double> most_force, most_peak;  ///< limits whose exceedance is counted
+  std::optional<double> max_force, max_peak;  ///< limits whose exceedance is counted
 };
 
-/// Reads a study of a joint; wildcards in its places are looked up in the joint. Throws InputError.
+/// Reads a study of a joint; wildcards in its places are resolved in the joint. Throws InputError.
 [[nodiscard]] StudyScene read_study_scene(const input::Document& study, const input::Document& joint);
 
-/// Values of all variables in a sample. @param seed Of the numbers that are drawn.
+/// Values of all variables in a sample. @param seed That of the random numbers.
 [[nodiscard]] std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, std::uint64_t sample);
 
-/// Middle of a variable: the value with as much below as above it.
+/// Median of a variable.
 [[nodiscard]] double middle_of(const Variable& variable);
-/// Its largest value, or one that hardly any sample exceeds.
+/// Largest value of a variable, or one that is exceeded with negligible probability.
 [[nodiscard]] double largest_of(const Variable& variable);
-/// Half of the width within which two thirds of its values lie, or a third of that of all levels or of a column.
+/// Half of the range of the middle two thirds of a distribution, or a third of the range of all levels or of a column.
 [[nodiscard]] double spread_of(const Variable& variable);
 
 }  // namespace fastjoint::stage3

@@ -49,7 +49,7 @@ StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const
   middle_ = step ? numbers(equations, *step) : nothing(SampleStatus::not_solved);
   if (middle_.status != SampleStatus::solved) return;
   start_ = step->c;
-  (void)contact_state(equations, step->c);  // samples begin with what the rims found last
+  (void)contact_state(equations, step->c);  // samples start at the last solutions of the rims
 }
 
 SampleNumbers StudySolver::nothing(SampleStatus status) const {
@@ -76,7 +76,7 @@ SampleNumbers StudySolver::numbers(const JointEquations& equations, const PathSt
 SampleNumbers StudySolver::solve(const Parameters& parameters, const VectorXd& away) const {
   try {
     const JointEquations equations = make_equations(joint_, system_, parameters, rims_);
-    if (start_ && planes_that_may_snap(equations).empty()) {  // else what it comes to depends on the way
+    if (start_ && planes_that_may_snap(equations).empty()) {  // else the solution depends on the path
       Walk walk(equations, options_);
       const double load_factor = load_factors_.back();
       if (away.size() > 0 && walk.jump({load_factor, *start_ + away})) return numbers(equations, walk.step());

@@ -12,43 +12,43 @@
 
 namespace fastjoint::stage3 {
 
-/// What became of a sample, in the order of their numbers in STUDY.h5.
+/// Status of a sample, in the order of the numbers in STUDY.h5.
 enum class SampleStatus { solved, refused, not_solved, out_of_balance };
 
-/// Numbers that a study gets of a sample at the last increment.
+/// Results of a sample at the last increment.
 struct SampleNumbers {
   SampleStatus status = SampleStatus::solved;
-  VectorXd all;  ///< forces, then peaks, then displacements, as StudySolver::names; NaN if it was not solved
-  VectorXd c{};  ///< (r) contact coordinates; none if it was not solved
+  VectorXd all;  ///< forces, then peaks, then displacements, in the order of StudySolver::names; NaN if not solved
+  VectorXd c{};  ///< (r) contact coordinates; empty if not solved
 };
 
 /// Names of the numbers of a sample.
 struct StudyNames {
-  std::vector<std::string> force;         ///< fastener, and of one with several planes its plates
-  std::vector<std::string> peak;          ///< "plate:hole"; none if not wanted
-  std::vector<std::string> displacement;  ///< "plate:external" of the rigid ones; none if not wanted
+  std::vector<std::string> force;         ///< fastener, and its plates if it has several planes
+  std::vector<std::string> peak;          ///< "plate:hole"; empty if not requested
+  std::vector<std::string> displacement;  ///< "plate:external" of rigid externals; empty if not requested
 
   [[nodiscard]] Index size() const { return std::ssize(force) + std::ssize(peak) + std::ssize(displacement); }
 };
 
 [[nodiscard]] StudyNames study_names(const JointModel& joint, bool peaks, bool displacements);
 
-/// Solves a joint for other numbers, each time from its solution for the numbers in the middle, so that no result
-/// depends on another sample. Several threads may use it.
+/// Solves a joint for other parameters, each time from its solution with all variables in their middle, so that no
+/// result depends on another sample. Several threads may use it.
 class StudySolver {
  public:
-  /// @param joint  Outlives this; friction acts where any sample has it.
-  /// @param scene  Its load factors and solver.
-  /// @param middle Numbers of the middle.
+  /// @param joint  Outlives this; has friction wherever a sample has some.
+  /// @param scene  Its load factors and solver are used.
+  /// @param middle Parameters with every variable in its middle.
   StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, StudyNames names);
 
   [[nodiscard]] const StudyNames& names() const { return names_; }
-  /// Numbers of the joint in the middle; NaN if it was not solved.
+  /// Results for the parameters of the middle; NaN if not solved.
   [[nodiscard]] const SampleNumbers& middle() const { return middle_; }
-  /// @param away Change of the contact coordinates from those of the middle to where the search begins, (r); empty:
-  /// none.
+  /// Results for other parameters.
+  /// @param away Change of the contact coordinates from those of the middle to the start of the solver, (r); empty: 0.
   [[nodiscard]] SampleNumbers solve(const Parameters& parameters, const VectorXd& away = {}) const;
-  /// The same where the parameters could not be made.
+  /// Results of a sample that was not solved.
   [[nodiscard]] SampleNumbers nothing(SampleStatus status) const;
 
  private:

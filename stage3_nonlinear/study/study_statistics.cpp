@@ -15,13 +15,13 @@ namespace fastjoint::stage3 {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-/// Samples of which rank correlations of so many numbers are made: the error of these is 1 over the root of that.
-std::uint64_t most_ranked(std::size_t n_numbers) {
-  constexpr std::uint64_t most = 100000, least = 10000, of_all = 20000000;
-  return std::clamp(of_all / n_numbers, least, most);
+/// Number of samples for the rank correlations of a given number of results: their error is 1 over its square root.
+std::uint64_t max_ranked(std::size_t n_numbers) {
+  constexpr std::uint64_t max_samples = 100000, min_samples = 10000, of_all = 20000000;
+  return std::clamp(of_all / n_numbers, min_samples, max_samples);
 }
 
-/// Numbers of one kind: columns of the samples, or the largest of some.
+/// Results of one kind: columns of the samples, or the largest of some columns.
 struct Kind {
   const char* name;
   const char* meaning;
@@ -35,13 +35,13 @@ struct Kind {
 std::vector<Kind> kinds_of(const StudyContext& a) {
   const std::string force = unit(a.units, 0, 1), stress = unit(a.units, -2, 1), length = unit(a.units, 1, 0);
   const Index f = std::ssize(a.names.force), r = std::ssize(a.names.peak), d = std::ssize(a.names.displacement);
-  const double most_force = a.study.most_force.value_or(infinite), most_peak = a.study.most_peak.value_or(infinite);
+  const double max_force = a.study.max_force.value_or(infinite), max_peak = a.study.max_peak.value_or(infinite);
   std::vector<Kind> kinds{
-      {"force", "load that each fastener transfers", force, a.names.force, 0, f, false, most_force},
-      {"largest_force", "largest transferred load of all", force, {"largest force"}, 0, f, true, most_force}};
+      {"force", "load that each fastener transfers", force, a.names.force, 0, f, false, max_force},
+      {"largest_force", "largest transferred load of all", force, {"largest force"}, 0, f, true, max_force}};
   if (r > 0) {
-    kinds.push_back({"peak", "largest hoop stress at each hole", stress, a.names.peak, f, r, false, most_peak});
-    kinds.push_back({"largest_peak", "largest hoop stress of all", stress, {"largest peak"}, f, r, true, most_peak});
+    kinds.push_back({"peak", "largest hoop stress at each hole", stress, a.names.peak, f, r, false, max_peak});
+    kinds.push_back({"largest_peak", "largest hoop stress of all", stress, {"largest peak"}, f, r, true, max_peak});
   }
   if (d > 0)
     kinds.push_back(
@@ -49,20 +49,20 @@ std::vector<Kind> kinds_of(const StudyContext& a) {
   return kinds;
 }
 
-/// Values of a kind in one sample, whose numbers are a row.
+/// Values of a kind in the row of a sample.
 VectorXd of_kind(const Kind& kind, const Eigen::Ref<const Eigen::RowVectorXd>& row) {
   const auto part = row.segment(kind.first, kind.n);
   return kind.is_largest ? VectorXd::Constant(1, part.maxCoeff()) : VectorXd(part.transpose());
 }
 
-/// What is gathered of each number.
+/// Statistics of one number.
 struct Gathered {
   Moments moments;
   std::uint64_t above = 0, governs = 0;
   std::vector<double> ranked{};
 };
 
-/// Calls each(sample, row) of all samples that were solved, in their order.
+/// Calls each(sample, row) for all solved samples, in their order.
 template <class Each>
 void for_each_solved(const StudyBlocks& blocks, Each each) {
   for (int block = 0; block < blocks.n_blocks(); ++block) {
@@ -72,7 +72,7 @@ void for_each_solved(const StudyBlocks& blocks, Each each) {
   }
 }
 
-/// Sensitivities of the largest of some numbers are those of the one that is largest in the middle.
+/// Sensitivities of a number; for the largest of some they are those of the one that is largest in the middle.
 Eigen::RowVectorXd sensitivity_of(const StudyContext& a, const Kind& kind, Index i) {
   Index at = kind.first + i;
   if (kind.is_largest) {
@@ -126,7 +126,7 @@ class Statistics {
     for (const auto& kind : kinds_) n_numbers += kind.of.size();
     std::uint64_t ranked = 0;
     for_each_solved(blocks_, [&](std::uint64_t sample, const auto& row) {
-      const bool is_ranked = ranked++ < most_ranked(n_numbers);
+      const bool is_ranked = ranked++ < max_ranked(n_numbers);
       for (std::size_t g = 0; g < kinds_.size(); ++g) {
         const VectorXd values = of_kind(kinds_[g], row);
         for (Index i = 0; i < values.size(); ++i) {
@@ -168,24 +168,24 @@ class Statistics {
       each.ranked.clear();
       for (Index k = 0; k < v; ++k) group.correlation(i, k) = rank_correlation(ranks, variables_[k].ranked);
       group.governs[i] = solved_ > 0 ? double(each.governs) / double(solved_) : 0;
-      Share share = share_of(each.above, solved_, failed_);
-      if (is_grid() || std::isinf(kind.limit)) share.low = share.high = share.value;
-      group.exceeds[i] = share.value, group.exceeds_low[i] = share.low, group.exceeds_high[i] = share.high;
+      Proportion fraction = proportion(each.above, solved_, failed_);
+      if (is_grid() || std::isinf(kind.limit)) fraction.low = fraction.high = fraction.value;
+      group.exceeds[i] = fraction.value, group.exceeds_low[i] = fraction.low, group.exceeds_high[i] = fraction.high;
     }
   }
 
   /// Finds the quantiles of all numbers, and their limits.
   void select() {
-    constexpr Index n = std::ssize(quantile_shares);
+    constexpr Index n = std::ssize(quantile_levels);
     for (auto& group : result_.groups) {
       group.quantile = MatrixXd::Constant(std::ssize(group.of), n, infinite);
       group.low = -group.quantile, group.high = group.quantile;
     }
     if (solved_ == 0) return;
     std::vector<std::uint64_t> ranks;
-    std::vector<QuantileRanks> of_share;
-    for (const double share : quantile_shares) {
-      const auto& its = of_share.emplace_back(quantile_ranks(share, solved_, failed_));
+    std::vector<QuantileRanks> of_level;
+    for (const double fraction : quantile_levels) {
+      const auto& its = of_level.emplace_back(quantile_ranks(fraction, solved_, failed_));
       for (const std::uint64_t rank : {its.at, its.low, its.high})
         ranks.push_back(std::clamp<std::uint64_t>(rank, 1, solved_));
     }
@@ -206,9 +206,9 @@ class Statistics {
         const auto found = selections[g][i].found();
         for (Index k = 0; k < n; ++k) {
           result_.groups[g].quantile(i, k) = found[3 * k];
-          if (is_grid()) continue;  // nothing is drawn
-          if (of_share[k].low >= 1) result_.groups[g].low(i, k) = found[3 * k + 1];
-          if (of_share[k].high <= solved_) result_.groups[g].high(i, k) = found[3 * k + 2];
+          if (is_grid()) continue;  // a grid is not random and has no confidence limits
+          if (of_level[k].low >= 1) result_.groups[g].low(i, k) = found[3 * k + 1];
+          if (of_level[k].high <= solved_) result_.groups[g].high(i, k) = found[3 * k + 2];
         }
       }
   }

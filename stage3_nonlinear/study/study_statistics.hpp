@@ -10,20 +10,20 @@
 
 namespace fastjoint::stage3 {
 
-/// What a study knows besides its samples.
+/// Data of a study other than its samples.
 struct StudyContext {
   const StudyScene& study;
   std::uint64_t seed;
   const StudyNames& names;
   Units units;
-  SampleNumbers middle;  ///< of the joint with every variable in its middle
-  MatrixXd sensitivity;  ///< (columns, v) change of each number with each variable there; infinite if not known
+  SampleNumbers middle;  ///< results with every variable in its middle
+  MatrixXd sensitivity;  ///< (columns, v) derivative of each number by each variable there; infinite if not known
 };
 
 /// Statistics of all samples; the blocks are read several times, one after another.
 [[nodiscard]] formats::StudyResult study_statistics(const StudyContext& context, const StudyBlocks& blocks);
 
-/// Makes and fills the datasets of one row for each sample.
+/// Writes the datasets with one row for each sample.
 void write_samples(h5::Writer& file, const StudyContext& context, const StudyBlocks& blocks);
 
 }  // namespace fastjoint::stage3

@@ -39,42 +39,42 @@ std::string row(const formats::StudyGroup& a, Index i) {
   return line + "\n";
 }
 
-/// Rows of a group in the order in which they count: the largest first, no more than a page of them.
+/// Table of a group: all rows in their order, or the largest ones if there are more than a page.
 std::string table(const formats::StudyGroup& a) {
-  constexpr Index most = 40;
+  constexpr Index max_rows = 40;
   const Index n = std::ssize(a.of);
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index{0});
-  if (n > most) std::ranges::stable_sort(order, std::greater(), [&](Index i) { return a.quantile(i, 2); });
+  if (n > max_rows) std::ranges::stable_sort(order, std::greater(), [&](Index i) { return a.quantile(i, 2); });
   std::string text = head(a);
-  for (Index i = 0; i < std::min(n, most); ++i) text += row(a, order[i]);
-  if (n > most) text += fmt::format("  ... and {} more with smaller 95 % quantiles\n", n - most);
+  for (Index i = 0; i < std::min(n, max_rows); ++i) text += row(a, order[i]);
+  if (n > max_rows) text += fmt::format("  ... and {} more with smaller 95 % quantiles\n", n - max_rows);
   return text;
 }
 
-/// What the largest of a group depends on most, by rank correlation.
+/// The variables with the largest rank correlations with the largest number of a group.
 std::string causes(const formats::StudyResult& result, const formats::StudyGroup& a) {
   const Index v = std::ssize(result.variable);
   std::vector<Index> order(v);
   std::iota(order.begin(), order.end(), Index{0});
   std::ranges::stable_sort(order, std::greater(), [&](Index k) { return std::abs(a.correlation(0, k)); });
   std::string text;
-  constexpr Index most = 5;
-  for (Index k = 0; k < std::min(v, most); ++k)
+  constexpr Index max_variables = 5;
+  for (Index k = 0; k < std::min(v, max_variables); ++k)
     text += fmt::format("{}{} {:+.2f}", k == 0 ? "" : ", ", program::one_line(result.variable[order[k]]),
                         a.correlation(0, order[k]));
   return fmt::format("  rank correlations of the {}: {}\n", a.of[0], text);
 }
 
-/// Tells where the sensitivities in the middle miss the deviations.
+/// Sentence about deviations that differ from those by the sensitivities in the middle; empty if they agree.
 std::string doubts(const formats::StudyGroup& a) {
-  constexpr double much = 0.2, little = 1e-6;
+  constexpr double max_difference = 0.2, min_deviation = 1e-6;
   Index worst = -1, n_off = 0;
   double worst_off = 0;
   for (Index i = 0; i < std::ssize(a.of); ++i) {
-    if (!std::isfinite(a.by_sensitivities[i]) || a.deviation[i] <= little * std::abs(a.mean[i])) continue;
+    if (!std::isfinite(a.by_sensitivities[i]) || a.deviation[i] <= min_deviation * std::abs(a.mean[i])) continue;
     const double off = std::abs(a.by_sensitivities[i] / a.deviation[i] - 1);
-    if (off <= much) continue;
+    if (off <= max_difference) continue;
     ++n_off;
     if (off > worst_off) worst_off = off, worst = i;
   }

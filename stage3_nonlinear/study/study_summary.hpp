@@ -7,7 +7,7 @@
 
 namespace fastjoint::stage3 {
 
-/// What a study prints: its samples, and a table of each kind of number.
+/// The summary of a study: its samples, and a table for each kind of number.
 [[nodiscard]] std::string study_summary(const formats::StudyResult& result, const std::string& failures);
 
 }  // namespace fastjoint::stage3

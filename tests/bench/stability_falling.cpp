@@ -37,7 +37,7 @@ std::vector<VectorXd> solutions(const JointEquations& equations, std::mt19937& r
     if (!root.converged) continue;
     const auto state = contact_state(equations, scale * root.x);
     const auto equal = [&](const VectorXd& F) { return (F - state.F).cwiseAbs().maxCoeff() < same * scale; };
-    if (!state.spent && std::none_of(found.begin(), found.end(), equal)) found.push_back(state.F);
+    if (!state.failed && std::none_of(found.begin(), found.end(), equal)) found.push_back(state.F);
   }
   return found;
 }
@@ -50,7 +50,7 @@ bool is_solution(const JointEquations& equations, const stage3::PathStep& step, 
     c[j] = contact.stiffness * step.delta[j] + (contact.law->rises() ? step.F[j] : 0);
   }
   const auto state = contact_state(equations, c);
-  return !state.spent && residual_of(equations, state.F, state.delta) <= 10 * tolerance &&
+  return !state.failed && residual_of(equations, state.F, state.delta) <= 10 * tolerance &&
          residual_of(equations, step.F, step.delta) <= tolerance;
 }
 

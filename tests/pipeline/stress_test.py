@@ -95,13 +95,13 @@ def check_default(folder):
                          capture_output=True, text=True)
     said = [line for line in run.stderr.splitlines() if line]
     assert len(said) == 4 and all("warning [" in line for line in said), run.stderr
-    for line, words in zip(said, (r'\[springs-pull\]: .*hole "upper:d" \(increment 4; 7 other holes likewise\) .* [\d.]+ N/mm\^2, .* [\d.]+: ',
-                                  r'\[hole-filled\]: .*hole "lower:b" \(increment 4; 1 other hole likewise\)',
+    for line, words in zip(said, (r'\[springs-pull\]: .*hole "upper:d" \(increment 4; 7 other holes too\) .* [\d.]+ N/mm\^2, .* [\d.]+: ',
+                                  r'\[hole-filled\]: .*hole "lower:b" \(increment 4; 1 other hole too\)',
                                   r'\[kt-below-one\]: .*Kt net is 0\.8\d+ at hole "upper:b" \(increment 1\)',
-                                  r'\[disc-held-across\]: .*hole "lower:b" \(increment 4; 7 other holes likewise\)')):
+                                  r'\[disc-held-across\]: .*hole "lower:b" \(increment 4; 7 other holes too\)')):
         assert re.search(words, line), (words, line)
     forces, bearing = across(folder, "lower", 1)
-    told = re.search(r"across its one direction by ([\d.]+) N, beside a bearing force of ([\d.]+),", said[3])
+    told = re.search(r"y displacement of the disc .* is fixed, with a reaction of ([\d.]+) N next to a bearing force of ([\d.]+),", said[3])
     assert np.isclose(float(told[1]), abs(forces[-1]), rtol=1e-3), (told, forces)
     assert np.isclose(float(told[2]), abs(bearing[-1]), rtol=1e-3), (told, forces, bearing)
     column = re.search(r"lower:b .* ([\d.-]+)$", run.stdout, re.M)
@@ -145,8 +145,8 @@ def check_loads_only(folder):
                        check=True)
     run = subprocess.run(["stage3_nonlinear", folder / "joint.json", "-o", folder / "joint.h5"], check=True,
                          capture_output=True, text=True)
-    assert run.stdout.count("force that holds the discs of ") == 2, run.stdout
-    assert "the force that holds the discs of upper across x is not known without stresses\n" in run.stdout, run.stdout
+    assert run.stdout.count(" is fixed; the reaction is not known without stresses") == 2, run.stdout
+    assert "the y displacement of the discs of upper is fixed; the reaction is not known without stresses\n" in run.stdout, run.stdout
 
 
 def check_free(folder):
@@ -189,7 +189,7 @@ def check_warning(folder):
             subprocess.run(["stage2_extract", case / f"{plate}.h5", "-o", case / f"{plate}.matrices.h5", "--quiet"], check=True)
         run = subprocess.run(["stage3_nonlinear", case / "joint.json", "-o", case / "joint.h5", "--quiet"], check=True,
                              capture_output=True, text=True)
-        assert (re.search(r"\[springs-wrong-arc\]: .*3 other holes likewise", run.stderr) is not None) == warned, \
+        assert (re.search(r"\[springs-wrong-arc\]: .*3 other holes too", run.stderr) is not None) == warned, \
             run.stderr
         assert warned or "[disc-held-across]" in run.stderr and len(run.stderr.splitlines()) == 1, run.stderr
 

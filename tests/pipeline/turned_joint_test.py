@@ -72,7 +72,7 @@ def solve(load, friction):
              "solver": {"tolerance": 1e-12}}
     Path("joint.json").write_text(json.dumps(joint))
     warning = call("stage3_nonlinear", "joint.json", "-o", "joint.h5", "--quiet").stderr
-    said = re.search(r'\[friction-off-axes\]: joint\.json: .* at hole "(upper|lower):[abc]" \(increment 1; 5 other holes likewise\)',
+    said = re.search(r'\[friction-off-axes\]: joint\.json: .* at hole "(upper|lower):[abc]" \(increment 1; 5 other holes too\)',
                      warning)
     assert (said is not None) == (friction > 0), warning
     with h5py.File("joint.h5") as f:

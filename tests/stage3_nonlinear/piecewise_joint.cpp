@@ -56,9 +56,9 @@ bool is_piecewise_linear(const JointEquations& equations) {
 PiecewiseJoint::PiecewiseJoint(const JointEquations& equations) : system_(equations.system.get()) {
   assert(is_piecewise_linear(equations));
   std::vector<bool> alone(equations.contacts.size(), false);
-  const auto& layout = system_->friction.rubbing;
+  const auto& layout = system_->friction.friction_holes;
   for (std::size_t fastener = 0; fastener < layout.size(); ++fastener)
-    for (const RubbingHole& hole : layout[fastener]) {
+    for (const FrictionHole& hole : layout[fastener]) {
       const auto& [interface, row, friction] = equations.interfaces[fastener];
       Rim& rim = rims_.emplace_back();
       if (hole.hole > 0) rim.emplace_back(row + hole.hole - 1, 1);

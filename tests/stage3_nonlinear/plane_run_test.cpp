@@ -105,7 +105,7 @@ TEST_F(PlaneRun, RefusesPlatesWhoseDiscsMoveOtherwise) {
       "joint.json: /fasteners/0/between: the disc of hole \"a:1\" moves along x, that of hole \"b:1\" along x and y");
   write(xy, {"y", "x"});
   EXPECT_THAT([&] { (void)run(); }, ThrowsMessage<FileError>(HasSubstr(
-                                        "b.h5:disc/direction: hole \"1\" has x behind y, expected each direction "
+                                        "b.h5:disc/direction: hole \"1\" has x after y, expected each direction "
                                         "once, all in one order")));
 }
 
@@ -183,7 +183,8 @@ TEST_F(Couple, BeyondWhatTwoPlasticFastenersHoldTurnsTheSheet) {
         test::run(folder_, std::string(STAGE3_PROGRAM) + " " + options_.input + " -o " + options_.output);
     EXPECT_EQ(beyond.status, 4) << method;
     EXPECT_THAT(beyond.err, HasSubstr("joint.json: limit load reached: beyond load factor 0.7")) << method;
-    EXPECT_THAT(beyond.err, HasSubstr("the laws of fastener \"f1\", fastener \"f2\" allow no more force")) << method;
+    EXPECT_THAT(beyond.err, HasSubstr("the laws of fastener \"f1\", fastener \"f2\" are at their maximum force"))
+        << method;
     const auto kept = formats::read_joint_result(options_.output);
     EXPECT_FALSE(kept.complete);
     EXPECT_EQ(kept.load_factor, Eigen::VectorXd::Constant(1, 0.5)) << method;

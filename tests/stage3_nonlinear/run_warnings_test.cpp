@@ -28,12 +28,12 @@ TEST_F(Run, KeepsWhatConvergedAndSaysWhatToCheck) {
       ThrowsMessage<NumericalError>(AllOf(
           HasSubstr("joint.json: limit load reached: beyond load factor 3.0"),
           HasSubstr(
-              ", the last that converged, the laws of fastener \"left bolt\" allow no more force (a law that ends "
-              "level holds its last one, a cubic that falls is past its peak); increment 3 of 4 (load factor "
+              ", the last that converged, the laws of fastener \"left bolt\" are at their maximum force (the last "
+              "one of a law that ends horizontally, the peak of a cubic that falls); increment 3 of 4 (load factor "
               "3.5) did not converge. "),
           HasSubstr(
               "result.h5 holds the 2 increments before (complete = 0). Take smaller loads or displacements, or more "
-              "or stronger fasteners; what others carry once these have failed, a joint without these shows"))));
+              "or stronger fasteners; a joint without these shows the load of the others after their failure"))));
   EXPECT_FALSE(result().complete);
   EXPECT_THAT(result().load_factor, ElementsAre(1, 2));
   EXPECT_THAT(out_.str(), HasSubstr("increment 2 of 4"));
@@ -48,7 +48,7 @@ TEST_F(Run, SaysThatAFastenerIsSpent) {
                   test::spring_plate(1, 0, {{0, test::ground, 1000}})});
   EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(
                                   HasSubstr("limit load reached: beyond load factor 10.75, the last that converged, "
-                                            "the laws of fastener \"left bolt\" allow no more force")));
+                                            "the laws of fastener \"left bolt\" are at their maximum force")));
   EXPECT_THAT(result().load_factor, ElementsAre(1));
 }
 
@@ -63,9 +63,9 @@ TEST_F(Run, WritesAnEmptyHistoryIfNothingConverged) {
                                             "smaller increments, allow more than 1 "
                                             "iteration or, if the residual is close to "
                                             "it, a larger tolerance than 1e-14; and see "
-                                            "that each plate is held in the sense of "
-                                            "its load: one that only fasteners hold has "
-                                            "no stiffness while all of them are open, "
+                                            "that each plate is fixed in the direction of "
+                                            "its load: one without supports has no "
+                                            "stiffness while all its fasteners are open, "
                                             "and one-sided fasteners cannot pull it"),
                                   HasSubstr("holds the 0 increments before"))));
   EXPECT_FALSE(result().complete);
@@ -85,7 +85,7 @@ TEST_F(Run, WarnsBeyondTheLastPointOfACubic) {
   EXPECT_THAT(log_.str(),
               AllOf(StartsWith("stage3_nonlinear: warning [beyond-last-point]: "),
                     HasSubstr("joint.json: fastener \"f1\": delta = 3.171"), HasSubstr("increment 2 (load factor 2.6)"),
-                    HasSubstr("last point 3 of its law"), EndsWith(" (1 more likewise, this is the worst)\n")));
+                    HasSubstr("last point 3 of its law"), EndsWith(" (1 more of this kind, this is the worst)\n")));
   EXPECT_THAT(log_.str(), Not(HasSubstr("fastener \"f2\""))) << "of a kind only the worst is named";
   EXPECT_THAT(log_.str(), Not(HasSubstr("(load factor 3)"))) << "once is enough";
 }

@@ -253,8 +253,7 @@ TEST(CondensedSystem, NamesThePlatesThatCanMove) {
   EXPECT_THAT([&] { (void)condense(joint); },
               ThrowsMessage<NumericalError>(HasSubstr(
                   "joint.json: the joint is a mechanism: plate \"a\" with plate \"b\" can move freely even with "
-                  "rigid fasteners, nothing holds the joint there; give a plate a support (stage 1), hold an "
-                  "external with \"displacement\": 0")));
+                  "rigid fasteners; give a plate a support (stage 1), fix an external with \"displacement\": 0")));
 }
 
 TEST(CondensedSystem, NamesAPlateWithoutStiffness) {

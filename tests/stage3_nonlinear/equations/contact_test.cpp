@@ -77,7 +77,7 @@ TEST(Contact, IsRadialInThePlane) {
       const ContactState line = at(gapped, c);
       EXPECT_LT((state.F - line.F[0] * e).norm(), 1e-12 * c);
       EXPECT_LT((state.delta - line.delta[0] * e).norm(), 1e-14 * c);
-      EXPECT_NEAR(amounts(state.F, 2)[0], line.F[0], 1e-12 * c);
+      EXPECT_NEAR(magnitudes(state.F, 2)[0], line.F[0], 1e-12 * c);
     }
   }
   EXPECT_EQ(test::state_of({gapped}, Vector2d(0, 0)).F.norm(), 0);

@@ -236,8 +236,9 @@ TEST_F(GroundRun, HolesBearOnTheSidesToWhichTheirPlanesPush) {
 TEST_F(GroundRun, SaysHowAMechanismMayBeHeld) {
   write({{"plates", R"({"a": "a.h5", "b": "b.h5"})"}},
         {test::chain(2, 1, 1000, {{1, 2, 1000}}), test::chain(2, 0, 1000, {}), 100});
-  EXPECT_THAT([&] { run(); }, testing::ThrowsMessage<NumericalError>(HasSubstr(
-                                  "hold an external with \"displacement\": 0, or a fastener by the \"ground\"")));
+  EXPECT_THAT([&] { run(); },
+              testing::ThrowsMessage<NumericalError>(
+                  HasSubstr("fix an external with \"displacement\": 0, or connect a fastener to the \"ground\"")));
 }
 
 }  // namespace

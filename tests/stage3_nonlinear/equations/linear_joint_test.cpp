@@ -94,7 +94,7 @@ TEST(LinearJoint, FrictionThatOutweighsItsForceHasNoConsistentSigns) {
   test::set_friction(joint, 0, 0.3);
   auto system = condense(joint);
   const FrictionLayout& layout = system.friction;
-  for (const RubbingHole& hole : layout.rubbing[0])
+  for (const FrictionHole& hole : layout.friction_holes[0])
     for (const Side side : {plus_side, minus_side}) system.H(0, hole.sides[side].column) = 1e3;
   const auto equations =
       make_equations(joint, std::make_shared<const CondensedSystem>(std::move(system)), parameters_of(joint));

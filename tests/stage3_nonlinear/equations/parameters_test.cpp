@@ -71,12 +71,12 @@ TEST_F(ContactJoint, TakeOtherGapsAndFrictionWhileTheCondensedJointStays) {
 
 TEST(LoadCases, OfAHoleActOnTheSideThatTheForcePointsTo) {
   for (const int sense : {1, -1}) {
-    EXPECT_EQ(acts(sense, 5), sense == 1);
-    EXPECT_EQ(acts(sense, -5), sense == -1);
-    EXPECT_EQ(acts(sense, 0, 3), sense == 1) << "what comes";
-    EXPECT_EQ(acts(sense, 0, -3), sense == -1);
+    EXPECT_EQ(is_active(sense, 5), sense == 1);
+    EXPECT_EQ(is_active(sense, -5), sense == -1);
+    EXPECT_EQ(is_active(sense, 0, 3), sense == 1) << "what comes";
+    EXPECT_EQ(is_active(sense, 0, -3), sense == -1);
   }
-  for (const double amount : {5.0, -5.0, 0.0}) EXPECT_TRUE(acts(0, amount)) << "an edge";
+  for (const double amount : {5.0, -5.0, 0.0}) EXPECT_TRUE(is_active(0, amount)) << "an edge";
 }
 
 /// A spring that yields and keeps what it has yielded: F = k (delta - set), and no more than `most`.

@@ -95,7 +95,7 @@ TEST_F(Locking, BeyondTheTangentsLevelThereIsNoSolutionAndTheMessageNamesTheFric
     EXPECT_THAT([&] { run(1.25, law); }, ThrowsMessage<NumericalError>(
                                              AllOf(HasSubstr("did not converge from the last increment"),
                                                    HasSubstr("On the sides that bear, with friction 0.4 times as large "
-                                                             "the joint locks itself"))));
+                                                             "the joint is self-locking"))));
 }
 
 /// The level itself, from the factor on the friction at hand, whatever that is.

@@ -49,7 +49,7 @@ TEST(RimContact, ShareIsTheDerivativeOfTheForces) {
     const VectorXd m = random_moments(rim, random), direction = random_moments(rim, random);
     const auto force = [&](const VectorXd& at) { return rim.forces(rim.touching(at), at); };
     const VectorXd difference = (force(m + step * direction) - force(m - step * direction)) / (2 * step);
-    EXPECT_LT((stiffness * rim.touching(m).share * direction - difference).cwiseAbs().maxCoeff(), 1e-6) << "rim " << i;
+    EXPECT_LT((stiffness * rim.touching(m).gram * direction - difference).cwiseAbs().maxCoeff(), 1e-6) << "rim " << i;
   }
 }
 

@@ -81,7 +81,7 @@ TEST_P(EachLaw, IsItsCurve) {
       const Branch on = law_->at(c, k, clearance);
       EXPECT_NEAR(on.F, example_.F(example_.number, on.delta, clearance), 1e-9 * (1 + c)) << "c = " << c;
       EXPECT_NEAR(example_.rises ? on.F + k * on.delta : k * on.delta, c, 1e-12 * (1 + c));
-      EXPECT_FALSE(on.spent);
+      EXPECT_FALSE(on.failed);
     }
 }
 

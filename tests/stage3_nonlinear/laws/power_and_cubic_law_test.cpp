@@ -57,10 +57,10 @@ TEST(CubicLaw, NeverPushesOn) {
   // x (1.1 - 0.1 x) falls from 5.5 on and is back at zero at x = 11.
   const auto law = test::cubic_law({1, 2, 3}, {1, 1.8, 2.4});
   EXPECT_FALSE(law->rises());
-  EXPECT_LE(law->least_slope(), -1.1 + 1e-12);
+  EXPECT_LE(law->min_slope(), -1.1 + 1e-12);
   EXPECT_NEAR(law->at(10, 1, 0).F, 1, 1e-12);
-  EXPECT_FALSE(law->at(10, 1, 0).spent);
-  EXPECT_TRUE(law->at(12, 1, 0).spent);
+  EXPECT_FALSE(law->at(10, 1, 0).failed);
+  EXPECT_TRUE(law->at(12, 1, 0).failed);
   EXPECT_EQ(law->at(12, 1, 0).F, 0);
   EXPECT_EQ(law->at(12, 1, 0).dF, 0);
   EXPECT_EQ(law->at(12, 1, 0).delta, 12);
@@ -70,20 +70,20 @@ TEST(CubicLaw, NeverPushesOn) {
 TEST(CubicLaw, DoesNotHoldAgainBeyondItsLastPoint) {
   const auto law = test::cubic_law({0.05, 0.1, 0.15}, {1500, 1800, 1200});
   constexpr double k = 1e4;
-  EXPECT_FALSE(law->at(k * 0.15, k, 0).spent);
+  EXPECT_FALSE(law->at(k * 0.15, k, 0).failed);
   double before = law->at(k * 0.15, k, 0).F;
   for (double delta = 0.151; delta < 1; delta += 0.001) {
     const Branch on = law->at(k * delta, k, 0);
     EXPECT_LE(on.F, before) << delta;
     EXPECT_GE(on.F, 0) << delta;
-    if (on.spent) {
+    if (on.failed) {
       EXPECT_EQ(on.dF, 0) << delta;
     }
     before = on.F;
   }
-  EXPECT_TRUE(law->at(k * 0.6, k, 0).spent);
+  EXPECT_TRUE(law->at(k * 0.6, k, 0).failed);
   // Where its own points show that it rises again, it does.
-  EXPECT_FALSE(test::cubic_law({1, 2, 3}, {10, 2, 10})->at(k * 5, k, 0).spent);
+  EXPECT_FALSE(test::cubic_law({1, 2, 3}, {10, 2, 10})->at(k * 5, k, 0).failed);
 }
 
 /// Rounding of points on a line does not make it fall.

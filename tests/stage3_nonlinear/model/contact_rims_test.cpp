@@ -93,7 +93,7 @@ DiscState state_of(const PlateModel& plate, double gap, double mu, const Eigen::
   for (int i = 0; i < 50; ++i) {
     const RimSolution& its = rim.solve(c);
     const VectorXd f = its.forces.head(k), m = (c - f) / stiffness;
-    const MatrixXd df = rim.contact().stiffness() * its.touching.share.topRows(k) * its.w_by_c;
+    const MatrixXd df = rim.contact().stiffness() * its.touching.gram.topRows(k) * its.w_by_c;
     VectorXd r = f + S * m + plate.S.bottomLeftCorner(k, 2) * u;
     MatrixXd J = df + S * (MatrixXd::Identity(k, k) - df) / stiffness;
     if (mu > 0) {

@@ -73,7 +73,7 @@ TEST(JointModel, RefusesGapsInHolesThatTheirSpringsFill) {
   for (const char* gaps : {R"("gap": [0, 0.1])", R"("diameter": 5)", R"("diameter": 5, "hole_diameter": [5, 5.1])"})
     EXPECT_THAT([&] { (void)with(gaps); },
                 ThrowsMessage<InputError>(AllOf(HasSubstr(gaps[1] == 'g' ? "/fasteners/0/gap: " : "/0/diameter: "),
-                                                HasSubstr("the springs of hole \""), HasSubstr("also pull"))));
+                                                HasSubstr("the springs of hole \""), HasSubstr("act in tension too"))));
   for (const char* none : {R"("gap": 0)", R"("diameter": 5, "hole_diameter": 5)"})
     EXPECT_EQ(with(none).fasteners[0].holes[1].gap, 0);
 }

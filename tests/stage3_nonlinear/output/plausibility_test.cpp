@@ -55,7 +55,7 @@ TEST_F(Plausibility, SwappedHolesAreNamed) {
   const std::string said = warnings(fasteners({1, 3, 2, 4}), described(4));
   EXPECT_THAT(said, AllOf(HasSubstr("[holes-apart]: "), HasSubstr("joint.json: /fasteners/1/between: "),
                           HasSubstr("\"a:2\" and \"b:3\" are 20 apart, more than the radius 2.5"),
-                          HasSubstr(" (1 more likewise, this is the worst)\n")));
+                          HasSubstr(" (1 more of this kind, this is the worst)\n")));
 }
 
 TEST_F(Plausibility, TheOnlyFastenerOfTwoSheetsIsComparedAsTheyAreDrawn) {
@@ -83,7 +83,7 @@ TEST_F(Plausibility, TheGroundHasNoHoleToCompareWith) {
 TEST_F(Plausibility, SheetsMayHaveCoordinatesOfTheirOwn) {
   EXPECT_EQ(warnings(fasteners({1, 2, 3}), described(3, {-100, 30})), "");
   const std::string said = warnings(fasteners({1, 2, 4, 3, 5}), described(5, {-100, 30}));
-  EXPECT_THAT(said, AllOf(HasSubstr("/fasteners/2/between"), HasSubstr("(1 more likewise, this is the worst)"),
+  EXPECT_THAT(said, AllOf(HasSubstr("/fasteners/2/between"), HasSubstr("(1 more of this kind, this is the worst)"),
                           Not(HasSubstr("/fasteners/0/")), Not(HasSubstr("/fasteners/1/"))));
 }
 

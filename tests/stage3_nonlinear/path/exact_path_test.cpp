@@ -158,7 +158,8 @@ INSTANTIATE_TEST_SUITE_P(
                     test::RandomJoint{.floating = true, .piecewise = true},
                     test::RandomJoint{.friction = true, .one_sided = true, .floating = true, .piecewise = true}));
 
-/// Three plates with friction on the middle one too, whose rims two planes share: their sides are corners of their own.
+/// Three plates with friction on the middle one too, whose rims two planes fraction: their sides are corners of their
+/// own.
 TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
   std::mt19937 random(83);
   for (int i = 0; i < 100; ++i) {

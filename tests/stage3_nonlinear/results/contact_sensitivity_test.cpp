@@ -92,7 +92,7 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
         gap += change;
         const LoadPath changed = follow(make_equations(joint), {1}, options);
         gap -= change;
-        return amounts(changed.steps.at(0).F, joint.n_directions());
+        return magnitudes(changed.steps.at(0).F, joint.n_directions());
       };
       const VectorXd difference = (at(step) - at(-step)) / (2 * step), finer = (at(step / 2) - at(-step / 2)) / step;
       if ((difference - finer).norm() > 1e-3 * (1 + finer.norm())) continue;  // a corner is near

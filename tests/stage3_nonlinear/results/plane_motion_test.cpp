@@ -54,13 +54,13 @@ TEST_P(Objectivity, ForcesTurnWithTheJoint) {
       plane.clearance = GetParam().clearance;
     }
     const PathStep step = test::solved(joint);
-    ASSERT_GT(amounts(step.F, 2).maxCoeff(), 0.1);
+    ASSERT_GT(magnitudes(step.F, 2).maxCoeff(), 0.1);
     for (const double angle : {0.3, 1.0, std::numbers::pi / 2, 2.7, 4.4}) {
       const Matrix2d Q = Eigen::Rotation2Dd(angle).toRotationMatrix();
       const PathStep there = test::solved(turned(joint, Q));
       EXPECT_LT((there.F - turned(step.F, Q)).norm(), 1e-9 * step.F.norm()) << "joint " << i << ", angle " << angle;
       EXPECT_LT((there.delta - turned(step.delta, Q)).norm(), 1e-9 * step.delta.norm());
-      EXPECT_LT((amounts(there.F, 2) - amounts(step.F, 2)).norm(), 1e-9 * step.F.norm());
+      EXPECT_LT((magnitudes(there.F, 2) - magnitudes(step.F, 2)).norm(), 1e-9 * step.F.norm());
     }
     const Matrix2d mirror = Vector2d(1, -1).asDiagonal();
     EXPECT_LT((test::solved(turned(joint, mirror)).F - turned(step.F, mirror)).norm(), 1e-9 * step.F.norm());

@@ -236,7 +236,7 @@ TEST(RimState, ForceAcrossIsThatOfThePressure) {
   const double along = std::numbers::pi * 0.5;
   const auto s = state(pressed(pressure), along, 0);
   EXPECT_NEAR(s.across, 0.2 * along, 1e-12);
-  EXPECT_NEAR(s.across_share, 0.2, 1e-12);
+  EXPECT_NEAR(s.across_ratio, 0.2, 1e-12);
   Plate y = pressed(pressure);
   y.axes = {1};
   EXPECT_NEAR(state(y, 0.2 * along, 0).across, along, 1e-12);

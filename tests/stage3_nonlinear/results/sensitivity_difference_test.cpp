@@ -33,7 +33,7 @@ struct Number {
 std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
   const Index a = c.size() / std::ssize(equations.contacts);
   std::vector<Index> result;
-  const VectorXd lengths = amounts(c, a), F = contact_state(equations, c).F;
+  const VectorXd lengths = magnitudes(c, a), F = contact_state(equations, c).F;
   for (Index j = 0; j < std::ssize(lengths); ++j) {
     const Contact& contact = equations.contacts[j];
     const auto corners = contact.law->corners(contact.stiffness, contact.clearance).value_or(std::vector<double>{});
@@ -42,9 +42,9 @@ std::vector<Index> piece(const JointEquations& equations, const VectorXd& c) {
     result.push_back(F.segment(j * a, a).isZero(0));
     if (a == 1) result.push_back(lengths[j] < 0);
   }
-  const auto& rubbing = equations.system->friction.rubbing;
+  const auto& rubbing = equations.system->friction.friction_holes;
   for (std::size_t i = 0; i < rubbing.size(); ++i)
-    for (const RubbingHole& hole : rubbing[i]) {
+    for (const FrictionHole& hole : rubbing[i]) {
       const auto& [interface, row, friction] = equations.interfaces[i];
       const auto of_plane = [&](Index plane) {
         return plane < 0 || plane * a >= interface->size() ? 0 : F[row + plane * a + hole.direction];
@@ -96,7 +96,7 @@ class Differences {
     const Root root = newton_root(root_problem(equations, changed.load_factor, scale), c_ / scale, {1e-14, 50});
     if (!(root.residual.cwiseAbs().maxCoeff() < 1e-12)) return std::nullopt;
     const VectorXd c = scale * root.x;
-    return Solution{amounts(contact_state(equations, c).F, changed.model.n_directions()), piece(equations, c)};
+    return Solution{magnitudes(contact_state(equations, c).F, changed.model.n_directions()), piece(equations, c)};
   }
 
   NamedJoint joint_;

@@ -171,7 +171,7 @@ TEST(Sensitivity, FollowsTheUnits) {
       const auto& [law, number] = a.numbers.law[l];
       sum += (number.length + number.force) * joint.laws.at(law).number(number.name) * by.law.col(l);
     }
-    const VectorXd F = amounts(a.path.steps[0].F, joint.model.n_directions());
+    const VectorXd F = magnitudes(a.path.steps[0].F, joint.model.n_directions());
     EXPECT_LT(largest(sum - F), 1e-8 * largest(F)) << "joint " << i << " of " << F.size();
   }
   EXPECT_GT(joints, 60);
@@ -198,7 +198,7 @@ TEST(Sensitivity, WithoutLoadAmountsGrowInAnyDirection) {
   for (auto& plane : joint.model.planes) plane.clearance = 0;
   static_cast<void>(joint.equations());
   const Solved a = solved(joint.model, {0, 1});
-  EXPECT_LT(largest(a.by[0].load_factor - amounts(a.path.steps[1].F, 2)), 1e-10 * largest(a.path.steps[1].F));
+  EXPECT_LT(largest(a.by[0].load_factor - magnitudes(a.path.steps[1].F, 2)), 1e-10 * largest(a.path.steps[1].F));
 }
 
 /// A doubler b that its gaps leave free, on a lap of a and c: load_path_test.cpp.

@@ -185,7 +185,7 @@ TEST(TransferredLoad, OfAnyStackIsThatOfTheDisplacementMethod) {
     EXPECT_LT(state.out_of_balance, 1e-10) << "joint " << i;
     EXPECT_LT(state.fasteners_out_of_balance, 1e-10) << "joint " << i;
     EXPECT_LT((state.transferred_first - state.transferred_second).norm(), 1e-10 * state.transferred_first.norm());
-    largest = std::max(largest, (amounts(step.F, a) - state.transferred_first).norm() / step.F.norm());
+    largest = std::max(largest, (magnitudes(step.F, a) - state.transferred_first).norm() / step.F.norm());
   }
   EXPECT_GT(largest, 0.1) << "friction matters";
 }

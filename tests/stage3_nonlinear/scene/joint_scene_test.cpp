@@ -233,7 +233,7 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{fasteners(R"("id": "1", "between": ["a:1", "a:3"], "law": "lin")"),
                 R"(/fasteners/0/between: goes through plate "a" twice; allowed: holes of different plates)"},
         Refusal{{{"plates", R"({"a": "a.h5", "b": "b.h5", "c": "c.h5"})"}},
-                R"(/plates/c: no fastener holds this plate; allowed: plates that a fastener names in "between")"},
+                R"(/plates/c: this plate has no fastener; allowed: plates that a fastener names in "between")"},
         Refusal{loads(R"([{"external": "c:P", "force": 1}])"),
                 R"(/loads/0/external: plate "c" does not exist; allowed: a, b)"},
         Refusal{loads(R"([{"external": "a:P", "force": 1}, {"external": "a:P", "displacement": 1}])"),

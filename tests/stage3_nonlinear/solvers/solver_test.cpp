@@ -44,7 +44,7 @@ TEST_P(Solves, IsDoneAtTheRoot) {
 TEST_P(Solves, StopsAtTheCap) {
   const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), {.tolerance = 1e-12, .max_iterations = 1});
   EXPECT_FALSE(root.converged);
-  EXPECT_EQ(root.ending, Ending::most_iterations);
+  EXPECT_EQ(root.ending, Ending::max_iterations);
   EXPECT_EQ(root.iterations, 1);
   EXPECT_TRUE(root.residual.allFinite());
 }

@@ -17,25 +17,25 @@ namespace {
 double log_choose(double n, double k) { return std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1); }
 
 /// Probability that a binomial number of n is in [from, to].
-double binomial(int n, double share, int from, int to) {
+double binomial(int n, double fraction, int from, int to) {
   double sum = 0;
   for (int k = std::max(from, 0); k <= std::min(to, n); ++k)
-    sum += std::exp(log_choose(n, k) + k * std::log(share) + (n - k) * std::log1p(-share));
+    sum += std::exp(log_choose(n, k) + k * std::log(fraction) + (n - k) * std::log1p(-fraction));
   return sum;
 }
 
 TEST(QuantileRanks, HoldTheQuantileWithNinetyFivePercentAndHardlyMore) {
   for (const int n : {20, 100, 1000, 5000})
-    for (const double share : quantile_shares) {
-      const auto [at, low, high] = quantile_ranks(share, n, 0);
-      EXPECT_EQ(at, std::max(1.0, std::ceil(share * n)));
+    for (const double fraction : quantile_levels) {
+      const auto [at, low, high] = quantile_ranks(fraction, n, 0);
+      EXPECT_EQ(at, std::max(1.0, std::ceil(fraction * n)));
       // The quantile lies above the low one if so many samples or more are below it, and below the high one if fewer.
-      const double below = binomial(n, share, 0, int(low) - 1), above = binomial(n, share, int(high), n);
+      const double below = binomial(n, fraction, 0, int(low) - 1), above = binomial(n, fraction, int(high), n);
       EXPECT_LE(below, beyond_limit) << n;
       EXPECT_LE(above, beyond_limit) << n;
-      EXPECT_GT(binomial(n, share, 0, int(low)), beyond_limit) << n;
+      EXPECT_GT(binomial(n, fraction, 0, int(low)), beyond_limit) << n;
       if (high <= unsigned(n)) {
-        EXPECT_GT(binomial(n, share, int(high) - 1, n), beyond_limit) << n;
+        EXPECT_GT(binomial(n, fraction, int(high) - 1, n), beyond_limit) << n;
       }
     }
 }
@@ -46,29 +46,31 @@ TEST(QuantileRanks, FailedSamplesWidenTheLimitsByTheirNumber) {
   EXPECT_EQ(with.high, without.high);
 }
 
-TEST(Share, HasExactBinomialLimits) {
+TEST(Proportion, HasExactBinomialLimits) {
   for (const int n : {10, 200, 3000})
     for (const int k : {0, 1, n / 3, n - 1, n}) {
-      const Share share = share_of(k, n, 0);
-      EXPECT_EQ(share.value, double(k) / n);
+      const Proportion fraction = proportion(k, n, 0);
+      EXPECT_EQ(fraction.value, double(k) / n);
       if (k > 0) {
-        EXPECT_NEAR(binomial(n, share.low, k, n), beyond_limit, 1e-8) << n << " " << k;
+        EXPECT_NEAR(binomial(n, fraction.low, k, n), beyond_limit, 1e-8) << n << " " << k;
       }
       if (k < n) {
-        EXPECT_NEAR(binomial(n, share.high, 0, k), beyond_limit, 1e-8) << n << " " << k;
+        EXPECT_NEAR(binomial(n, fraction.high, 0, k), beyond_limit, 1e-8) << n << " " << k;
       }
     }
-  EXPECT_EQ(share_of(0, 100, 0).low, 0);
-  EXPECT_EQ(share_of(100, 100, 0).high, 1);
-  EXPECT_EQ(share_of(5, 90, 10).low, share_of(5, 100, 0).low);
-  EXPECT_EQ(share_of(5, 90, 10).high, share_of(15, 100, 0).high);
+  EXPECT_EQ(proportion(0, 100, 0).low, 0);
+  EXPECT_EQ(proportion(100, 100, 0).high, 1);
+  EXPECT_EQ(proportion(5, 90, 10).low, proportion(5, 100, 0).low);
+  EXPECT_EQ(proportion(5, 90, 10).high, proportion(15, 100, 0).high);
 }
 
-TEST(Share, HasLimitsOfAMillionSamples) {
+TEST(Proportion, HasLimitsOfAMillionSamples) {
   for (const std::uint64_t k :
        {std::uint64_t{1}, std::uint64_t{500000}, std::uint64_t{999999}, std::uint64_t{1000000}}) {
-    const Share share = share_of(k, 1000000, 0);
-    EXPECT_TRUE(share.low < share.value && share.value <= share.high && share.high - share.low < 0.002) << k;
+    const Proportion fraction = proportion(k, 1000000, 0);
+    EXPECT_TRUE(fraction.low < fraction.value && fraction.value <= fraction.high &&
+                fraction.high - fraction.low < 0.002)
+        << k;
   }
 }
 
@@ -101,9 +103,9 @@ TEST(RandomShare, IsOfItsSampleAndVariableAlone) {
   std::set<double> shares;
   for (std::uint64_t sample = 0; sample < 100; ++sample)
     for (std::uint64_t variable = 0; variable < 20; ++variable) {
-      const double share = random_share(1, sample, variable);
-      EXPECT_TRUE(share > 0 && share < 1);
-      shares.insert(share);
+      const double fraction = random_fraction(1, sample, variable);
+      EXPECT_TRUE(fraction > 0 && fraction < 1);
+      shares.insert(fraction);
     }
   EXPECT_EQ(shares.size(), 2000);
 }
