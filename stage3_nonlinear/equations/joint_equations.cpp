@@ -190,14 +190,14 @@ VectorXd JointEquations::rigid_forces(double load_factor) const {
   return starts_unloaded() ? VectorXd(load_factor * q_at(load_factor)) : rigid_forces_by(*system, load_at(load_factor));
 }
 
-VectorXd JointEquations::asked(const ContactState& state, bool friction) const {
+VectorXd JointEquations::required(const ContactState& state, bool friction) const {
   VectorXd forces = state.F + system->S_ud * state.delta;
   if (friction) forces += system->H * state.Lambda;
   return forces;
 }
 
 VectorXd JointEquations::residual(const ContactState& state, double load_factor) const {
-  return asked(state, has_friction) - rigid_forces(load_factor);
+  return required(state, has_friction) - rigid_forces(load_factor);
 }
 
 MatrixXd JointEquations::friction_matrix(const VectorXd& F) const {
@@ -248,7 +248,7 @@ RootProblem root_problem(const JointEquations& equations, double load_factor, do
   if (equations.has_friction && frozen) load -= system.H * frozen->Lambda;
   RootProblem problem;
   const auto residual = [&equations, load, scale, friction](const ContactState& state) -> VectorXd {
-    return (equations.asked(state, friction) - load) / scale;
+    return (equations.required(state, friction) - load) / scale;
   };
   problem.residual = [&equations, residual, scale](const VectorXd& x) {
     return residual(contact_state(equations, scale * x));

@@ -64,7 +64,7 @@ struct JointEquations {
   /// 1 for load cases that are active at a load factor, else 0, (l).
   [[nodiscard]] VectorXd active_cases(double load_factor) const;
   /// F + S_ud delta and, with friction, H Lambda, (r), force.
-  [[nodiscard]] VectorXd asked(const ContactState& state, bool friction) const;
+  [[nodiscard]] VectorXd required(const ContactState& state, bool friction) const;
   /// F + S_ud delta + H Lambda minus the forces of rigid fasteners, (r), force.
   [[nodiscard]] VectorXd residual(const ContactState& state, double load_factor) const;
   /// Derivative of the forces H Lambda of cosine friction by F for the sides that bear under F, (r, r), dimensionless.

@@ -38,7 +38,7 @@ struct ShortWaves {
   VectorXd disk_compliance;   ///< (n) of an elastic disk by pressure, length / stress; empty: springs are in its place
   MatrixXd disk_by_shear;     ///< (n, n_shears) length / stress
   VectorXd disk_tangential;   ///< (n_shears) of the disk along shears, length / stress
-  double min_compliance = 0;  ///< least of sheet and disk together by any wave of order 2 and more, length / stress
+  double min_compliance = 0;  ///< minimum for sheet and disk over waves of order 2 and more, length / stress
 
   [[nodiscard]] bool is_empty() const { return D.size() == 0 || n == n_long; }
   /// Number of pressure and shear waves of the elements.

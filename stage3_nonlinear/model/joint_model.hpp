@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
+#include "stage3_nonlinear/model/bearing_side.hpp"
 #include "stage3_nonlinear/model/contact_rims.hpp"
 #include "stage3_nonlinear/model/spring_waves.hpp"
 #include "stage3_nonlinear/scene/joint_scene.hpp"
@@ -19,9 +20,6 @@ namespace fastjoint::stage3 {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Names of the axes.
-inline constexpr std::array axis_names{"x", "y"};
 
 /// The matrices of a plate at its last degrees up to that of the joint, ascending; S, T, R are those of PlateModel.
 struct PlateDegrees {
@@ -48,7 +46,8 @@ struct PlateModel {
   /// (m+e+k, h + s) by friction cases, then by the shears of rims of contact, length^2
   MatrixXd R;
   MatrixXd T;                                                ///< (m+e+k, q), dimensionless
-  std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
+  std::vector<std::string> friction_hole;                    ///< (h)
+  std::vector<std::optional<BearingSide>> friction_bearing;  ///< (h)
   VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
   VectorXd friction_resultant_across;                        ///< (h), length^2; empty: all 0
   VectorXd traction_resultant_across;                        ///< (q), dimensionless; empty: all 0
@@ -71,13 +70,13 @@ struct PlateModel {
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
   VectorXd traction_force;                                   ///< (q) the same for both sides of a hole
-  /// (q) side of the hole that bears under the force of this case, "+x", ...; "" or no list for edges
-  std::vector<std::string> traction_bearing{};
+  /// (q) side of the hole that bears under the force of this case; none or no list for edges
+  std::vector<std::optional<BearingSide>> traction_bearing{};
 
   /// Sign of the force under which a traction's side of its hole bears; 0 for edges.
   [[nodiscard]] int bearing_sign(Index traction) const {
-    if (traction >= std::ssize(traction_bearing) || traction_bearing[traction].empty()) return 0;
-    return traction_bearing[traction][0] == '+' ? 1 : -1;
+    if (traction >= std::ssize(traction_bearing) || !traction_bearing[traction]) return 0;
+    return traction_bearing[traction]->sign;
   }
   /// True if a traction case is the other side of the hole of the case before.
   [[nodiscard]] bool is_other_side(Index traction) const {

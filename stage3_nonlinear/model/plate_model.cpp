@@ -35,6 +35,13 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
   return axes;
 }
 
+std::vector<std::optional<BearingSide>> bearing_sides(const std::vector<std::string>& names) {
+  std::vector<std::optional<BearingSide>> sides;
+  sides.reserve(names.size());
+  for (const auto& name : names) sides.push_back(bearing_side(name));
+  return sides;
+}
+
 /// Names the holes, and finds the index of each disc of the file among the discs of all directions. Discs of a hole
 /// must follow each other; a repeated direction counts as another hole, which check_once refuses.
 void place_discs(const std::string& file, const formats::PlateMatrices& a, PlateModel& plate) {
@@ -294,13 +301,13 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.T = plate.degrees.T.back();
   check_not_negative(file, plate.S);
   plate.friction_hole = a.friction_hole;
-  plate.friction_bearing = a.friction_bearing;
+  plate.friction_bearing = bearing_sides(a.friction_bearing);
   plate.friction_unit_force = a.friction_unit_force;
   plate.friction_resultant = a.friction_resultant;
   plate.friction_resultant_across = a.friction_resultant_across;
   plate.traction_resultant_across = a.traction_resultant_across;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
-  plate.traction_bearing = a.traction_bearing;
+  plate.traction_bearing = bearing_sides(a.traction_bearing);
   plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);

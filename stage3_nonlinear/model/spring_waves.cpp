@@ -53,10 +53,6 @@ bool same(const formats::WaveRim& a, const formats::WaveRim& b) {
 
 }  // namespace
 
-double direction_of(const std::string& side) {
-  return (side[1] == 'x' ? 0 : rim::full_turn / 4) + (side[0] == '+' ? 0 : rim::full_turn / 2);
-}
-
 double cosine_bearing(double angle, double direction) { return std::max(std::cos(angle - direction), 0.0); }
 
 double cosine_friction(double angle, double direction) {

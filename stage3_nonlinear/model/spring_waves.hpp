@@ -3,7 +3,6 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <string>
 #include <vector>
 
 #include "common/formats/plate_matrices.hpp"
@@ -13,9 +12,6 @@ namespace fastjoint::stage3 {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-/// Direction of a bearing side, "+x", "-x", "+y" or "-y", radians.
-[[nodiscard]] double direction_of(const std::string& side);
 
 /// Cosine pressure, of peak 1, at an angle on the half of a rim around a direction.
 [[nodiscard]] double cosine_bearing(double angle, double direction);

@@ -56,11 +56,11 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   }
   history.external_id = plate.externals;
   history.traction_id = plate.tractions;
-  history.traction_bearing = plate.traction_bearing;
+  history.traction_bearing = names_of(plate.traction_bearing);
   history.traction_bearing.resize(plate.tractions.size());
   history.contact = plate.contact;
   history.friction_hole = plate.friction_hole;
-  history.friction_bearing = plate.friction_bearing;
+  history.friction_bearing = names_of(plate.friction_bearing);
   const auto rows = [&](VectorXd PlateState::*values, Index n) {
     MatrixXd result(std::ssize(states), n);
     for (Index step = 0; step < result.rows(); ++step) result.row(step) = states[step].plates[at].*values;

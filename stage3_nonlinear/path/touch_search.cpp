@@ -33,15 +33,15 @@ std::optional<double> TouchSearch::place_between(const Sample& a, const Sample& 
   for (Index j = 0; j < std::ssize(a.passed); ++j) {
     if (a.passed[j] == b.passed[j]) continue;
     const bool opens = a.passed[j] > b.passed[j];
-    const Sample &pressed = opens ? a : b, &loose = opens ? b : a;
+    const Sample &closed = opens ? a : b, &open = opens ? b : a;
     auto& there = rates[opens ? 0 : 1];
-    if (!there) there = rate(equations_, pressed);
+    if (!there) there = rate(equations_, closed);
     if (!there->allFinite()) return std::nullopt;
-    const double depth = corners_.position(pressed.c, j) - corners_.of(j).front().at;
-    const double by = load_from_touch(j, pressed.load, depth / corners_.slope(pressed.c, j).dot(*there));
-    const double fraction = (1 + further) * -by / (loose.load - pressed.load);  // of the way to the loose state
+    const double depth = corners_.position(closed.c, j) - corners_.of(j).front().at;
+    const double by = load_from_touch(j, closed.load, depth / corners_.slope(closed.c, j).dot(*there));
+    const double fraction = (1 + further) * -by / (open.load - closed.load);  // of the way to the open state
     if (!(fraction > 0 && fraction < 1 - at_ends)) return std::nullopt;
-    const double load = pressed.load + std::max(fraction, at_ends) * (loose.load - pressed.load);
+    const double load = closed.load + std::max(fraction, at_ends) * (open.load - closed.load);
     if (!first || load < *first) first = load;
   }
   return first;

@@ -40,11 +40,11 @@ VectorXd forces_on_discs(const JointModel& joint, const JointEquations& equation
 void set_friction(const PlateModel& plate, PlateState& state) {
   for (Index i = 0; i < std::ssize(plate.friction_hole); ++i) {
     const auto hole = std::ranges::find(plate.holes, plate.friction_hole[i]);
-    const int axis = plate.friction_bearing[i].back() == 'y' ? 1 : 0;
+    if (!plate.friction_bearing[i]) continue;
+    const auto [axis, sign] = *plate.friction_bearing[i];
     const auto at = std::ranges::find(plate.axes, axis);
     if (state.Lambda[i] == 0 || hole == plate.holes.end() || at == plate.axes.end()) continue;
     const Index a = std::ssize(plate.axes), disc = (hole - plate.holes.begin()) * a, d = at - plate.axes.begin();
-    const double sign = plate.friction_bearing[i][0] == '-' ? -1 : 1;
     state.friction[disc + d] += sign * std::abs(plate.friction_resultant[i]) * state.Lambda[i];
     if (a > 1 && plate.has_disc(disc + 1 - d))
       state.friction[disc + 1 - d] += entry_or_0(plate.friction_resultant_across, i) * state.Lambda[i];
@@ -87,19 +87,19 @@ void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorX
   const Index m = plate.n_discs(), k = rim_F.size();
   VectorXd u(plate.n_unknowns());
   u << state.D, state.De, state.moments;
-  VectorXd asked = plate.S * u + plate.T * state.traction;
-  if (state.Lambda.size() > 0) asked += plate.R * state.Lambda;
+  VectorXd required = plate.S * u + plate.T * state.traction;
+  if (state.Lambda.size() > 0) required += plate.R * state.Lambda;
   state.bearing = on_discs;
   state.friction = VectorXd::Zero(m);
   set_friction(plate, state);
   if (plate.stress_level)
     state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_coefficients(plate, state),
                             loaded_discs(plate, state), scale, state.loaded);
-  worst_row = std::max(
-      {worst_row, (asked.head(m) - on_discs).cwiseAbs().maxCoeff(), (asked.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
+  worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
+                        (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
-    if (plate.external_displacement[i]) state.Pe[i] = asked[m + i];
-    worst_row = std::max(worst_row, std::abs(asked[m + i] - state.Pe[i]));
+    if (plate.external_displacement[i]) state.Pe[i] = required[m + i];
+    worst_row = std::max(worst_row, std::abs(required[m + i] - state.Pe[i]));
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
   for (Index i = 0; i < std::ssize(state.traction); ++i) {

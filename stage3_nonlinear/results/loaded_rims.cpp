@@ -35,17 +35,17 @@ struct KnownLoads {
 KnownLoads known_loads(const PlateModel& plate, const std::string& hole, const VectorXd& coefficients) {
   KnownLoads loads;
   const Index q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
-  for (Index i = 0; i < h; ++i)
-    if (const double amount = coefficients[coefficients.size() - q - h + i];
-        plate.friction_hole[i] == hole && amount != 0)
-      loads.frictions.push_back({direction_of(plate.friction_bearing[i]), amount});
-  for (Index i = 0; i < std::ssize(plate.traction_hole); ++i)
-    if (const double amount = coefficients[coefficients.size() - q + i];
-        plate.traction_hole[i] == hole && amount != 0) {
-      const double sign = plate.traction_bearing[i][0] == '-' ? -1 : 1;  // a unit force acts along + on both sides
-      loads.pressures.push_back(
-          {direction_of(plate.traction_bearing[i]), sign * amount / plate.traction_unit_force[i]});
-    }
+  for (Index i = 0; i < h; ++i) {
+    const double peak = coefficients[coefficients.size() - q - h + i];
+    if (const auto& side = plate.friction_bearing[i]; side && plate.friction_hole[i] == hole && peak != 0)
+      loads.frictions.push_back({side->direction(), peak});
+  }
+  for (Index i = 0; i < std::ssize(plate.traction_hole); ++i) {
+    const double force = coefficients[coefficients.size() - q + i];  // along + on both sides
+    if (plate.traction_hole[i] != hole || force == 0) continue;
+    const BearingSide side = plate.traction_bearing[i].value();
+    loads.pressures.push_back({side.direction(), side.sign * force / plate.traction_unit_force[i]});
+  }
   return loads;
 }
 

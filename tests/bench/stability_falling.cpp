@@ -23,7 +23,7 @@ double residual_of(const JointEquations& equations, const VectorXd& F, const Vec
   return VectorXd(F + equations.system->S_ud * delta - equations.q).cwiseAbs().maxCoeff() / force_scale(equations);
 }
 
-/// Forces of all solutions that random starts find, spent fasteners left out.
+/// Forces of all solutions that random starts find, without failed fasteners.
 std::vector<VectorXd> solutions(const JointEquations& equations, std::mt19937& random, double tolerance) {
   constexpr int starts = 100;
   constexpr double same = 1e-5;
@@ -42,7 +42,7 @@ std::vector<VectorXd> solutions(const JointEquations& equations, std::mt19937& r
   return found;
 }
 
-/// Whether the solution balances with forces that the laws have at its displacements, none spent.
+/// Whether the solution balances with forces that the laws have at its displacements, none failed.
 bool is_solution(const JointEquations& equations, const stage3::PathStep& step, double tolerance) {
   VectorXd c = step.delta;
   for (Eigen::Index j = 0; j < c.size(); ++j) {

@@ -40,7 +40,7 @@ TEST_F(Run, KeepsWhatConvergedAndSaysWhatToCheck) {
   EXPECT_THAT(test::read_file(csv_), HasSubstr("\n2,2,left bolt,"));
 }
 
-TEST_F(Run, SaysThatAFastenerIsSpent) {
+TEST_F(Run, SaysThatAFastenerHasFailed) {
   // Sheets that hold themselves balance without their fastener: each try finds it far out, where its cubic is negative.
   Members members = overloaded;
   members["increments"] = "[1, 40]";

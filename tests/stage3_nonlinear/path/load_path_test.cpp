@@ -197,7 +197,7 @@ TEST(LoadPath, PerfectlyPlasticFastenersEndAtTheirLimitLoad) {
   EXPECT_GT(path.failure->residual, 1e-10);
 }
 
-TEST(LoadPath, SpentFastenersAreNoSolution) {
+TEST(LoadPath, FailedFastenersAreNoSolution) {
   // Both sheets hold themselves, so that the joint balances with its fastener far out where the cubic is
   // below zero.
   const test::Lap lap{test::spring_plate(1, 1, {{0, 1, 1000}, {0, ground, 1}}),
