@@ -15,9 +15,9 @@ struct Falling {
   std::vector<std::string> broken;
 };
 
-/// Joints of 1 to 3 fasteners: whatever the program returns must balance to the tolerance with no fastener failed, where
-/// a hundred random starts find a solution it must find one, and where they find two it must warn, of all such laws or
-/// at the solution it returns.
+/// Joints of 1 to 3 fasteners: whatever the program returns must balance to the tolerance with no fastener failed,
+/// where a hundred random starts find a solution it must find one, and where they find two it must warn, of all such
+/// laws or at the solution it returns.
 [[nodiscard]] Falling check_falling(int n, double tolerance);
 
 }  // namespace fastjoint::bench
