@@ -117,7 +117,8 @@ def examples():
     """Folder, sheets and joints of every example, as far as the joints' sheets are among them."""
     for folder in sorted(path for path in (ROOT / "examples").iterdir() if path.is_dir()):
         scenes = {path.stem: scene(path) for path in folder.glob("*.json")}
-        sheets = {name: each for name, each in scenes.items() if each.get("format") == "plate"}
+        sheets = {name: each for name, each in scenes.items()
+                  if each.get("format") == "plate" and "nodes" in each["geometry"].get("mesh", {"nodes": []})}
         known = {f"{name}.matrices.h5" for name in sheets}
         yield folder.name, sheets, {name: each for name, each in scenes.items()
                                     if each.get("format") == "joint" and set(each["plates"].values()) <= known}
