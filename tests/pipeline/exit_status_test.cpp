@@ -186,7 +186,7 @@ TEST(BeyondCapacity, IsANumericalFailureThatNamesTheFastener) {
   const auto run = test::stage3(folder, "J.json -o R.h5");
   EXPECT_EQ(run.status, 4);
   EXPECT_THAT(run.err, testing::HasSubstr("limit load reached: beyond load factor 7.14286e-05, the last that "
-                                          "converged, the laws of fastener \"1\" allow"));
+                                          "converged, the laws of fastener \"1\" are at"));
   const auto result = formats::read_joint_result(folder.path("R.h5"));
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(result.load_factor.size(), 1);

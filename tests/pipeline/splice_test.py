@@ -80,8 +80,8 @@ def check_choices(page):
         told = run.stdout.splitlines()[-1]
         assert f"> {told}\n" in page, f"README.md says otherwise than:\n{told}"
         assert ("warning" in run.stderr) == (choice != "frictionless"), run.stderr
-    for choice, words, unit in (("held", r"\[disc-held-across\]: .* by ([\d.]+) N,", "N"),
-                                ("filled", r"\[springs-pull\]: .* by up to ([\d.]+) N/mm\^2", "N/mm²")):
+    for choice, words, unit in (("held", r"\[disc-held-across\]: .* reaction of ([\d.]+) N ", "N"),
+                                ("filled", r"\[springs-pull\]: .* of up to ([\d.]+) N/mm\^2", "N/mm²")):
         Path(f"out/{choice}/joint.h5").unlink()
         run = done("make", "-s", "-C", f"out/{choice}", "-f", "../../Makefile", "joint.h5")
         told = f"{float(re.search(words, run.stderr)[1]):.0f} {unit}"

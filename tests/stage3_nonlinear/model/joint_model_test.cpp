@@ -211,7 +211,7 @@ TEST(JointModel, RefusesFastenersWhoseDiscsMoveInOtherDirections) {
   lap.b.disc_direction = {"x", "y"};
   lap.a.disc_direction = {"y", "x"};
   expect_refusal<FileError>(
-      lap, {}, "b.h5:disc/direction: hole \"1\" has y behind x, expected each direction once, all in one order");
+      lap, {}, "b.h5:disc/direction: hole \"1\" has y after x, expected each direction once, all in one order");
 }
 
 /// A line of symmetry holds discs in one direction: nothing else moves in it, and nothing changes along the other.

@@ -105,7 +105,7 @@ TEST_F(LimitLoad, EndsTheRunWithItsFastenersAndTheLoadThatWasReached) {
         << method;
     EXPECT_THAT(result().load_factor, ElementsAre(0.5));
   }
-  EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr("and load factor 0.6 is the most")));
+  EXPECT_THAT([&] { run(); }, ThrowsMessage<NumericalError>(HasSubstr("and load factor 0.6 is an upper bound")));
 }
 
 TEST_F(LimitLoad, OfAPeakIsNamedToo) {
