@@ -80,7 +80,7 @@ Tractions of_contact(const ContactLoad& load, const ContactLoad::Contour& contou
 /// @param w Waves of the displacement, as many as the rim's.
 ContactLoad::Contour contour_of(const RimContact& rim, const Touching& touching, const RimFriction& friction,
                                 const VectorXd& w) {
-  ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.excess, friction.direction, {}};
+  ContactLoad::Contour contour{rim.pressures(), w, rim.mu() / friction.excess, friction.direction, {}, friction.slips};
   for (const auto& arc : touching.arcs) contour.ends.insert(contour.ends.end(), {arc.from, arc.to});
   return contour;
 }
@@ -124,7 +124,7 @@ double LoadedRim::against_slip() const {
     const double shear = degrees[0].tractions(angle).y();
     if (shear != 0 && shear * all.shear_sum_at(slip, angle) < 0) ++against;
   }
-  return double(against) * rim.waves.sweep / rim::degree / double(n);
+  return double(against) * 360 / double(n);
 }
 
 ContactLoad contact_load(const RimProblem& rim, const VectorXd& w) {
@@ -209,13 +209,14 @@ std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const
     if (in_contact) {
       loaded->kinks = contacts[i].all.ends;
       loaded->kinks_by_half = contacts[i].half.ends;
-      if (contacts[i].all.mu > 0 && !plate.peaks_alone) {
+      if (contacts[i].all.mu > 0 && contacts[i].all.slips && !plate.peaks_alone) {
         loaded->all = contacts[i].all.shape;
         loaded->slip =
             slip_of(contacts[i], *plate.short_waves[i], loaded->degrees[0].displacement.tail(rim.waves.n_shears()));
       }
       constexpr double of_root = 1.5;
       if (plate.short_waves[i]->disk_compliance.size() > 0 && contacts[i].all.mu > 0) loaded->beyond_half = of_root;
+      if (contacts[i].all.shape.highest < 2) loaded->beyond_half = std::numeric_limits<double>::infinity();
       loaded->by_half = of_contact(contacts[i], contacts[i].half);
     }
     if (!in_contact && rim.modulus > 0)

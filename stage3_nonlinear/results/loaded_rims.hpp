@@ -29,12 +29,14 @@ struct LoadedRim {
   std::vector<double> kinks_by_half{};
   /// Estimated change of the peak by all further waves over that by the upper half of the waves. With friction on an
   /// elastic disk the stress behaves like a square root at the end of contact, and the peak converges as N^-1/2.
+  /// Infinite of one wave alone.
   double beyond_half = 0.5;
   VectorXd slip{};        ///< all waves of the tangential displacement of the disc relative to the sheet, length; none
-                          ///< without friction
+                          ///< without friction and of a rim that sticks
   rim::Harmonics all{1};  ///< its shears are the waves of `slip`
 
-  /// Angle of the rim on which friction acts against the slip, degrees.
+  /// Angle on which friction acts against the slip, degrees of the whole hole, of which the rim may be a half; 0 of a
+  /// rim that sticks.
   [[nodiscard]] double against_slip() const;
 
   /// Angles one degree apart around the rim, or in about such steps from end to end of a part of a rim, degrees.
@@ -60,6 +62,7 @@ struct ContactLoad {
     double mu;                 ///< shear over pressure; less than that of the fastener if the rim sticks
     double direction;          ///< of the resultant of the pressure on the sheet, radians
     std::vector<double> ends;  ///< of the arcs of contact, radians
+    bool slips = true;         ///< else the rim sticks, and where it does so is not known
   };
   Contour all, half;  ///< from all waves, and from those up to half the order, to estimate the effect of further ones
 };

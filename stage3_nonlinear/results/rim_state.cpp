@@ -143,8 +143,9 @@ class PeakSearch {
   /// (docs/theory.md, section 11.4).
   [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak,
                              const std::shared_ptr<const TractionWaves>& tractions) const {
-    if (rim_.degrees.size() < 2) return unknown;
     const rim::Harmonics& all = rim_.rim.waves;
+    // One wave tells nothing about further ones.
+    if (rim_.degrees.size() < 2 || all.highest < 2 || !std::isfinite(rim_.beyond_half)) return unknown;
     const auto up_to = [&](int fewer) {
       rim::Harmonics shape = all;
       shape.highest = std::max(all.highest - fewer, 1);

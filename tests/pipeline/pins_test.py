@@ -114,6 +114,14 @@ def friction_against_slip(folder):
             solve = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": E, "nu": nu, "law": law}}, WIDE, friction=mu)
             for gap, truth in ((0, without), (1, with_gap)):
                 near(f"{law}, friction {mu}, E g t/P = {gap}: against the slip, degrees", solve(gap * 1000 / E)["against"][0], truth, 1, absolute=True)
+    matrices(folder, plate({"E": E, "nu": nu}, WIDE, [0, *(y for y in WIDE if y > 0)],
+                           {"spring": {"compression_only": True, "disk": {"E": E, "nu": nu, "law": "elastic"}}}, supports=[{"on": "bottom", "fix": ["y"]}],
+                           external=[{"id": end, "on": end, "direction": "x", "kind": "rigid"} for end in ("left", "right")]))
+    half = state(folder, [{"id": "pin", "between": ["sheet:h", "ground"], "law": "law", "friction": 0.3}],
+                 [{"external": f"sheet:{end}", "force": -250} for end in ("left", "right")])
+    near("  of half the sheet: degrees of the whole hole", half["against"][0], 42.5, 1, absolute=True)
+    solve = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": E, "nu": nu}, "harmonics": 1}, WIDE)
+    assert solve(0)["bar"][0] == np.inf, ("one wave tells nothing about further ones", solve(0))
 
 
 def pressed_in_disk(folder):
