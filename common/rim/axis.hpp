@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/rim/angles.hpp"
+
 namespace fastjoint::rim {
 
 /// Coordinate axis of the plane, along which discs, supports and externals have their directions.
@@ -37,10 +39,14 @@ struct SignedAxis {
 
 /// Name of a signed axis in inputs and files: "+x", "-x", "+y" or "-y".
 [[nodiscard]] inline std::string name_of(const SignedAxis& side) {
-  return (side.sign > 0 ? "+" : "-") + name_of(side.axis);
+  return std::string(1, side.sign > 0 ? '+' : '-') + name_of(side.axis);
 }
 [[nodiscard]] inline SignedAxis signed_axis_named(const std::string& name) {
   return {axis_named(name.substr(1)), name[0] == '+' ? 1 : -1};
+}
+/// Angle of its direction from x, radians.
+[[nodiscard]] inline double angle_of(const SignedAxis& side) {
+  return (side.axis == Axis::x ? 0 : full_turn / 4) + (side.sign > 0 ? 0 : full_turn / 2);
 }
 [[nodiscard]] inline Eigen::Vector2d unit_vector(const SignedAxis& side) { return side.sign * unit_vector(side.axis); }
 

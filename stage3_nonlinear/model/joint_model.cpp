@@ -75,7 +75,7 @@ int common_degree(const JointScene& scene, const std::vector<PlateMatrices>& all
 std::string directions_at(const PlateModel& plate, Index first_disc) {
   std::vector<std::string> names;
   for (Index d = 0; d < std::ssize(plate.axes); ++d)
-    if (plate.has_disc(first_disc + d)) names.emplace_back(axis_names[plate.axes[d]]);
+    if (plate.has_disc(first_disc + d)) names.emplace_back(rim::axis_names[plate.axes[d]]);
   return fmt::format("{}", fmt::join(names, " and "));
 }
 
@@ -96,7 +96,7 @@ void check_directions(const JointModel& model, const FastenerScene& scene, const
 
 /// The friction case of a hole for the side that bears along an axis.
 FrictionCase friction_case(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
-  const BearingSide bearing{axis, side == plus_side ? 1 : -1};
+  const rim::SignedAxis bearing{static_cast<rim::Axis>(axis), side == plus_side ? 1 : -1};
   for (Index i = 0; i < std::ssize(plate.friction_unit_force); ++i) {
     if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
     const double c = plate.friction_unit_force[i];
@@ -104,13 +104,13 @@ FrictionCase friction_case(const PlateModel& plate, const std::string& hole, dou
       throw InputError(fmt::format(
           "{}:friction/unit_force: hole \"{}\" has {} on its side {}: no rim there can bear, so friction {} has no "
           "meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or friction 0",
-          plate.file, hole, c, bearing.name(), mu));
+          plate.file, hole, c, name_of(bearing), mu));
     return {i, c, std::abs(plate.friction_resultant[i])};
   }
   throw InputError(
       fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has friction "
                   "{}; run stage 2 again, or set the friction to 0",
-                  plate.file, hole, bearing.name(), mu));
+                  plate.file, hole, name_of(bearing), mu));
 }
 
 /// Sides of a fastener's hole on which its planes can bear: F > 0 acts on the second plate along +, on the first along

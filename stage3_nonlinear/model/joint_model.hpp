@@ -45,15 +45,15 @@ struct PlateModel {
   MatrixXd S;                                            ///< (m+e+k, m+e+k), force / length
   /// (m+e+k, h + s) by friction cases, then by the shears of rims of contact, length^2
   MatrixXd R;
-  MatrixXd T;                                                ///< (m+e+k, q), dimensionless
-  std::vector<std::string> friction_hole;                    ///< (h)
-  std::vector<std::optional<BearingSide>> friction_bearing;  ///< (h)
-  VectorXd friction_unit_force, friction_resultant;          ///< (h), length^2
-  VectorXd friction_resultant_across;                        ///< (h), length^2; empty: all 0
-  VectorXd traction_resultant_across;                        ///< (q), dimensionless; empty: all 0
-  std::vector<int> external_axis, traction_axis;             ///< (e), (q) 0 x, 1 y
-  std::vector<int> unsupported_axes;                         ///< axes along which no support of stage 1 reacts
-  PlateDegrees degrees;                                      ///< their sequence shows the error of S
+  MatrixXd T;                                        ///< (m+e+k, q), dimensionless
+  std::vector<std::string> friction_hole;            ///< (h)
+  std::vector<BearingSide> friction_bearing;         ///< (h)
+  VectorXd friction_unit_force, friction_resultant;  ///< (h), length^2
+  VectorXd friction_resultant_across;                ///< (h), length^2; empty: all 0
+  VectorXd traction_resultant_across;                ///< (q), dimensionless; empty: all 0
+  std::vector<int> external_axis, traction_axis;     ///< (e), (q) 0 x, 1 y
+  std::vector<int> unsupported_axes;                 ///< axes along which no support of stage 1 reacts
+  PlateDegrees degrees;                              ///< their sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
   formats::PlateStresses stresses;        ///< as the file has them
   std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
@@ -71,7 +71,7 @@ struct PlateModel {
   std::vector<std::optional<double>> external_displacement;  ///< (e)
   VectorXd traction_force;                                   ///< (q) the same for both sides of a hole
   /// (q) side of the hole that bears under the force of this case; none or no list for edges
-  std::vector<std::optional<BearingSide>> traction_bearing{};
+  std::vector<BearingSide> traction_bearing{};
 
   /// Sign of the force under which a traction's side of its hole bears; 0 for edges.
   [[nodiscard]] int bearing_sign(Index traction) const {
@@ -180,7 +180,7 @@ struct JointModel {
   [[nodiscard]] std::vector<Index> rim_sizes() const;
   [[nodiscard]] Index n_moments() const;
   /// "x" or "y": direction d of the discs.
-  [[nodiscard]] const char* axis_name(Index d) const { return axis_names[axes[d]]; }
+  [[nodiscard]] const std::string& axis_name(Index d) const { return rim::axis_names[axes[d]]; }
   /// First unknown of a plate in the joint's list, plate after plate.
   [[nodiscard]] Index offset(Index plate) const;
   [[nodiscard]] Index n_unknowns() const { return offset(plates.size()); }

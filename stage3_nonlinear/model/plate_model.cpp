@@ -28,18 +28,11 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
   std::vector<int> axes;
   axes.reserve(names.size());
   for (const auto& name : names) {
-    axes.push_back(index_of(axis_names, name));
-    if (axes.back() == count_of(axis_names))
+    axes.push_back(index_of(rim::axis_names, name));
+    if (axes.back() == count_of(rim::axis_names))
       throw FileError(fmt::format("{}:{}: is \"{}\", expected \"x\" or \"y\"", file, dataset, name));
   }
   return axes;
-}
-
-std::vector<std::optional<BearingSide>> bearing_sides(const std::vector<std::string>& names) {
-  std::vector<std::optional<BearingSide>> sides;
-  sides.reserve(names.size());
-  for (const auto& name : names) sides.push_back(bearing_side(name));
-  return sides;
 }
 
 /// Names the holes, and finds the index of each disc of the file among the discs of all directions. Discs of a hole
@@ -256,6 +249,23 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
 }
 
 }  // namespace
+
+std::vector<BearingSide> bearing_sides(const std::vector<std::string>& names) {
+  std::vector<BearingSide> sides;
+  sides.reserve(names.size());
+  for (const auto& name : names) {
+    const bool known = name.size() == 2 && (name[0] == '+' || name[0] == '-') && (name[1] == 'x' || name[1] == 'y');
+    sides.push_back(known ? BearingSide(rim::signed_axis_named(name)) : std::nullopt);
+  }
+  return sides;
+}
+
+std::vector<std::string> names_of(const std::vector<BearingSide>& sides) {
+  std::vector<std::string> names;
+  names.reserve(sides.size());
+  for (const auto& side : sides) names.push_back(side ? name_of(*side) : "");
+  return names;
+}
 
 std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::PlateMatrices> all) {
   std::set<int> found;

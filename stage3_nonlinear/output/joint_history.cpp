@@ -52,7 +52,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.plate_digest = plate.plate_digest;
   for (const Index i : plate.discs) {
     history.disc_hole.push_back(plate.hole_of(i));
-    history.disc_direction.emplace_back(axis_names[plate.axis_of(i)]);
+    history.disc_direction.emplace_back(rim::axis_names[plate.axis_of(i)]);
   }
   history.external_id = plate.externals;
   history.traction_id = plate.tractions;

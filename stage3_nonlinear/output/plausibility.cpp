@@ -251,7 +251,7 @@ std::vector<program::Warning> rim_warnings(const JointModel& joint, const std::v
   for (const auto& plane : joint.planes)
     for (const HoleModel& hole : joint.holes(plane))
       if (plane.clearance > 0) with_clearance.insert(joint.name(hole));
-  const char* across = axis_names[1 - joint.axes[0]];
+  const std::string& across = rim::axis_names[1 - joint.axes[0]];
   std::vector<program::Warning> result;
   for (const auto& doubt : doubts) {
     double largest = 0;

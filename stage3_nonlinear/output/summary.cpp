@@ -92,7 +92,7 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
     for (const int axis : joint.axes) {
       const PlateState& plate = state.plates[i];
       const auto shown = [&](const Eigen::Vector2d& sum) { return rounded(sum[axis], state.largest_force); };
-      const std::string along = joint.n_directions() == 1 ? "" : fmt::format(" {}", axis_names[axis]);
+      const std::string along = joint.n_directions() == 1 ? "" : fmt::format(" {}", rim::axis_names[axis]);
       text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n", joint.plates[i].name + along, width,
                           shown(plate.applied), shown(plate.by_fasteners), shown(plate.by_supports));
     }
@@ -219,7 +219,7 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
     if (joint.n_directions() == 1)
       text +=
           fmt::format("the {} displacement of the discs of {} is fixed; the reaction is not known without stresses\n",
-                      axis_names[1 - joint.axes[0]], plate.name);
+                      rim::axis_names[1 - joint.axes[0]], plate.name);
   }
   const double last = std::abs(path.steps.back().load_factor);
   const bool past_peak =

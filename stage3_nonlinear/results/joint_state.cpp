@@ -41,7 +41,8 @@ void set_friction(const PlateModel& plate, PlateState& state) {
   for (Index i = 0; i < std::ssize(plate.friction_hole); ++i) {
     const auto hole = std::ranges::find(plate.holes, plate.friction_hole[i]);
     if (!plate.friction_bearing[i]) continue;
-    const auto [axis, sign] = *plate.friction_bearing[i];
+    const auto [along, sign] = *plate.friction_bearing[i];
+    const int axis = rim::coordinate(along);
     const auto at = std::ranges::find(plate.axes, axis);
     if (state.Lambda[i] == 0 || hole == plate.holes.end() || at == plate.axes.end()) continue;
     const Index a = std::ssize(plate.axes), disc = (hole - plate.holes.begin()) * a, d = at - plate.axes.begin();

@@ -9,8 +9,8 @@ namespace fastjoint::stage3 {
 namespace {
 
 // Schijve's formula for equal sheets.
-double equal_sheets(double t, double E, double N, double overlap) {
-  const double beta = std::sqrt(N / (8 * E * t * t * t / 12));
+double equal_sheets(double thickness, double modulus, double N, double overlap) {
+  const double beta = std::sqrt(N / (8 * modulus * std::pow(thickness, 3) / 12));
   return 3 / (1 + 2 * std::sqrt(2) * std::tanh(beta * overlap / 2));
 }
 
@@ -33,9 +33,9 @@ TEST(SecondaryBending, OfASingleRowSharesTheEccentricityByTheBendingLengths) {
 
 // A long overlap decouples its ends: w_o = A_1 + e_1 decays there as outside, so that alpha_1 A_1 = beta (e_1 - A_1).
 TEST(SecondaryBending, OfALongOverlapIsThatOfEachEndAlone) {
-  const double t1 = 2, t2 = 3, E = 70000, N = 500, e1 = 1.5;
-  const double alpha = std::sqrt(N / (E * t1 * t1 * t1 / 12)), beta = std::sqrt(N / (E * 125 / 12));
-  EXPECT_NEAR(bending_factors({t1, t2}, {E, E}, N, 1e5)[0], 6 / t1 * beta * e1 / (alpha + beta), 1e-12);
+  const double t1 = 2, t2 = 3, modulus = 70000, N = 500, e1 = 1.5;
+  const double alpha = std::sqrt(N / (modulus * t1 * t1 * t1 / 12)), beta = std::sqrt(N / (modulus * 125 / 12));
+  EXPECT_NEAR(bending_factors({t1, t2}, {modulus, modulus}, N, 1e5)[0], 6 / t1 * beta * e1 / (alpha + beta), 1e-12);
 }
 
 }  // namespace

@@ -210,7 +210,7 @@ void add_friction(JointModel& joint, Index plate, const MatrixXd& R, double mu) 
   model.friction_unit_force = VectorXd::Constant(4, c);
   model.friction_resultant = Eigen::Vector4d(1, -1, 1, -1) * 2 / std::numbers::pi * c;
   model.friction_hole.assign(4, model.holes[0]);
-  model.friction_bearing = {BearingSide{0, 1}, BearingSide{0, -1}, BearingSide{1, 1}, BearingSide{1, -1}};
+  model.friction_bearing = bearing_sides({"+x", "-x", "+y", "-y"});
   HoleModel& hole = joint.fasteners[0].holes[plate];
   hole.mu = mu;
   hole.friction.resize(2);
