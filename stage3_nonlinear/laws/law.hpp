@@ -57,21 +57,23 @@ class Law {
   /// @param c Contact coordinate, force, c >= 0.
   /// @param k Reference stiffness > 0, force / length.
   [[nodiscard]] virtual Branch at(double c, double k, double clearance) const = 0;
-  /// Coordinate at which the force is approximately F > 0, for first guesses.
+  /// Coordinate at which the force is approximately F > 0, for first guesses; finite for F beyond max_force() too.
   [[nodiscard]] virtual double coordinate(double F, double k, double clearance) const = 0;
   /// Displacement up to which the rim does not bear, length.
   [[nodiscard]] virtual double gap(double clearance) const { return clearance; }
   /// True if the force never falls: then the coordinate is c = F + k delta.
   [[nodiscard]] virtual bool rises() const { return true; }
-  /// Upper bound of the force, infinite if there is none.
+  /// Upper bound of the force, which the curve reaches or approaches; infinite if there is none.
   [[nodiscard]] virtual double max_force() const { return std::numeric_limits<double>::infinity(); }
   /// Minimum of dF/ddelta, force / length; 0 if the law never falls.
   [[nodiscard]] virtual double min_slope() const { return 0; }
-  /// Coordinates c > 0 at which the slope jumps, ascending, if the law is linear between them.
+  /// Coordinates c > 0 at which the slope jumps, ascending, if the law is linear between them; none of a curved law,
+  /// which counts as yielding as soon as it bears.
   [[nodiscard]] virtual std::optional<std::vector<double>> corners(double /*k*/, double /*clearance*/) const {
     return std::nullopt;
   }
-  /// Displacement up to which the law was measured, length.
+  /// Displacement up to which the law holds, such as that of its last measured point, length; results beyond it are
+  /// warned of.
   [[nodiscard]] virtual double last_delta(double /*clearance*/) const {
     return std::numeric_limits<double>::infinity();
   }

@@ -224,7 +224,7 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
   if (!failure.level.empty())
     return fmt::format(
         "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} are at their "
-        "maximum force (the last one of a law that ends horizontally, the peak of a cubic that falls){}; {} did not "
+        "maximum force{}; {} did not "
         "converge. {} {}Take smaller loads or displacements, or more or stronger fasteners; a joint without these "
         "shows "
         "the load of the others after their failure",

@@ -20,7 +20,7 @@ double uniform(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
-/// A law of each type in turn, of about the force F at about the displacement d.
+/// A law of each type but tables and formulas in turn, of about the force F at about the displacement d.
 LawText random_law(std::mt19937& random, Index type, double F, double d) {
   const auto u = [&](double low, double high) { return uniform(random, low, high); };
   const double k = F / d * u(0.3, 3);
