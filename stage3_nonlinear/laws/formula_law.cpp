@@ -192,18 +192,18 @@ LawPointer read_formula_law(const input::Value& law) {
   const auto [of_sheets, fastener] = formula.flexibility(geometry);
   const double total = of_sheets + fastener;
   const bool whole = mode == "total";
-  return linear_law(
-      1 / (n_shear * (whole ? total : fastener)),
-      Source{.text = fmt::format(
-                 "{} in {} shear, {}: {}; flexibility {:.6g}, of which {:.6g} of the fastener{}, in the units of the "
-                 "joint",
-                 formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, total, fastener,
-                 n_shear == 1 ? "" : ", of both planes together; the law is that of one plane"),
-             .bearing_of_plate = whole,
-             .t = geometry.t,
-             .E = geometry.E,
-             .d = geometry.d,
-             .n_shear = n_shear});
+  const double k = 1 / (n_shear * (whole ? total : fastener));
+  return linear_law(k, Source{.text = fmt::format(
+                                  "{} in {} shear, {}: {}; k = {:.6g}{}; flexibility{} {:.6g}, of which {:.6g} of the "
+                                  "fastener",
+                                  formula.name, n_shear == 1 ? "single" : "double", mode, formula.provenance, k,
+                                  n_shear == 1 ? "" : " of each of the two shear planes",
+                                  n_shear == 1 ? "" : " of both planes together", total, fastener),
+                              .bearing_of_plate = whole,
+                              .t = geometry.t,
+                              .E = geometry.E,
+                              .d = geometry.d,
+                              .n_shear = n_shear});
 }
 
 }  // namespace fastjoint::stage3

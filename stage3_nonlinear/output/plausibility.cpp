@@ -159,7 +159,7 @@ constexpr std::array<RimDoubt, 7> doubts = {{
      [](const RimState& rim, bool) { return rim.against_slip > allowed_against ? rim.against_slip : 0; },
      "friction acts against the slip that it makes on {against:.3g} degrees of the contact at {at}: it is "
      "assumed to slip everywhere, but in reality sticks there; the effect on the loads is small, but the peak hoop "
-     "stress {peak:.4g} {unit} is uncertain: compare it with one without friction"},
+     "stress {peak:.4g} {unit} is uncertain: compare it with one without friction, and take the larger"},
     {"friction-off-axes", [](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
      "friction acts off the axes, by its components along x and y, at {at}: the loads are right, but peak hoop "
      "stresses "

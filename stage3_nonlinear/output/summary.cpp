@@ -112,6 +112,25 @@ std::string error_bar(const JointModel& joint, const formats::JointResult& resul
                      joint.name(joint.planes[plane]), step + 1);
 }
 
+/// The highest peak hoop stress of an increment with its error; empty if no hole has one.
+std::string highest_peak(const JointModel& joint, const JointState& state) {
+  double highest = 0;
+  std::string text;
+  for (Index i = 0; i < std::ssize(joint.plates); ++i)
+    for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
+      const RimState& at = state.plates[i].rims[rim];
+      if (!(at.peak_hoop > highest)) continue;
+      highest = at.peak_hoop;
+      text = fmt::format(
+          "the highest peak is {:.6g} +- {:.1g} {} at {}:{}, {:.1f} degrees; the error is that of the sheets' "
+          "solutions, "
+          "not of the model\n",
+          at.peak_hoop, at.peak_error, unit(joint.units, -2, 1), joint.plates[i].name,
+          joint.plates[i].stresses.rim_hole[rim], at.peak_angle);
+    }
+  return text;
+}
+
 /// Column of the summary's table; its unit, if it has one, is printed below the heading.
 struct Column {
   double RimState::*value;
@@ -253,7 +272,8 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
     text += fmt::format("  tangent stiffness at {}: {:.6g} {}\n", result.load_external[i],
                         result.load_stiffness(states.size() - 1, i), unit(joint.units, -1, 1));
   return text + legend + interference_lines(joint, path, result) +
-         stress_tables(joint, path, states, result, all_stresses) + secondary_bending(joint, states.back());
+         stress_tables(joint, path, states, result, all_stresses) + highest_peak(joint, states.back()) +
+         secondary_bending(joint, states.back());
 }
 
 }  // namespace fastjoint::stage3

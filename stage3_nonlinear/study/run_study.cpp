@@ -203,7 +203,7 @@ std::string merge(const Study& study, const StudyContext& context, const StudyBl
   const std::string failures = failures_text(blocks);
   formats::write(output, result, [&](h5::Writer& file) { write_samples(file, context, blocks); });
   blocks.remove();
-  return study_summary(result, failures);
+  return study_summary(result, study.scene, failures);
 }
 
 }  // namespace

@@ -25,9 +25,12 @@ using nlohmann::json;
 constexpr std::uint64_t max_samples = 1000000000;
 constexpr std::size_t max_levels = 1000000;
 
-/// A place in JOINT.json, and the names that its wildcards stand for: the id of a fastener, the name of a law.
+/// A place in JOINT.json.
 struct Found {
-  std::string pointer, words;
+  std::string pointer;
+  std::string words;    ///< names that its wildcards stand for: the id of a fastener, the name of a law
+  std::string counted;  ///< id of the item that it gives by its index
+  bool is_new = false;  ///< true if the joint has no number there yet
 };
 
 /// Keys of the members of an object, or indices of an array.
@@ -72,16 +75,19 @@ void look_up(const json& at, const std::vector<std::string>& parts, std::size_t 
   }
   const bool any = parts[k] == "*";
   for (const auto& key : any ? keys_of(at) : std::vector{plain(parts[k])}) {
-    Found next{so_far.pointer + "/" + escaped(key), so_far.words};
+    Found next{so_far.pointer + "/" + escaped(key), so_far.words, so_far.counted, so_far.is_new};
     const json* member = member_of(at, key);
-    if (any && member != nullptr) {
-      const bool has_id = member->is_object() && member->contains("id") && (*member)["id"].is_string();
-      next.words += (next.words.empty() ? "" : " ") + (has_id ? (*member)["id"].get<std::string>() : key);
-    }
-    if (member != nullptr)
+    const bool has_id =
+        member != nullptr && member->is_object() && member->contains("id") && (*member)["id"].is_string();
+    const std::string id = has_id ? (*member)["id"].get<std::string>() : key;
+    if (any && member != nullptr) next.words += (next.words.empty() ? "" : " ") + id;
+    if (!any && has_id) next.counted = id;
+    if (member != nullptr) {
       look_up(*member, parts, k + 1, next, found);
-    else if (k + 1 == parts.size() && at.is_object())
+    } else if (k + 1 == parts.size() && at.is_object()) {
+      next.is_new = true;
       found.push_back(next);
+    }
   }
 }
 
@@ -101,7 +107,10 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
   if (parts.size() < 3 || !varied.contains(parts[0])) place.not_allowed(allowed);
   std::vector<Found> found;
   look_up(joint, parts, 0, {}, found);
-  if (found.empty()) place.fail(fmt::format("\"{}\" leads to no number of the joint", text), allowed);
+  if (found.empty())
+    place.fail(fmt::format("\"{}\" leads to no number of the joint", text),
+               fmt::format("{}; fasteners count from 0 to {}, whatever their ids", allowed,
+                           joint.value("fasteners", json::array()).size() - 1));
   return found;
 }
 
@@ -154,6 +163,10 @@ void read_variable(const Value& value, const json& joint, std::vector<Variable>&
   }
   const auto name = value.find("name");
   variable.name = name ? name->text() : found.front().pointer;
+  for (const auto& place : found)
+    if (!place.counted.empty())
+      variable.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
+                                             place.is_new ? ", for which the joint itself gives none" : ""));
   read_numbers(value, variable);
   const auto each = value.find("each");
   if (!each || !each->boolean()) {

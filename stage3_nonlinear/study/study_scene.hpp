@@ -23,6 +23,8 @@ struct Variable {
   std::vector<std::string> places;  ///< JSON pointers
   Use use = Use::value;
   std::string where;  ///< in STUDY.json, for messages
+  /// For the summary: which fastener or load each place that is given by an index belongs to.
+  std::vector<std::string> remarks{};
   // One of these sources of its values:
   std::shared_ptr<const Distribution> distribution{};  ///< given, or that of `levels` with equal probabilities
   std::vector<double> levels{};                        ///< of "values" and "grid"

@@ -88,12 +88,15 @@ std::string doubts(const formats::StudyGroup& a) {
 
 }  // namespace
 
-std::string study_summary(const formats::StudyResult& result, const std::string& failures) {
+std::string study_summary(const formats::StudyResult& result, const StudyScene& scene, const std::string& failures) {
   const std::string seed = result.sampling == "grid" ? "" : ", seed " + result.origin.seed;
   std::string text =
       fmt::format("{}: {} ({}{}) of {}\n", result.header.name.empty() ? "study" : program::one_line(result.header.name),
                   program::counted(result.n_samples, "sample"), result.sampling, seed,
                   program::counted(result.variable.size(), "variable"));
+  for (const auto& variable : scene.variables)
+    for (const auto& remark : variable.remarks)
+      text += fmt::format("  {}: {}\n", program::one_line(variable.name), program::one_line(remark));
   if (result.n_status[0] < int(result.n_samples))
     text += fmt::format("  {} samples failed ({} refused, {} not solved, {} out of balance): {}\n",
                         result.n_samples - result.n_status[0], result.n_status[1], result.n_status[2],

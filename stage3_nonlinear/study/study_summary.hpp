@@ -4,10 +4,12 @@
 #include <string>
 
 #include "common/formats/study_result.hpp"
+#include "stage3_nonlinear/study/study_scene.hpp"
 
 namespace fastjoint::stage3 {
 
 /// The summary of a study: its samples, and a table for each kind of number.
-[[nodiscard]] std::string study_summary(const formats::StudyResult& result, const std::string& failures);
+[[nodiscard]] std::string study_summary(const formats::StudyResult& result, const StudyScene& scene,
+                                        const std::string& failures);
 
 }  // namespace fastjoint::stage3

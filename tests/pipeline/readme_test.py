@@ -100,6 +100,21 @@ def check_two_bolts(readme):
         check_run_joint(folder, command[0])
 
 
+def check_butt_joint():
+    """What its page shows is printed; no more than 8 kN of each bolt is its collapse load."""
+    text = page("examples/butt_joint/README.md")
+    shown = [line for block in re.findall(r"```\n((?:  |the |increment ).*?)```", text, re.S) for line in block.splitlines()]
+    with tempfile.TemporaryDirectory() as name:
+        folder = copy_example("butt_joint", name)
+        printed = subprocess.run(["scripts/run_joint", "examples/butt_joint/joint.json", "--no-picture"], check=True, cwd=name, capture_output=True, text=True)
+        command = re.search(r"```\n(stage3_nonlinear [^\n]*)\n```", text)[1]
+        collapse = subprocess.run(command.split(), cwd=folder, capture_output=True, text=True)
+    assert collapse.returncode == 4 and "load factor 0.8 is an upper bound of the limit load" in collapse.stderr, collapse
+    lines = [line.split(", residual")[0] for line in (printed.stdout + collapse.stdout).splitlines()]  # residuals are rounding
+    missing = [line for line in shown if line.split(", residual")[0] not in lines]
+    assert len(shown) == 13 and not missing, f"examples/butt_joint/README.md shows what is not printed: {missing}"
+
+
 def check_run_joint(folder, script):
     """Nothing is solved twice; a sheet that changes is solved again, and no other; what fails says so and ends."""
     def run(*words, status=0):
@@ -218,6 +233,7 @@ def main(folder):
     check_names(page("docs/laws.md"), page("docs/solvers.md"))
     check_numbers(readme, verification, page("docs/performance.md"))
     check_two_bolts(readme)
+    check_butt_joint()
     check_lap_joint(programs, page("docs/results.md"))
     check_fit(page("docs/laws.md"))
     check_table(verification, "accuracy")

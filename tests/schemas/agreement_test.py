@@ -85,7 +85,8 @@ class Judge:
         if refused:
             yield f"the schema refuses {refused}"
         status, _, message = self.program(document)
-        if status != 0:
+        at_collapse = isinstance(document, dict) and str(document.get("name", "")).endswith(", collapse")
+        if status != (4 if at_collapse else 0):
             yield f"the program ends with {status}: {message}"
 
     def bad(self, document, place):
