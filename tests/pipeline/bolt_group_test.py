@@ -120,7 +120,7 @@ def check_picture(script, fields):
         bars = script.fastener_bars(f, None)
         assert np.array_equal(bars[1], f["transferred"][-1].max(axis=1)) and len(set(bars[0])) == len(bars[0]) == 12
     picture = script.Picture(fields, "principal_1", forces, peaks, bars)
-    (heights,) = [[bar.get_height() for bar in axis.patches] for axis in picture.figure.get_axes() if axis.get_title() == "load of each fastener"]
+    (heights,) = [[bar.get_height() for bar in axis.patches] for axis in picture.figure.get_axes() if axis.get_title().startswith("load of each ")]
     assert np.array_equal(heights, bars[1])
     scale, near = [], []
     for axis, field, (of_sheet, _), peak, held in zip(picture.axes, fields, forces, peaks, (("15000", -1), ("30000", 1))):
