@@ -15,6 +15,7 @@
 #include "common/program/warning.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
 
 namespace fastjoint::stage3 {
@@ -95,6 +96,14 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
                                                                  : "matrices of stage2_extract --loads-only"));
 }
 
+void set_crack_errors(const std::vector<CrackErrors>& errors, formats::JointResult& result) {
+  for (std::size_t i = 0; i < errors.size(); ++i)
+    if (errors[i].K_I.size() > 0) {
+      result.plates[i].cracks.K_I_error = errors[i].K_I;
+      result.plates[i].cracks.K_II_error = errors[i].K_II;
+    }
+}
+
 }  // namespace
 
 void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
@@ -133,6 +142,8 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   warn(log, rim_warnings(joint, increments.states));
   auto result = joint_result(joint, equations, path, increments, with_rim_stresses);
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
+  set_crack_errors(crack_errors(scene, joint, path, increments.states, solving, scene.solver.tolerance), result);
+  warn(log, crack_warnings(joint, result));
   if (with_sensitivities) result.sensitivity = sensitivity_history(joint, path, increments);
   timings.phase("write");
   formats::write(arguments.output, result);

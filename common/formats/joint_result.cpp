@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 10;
+constexpr int minor = 11;
 
 using V = RimValues;
 using enum Dimension;
@@ -50,6 +50,21 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
     file(group + "sigma_tt", around->tt, {steps, n}, stress, "hoop stress at each point");
     file(group + "sigma_rt", around->rt, {steps, n}, stress, "shear stress at each point");
   }
+}
+
+template <class File, class Cracks>
+void crack_datasets(File& file, const std::string& group, Cracks& a, Eigen::Index steps, const Units& units) {
+  file(group + "tip", a.tip, {any}, "1", "tip of each crack", h5::or_else(""));
+  const Eigen::Index t = a.tip.size();
+  if (File::reads && t == 0) return;
+  const std::string intensity = unit(units, -1.5, 1);
+  file(group + "at", a.at, {t, 2}, unit(units, 1, 0), "x and y of each tip");
+  file(group + "length", a.length, {t}, unit(units, 1, 0),
+       "length of the crack from its other end, half of it if both ends are tips");
+  file(group + "K_I", a.K_I, {steps, t}, intensity, "stress intensity factor of the opening mode at each tip");
+  file(group + "K_II", a.K_II, {steps, t}, intensity, "stress intensity factor of the sliding mode at each tip");
+  file(group + "K_I_error", a.K_I_error, {steps, t}, intensity, "estimated error of K_I", h5::infinite_too);
+  file(group + "K_II_error", a.K_II_error, {steps, t}, intensity, "estimated error of K_II", h5::infinite_too);
 }
 
 template <class File, class Plate>
@@ -117,6 +132,7 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
        traction_sides());
   file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
   rim_datasets(file, group + "rim/", a.rims, steps, units);
+  crack_datasets(file, group + "crack/", a.cracks, steps, units);
 }
 
 template <class File, class Sensitivity>

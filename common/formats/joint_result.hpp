@@ -69,6 +69,14 @@ struct ContactHistory {
   Eigen::MatrixXd least_gap;      ///< (steps, g) minimum gap between disc and rim, 0 in contact, length
 };
 
+/// Stress intensity factors of the t crack tips of a plate, stress length^1/2.
+struct CrackHistory {
+  std::vector<std::string> tip;                      ///< (t)
+  Eigen::MatrixXd at;                                ///< (t, 2) x and y, length
+  Eigen::VectorXd length;                            ///< (t) of the crack up to the tip, length
+  Eigen::MatrixXd K_I, K_II, K_I_error, K_II_error;  ///< (steps, t)
+};
+
 /// Displacements and forces of one plate of a joint, one row per increment.
 struct PlateHistory {
   std::string name;
@@ -86,6 +94,7 @@ struct PlateHistory {
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
   RimHistory rims;
+  CrackHistory cracks{};
   std::optional<DiscForces> disc_forces{};        ///< missing in files before version 1.5
   std::string matrices_digest{}, plate_digest{};  ///< digests of its MATRICES.h5 and PLATE.h5; empty if unknown
 };

@@ -16,7 +16,7 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 8;
+constexpr int minor = 9;
 constexpr const char* per_case = "per unit of the case";
 
 template <class File, class Matrices>
@@ -113,6 +113,21 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index
        h5::not_negative.or_else(0));
 }
 
+template <class File, class Cracks>
+void crack_datasets(File& file, Cracks& a, Eigen::Index n_p, Eigen::Index n_cases, const Units& units) {
+  file("crack/tip", a.tip, {any}, "1", "tip of each crack", or_else(""));
+  const Eigen::Index t = a.tip.size();
+  if (File::reads && t == 0) return;
+  file("crack/at", a.at, {t, 2}, unit(units, 1, 0), "x and y of each tip");
+  file("crack/angle", a.angle, {t}, "rad",
+       "direction in which the crack would grow at each tip, counter-clockwise from x");
+  file("crack/length", a.length, {t}, unit(units, 1, 0),
+       "length of the crack from its other end, half of it if both ends are tips", h5::positive);
+  file("crack/K_I", a.K_I, {n_p, t, n_cases}, per_case,
+       "stress intensity factor of the opening mode at each tip in each unit case");
+  file("crack/K_II", a.K_II, {n_p, t, n_cases}, per_case, "the same of the sliding mode");
+}
+
 template <class File, class Matrices>
 void datasets(File& file, Matrices& a) {
   header(file, a.header);
@@ -121,6 +136,7 @@ void datasets(File& file, Matrices& a) {
   name_datasets(file, a);
   matrix_datasets(file, a);
   stress_datasets(file, a.stresses, a.n_waves() - a.n_loaded_waves(), a.n_cases(), a.header.units);
+  crack_datasets(file, a.cracks, a.p.size(), a.n_cases(), a.header.units);
 }
 
 }  // namespace

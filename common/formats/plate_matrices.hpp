@@ -34,6 +34,14 @@ struct PlateStresses {
   Eigen::VectorXd stiffness_error;
 };
 
+/// The t tips of cracks with their stress intensity factors in each unit case.
+struct CrackRows {
+  std::vector<std::string> tip;       ///< (t)
+  Eigen::MatrixXd at;                 ///< (t, 2) x and y, length
+  Eigen::VectorXd angle, length;      ///< (t) as pfem::CrackTip, radians, length
+  std::vector<StressRows> K_I, K_II;  ///< n_p x (t, n_cases), stress length^1/2 per unit of the case
+};
+
 /// Highest degree of matrices, which may come from other sources than stage 2.
 inline constexpr int highest_degree = 99;
 
@@ -66,6 +74,7 @@ struct PlateMatrices : UnitCases {
   /// Estimated absolute error at the highest p; infinite for a single p.
   Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
   PlateStresses stresses;
+  CrackRows cracks{};
 };
 
 /// Returns the digest of the file. Throws FileError; an existing file at `path` is then kept.

@@ -18,7 +18,7 @@ using h5::Column;
 
 constexpr const char* format = "plate-solution";
 constexpr int major = 5;
-constexpr int minor = 0;
+constexpr int minor = 1;
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
@@ -105,6 +105,13 @@ void geometry_datasets(File& file, Solution& a) {
        "index in hole/id of the hole that each section is next to", h5::index_into(std::ssize(a.hole_id)));
   file("section/side", Column{a.sections, &rim::Section::side}, {std::ssize(a.sections)}, "1",
        "side of the hole that each section lies on", h5::one_of(side_names));
+  file("crack/tip", Column{a.tips, &pfem::CrackTip::id}, {any}, "1", "tip of each crack", h5::or_else(""));
+  const Index t = std::ssize(a.tips);
+  file("crack/at", Column{a.tips, &pfem::CrackTip::at}, {t, 2}, length, "x and y of each tip");
+  file("crack/angle", Column{a.tips, &pfem::CrackTip::angle}, {t}, "rad",
+       "direction in which the crack would grow at each tip, counter-clockwise from x");
+  file("crack/length", Column{a.tips, &pfem::CrackTip::length}, {t}, length,
+       "length of the crack from its other end, half of it if both ends are tips", h5::positive);
   side_dataset(file, "section/sides", a.sections, &rim::Section::sides, a.mesh.n_elements(),
                "each side of an element along a section: index in section/hole, element, local edge");
 }
@@ -168,10 +175,10 @@ void sparse_datasets(File& file, const std::string& group, Sparse& A, Index rows
 }
 
 /// Datasets of one degree.
-/// @param w, s Numbers of its waves and sections.
+/// @param w, s, t Numbers of its waves, sections and crack tips.
 template <class File, class Cases>
 void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Index h, Index q, Index n_cases, Index w,
-                   Index s, const Units& units) {
+                   Index s, Index t, const Units& units) {
   file(group + "S", a.S, {nc, nc}, unit(units, -1, 1),
        "force on externals, then discs, per unit displacement of each, before rounding is taken out");
   file(group + "R", a.R, {nc, h}, unit(units, 2, 0), "force on externals, then discs, by each unit friction case");
@@ -183,6 +190,8 @@ void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Ind
        "normal "
        "for pressures and tangential for shears, in each unit case");
   file(group + "N", a.N, {s, n_cases}, per_case, "normal force over each section in each unit case, tension positive");
+  file(group + "K", a.K, {2 * t, n_cases}, per_case,
+       "stress intensity factors of each crack tip in each unit case, K_I of all tips, then K_II", h5::or_else(0));
 }
 
 template <class File, class Solution>
@@ -205,7 +214,7 @@ void datasets(File& file, Solution& a) {
   if constexpr (File::reads) a.cases.resize(a.p.size());
   for (int i = 0; i < count_of(a.cases); ++i)
     case_datasets(file, fmt::format("p{}/", a.p[i]), a.cases[i], nc, h, q, a.n_cases(), a.has_stresses(i) ? w : k,
-                  a.has_stresses(i) ? std::ssize(a.sections) : 0, units);
+                  a.has_stresses(i) ? std::ssize(a.sections) : 0, std::ssize(a.tips), units);
   file("probe/displacement", a.probe.displacement, {nc}, length,
        "displacements of externals, then discs, in a state that is solved separately to check S and T");
   file("probe/wave", a.probe.wave, {k}, stress, "amplitudes of loaded waves in a second state, to check W");

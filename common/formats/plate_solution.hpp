@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/formats/header.hpp"
+#include "common/pfem/crack_tip.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/rim/rim.hpp"
 
@@ -26,6 +27,7 @@ struct PlateCases {
   Eigen::MatrixXd W;
   /// (s, n_cases) normal force over every section, tension positive; no rows below the n_stress_degrees highest degrees
   Eigen::MatrixXd N;
+  Eigen::MatrixXd K;  ///< (2 t, n_cases) K_I, then K_II of every crack tip
 };
 
 /// Two states of the highest degree that are solved separately, to check S, R, T and W.
@@ -62,6 +64,7 @@ struct PlateSolution : UnitCases {
   std::vector<rim::Rim> hole_rim;
   std::vector<rim::HoleSpring> hole_spring;
   std::vector<rim::Section> sections;
+  std::vector<pfem::CrackTip> tips;    ///< (t)
   std::vector<std::string> supported;  ///< directions fixed by a support
   Eigen::VectorXd held_stiffness;   ///< (nc) diagonal of K_cc: stiffness with all plate unknowns fixed, force / length
   Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of the unit tractions on the plate unknowns

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 
 namespace fastjoint::pfem {
@@ -35,6 +36,14 @@ Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, 
   D(2, 2) = constants.G12;
   const Eigen::Matrix3d T = polar_stress(-angle);
   return T * D * T.transpose();
+}
+
+bool is_isotropic(const Eigen::Matrix3d& D) {
+  constexpr double rounding = 1e-9;
+  const double size = D.cwiseAbs().maxCoeff();
+  const double off = std::max(
+      {std::abs(D(0, 0) - D(1, 1)), std::abs(D(0, 2)), std::abs(D(1, 2)), std::abs(D(0, 0) - D(0, 1) - 2 * D(2, 2))});
+  return off < rounding * size;
 }
 
 Eigen::Matrix3d polar_stress(double theta) {

@@ -24,6 +24,9 @@ struct OrthotropicConstants {
 /// Jones, Mechanics of Composite Materials, 2nd ed. 1999, sections 2.4-2.6.
 [[nodiscard]] Eigen::Matrix3d elasticity(const OrthotropicConstants& constants, double angle, Analysis analysis);
 
+/// True if an elasticity, (3, 3), has no preferred direction, to rounding of its input.
+[[nodiscard]] bool is_isotropic(const Eigen::Matrix3d& elasticity);
+
 /// Rotation matrix, (3, 3), from stresses (sigma_x, sigma_y, tau_xy) to (sigma_rr, sigma_tt, sigma_rt) at the angle
 /// theta, radians counter-clockwise from x. Its inverse is the matrix for -theta.
 [[nodiscard]] Eigen::Matrix3d polar_stress(double theta);

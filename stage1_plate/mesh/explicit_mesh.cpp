@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/mesh/crack_mesh.hpp"
 #include "stage1_plate/mesh/plate_mesh.hpp"
 
 #include <fmt/format.h>
@@ -213,8 +214,11 @@ rim::Section find_section(const PlateScene& scene, const PlateMesh& plate, const
 /// Finds the named edges of an explicit mesh: sets on the boundary, and sections, whose sides belong to the elements
 /// between the cut and the hole (on the boundary, to the only element).
 void name_edges(const PlateScene& scene, const MeshGeometry& geometry, PlateMesh& plate) {
+  const auto is_crack = [&](const std::string& name) {
+    return std::ranges::any_of(scene.cracks, [&](const Crack& crack) { return crack.on == name; });
+  };
   for (const auto& [name, edges] : geometry.edges)
-    for (int i = 0; i < count_of(edges); ++i)
+    for (int i = 0; i < count_of(edges) && !is_crack(name); ++i)
       plate.sets[name].push_back(
           find_boundary_side(scene, plate, fmt::format("/geometry/mesh/edges/{}/{}", name, i), edges[i]));
   for (int i = 0; i < count_of(geometry.sections); ++i)
@@ -234,6 +238,10 @@ PlateMesh mesh_explicit(const PlateScene& scene, const MeshGeometry& geometry) {
   check_repeated_elements(scene, plate.mesh);
   check_hanging_nodes(scene, plate.mesh, plate.edges);
   name_edges(scene, geometry, plate);
+  std::vector<CrackPath> cracks;
+  for (int i = 0; i < count_of(scene.cracks); ++i)
+    cracks.push_back({i, fmt::format("/cracks/{}", i), geometry.edges.at(scene.cracks[i].on)});
+  open_cracks(scene, cracks, plate);
   return plate;
 }
 

@@ -80,12 +80,17 @@ struct StripCell {
 constexpr double shared_node_distance = 0.5;
 
 /// Merged nodes of a run of sides between the hole before and the hole after it.
-std::vector<double> merged(const std::optional<NeededNodes>& before, const std::optional<NeededNodes>& after) {
+std::vector<double> merged(const std::optional<NeededNodes>& before, const std::optional<NeededNodes>& after,
+                           const std::vector<double>& fixed) {
   std::vector<double> nodes = before ? before->high : std::vector<double>();
   if (after) nodes.insert(nodes.end(), after->low.begin(), after->low.end());
-  if (!before || !after) return nodes;
+  const double smaller = std::min(before ? before->radius : HUGE_VAL, after ? after->radius : HUGE_VAL);
+  const double same = shared_node_distance * smaller;
+  std::erase_if(nodes, [&](double node) {
+    return std::ranges::any_of(fixed, [&](double each) { return std::abs(each - node) < same; });
+  });
   std::ranges::sort(nodes);
-  const double same = shared_node_distance * std::min(before->radius, after->radius);
+  if (!before || !after) return nodes;
   for (std::size_t i = 0; i + 1 < nodes.size();)
     if (nodes[i + 1] - nodes[i] < same) {
       nodes[i] = (nodes[i] + nodes[i + 1]) / 2;
@@ -96,8 +101,19 @@ std::vector<double> merged(const std::optional<NeededNodes>& before, const std::
   return nodes;
 }
 
+/// Fixed nodes of several sides, ascending; those that two holes or cracks put on nearly one place, once.
+std::vector<double> all_of(const std::vector<std::vector<double>>& fixed, int first, int last) {
+  std::vector<double> nodes;
+  for (int side = first; side <= last; ++side) nodes.insert(nodes.end(), fixed[side].begin(), fixed[side].end());
+  std::ranges::sort(nodes);
+  const double same = nodes.empty() ? 0 : 1e-9 * std::max(std::abs(nodes.front()), std::abs(nodes.back()));
+  nodes.erase(std::unique(nodes.begin(), nodes.end(), [&](double a, double b) { return b - a <= same; }), nodes.end());
+  return nodes;
+}
+
 /// Nodes on the sides between the cells of a strip: the same on all sides of a run of cells without a hole.
-std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip) {
+std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip,
+                                             const std::vector<std::vector<double>>& fixed) {
   const int n = count_of(strip);
   std::vector<std::vector<double>> nodes(n + 1);
   for (int begin = 0; begin <= n;) {
@@ -105,7 +121,11 @@ std::vector<std::vector<double>> strip_nodes(const std::vector<StripCell>& strip
     while (end < n && !strip[end].needed) ++end;
     const auto before = begin > 0 ? strip[begin - 1].needed : std::nullopt;
     const auto after = end < n ? strip[end].needed : std::nullopt;
-    std::fill(nodes.begin() + begin, nodes.begin() + end + 1, merged(before, after));
+    const auto of_cracks = all_of(fixed, begin, end);
+    auto all = merged(before, after, of_cracks);
+    all.insert(all.end(), of_cracks.begin(), of_cracks.end());
+    std::ranges::sort(all);
+    std::fill(nodes.begin() + begin, nodes.begin() + end + 1, all);
     begin = end + 1;
   }
   return nodes;
@@ -132,7 +152,12 @@ std::vector<HoleCell> find_hole_cells(const PlateScene& scene, const GridGeometr
   return cells;
 }
 
-CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes) {
+FixedNodes::FixedNodes(const GridGeometry& grid)
+    : horizontal_(grid.x.size() - 1, std::vector<std::vector<double>>(grid.y.size())),
+      vertical_(grid.y.size() - 1, std::vector<std::vector<double>>(grid.x.size())) {}
+
+CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
+                     const FixedNodes& fixed) {
   const int n_columns = count_of(grid.x) - 1;
   const int n_rows = count_of(grid.y) - 1;
   std::vector<std::vector<StripCell>> columns(n_columns, std::vector<StripCell>(n_rows));
@@ -148,8 +173,8 @@ CellLines::CellLines(const PlateScene& scene, const GridGeometry& grid, const st
     rows[cell.row][cell.column].needed = NeededNodes{needed_nodes(x - west, y, south, north, on_y),
                                                      needed_nodes(east - x, y, south, north, on_y), radius};
   }
-  for (const auto& strip : columns) horizontal_.push_back(strip_nodes(strip));
-  for (const auto& strip : rows) vertical_.push_back(strip_nodes(strip));
+  for (int i = 0; i < n_columns; ++i) horizontal_.push_back(strip_nodes(columns[i], fixed.horizontal()[i]));
+  for (int i = 0; i < n_rows; ++i) vertical_.push_back(strip_nodes(rows[i], fixed.vertical()[i]));
 }
 
 const std::vector<double>& CellLines::nodes(int column, int row, CellSide side) const {

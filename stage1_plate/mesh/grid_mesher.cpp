@@ -8,6 +8,7 @@
 
 #include "common/count.hpp"
 #include "stage1_plate/mesh/grid_cells.hpp"
+#include "stage1_plate/mesh/grid_cracks.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -32,6 +33,7 @@ class Builder {
   }
   void arc(int a, int b, const Point& center) { arcs_.push_back({a, b, center}); }
   [[nodiscard]] int n_elements() const { return count_of(quads_); }
+  [[nodiscard]] const Point& at(int node) const { return nodes_[node]; }
   [[nodiscard]] pfem::Mesh mesh() const {
     using Eigen::Map;
     return {Map<const Eigen::Matrix2Xd>(nodes_.data()->data(), 2, nodes_.size()),
@@ -115,36 +117,56 @@ std::vector<Point> outline(const CellLines& lines, const Cell& cell, const HoleC
   return points;
 }
 
-/// Radii of the hole and of the extra rings, in geometric progression up to the nearest side of the cell.
-std::vector<double> ring_radii(const Cell& cell, const HoleCell& hole, double radius, int n_rings) {
+/// Distance from a hole's centre to the nearest side of its cell that does not cut the hole.
+double nearest_side(const Cell& cell, const HoleCell& hole) {
   const Point below = hole.center - cell.low, above = cell.high - hole.center;
   const std::array<double, n_cell_sides> distance = {below.y(), above.x(), above.y(), below.x()};
   double nearest = std::numeric_limits<double>::infinity();
   for (int side = 0; side < count_of(distance); ++side)
     if (!hole.cuts[side]) nearest = std::min(nearest, distance[side]);
-  std::vector<double> radii;
-  for (int k = 0; k <= n_rings; ++k) radii.push_back(radius * std::pow(nearest / radius, double(k) / (n_rings + 1)));
+  return nearest;
+}
+
+/// Radii of the hole and of the extra rings, in geometric progression up to the nearest side of the cell, for each ray.
+std::vector<Eigen::VectorXd> ring_radii(double nearest, double radius, int n_rings, Eigen::Index n_rays) {
+  std::vector<Eigen::VectorXd> radii;
+  for (int k = 0; k <= n_rings; ++k)
+    radii.push_back(Eigen::VectorXd::Constant(n_rays, radius * std::pow(nearest / radius, double(k) / (n_rings + 1))));
   return radii;
 }
 
+/// Centre of an arc through two points of a ring, as near as can be to the ring's centre: on their bisector.
+Point arc_center(const Point& a, const Point& b, const Point& center, bool is_circle) {
+  if (is_circle) return center;
+  const Point chord = b - a, middle = (a + b) / 2;
+  return center + chord * ((middle - center).dot(chord) / chord.squaredNorm());
+}
+
 /// Nodes of one ring, one on the ray to each point of the outline. A closed ring ends with its first node.
-std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center, double radius) {
+/// @param radii One for each ray. @param is_round False if the ring follows the outline rather than the hole.
+std::vector<int> ring_nodes(Builder& builder, const std::vector<Point>& points, const Point& center,
+                            const Eigen::VectorXd& radii, bool is_round) {
   const bool closed = points.front() == points.back();
   std::vector<int> nodes;
   for (int i = 0; i < count_of(points); ++i)
     nodes.push_back(closed && i + 1 == count_of(points)
                         ? nodes.front()
-                        : builder.own_node(center + radius * (points[i] - center).normalized()));
-  for (int i = 0; i + 1 < count_of(nodes); ++i) builder.arc(nodes[i], nodes[i + 1], center);
+                        : builder.own_node(center + radii[i] * (points[i] - center).normalized()));
+  for (int i = 0; i + 1 < count_of(nodes) && is_round; ++i)
+    builder.arc(nodes[i], nodes[i + 1],
+                arc_center(builder.at(nodes[i]), builder.at(nodes[i + 1]), center, radii[i] == radii[i + 1]));
   return nodes;
 }
 
 void mesh_hole_cell(Builder& builder, const CellLines& lines, const Cell& cell, const HoleCell& hole_cell,
-                    const Hole& hole) {
+                    const Hole& hole, const std::vector<CellTip>& tips) {
   const auto points = outline(lines, cell, hole_cell);
+  const double nearest = nearest_side(cell, hole_cell);
+  const auto radii = tips.empty() ? ring_radii(nearest, hole.radius, hole.rings, std::ssize(points))
+                                  : tip_layers(tips, hole.radius, hole_cell.center, points, nearest);
   std::vector<std::vector<int>> layers;
-  for (const double radius : ring_radii(cell, hole_cell, hole.radius, hole.rings))
-    layers.push_back(ring_nodes(builder, points, hole_cell.center, radius));
+  for (const auto& each : radii)
+    layers.push_back(ring_nodes(builder, points, hole_cell.center, each, each.maxCoeff() < nearest));
   layers.emplace_back();
   for (const auto& point : points) layers.back().push_back(builder.shared_node(point));
   for (int k = 0; k + 1 < count_of(layers); ++k)
@@ -198,7 +220,8 @@ void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& pl
 
 PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
   const auto holes = find_hole_cells(scene, grid);
-  const CellLines lines(scene, grid, holes);
+  const GridCracks cracks = plan_cracks(scene, grid, holes);
+  const CellLines lines(scene, grid, holes, cracks.nodes);
   Builder builder;
   std::vector<CellElements> with_hole;
   for (int row = 0; row < grid.thickness.rows(); ++row)
@@ -210,7 +233,7 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
         mesh_plain_cell(builder, lines, cell);
       } else {
         const int first = builder.n_elements();
-        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[hole->hole]);
+        mesh_hole_cell(builder, lines, cell, *hole, scene.holes[hole->hole], cracks.tips[hole - holes.begin()]);
         with_hole.push_back({&*hole, cell, first, builder.n_elements()});
       }
     }
@@ -219,6 +242,7 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
   plate.edges = pfem::find_edges(plate.mesh);
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);
+  open_cracks(scene, crack_paths(cracks, plate), plate);
   return plate;
 }
 

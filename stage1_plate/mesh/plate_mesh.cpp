@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "common/count.hpp"
 #include "common/pfem/element.hpp"
@@ -39,6 +40,21 @@ void share_center(const rim::Rim& rim, PlateMesh& plate) {
   for (const auto& side : rim.sides) arc_of(side).center = arc_of(rim.sides[0]).center;
 }
 
+/// True if two nodes of a rim are at one place.
+bool is_cracked(const PlateMesh& plate, const rim::Rim& rim) {
+  std::map<int, double> angles;
+  for (const auto& side : rim.sides)
+    for (const int node : plate.edges.nodes.col(plate.edges.of_element(side.local_edge, side.element))) {
+      const Eigen::Vector2d ray = plate.mesh.nodes.col(node) - rim.center;
+      angles[node] = std::atan2(ray.y(), ray.x());
+    }
+  return std::ranges::any_of(angles, [&](const auto& one) {
+    return std::ranges::any_of(angles, [&](const auto& other) {
+      return one.first != other.first && std::abs(rim::wrapped(one.second - other.second)) < rim::same_angle;
+    });
+  });
+}
+
 void find_rims(const PlateScene& scene, PlateMesh& plate) {
   const rim::RimFinder find_rim(plate.mesh, plate.edges);
   for (int i = 0; i < count_of(scene.holes); ++i) {
@@ -58,6 +74,7 @@ void find_rims(const PlateScene& scene, PlateMesh& plate) {
              fmt::format("hole \"{}\" has the rim of hole \"{}\", /holes/{}", hole.id, scene.holes[other].id, other),
              "one hole at each place");
     plate.rims.push_back(rim);
+    plate.is_cracked.push_back(is_cracked(plate, rim));
   }
 }
 

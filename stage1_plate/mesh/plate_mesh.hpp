@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/pfem/crack_tip.hpp"
 #include "common/pfem/mesh.hpp"
 #include "common/rim/rim.hpp"
 #include "stage1_plate/scene/scene.hpp"
@@ -19,6 +20,8 @@ struct PlateMesh {
   std::vector<rim::Rim> rims;                           ///< rim of each hole, in the scene's order
   std::vector<int> point_nodes;                         ///< vertex of each point spring
   std::vector<rim::Section> sections;                   ///< sections next to holes, in the order of the holes
+  std::vector<pfem::CrackTip> tips;                     ///< tips of cracks, in the scene's order
+  std::vector<bool> is_cracked;                         ///< for each hole: true if a crack begins at its rim
 };
 
 /// Meshes the scene and finds the holes' rims. Throws InputError if a hole does not fit or an element is folded.

@@ -34,7 +34,7 @@ void check_contact(const PlateScene& scene, const PlateMesh& plate, int hole, st
 
 Eigen::Matrix3d rim_compliance(const PlateScene& scene, const PlateMesh& plate, int hole) {
   const auto& sides = plate.rims[hole].sides;
-  if (sides.empty() || !ends_on_symmetry(scene, plate, hole)) return Eigen::Matrix3d::Zero();
+  if (sides.empty() || plate.is_cracked[hole] || !ends_on_symmetry(scene, plate, hole)) return Eigen::Matrix3d::Zero();
   const int element = sides[0].element, material = plate.mesh.material[element];
   for (const auto& side : sides)
     if (plate.mesh.thickness[side.element] != plate.mesh.thickness[element] ||

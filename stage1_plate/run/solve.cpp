@@ -9,6 +9,7 @@
 
 #include "common/count.hpp"
 #include "common/linalg/processor.hpp"
+#include "common/plate/cracks.hpp"
 #include "common/plate/plate_states.hpp"
 #include "common/plate/sections.hpp"
 #include "common/program/memory.hpp"
@@ -56,6 +57,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
     }
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
+  a.tips = plate.tips;
   std::set<std::string> supported;
   for (const auto& support : scene.supports)
     for (const rim::Axis axis : support.fix) supported.insert(rim::name_of(axis));
@@ -88,10 +90,14 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
 
 /// The states are the unit tractions, then the two of the probe.
 SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
-                         const plate::PlateFactor::Functions& sections) {
+                         const plate::PlateFactor::Functions& sections,
+                         const plate::PlateFactor::Functions& intensities) {
   const Unknowns& unknowns = problem.unknowns;
   const Eigen::Index nc = unknowns.n_controlled(), k = unknowns.n_loaded, h = unknowns.n_friction;
   const Eigen::Index q = problem.T_c.cols(), n_prescribed = unknowns.n_prescribed(), s = count_of(sections);
+  auto functions = sections;
+  functions.insert(functions.end(), intensities.begin(), intensities.end());
+  const Eigen::Index n_functions = count_of(functions);
   const Eigen::VectorXd displacement = probe_coefficients(nc), wave = probe_coefficients(k);
   const Eigen::VectorXd friction = probe_coefficients(h);
   Eigen::MatrixXd border = Eigen::MatrixXd::Zero(n_prescribed, q + 2);
@@ -100,20 +106,20 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
   Eigen::SparseMatrix<double> loads = problem.T_f.topRows(unknowns.n_free[p]);
   loads.conservativeResize(loads.rows(), q + 2);
   const plate::PlateStates states(K, border, loads);
-  const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed(sections);
+  const Eigen::MatrixXd forces = states.forces(), work = states.work(), SR = K.condensed(functions);
   const Eigen::Index n_other = forces.rows() - n_prescribed;
   const auto waves = [&](const auto& rows, Eigen::Index first, Eigen::Index n) -> Eigen::MatrixXd {
     Eigen::MatrixXd both(k + n_other, n);
     both << rows.block(nc, first, k, n), rows.block(n_prescribed, first, n_other, n);
     return both;
   };
-  Eigen::MatrixXd W(k + n_other, n_prescribed + q), N = Eigen::MatrixXd::Zero(s, n_prescribed + q);
+  Eigen::MatrixXd W(k + n_other, n_prescribed + q), values = Eigen::MatrixXd::Zero(n_functions, n_prescribed + q);
   W << waves(SR, 0, n_prescribed), waves(forces, 0, q);
-  N.leftCols(n_prescribed) = SR.bottomRows(s);
-  for (Eigen::Index i = 0; i < s; ++i)
-    for (const auto& part : sections[i]) N.row(i).tail(q) += states.values(part).topRows(q).transpose();
+  values.leftCols(n_prescribed) = SR.bottomRows(n_functions);
+  for (Eigen::Index i = 0; i < n_functions; ++i)
+    for (const auto& part : functions[i]) values.row(i).tail(q) += states.values(part).topRows(q).transpose();
   return {{SR.topLeftCorner(nc, nc), SR.block(0, nc + k, nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
-           work.topLeftCorner(q, q), std::move(W), std::move(N)},
+           work.topLeftCorner(q, q), std::move(W), values.topRows(s), values.bottomRows(n_functions - s)},
           {displacement, wave, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), waves(forces, q, 1),
            waves(forces, q + 1, 1), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
            states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
@@ -136,7 +142,8 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
     report(0.5 * a.ndof[at]);
     const auto sections = plate::section_forces(K, a.mesh, edges, problem.numbering, a.elasticity,
                                                 with_stresses ? a.sections : std::vector<rim::Section>());
-    auto [cases, probe] = solve_degree(problem, K, a.p[at], sections);
+    const auto intensities = plate::stress_intensities(K, a.mesh, edges, problem.numbering, a.elasticity, a.tips);
+    auto [cases, probe] = solve_degree(problem, K, a.p[at], sections, intensities);
     a.cases[at] = std::move(cases);
     if (i == 0) a.probe = std::move(probe), a.held_stiffness = K.diagonal_of_K_cc();
     report(0.5 * a.ndof[at]);
@@ -149,7 +156,8 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   PlateProblem problem = number_unknowns(scene, plate);
   check_rigid_motions(scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
-  const MemoryNeed need = memory_need(problem, skeleton, degrees(scene), count_of(plate.sections));
+  const MemoryNeed need =
+      memory_need(problem, skeleton, degrees(scene), count_of(plate.sections) + 2 * count_of(plate.tips));
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);

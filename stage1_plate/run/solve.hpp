@@ -43,9 +43,10 @@ struct SolvedCases {
   formats::PlateCases cases;
   formats::Probe probe;
 };
-/// @param sections Forces over the plate's sections, empty to omit them.
+/// @param sections Forces over the plate's sections, empty to omit them. @param intensities As of stress_intensities.
 [[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
-                                       const plate::PlateFactor::Functions& sections = {});
+                                       const plate::PlateFactor::Functions& sections = {},
+                                       const plate::PlateFactor::Functions& intensities = {});
 
 /// Solves the unit cases at every degree, in parallel on several threads, and the probe at the highest.
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution);

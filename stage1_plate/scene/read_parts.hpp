@@ -54,6 +54,9 @@ template <class Item>
 /// Reads "sections" of an explicit mesh into the scene's geometry; needs its holes and the directions of its discs.
 void read_sections(const input::Value& root, PlateScene& scene);
 
+/// Reads "cracks": straight ones in a grid, named sets of edges in an explicit mesh. Needs geometry and holes.
+[[nodiscard]] std::vector<Crack> read_cracks(const input::Value& root, const PlateScene& scene);
+
 /// A law for the modulus of distributed springs that model an elastic disk.
 struct SpringLaw {
   std::string name;

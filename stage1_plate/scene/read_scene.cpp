@@ -201,7 +201,7 @@ PlateScene read_scene(const input::Document& document) {
   const Value root(document);
   if (const auto loads = root.find("loads")) loads->fail("unknown key", "\"loads\" in JOINT.json");
   root.only({"$schema", "format", "version", "name", "units", "analysis", "materials", "geometry", "holes", "points",
-             "disc_directions", "supports", "external", "space", "p"});
+             "cracks", "disc_directions", "supports", "external", "space", "p"});
   input::check_format(root, "plate");
   PlateScene scene;
   scene.file = document.file;
@@ -214,6 +214,7 @@ PlateScene read_scene(const input::Document& document) {
   std::set<std::string> disc_ids;
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
   scene.points = read_points(root, disc_ids);
+  scene.cracks = read_cracks(root, scene);
   const auto discs = root.find("disc_directions");
   scene.disc_directions = discs ? read_directions(*discs) : std::vector(rim::both_axes.begin(), rim::both_axes.end());
   read_sections(root, scene);

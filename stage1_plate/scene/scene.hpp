@@ -90,6 +90,22 @@ struct External {
   ExternalKind kind;
 };
 
+/// A crack before the mesh: in a grid a straight line, in an explicit mesh a named set of edges.
+struct Crack {
+  std::string id;
+  std::optional<int> hole{};  ///< hole at whose rim it begins
+  std::string border{};       ///< or "left", "right", "bottom", "top", where it begins at the coordinate `at`
+  double at = 0;              ///< length
+  double angle = 0;           ///< direction from its beginning, radians; of an edge crack inward
+  double length = 0;          ///< from its beginning to its tip; 0 if `to` or `to_hole` gives the other end
+  Eigen::Vector2d from{0, 0}, to{0, 0};  ///< both tips of a crack inside the sheet
+  std::optional<int> to_hole{};          ///< hole at whose rim it ends, without a tip
+  int tips = 1;
+  std::string on{};  ///< name of the set of edges in an explicit mesh
+
+  [[nodiscard]] Eigen::Vector2d direction() const;
+};
+
 /// The content of PLATE.json, consistent in itself. The meshers check whether the holes fit the geometry.
 struct PlateScene {
   std::string file, text;  ///< name and text of the input file
@@ -99,6 +115,7 @@ struct PlateScene {
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
   std::vector<PointSpring> points;
+  std::vector<Crack> cracks;
   std::vector<rim::Axis> disc_directions;  ///< of all discs but those on lines of symmetry
   std::vector<Support> supports;
   std::vector<External> externals;

@@ -57,6 +57,7 @@ struct PlateModel {
   MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
   formats::PlateStresses stresses;        ///< as the file has them
   std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
+  formats::CrackRows cracks{};            ///< rows of the joint's degree alone
   std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
   std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) the waves of higher order, in closed form
   std::vector<std::shared_ptr<const SpringWaves>> spring_waves{};  ///< of each of `waves`, if it has stresses

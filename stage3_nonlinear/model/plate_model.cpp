@@ -331,6 +331,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   if (level + 1 < a.p.size() || plate.S.rows() > a.n_discs() + a.n_externals())
     plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
+  plate.cracks = std::move(a.cracks);
+  for (auto* rows : {&plate.cracks.K_I, &plate.cracks.K_II})
+    if (!rows->empty()) *rows = {std::move((*rows)[level])};
   if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) {
     plate.stress_level = at;
     plate.spring_waves = spring_waves(plate.waves);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "common/count.hpp"
@@ -41,6 +42,17 @@ formats::RimStresses rim_stresses(const std::vector<std::string>& holes, const s
       next += places.size();
     }
   }
+  return a;
+}
+
+formats::CrackHistory crack_history(const formats::CrackRows& cracks, const std::vector<JointState>& states, Index at) {
+  const Index n = std::ssize(states), t = std::ssize(cracks.tip);
+  formats::CrackHistory a{cracks.tip, cracks.at, cracks.length, MatrixXd(n, t), MatrixXd(n, t), {}, {}};
+  for (Index step = 0; step < n && t > 0; ++step) {
+    a.K_I.row(step) = states[step].plates[at].cracks.K_I;
+    a.K_II.row(step) = states[step].plates[at].cracks.K_II;
+  }
+  a.K_I_error = a.K_II_error = MatrixXd::Constant(n, t, std::numeric_limits<double>::infinity());
   return a;
 }
 
@@ -84,6 +96,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
   history.traction = rows(&PlateState::traction, std::ssize(plate.tractions));
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
+  history.cracks = crack_history(plate.cracks, states, at);
   if (plate.stress_level) history.rims = rims_of(plate.stresses);
   if (plate.stress_level && with_rim_stresses) history.rims.stresses = rim_stresses(history.rims.hole, states, at);
   for (const auto& state : states) {

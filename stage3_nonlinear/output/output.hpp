@@ -54,6 +54,9 @@ namespace fastjoint::stage3 {
 [[nodiscard]] std::vector<program::Warning> rim_warnings(const JointModel& joint,
                                                          const std::vector<JointState>& states);
 
+/// Warning about the crack whose tip closes most: its faces overlap in the model.
+[[nodiscard]] std::vector<program::Warning> crack_warnings(const JointModel& joint, const formats::JointResult& result);
+
 /// Message for a path with a failure: why and where it ended, and what to check.
 /// @param output File with the increments before.
 [[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,

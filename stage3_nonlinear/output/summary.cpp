@@ -208,6 +208,23 @@ std::string contact_table(const JointModel& joint, const formats::JointResult& r
          rows;
 }
 
+/// Table of all crack tips at one increment; empty if there is none.
+std::string crack_table(const JointModel& joint, const formats::JointResult& result, Index step) {
+  std::string rows;
+  for (const auto& plate : result.plates) {
+    const auto& a = plate.cracks;
+    for (Index t = 0; t < std::ssize(a.tip); ++t)
+      rows += fmt::format("  {:<24} {:>12.6g} {:>14.6g} {:>9.1e} {:>14.6g} {:>9.1e}\n", plate.name + ":" + a.tip[t],
+                          a.length[t], a.K_I(step, t), a.K_I_error(step, t), a.K_II(step, t), a.K_II_error(step, t));
+  }
+  if (rows.empty()) return rows;
+  const std::string intensity = head("", unit(joint.units, -1.5, 1));
+  return fmt::format("  {:<24} {:>12} {:>14} {:>9} {:>14} {:>9}\n", "crack", "length", "K_I", "+-", "K_II", "+-") +
+         fmt::format("  {:<24} {:>12} {:>14} {:>9} {:>14}\n", "", head("", unit(joint.units, 1, 0)), intensity, "",
+                     intensity) +
+         rows;
+}
+
 /// A line for each rim with interference.
 std::string interference_lines(const JointModel& joint, const LoadPath& path, const formats::JointResult& result) {
   std::string text;
@@ -244,7 +261,9 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
   const bool past_peak =
       !all && std::ranges::any_of(path.steps, [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
   for (Index i = all ? 0 : states.size() - 1; i < std::ssize(states); ++i)
-    if (const std::string table = rim_table(joint, states[i]) + contact_table(joint, result, i); !table.empty())
+    if (const std::string table =
+            rim_table(joint, states[i]) + contact_table(joint, result, i) + crack_table(joint, result, i);
+        !table.empty())
       text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
                           past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",
                           table);

@@ -96,6 +96,7 @@ void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorX
   if (plate.stress_level)
     state.rims = rim_states(plate.stresses, *plate.stress_level, unit_case_coefficients(plate, state),
                             loaded_discs(plate, state), scale, state.loaded);
+  state.cracks = crack_state(plate, unit_case_coefficients(plate, state));
   worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
                         (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {

@@ -8,6 +8,7 @@
 
 #include "stage3_nonlinear/equations/condensed_system.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/results/crack_state.hpp"
 #include "stage3_nonlinear/results/rim_state.hpp"
 
 namespace fastjoint::stage3 {
@@ -26,6 +27,7 @@ struct PlateState {
   // If its matrices hold stresses at the joint's degree: of every hole, and of rims with waves and a closed form.
   std::vector<RimState> rims = {};
   std::vector<std::optional<LoadedRim>> loaded = {};
+  CrackState cracks = {};
   // Resultants of the forces on the plate along x and y, force.
   Eigen::Vector2d applied{0, 0};       ///< by rigid externals and tractions
   Eigen::Vector2d by_fasteners{0, 0};  ///< bearing and friction

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/mesh/grid_cracks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/count.hpp"
+#include "common/rim/angles.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+/// Ratio of the sizes of neighbouring elements away from a tip.
+constexpr double growth = 3.5;
+/// Tolerance of equal places, relative to the plate's size.
+constexpr double same = 1e-9;
+
+class Planner {
+ public:
+  Planner(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes)
+      : scene_(scene), grid_(grid), holes_(holes) {
+    size_ = std::hypot(grid.x.back() - grid.x.front(), grid.y.back() - grid.y.front());
+    result_.tips.resize(holes.size());
+    result_.nodes = FixedNodes(grid);
+  }
+
+  GridCracks run() {
+    for (crack_ = 0; crack_ < count_of(scene_.cracks); ++crack_) plan(scene_.cracks[crack_]);
+    return std::move(result_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& found, const std::string& allowed) const {
+    reject(scene_, fmt::format("/cracks/{}", crack_), found, allowed);
+  }
+
+  void plan(const Crack& crack) {
+    const auto [from, to] = ends(crack);
+    result_.lines.emplace_back(from, to);
+    const Point along = (to - from).normalized();
+    const bool is_on_axis = along.cwiseAbs().minCoeff() < same;
+    if (is_on_axis)
+      add_line(from, to, std::abs(along.y()) < std::abs(along.x()) ? 0 : 1);
+    else
+      check_inside_cell(crack, to);
+    for (const Point& tip : crack.tips == 2 ? std::vector{from, to} : std::vector{to}) {
+      if (crack.tips == 0) break;
+      add_tip(tip, element_size(tip, crack));
+    }
+    if (!is_on_axis) add_ray(*crack.hole, along);
+  }
+
+  [[nodiscard]] std::pair<Point, Point> ends(const Crack& crack) const {
+    Point from = crack.from, to = crack.to;
+    if (crack.hole) from = scene_.holes[*crack.hole].center + scene_.holes[*crack.hole].radius * crack.direction();
+    if (!crack.border.empty()) {
+      const bool is_vertical = crack.border == "left" || crack.border == "right";
+      const bool is_low = crack.border == "left" || crack.border == "bottom";
+      const auto& lines = is_vertical ? grid_.x : grid_.y;
+      from[is_vertical ? 0 : 1] = is_low ? lines.front() : lines.back();
+      from[is_vertical ? 1 : 0] = crack.at;
+    }
+    if (crack.to_hole) {
+      const Hole& hole = scene_.holes[*crack.to_hole];
+      const Point toward = hole.center - from;
+      to = hole.center - hole.radius * toward.normalized();
+    } else if (crack.length > 0) {
+      to = from + crack.length * crack.direction();
+    }
+    for (const Point& end : {from, to})
+      if (end.x() < grid_.x.front() - same * size_ || end.x() > grid_.x.back() + same * size_ ||
+          end.y() < grid_.y.front() - same * size_ || end.y() > grid_.y.back() + same * size_)
+        fail(fmt::format("it ends at ({:g}, {:g}), outside the plate", end.x(), end.y()), "cracks inside the plate");
+    return {from, to};
+  }
+
+  /// The smallest distance of a tip from what is around it: the crack's other end, the border, other holes.
+  [[nodiscard]] double element_size(const Point& tip, const Crack& crack) const {
+    const auto& [from, to] = result_.lines.back();
+    double size = (to - from).norm() / (crack.tips == 2 ? 2 : 1);
+    for (int i = 0; i < count_of(scene_.holes); ++i) {
+      const Hole& hole = scene_.holes[i];
+      const double distance = (tip - hole.center).norm() - hole.radius;
+      if (distance < same * size_)
+        fail(fmt::format("its tip at ({:g}, {:g}) is in hole \"{}\"", tip.x(), tip.y(), hole.id),
+             "tips inside the sheet; a crack up to another hole: \"to\": \"hole:ID\"");
+      size = std::min(size, distance);
+    }
+    size = std::min({size, tip.x() - grid_.x.front(), grid_.x.back() - tip.x(), tip.y() - grid_.y.front(),
+                     grid_.y.back() - tip.y()});
+    if (size < 1e-6 * size_)
+      fail(fmt::format("its tip at ({:g}, {:g}) is {:.2g} from a hole or the border", tip.x(), tip.y(), size),
+           "tips inside the sheet");
+    return size;
+  }
+
+  /// Index of the hole cell at (column, row), if it has a hole.
+  [[nodiscard]] std::optional<int> hole_cell(int column, int row) const {
+    for (int i = 0; i < count_of(holes_); ++i)
+      if (holes_[i].column == column && holes_[i].row == row) return i;
+    return std::nullopt;
+  }
+
+  /// Index of the interval between lines that holds a coordinate, -1 if it is on a line.
+  [[nodiscard]] int interval(const std::vector<double>& lines, double at) const {
+    for (int i = 0; i + 1 < count_of(lines); ++i)
+      if (at > lines[i] + same * size_ && at < lines[i + 1] - same * size_) return i;
+    return -1;
+  }
+
+  /// Mesh lines along a crack parallel to an axis.
+  void add_line(const Point& from, const Point& to, int axis) {
+    const auto& along = axis == 0 ? grid_.x : grid_.y;
+    const double low = std::min(from[axis], to[axis]), high = std::max(from[axis], to[axis]), at = from[1 - axis];
+    const int strip = interval(axis == 0 ? grid_.y : grid_.x, at);
+    if (strip < 0) return;  // along a cell line
+    for (int i = 0; i + 1 < count_of(along); ++i) {
+      if (high <= along[i] + same * size_ || low >= along[i + 1] - same * size_) continue;
+      const int column = axis == 0 ? i : strip, row = axis == 0 ? strip : i;
+      if (const auto cell = hole_cell(column, row)) {
+        const HoleCell& hole = holes_[*cell];
+        const Hole& of = scene_.holes[hole.hole];
+        if (std::abs(hole.center[1 - axis] - at) > rim::same_place * of.radius)
+          fail(fmt::format("it runs through the cell of hole \"{}\", but not towards its centre", of.id),
+               "cracks towards the centre of each hole in whose cell they are; draw cell lines between the two");
+        if (low < hole.center[axis] - same * size_ && high > hole.center[axis] + same * size_)
+          fail(fmt::format("it runs through hole \"{}\"", of.id), "one crack on each side of a hole");
+        if (low < along[i] - same * size_) result_.nodes.add(axis, strip, i, at);
+        if (high > along[i + 1] + same * size_) result_.nodes.add(axis, strip, i + 1, at);
+        // A tip inside needs the whole ray, up to the side of the cell.
+        if (low > hole.center[axis]) result_.nodes.add(axis, strip, i + 1, at);
+        if (high < hole.center[axis]) result_.nodes.add(axis, strip, i, at);
+      } else {
+        result_.nodes.add(axis, strip, i, at);
+        result_.nodes.add(axis, strip, i + 1, at);
+      }
+    }
+  }
+
+  void check_inside_cell(const Crack& crack, const Point& tip) const {
+    if (!crack.hole)
+      fail("a crack that is neither along x nor along y and does not begin at a hole",
+           "cracks along x or y, or from a hole inside its cell");
+    const auto cell = std::ranges::find(holes_, *crack.hole, &HoleCell::hole);
+    if (!(tip.x() > grid_.x[cell->column] && tip.x() < grid_.x[cell->column + 1] && tip.y() > grid_.y[cell->row] &&
+          tip.y() < grid_.y[cell->row + 1]))
+      fail(fmt::format("it leaves the cell of hole \"{}\"", scene_.holes[*crack.hole].id),
+           "cracks that end inside the hole's cell, or along x or y");
+  }
+
+  void add_tip(const Point& tip, double size) {
+    for (int i = 0; i < count_of(holes_); ++i) {
+      const HoleCell& cell = holes_[i];
+      const Point ray = tip - cell.center;
+      const bool inside = tip.x() > grid_.x[cell.column] + same * size_ &&
+                          tip.x() < grid_.x[cell.column + 1] - same * size_ &&
+                          tip.y() > grid_.y[cell.row] + same * size_ && tip.y() < grid_.y[cell.row + 1] - same * size_;
+      if (!inside) continue;
+      const double angle = std::atan2(ray.y(), ray.x());
+      for (const CellTip& other : result_.tips[i])
+        if (std::abs(rim::wrapped(other.angle - angle)) < rim::same_angle)
+          fail(fmt::format("two tips in the cell of hole \"{}\" are on one ray", scene_.holes[cell.hole].id),
+               "one tip on each ray of a cell; draw a cell line between them");
+      result_.tips[i].push_back({angle, ray.norm(), size});
+      for (double offset = size / ray.norm(), step = offset; offset < 0.7; step *= growth, offset += step)
+        for (const double sign : {-1.0, 1.0}) add_ray(cell.hole, unit(angle + sign * offset), size * offset);
+      return;
+    }
+    for (const int axis : {0, 1})
+      for (const double sign : {-1.0, 0.0, 1.0})
+        for (double offset = sign == 0 ? 0 : size, step = offset; offset <= 20 * size; step *= growth, offset += step) {
+          add_tip_line(axis, tip[axis] + sign * offset, tip[1 - axis], 0.3 * step);
+          if (sign == 0) break;
+        }
+  }
+
+  static Point unit(double angle) { return {std::cos(angle), std::sin(angle)}; }
+
+  /// A mesh line across an axis at a coordinate, through the cells without a hole at the tip's place across.
+  /// @param clear Distance from cell lines within which it is left out.
+  void add_tip_line(int axis, double at, double across, double clear) {
+    const auto& lines = axis == 0 ? grid_.x : grid_.y;
+    const auto& others = axis == 0 ? grid_.y : grid_.x;
+    const int strip = interval(lines, at);
+    if (strip < 0 || at - lines[strip] < clear || lines[strip + 1] - at < clear) return;
+    for (int i = 0; i + 1 < count_of(others); ++i) {
+      if (across < others[i] - same * size_ || across > others[i + 1] + same * size_) continue;
+      const int column = axis == 0 ? strip : i, row = axis == 0 ? i : strip;
+      if (hole_cell(column, row)) continue;
+      result_.nodes.add(1 - axis, strip, i, at);
+      result_.nodes.add(1 - axis, strip, i + 1, at);
+    }
+  }
+
+  /// A ray from a hole's centre to the outline of its cell.
+  /// @param clear Distance from corners within which it is left out, at the outline.
+  void add_ray(int hole, const Point& direction, double clear = 0) {
+    const HoleCell& cell = *std::ranges::find(holes_, hole, &HoleCell::hole);
+    const Point low(grid_.x[cell.column], grid_.y[cell.row]), high(grid_.x[cell.column + 1], grid_.y[cell.row + 1]);
+    double reach = std::numeric_limits<double>::infinity();
+    int axis = 0;
+    for (const int each : {0, 1}) {
+      if (direction[each] == 0) continue;
+      const double distance = ((direction[each] > 0 ? high : low)[each] - cell.center[each]) / direction[each];
+      if (distance < reach) reach = distance, axis = each;
+    }
+    const CellSide side = axis == 0 ? (direction.x() > 0 ? right : left) : (direction.y() > 0 ? top : bottom);
+    if (cell.cuts[side]) return;
+    const double at = cell.center[1 - axis] + reach * direction[1 - axis];
+    const double from_corner = std::min(at - low[1 - axis], high[1 - axis] - at);
+    if (from_corner < std::max(clear * 0.3, same * size_)) return;
+    const int line = axis == 0 ? cell.column : cell.row;
+    result_.nodes.add(axis, axis == 0 ? cell.row : cell.column, line + (direction[axis] > 0 ? 1 : 0), at);
+  }
+
+  const PlateScene& scene_;
+  const GridGeometry& grid_;
+  const std::vector<HoleCell>& holes_;
+  double size_ = 0;
+  int crack_ = 0;
+  GridCracks result_;
+};
+
+/// Value at an angle of a function given at the tips, linear between them.
+double between(const std::vector<CellTip>& tips, const std::vector<double>& values, double angle) {
+  int before = 0, after = 0;
+  double to_before = rim::full_turn, to_after = rim::full_turn;
+  for (int i = 0; i < count_of(tips); ++i) {
+    const double ahead = rim::wrapped(tips[i].angle - angle, 0), behind = rim::wrapped(angle - tips[i].angle, 0);
+    if (ahead < to_after) to_after = ahead, after = i;
+    if (behind < to_before) to_before = behind, before = i;
+  }
+  const double sum = to_before + to_after;
+  return sum < rim::same_angle ? values[before] : (values[before] * to_after + values[after] * to_before) / sum;
+}
+
+}  // namespace
+
+GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes) {
+  return Planner(scene, grid, holes).run();
+}
+
+std::vector<Eigen::VectorXd> tip_layers(const std::vector<CellTip>& tips, double radius, const Point& center,
+                                        const std::vector<Point>& outline, double nearest) {
+  const double cap = radius + 0.9 * (nearest - radius);  // circles fit up to there
+  const bool are_circles = std::ranges::all_of(tips, [&](const CellTip& tip) { return tip.radius < cap; });
+  const Eigen::Index n = std::ssize(outline);
+  Eigen::VectorXd angle(n), reach(n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const Point ray = outline[i] - center;
+    angle[i] = std::atan2(ray.y(), ray.x());
+    reach[i] = (are_circles ? cap : ray.norm()) - radius;
+  }
+  // Place of each tip and size of its elements as fractions of the way from the rim to the reach of its ray.
+  std::vector<double> place;
+  double size = 1;
+  for (const CellTip& tip : tips) {
+    Eigen::Index on = 0;
+    (angle.array() - tip.angle).unaryExpr([](double x) { return std::abs(rim::wrapped(x)); }).minCoeff(&on);
+    place.push_back((tip.radius - radius) / reach[on]);
+    size = std::min(size, tip.size / (tip.radius - radius));
+  }
+  Eigen::VectorXd at(n);
+  for (Eigen::Index i = 0; i < n; ++i) at[i] = between(tips, place, angle[i]);
+  std::vector<double> levels{1};  // multiples of the place of the tips
+  for (double step = size, level = 1 - step; level > 0.3 * step; step *= growth, level -= step)
+    levels.insert(levels.begin(), level);
+  for (double step = size, level = 1 + step; level * at.maxCoeff() < 1 - 0.3 * step * at.maxCoeff();
+       step *= growth, level += step)
+    levels.push_back(level);
+  std::vector<Eigen::VectorXd> layers{Eigen::VectorXd::Constant(n, radius)};
+  for (const double level : levels) layers.emplace_back(radius + level * at.array() * reach.array());
+  return layers;
+}
+
+std::vector<CrackPath> crack_paths(const GridCracks& cracks, const PlateMesh& plate) {
+  const double size = (plate.mesh.nodes.rowwise().maxCoeff() - plate.mesh.nodes.rowwise().minCoeff()).norm();
+  std::vector<CrackPath> paths;
+  for (int i = 0; i < count_of(cracks.lines); ++i) {
+    const auto& [from, to] = cracks.lines[i];
+    const double length = (to - from).norm();
+    const Point along = (to - from) / length;
+    const auto is_on = [&](int node) {
+      const Point way = plate.mesh.nodes.col(node) - from;
+      const double ahead = way.dot(along);
+      return (way - ahead * along).norm() < 1e-8 * size && ahead > -1e-8 * size && ahead < length + 1e-8 * size;
+    };
+    CrackPath path{i, fmt::format("/cracks/{}", i), {}};
+    for (int edge = 0; edge < plate.edges.size(); ++edge) {
+      const int a = plate.edges.nodes(0, edge), b = plate.edges.nodes(1, edge);
+      if (plate.edges.arc[edge] < 0 && is_on(a) && is_on(b)) path.edges.emplace_back(a, b);
+    }
+    paths.push_back(std::move(path));
+  }
+  return paths;
+}
+
+}  // namespace fastjoint::stage1

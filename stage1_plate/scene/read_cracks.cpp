@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <cmath>
+#include <set>
+
+#include "common/rim/angles.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using input::Value;
+
+const std::string hole_prefix = "hole:";
+const std::vector<std::string> borders = {"left", "right", "bottom", "top"};
+
+/// Reads "hole:ID" as the hole's index.
+int read_hole(const Value& value, const std::vector<Hole>& holes) {
+  std::vector<std::string> names;
+  for (const auto& hole : holes) names.push_back(hole_prefix + hole.id);
+  if (names.empty())
+    value.fail("\"" + value.text() + "\", but the plate has no holes", "the name of an edge of the grid");
+  return index_of(names, value.choice(names));
+}
+
+/// Reads a crack between two points inside the sheet.
+void read_between_points(const Value& value, Crack& crack) {
+  value.only({"id", "from", "to"});
+  crack.from = read_point(value.at("from"));
+  crack.to = read_point(value.at("to"));
+  if (crack.from == crack.to) value.at("to").not_allowed("another point than \"from\"");
+  crack.tips = 2;
+}
+
+void read_from_hole(const Value& value, const std::vector<Hole>& holes, Crack& crack) {
+  crack.hole = read_hole(value.at("from"), holes);
+  if (const auto to = value.find("to")) {
+    value.only({"id", "from", "to"});
+    crack.to_hole = read_hole(*to, holes);
+    if (*crack.to_hole == *crack.hole) to->not_allowed("another hole than that of \"from\"");
+    const Eigen::Vector2d way = holes[*crack.to_hole].center - holes[*crack.hole].center;
+    crack.angle = std::atan2(way.y(), way.x());
+    crack.tips = 0;
+    return;
+  }
+  value.only({"id", "from", "angle", "length"});
+  crack.angle = value.at("angle").number() * rim::degree;
+  crack.length = read_quantity(value.at("length"));
+}
+
+void read_from_border(const Value& value, Crack& crack) {
+  crack.border = value.at("from").choice(borders);
+  value.only({"id", "from", "at", "length"});
+  crack.at = read_coordinate(value.at("at"));
+  crack.length = read_quantity(value.at("length"));
+  const int quarter = crack.border == "left" ? 0 : crack.border == "bottom" ? 1 : crack.border == "right" ? 2 : 3;
+  crack.angle = quarter * rim::full_turn / 4;
+}
+
+void read_grid_crack(const Value& value, const std::vector<Hole>& holes, Crack& crack) {
+  const Value from = value.at("from");
+  if (from.is_array())
+    read_between_points(value, crack);
+  else if (from.text().starts_with(hole_prefix))
+    read_from_hole(value, holes, crack);
+  else
+    read_from_border(value, crack);
+}
+
+}  // namespace
+
+Eigen::Vector2d Crack::direction() const {
+  const double quarters = 4 * angle / rim::full_turn;
+  const auto nearest = std::lround(quarters);
+  if (std::abs(quarters - double(nearest)) > 1e-12) return {std::cos(angle), std::sin(angle)};
+  // exact along an axis, so that nodes along the crack have equal digits
+  const Eigen::Vector2d along(nearest % 2 == 0 ? 1 : 0, nearest % 2 == 0 ? 0 : 1);
+  return (nearest % 4 + 4) % 4 < 2 ? along : Eigen::Vector2d(-along);
+}
+
+std::vector<Crack> read_cracks(const Value& root, const PlateScene& scene) {
+  std::vector<Crack> cracks;
+  std::set<std::string> ids;
+  for (const auto& item : read_items(root, "cracks")) {
+    Crack& crack = cracks.emplace_back();
+    const auto id = item.find("id");
+    crack.id = id ? id->text() : std::to_string(cracks.size());
+    if (!ids.insert(crack.id).second)
+      (id ? *id : item).fail(fmt::format("a second crack \"{}\"", crack.id), "each name once");
+    if (const auto* mesh = std::get_if<MeshGeometry>(&scene.geometry)) {
+      item.only({"id", "on"});
+      std::vector<std::string> names;
+      for (const auto& [name, edges] : mesh->edges) names.push_back(name);
+      crack.on = item.at("on").choice(names);
+    } else {
+      read_grid_crack(item, scene.holes, crack);
+    }
+  }
+  return cracks;
+}
+
+}  // namespace fastjoint::stage1

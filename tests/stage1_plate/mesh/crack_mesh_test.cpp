@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/mesh/crack_mesh.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "common/pfem/element.hpp"
+#include "common/plate/cracks.hpp"
+#include "common/plate/skeleton.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
+#include "tests/support/message.hpp"
+
+namespace fastjoint::crack_mesh_test {
+namespace {
+
+using testing::HasSubstr;
+
+stage1::PlateScene scene(const std::string& lines, const std::string& holes, const std::string& cracks) {
+  return stage1::read_scene(input::parse("plate.json", fmt::format(R"({{"format": "plate", "version": 1,
+    "analysis": "plane stress", "materials": {{"m": {{"E": 1000, "nu": 0.3}}}},
+    "geometry": {{"grid": {{{}, "thickness": 1}}}}, "holes": [{}], "cracks": [{}],
+    "supports": [{{"on": "bottom", "fix": ["x", "y"]}}],
+    "external": [{{"id": "P", "on": "top", "direction": "y", "kind": "rigid"}}]}})",
+                                                                   lines, holes, cracks)));
+}
+
+constexpr const char* square = R"("x": [-6, -2, 2, 6], "y": [-6, -2, 2, 6])";
+constexpr const char* hole = R"({"id": "h", "center": [0, 0], "radius": 0.5})";
+
+double area(const stage1::PlateMesh& plate) {
+  constexpr int n = 12;
+  const auto rule = pfem::gauss(n);
+  double sum = 0;
+  for (int element = 0; element < plate.mesh.n_elements(); ++element) {
+    const pfem::ElementMap map(plate.mesh, plate.edges, element);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) sum += rule.w[i] * rule.w[j] * map.jacobian(rule.x[i], rule.x[j]).determinant();
+  }
+  return sum;
+}
+
+/// Length of all edges that only one element has and that belong neither to the border nor to a rim.
+double length_of_faces(const stage1::PlateMesh& plate) {
+  std::vector<pfem::Side> named;
+  for (const auto& [name, sides] : plate.sets) named.insert(named.end(), sides.begin(), sides.end());
+  for (const auto& rim : plate.rims) named.insert(named.end(), rim.sides.begin(), rim.sides.end());
+  double sum = 0;
+  for (int element = 0; element < plate.mesh.n_elements(); ++element)
+    for (int edge = 0; edge < 4; ++edge) {
+      const bool alone = plate.edges.n_elements[plate.edges.of_element(edge, element)] == 1;
+      if (alone && std::ranges::find(named, pfem::Side{element, edge}) == named.end())
+        sum += pfem::side_rule(plate.mesh, plate.edges, {element, edge}, 1).ds.sum();
+    }
+  return sum;
+}
+
+/// The sheet is whole but for the crack, whose two faces are its only edges inside.
+void expect_open(const stage1::PlateMesh& plate, double expected_area, double crack) {
+  EXPECT_NEAR(area(plate), expected_area, 1e-9 * expected_area);
+  EXPECT_NEAR(length_of_faces(plate), 2 * crack, 1e-9);
+}
+
+class RandomCracks : public testing::TestWithParam<int> {};
+
+TEST_P(RandomCracks, OpenASheetThatIsWholeOtherwise) {
+  std::mt19937 random(GetParam());
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  const double low = uniform(1, 3), high = uniform(1, 3), radius = uniform(0.2, 0.7);
+  const double angle = uniform(-180, 180), length = uniform(0.03, 0.8) * (std::min(low, high) - radius);
+  const auto plate = stage1::make_mesh(
+      scene(fmt::format(R"("x": [-6, {0}, {1}, 6], "y": [-5, {0}, {1}, 5])", -low, high),
+            fmt::format(R"({{"id": "h", "center": [0, 0], "radius": {}}})", radius),
+            fmt::format(R"({{"id": "c", "from": "hole:h", "angle": {}, "length": {}}})", angle, length)));
+  expect_open(plate, 120 - std::numbers::pi * radius * radius, length);
+  ASSERT_EQ(plate.tips.size(), 1U);
+  const double turn = angle * std::numbers::pi / 180, reach = radius + length;
+  EXPECT_NEAR((plate.tips[0].at - reach * Eigen::Vector2d(std::cos(turn), std::sin(turn))).norm(), 0, 1e-12);
+  EXPECT_NEAR(std::remainder(plate.tips[0].angle - turn, 2 * std::numbers::pi), 0, 1e-9);
+  EXPECT_NEAR(plate.tips[0].length, length, 1e-12);
+  EXPECT_TRUE(plate.is_cracked[0]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomCracks, testing::Range(0, 40));
+
+TEST(CrackMesh, CracksGoOnThroughCells) {
+  const auto plate = stage1::make_mesh(scene(square, hole, R"({"from": "hole:h", "angle": 0, "length": 3.5})"));
+  expect_open(plate, 144 - std::numbers::pi / 4, 3.5);
+  EXPECT_NEAR(plate.tips[0].at.x(), 4, 1e-12);
+}
+
+TEST(CrackMesh, CracksOfEachKindInOneSheet) {
+  const auto plate = stage1::make_mesh(scene(
+      R"("x": [-6, -2, 2, 6], "y": [-6, -2, 2, 6])",
+      R"({"id": "h", "center": [-4, 0], "radius": 0.5}, {"id": "g", "center": [0, 0], "radius": 0.5})",
+      R"({"id": "link", "from": "hole:h", "to": "hole:g"}, {"id": "short", "from": "hole:g", "angle": 0, "length": 0.2},
+         {"id": "edge", "from": "right", "at": 4, "length": 1}, {"id": "inside", "from": [-5, -4], "to": [-3, -4]})"));
+  expect_open(plate, 144 - std::numbers::pi / 2, 3 + 0.2 + 1 + 2);
+  std::vector<std::string> names;
+  for (const auto& tip : plate.tips) names.push_back(tip.id);
+  EXPECT_THAT(names, testing::ElementsAre("short", "edge", "inside start", "inside end"));
+  EXPECT_EQ(plate.tips[2].length, 1);
+}
+
+TEST(CrackMesh, RefusesWhatItCannotMesh) {
+  const auto message = [](const char* lines, const char* cracks) {
+    return test::message_of([&] { return stage1::make_mesh(scene(lines, hole, cracks)); });
+  };
+  EXPECT_THAT(message(square, R"({"from": "hole:h", "angle": 0, "length": 0.5}, {"from": [1.7, 0], "to": [3, 0]})"),
+              HasSubstr("two tips in the cell of hole \"h\" are on one ray"));
+  EXPECT_THAT(message(square, R"({"from": "left", "at": 0, "length": 8})"), HasSubstr("it runs through hole \"h\""));
+}
+
+TEST(TipFields, AreNormalised) {
+  const plate::Isotropic material{400, 2.2};
+  constexpr int n = 400;
+  for (const auto mode : {plate::Mode::I, plate::Mode::II})
+    for (const auto other : {plate::Mode::I, plate::Mode::II}) {
+      // The contour integral around the tip, with the midpoint rule in cos: the fields are smooth up to the faces.
+      double sum = 0;
+      for (int i = 0; i < n; ++i) {
+        const double t = std::numbers::pi * (2 * (i + 0.5) / n - 1);
+        const Eigen::Vector2d normal(std::cos(t), std::sin(t));
+        const auto dual = plate::dual_field(mode, material, 0.7 * normal);
+        const auto field = plate::singular_field(other, material, 0.7 * normal);
+        sum += (field.sigma * normal).dot(dual.u) - (dual.sigma * normal).dot(field.u);
+      }
+      sum *= 0.7 * 2 * std::numbers::pi / n * material.mu / (material.kappa + 1) * std::sqrt(2 / std::numbers::pi);
+      const double sign = mode == plate::Mode::I ? -1 : 1;
+      EXPECT_NEAR(sign * sum, mode == other ? 1 : 0, 1e-4);
+    }
+  // Faces are free.
+  for (const double side : {1e-12, -1e-12})
+    for (const auto mode : {plate::Mode::I, plate::Mode::II})
+      EXPECT_LT(plate::dual_field(mode, material, {-1, side}).sigma.col(1).norm(), 1e-9);
+}
+
+TEST(StressIntensities, DoNotDependOnThePath) {
+  const auto a = scene(square, hole, R"({"from": "hole:h", "angle": 30, "length": 0.4})");
+  const auto mesh = stage1::make_mesh(a);
+  auto problem = stage1::number_unknowns(a, mesh);
+  stage1::integrate(a, mesh, problem);
+  const plate::Skeleton skeleton(problem);
+  const plate::PlateFactor K(problem, skeleton, 8, true);
+  std::vector<Eigen::MatrixXd> by_layer;
+  for (const int layer : {0, 1, 2})
+    by_layer.push_back(K.condensed(plate::stress_intensities(K, mesh.mesh, mesh.edges, problem.numbering, a.elasticity,
+                                                             mesh.tips, layer))
+                           .bottomRows(2));
+  for (const int layer : {1, 2})
+    EXPECT_LT((by_layer[layer] - by_layer[0]).lpNorm<Eigen::Infinity>(), 1e-6 * by_layer[0].lpNorm<Eigen::Infinity>());
+}
+
+}  // namespace
+}  // namespace fastjoint::crack_mesh_test
