@@ -38,16 +38,17 @@ Shape shape_of(const Mesh& mesh, const Edges& edges, int element) {
 }  // namespace
 
 ElementMap::ElementMap(const Mesh& mesh, const Edges& edges, int element)
-    : curves_{edge_curve(mesh, edges, element, 0), edge_curve(mesh, edges, element, 1),
-              edge_curve(mesh, edges, element, 2), edge_curve(mesh, edges, element, 3)} {
-  for (int v = 0; v < 4; ++v) vertices_.col(v) = mesh.nodes.col(mesh.quads(v, element));
+    : origin_(mesh.nodes.col(mesh.quads(0, element))) {
+  for (int edge = 0; edge < n_local_edges; ++edge)
+    curves_[edge] = edge_curve(mesh, edges, element, edge).moved(-origin_);
+  for (int v = 0; v < 4; ++v) vertices_.col(v) = mesh.nodes.col(mesh.quads(v, element)) - origin_;
 }
 
 Eigen::Vector2d ElementMap::point(double xi, double eta) const {
   const auto& [bottom, right, top, left] = curves_;
   const Eigen::Vector4d bilinear =
       Eigen::Vector4d((1 - xi) * (1 - eta), (1 + xi) * (1 - eta), (1 + xi) * (1 + eta), (1 - xi) * (1 + eta)) / 4;
-  return (1 - eta) / 2 * bottom.point(xi) + (1 + eta) / 2 * top.point(xi) + (1 - xi) / 2 * left.point(eta) +
+  return origin_ + (1 - eta) / 2 * bottom.point(xi) + (1 + eta) / 2 * top.point(xi) + (1 - xi) / 2 * left.point(eta) +
          (1 + xi) / 2 * right.point(eta) - vertices_ * bilinear;
 }
 

@@ -25,6 +25,9 @@ class ElementMap {
   [[nodiscard]] bool is_curved() const;
 
  private:
+  // Curves and vertices are relative to vertex 0, so that the rounding of coordinates does not vary within small
+  // elements.
+  Eigen::Vector2d origin_;
   std::array<Curve, 4> curves_;  ///< bottom, right, top, left in their natural directions
   Eigen::Matrix<double, 2, 4> vertices_;
 };

@@ -78,6 +78,14 @@ Curve Curve::arc(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen
   return c;
 }
 
+Curve Curve::moved(const Eigen::Vector2d& by) const {
+  Curve c = *this;
+  c.a_ += by;
+  c.b_ += by;
+  c.center_ += by;
+  return c;
+}
+
 Eigen::Vector2d Curve::point(double s) const {
   if (!is_arc_) return (1 - s) / 2 * a_ + (1 + s) / 2 * b_;
   const double angle = start_ + (1 + s) / 2 * sweep_;

@@ -44,6 +44,8 @@ class Curve {
   /// The shorter arc about `center` from a to b.
   static Curve arc(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& center);
 
+  /// The curve translated by a vector.
+  [[nodiscard]] Curve moved(const Eigen::Vector2d& by) const;
   [[nodiscard]] Eigen::Vector2d point(double s) const;
   [[nodiscard]] Eigen::Vector2d derivative(double s) const;
   [[nodiscard]] bool is_arc() const { return is_arc_; }
@@ -52,7 +54,7 @@ class Curve {
   [[nodiscard]] double sweep() const { return sweep_; }
 
  private:
-  Eigen::Vector2d a_, b_, center_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2d a_ = Eigen::Vector2d::Zero(), b_ = a_, center_ = a_;
   double radius_ = 0, start_ = 0, sweep_ = 0;
   bool is_arc_ = false;
 };

@@ -4,6 +4,7 @@
 
 Usage: cracks_test.py FOLDER_OF_PROGRAMS"""
 import json
+import os
 import subprocess
 import sys
 import tempfile
@@ -15,6 +16,7 @@ import numpy as np
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
+from examples import copy_example  # noqa: E402
 from one_hole import PROGRAMS, end_if_missed, matrices, missed, near, run  # noqa: E402
 
 E = 1000.0
@@ -196,6 +198,38 @@ def check_estimates(folder):
     assert shut["K_I"][0] < 0 and 'warning [crack-closes]: joint.json: crack "sheet:1" closes at its tip at increment 1' in done.stderr, done.stderr
 
 
+def check_place(folder):
+    """A short crack far from the origin, whose elements are small next to the rounding of coordinates."""
+    found = []
+    for x in (0, 500):
+        sheet = scene([x - 6, x - 2, x + 2, x + 6], [-6, -2, 2, 6], holes=[{"id": "h", "center": [x, 0], "radius": 0.5}], p=[6, 8],
+                      cracks=[{"from": "hole:h", "angle": 0, "length": 0.01}], supports=[{"on": "bottom", "fix": ["x", "y"]}],
+                      external=[{"id": "P", "on": "top", "direction": "y", "kind": "rigid"}])
+        with solved(folder, sheet) as file:
+            found.append(factors(file, "P")[-1])
+    near("crack of a hundredth, 500 away: K_I", found[1], found[0], 1e-6)
+
+
+def check_example(folder):
+    """What its page shows is printed, and the file for crack growth has it."""
+    text = (ROOT / "examples/crack/README.md").read_text()
+    copy = copy_example("crack", folder)
+    printed = subprocess.run(["make", "-s", "table", "picture", f"PYTHON={sys.executable}"], cwd=copy, capture_output=True, text=True,
+                             env={**os.environ, "PATH": f"{PROGRAMS}{os.pathsep}{os.environ['PATH']}"})
+    assert printed.returncode == 0, printed
+    shown = text.split("```\n    c [mm]")[1].split("```")[0].splitlines()[1:]
+    missing = [line for line in shown if line not in printed.stdout.splitlines()]
+    assert len(shown) == 9 and not missing, (missing, printed.stdout)
+    rows = np.loadtxt(copy / "out/beta.txt")
+    assert np.allclose(rows[:, 0] * 15, [float(line.split()[0]) for line in shown]) and \
+        np.allclose(rows[:, 1], [float(line.split()[-1]) for line in shown], atol=1e-5)
+    with h5py.File(copy / "out/joint_0.2.h5") as short, h5py.File(copy / "out/joint_8.h5") as long:
+        shed = 1 - long["transferred"][-1, 2, 0] / short["transferred"][-1, 2, 0]
+    assert 0.03 < shed < 0.04, f"bolt 3 sheds {shed}, the page says up to 4 %"
+    wrong = subprocess.run([ROOT / "scripts/beta_table", copy / "out/joint_8.h5", "--tip", "upper:d", "--stress", "1"], capture_output=True, text=True)
+    assert wrong.returncode == 2 and 'has no tip "upper:d"; allowed: upper:c' in wrong.stderr, wrong
+
+
 def check_refusals(folder):
     hole = {"holes": [{"id": "h", "center": [0, 0], "radius": 0.5}, {"id": "g", "center": [3, 0.2], "radius": 0.5}]}
     for crack, message in (({"from": "hole:x", "angle": 0, "length": 1}, "/cracks/0/from"),
@@ -229,6 +263,8 @@ def main():
         check_modes(folder)
         check_energy(folder)
         check_estimates(folder)
+        check_place(folder)
+        check_example(folder)
     end_if_missed()
 
 
