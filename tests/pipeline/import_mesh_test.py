@@ -113,6 +113,19 @@ def check_curves():
     assert centers == {((15, 0), 4): 8, ((40, 0), 4): 8, ((100, 0), 8): 8, ((100, 0), 20): 6, ((62, 0), 5): 4, ((72, 0), 5): 4}, centers
 
 
+def check_crack():
+    """A named curve inside the sheet is a crack: K of collinear cracks is exact to 1e-6, on elements that know nothing of it."""
+    sides = [{"on": side, "fix": ["x"]} for side in ("left", "right")] + [{"on": "bottom", "fix": ["y"]}]
+    plate = {"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"m": {"E": 1000, "nu": 0.3}}, "geometry": {"mesh": {"thickness": 1}},
+             "cracks": [{"id": "c", "on": "slit"}], "supports": sides, "external": [{"id": "P", "on": "top", "direction": "y", "kind": "rigid"}]}
+    slit = MESH.with_name("slit.msh")
+    with matrices(imported(slit, plate), "slit") as file:
+        K = file["crack/K_I"][-1, 0, 0] / file["S_ee"][-1, 0, 0]
+    exact = np.sqrt(2 * np.tan(np.pi / 4))
+    assert abs(K / exact - 1) < 1e-6, K / exact - 1
+    refused(slit, 'has no curve "cut", which plate.json: /cracks/0/on names', plate=plate | {"cracks": [{"on": "cut"}]})
+
+
 def check_refusals():
     mesh = meshio.read(MESH)
     quads, points = quads_of(mesh), mesh.points
@@ -166,7 +179,7 @@ def check_remeshed():
     if not shutil.which("gmsh"):
         print("gmsh is not installed; its meshes were not made again")
         return
-    for outline in (MESH.with_suffix(".geo"), ROOT / "examples/lug/lug.geo"):
+    for outline in (MESH.with_suffix(".geo"), MESH.with_name("slit.geo"), ROOT / "examples/lug/lug.geo"):
         subprocess.run(["gmsh", "-2", "-v", "1", "-format", "msh41", "-o", "again.msh", outline], check=True)
         again, kept = meshio.read("again.msh"), meshio.read(outline.with_suffix(".msh"))
         assert {block.type for block in again.cells} == {block.type for block in kept.cells}
@@ -179,6 +192,7 @@ def main(programs):
         os.chdir(folder)
         check_formats()
         check_curves()
+        check_crack()
         check_refusals()
         check_matrices()
         check_remeshed()
