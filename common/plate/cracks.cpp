@@ -52,12 +52,6 @@ TipField dual_field(Mode mode, const Isotropic& material, const Eigen::Vector2d&
   return field(mode == Mode::I ? powers(z, -0.5, 1, 1.5) : powers(z, -0.5, i, -0.5 * i), material, z);
 }
 
-TipField singular_field(Mode mode, const Isotropic& material, const Eigen::Vector2d& x) {
-  const Complex z{x.x(), x.y()};
-  const double K = 1 / std::sqrt(2 * std::numbers::pi);
-  return field(mode == Mode::I ? powers(z, 0.5, K, K / 2) : powers(z, 0.5, -i * K, 1.5 * i * K), material, z);
-}
-
 Eigen::MatrixX2d stress_intensity_weights(const pfem::ElementMap& map, pfem::Space space, int p,
                                           const Eigen::Matrix3d& D, const pfem::CrackTip& tip) {
   const Isotropic material = isotropic(D);

@@ -27,8 +27,6 @@ struct TipField {
 /// The dual singular field that extracts a stress intensity factor: phi* = z^(-1/2), psi* = (3/2) z^(-1/2) for mode I,
 /// phi* = i z^(-1/2), psi* = -(i/2) z^(-1/2) for mode II. Its crack faces are free (docs/theory.md, section 11.7).
 [[nodiscard]] TipField dual_field(Mode mode, const Isotropic& material, const Eigen::Vector2d& x);
-/// The singular field of the stress intensity factor 1, Williams' first term.
-[[nodiscard]] TipField singular_field(Mode mode, const Isotropic& material, const Eigen::Vector2d& x);
 
 /// K_I and K_II of one element of a layer as functions of its coefficients, (2 n_modes, 2): its part of the contour
 /// integral in cutoff form, with a cutoff function that falls from 1 to 0 across the layer (docs/theory.md,
