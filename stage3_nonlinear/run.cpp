@@ -142,8 +142,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   warn(log, rim_warnings(joint, increments.states));
   auto result = joint_result(joint, equations, path, increments, with_rim_stresses);
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
-  set_crack_errors(crack_errors(scene, joint, path, increments.states, solving, scene.solver.tolerance), result);
-  warn(log, crack_warnings(joint, result));
+  const auto errors = crack_errors(scene, joint, path, increments.states, solving, scene.solver.tolerance);
+  set_crack_errors(errors, result);
+  warn(log, crack_warnings(joint, increments.states, errors));
   if (with_sensitivities) result.sensitivity = sensitivity_history(joint, path, increments);
   timings.phase("write");
   formats::write(arguments.output, result);

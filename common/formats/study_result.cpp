@@ -5,12 +5,12 @@ namespace fastjoint::formats {
 namespace {
 
 constexpr const char* format = "study-result";
-constexpr int major = 1, minor = 0;
+constexpr int major = 1, minor = 1;
 
 void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   const std::string group = "statistics/" + a.name + "/";
   const Eigen::Index n = std::ssize(a.of);
-  file(group + "of", a.of, {n}, "1", "fastener, hole or external that each number is of");
+  file(group + "of", a.of, {n}, "1", "fastener, hole, external or crack tip that each number is of");
   file(group + "middle", a.middle, {n}, a.unit,
        "of the joint with every variable in its middle; infinite if not solved");
   file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved");
@@ -26,6 +26,9 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
        "change with each variable in the middle, in the units of both; infinite if not known");
   file(group + "rank_correlation", a.correlation, {n, v}, "1", "Spearman's rank correlation with each variable");
   file(group + "governs", a.governs, {n}, "1", "fraction of the solved samples in which it is the largest");
+  if (a.closed.size() > 0)
+    file(group + "closed", a.closed, {n}, "1",
+         "fraction of the solved samples in which the crack closes at its tip, K_I < 0");
   file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none");
   file(group + "exceeds", a.exceeds, {n}, "1", "fraction of the solved samples above the limit");
   file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");

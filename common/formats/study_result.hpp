@@ -23,6 +23,7 @@ struct StudyGroup {
   Eigen::MatrixXd quantile, low, high;       ///< (n, 4) and their confidence limits; infinite where samples are too few
   Eigen::MatrixXd sensitivity, correlation;  ///< (n, v) sensitivity in the middle; Spearman's rank correlation
   Eigen::VectorXd governs;                   ///< (n) fraction of the samples in which it is the largest
+  Eigen::VectorXd closed;                    ///< (n) of K_I alone: fraction of the samples in which it is negative
   double limit = std::numeric_limits<double>::infinity();  ///< limit for the next three; infinite without one
   Eigen::VectorXd exceeds, exceeds_low, exceeds_high;      ///< (n) fraction above it and its confidence limits
 };

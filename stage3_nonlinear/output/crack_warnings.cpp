@@ -7,15 +7,16 @@
 
 namespace fastjoint::stage3 {
 
-std::vector<program::Warning> crack_warnings(const JointModel& joint, const formats::JointResult& result) {
+std::vector<program::Warning> crack_warnings(const JointModel& joint, const std::vector<JointState>& states,
+                                             const std::vector<CrackErrors>& errors) {
   std::map<std::string, Doubt> closing;  // keys: tips
-  for (const auto& plate : result.plates) {
-    const auto& a = plate.cracks;
-    for (Index step = 0; step < a.K_I.rows(); ++step)
-      for (Index t = 0; t < std::ssize(a.tip); ++t) {
-        const double K = a.K_I(step, t);
-        if (!(-K > a.K_I_error(step, t))) continue;
-        const std::string name = plate.name + ":" + a.tip[t];
+  for (std::size_t i = 0; i < joint.plates.size(); ++i) {
+    const PlateModel& plate = joint.plates[i];
+    for (Index step = 0; step < std::ssize(states); ++step)
+      for (Index t = 0; t < std::ssize(plate.cracks.tip); ++t) {
+        const double K = states[step].plates[i].cracks.K_I[t];
+        if (!(-K > errors[i].K_I(step, t))) continue;
+        const std::string name = plate.name + ":" + plate.cracks.tip[t];
         Doubt& worst = closing[name];
         if (-K > worst.first)
           worst = {-K, fmt::format("{}: crack \"{}\" closes at its tip at increment {}, with K_I = {:.6g} {}: its "

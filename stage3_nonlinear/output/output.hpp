@@ -7,6 +7,7 @@
 
 #include "common/formats/joint_result.hpp"
 #include "common/program/warning.hpp"
+#include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/results/increments.hpp"
 
 namespace fastjoint::stage3 {
@@ -55,7 +56,9 @@ namespace fastjoint::stage3 {
                                                          const std::vector<JointState>& states);
 
 /// Warning about the crack whose tip closes most: its faces overlap in the model.
-[[nodiscard]] std::vector<program::Warning> crack_warnings(const JointModel& joint, const formats::JointResult& result);
+[[nodiscard]] std::vector<program::Warning> crack_warnings(const JointModel& joint,
+                                                           const std::vector<JointState>& states,
+                                                           const std::vector<CrackErrors>& errors);
 
 /// Message for a path with a failure: why and where it ended, and what to check.
 /// @param output File with the increments before.

@@ -20,6 +20,7 @@
 #include "common/program/progress.hpp"
 #include "common/program/warning.hpp"
 #include "stage3_nonlinear/output/output.hpp"
+#include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/results/increments.hpp"
 #include "stage3_nonlinear/study/samples.hpp"
 #include "stage3_nonlinear/study/study_statistics.hpp"
@@ -133,8 +134,9 @@ std::vector<program::Warning> middle_warnings(const JointModel& joint, const Joi
   const auto [path, increments] =
       follow_with_results(joint, equations, {scene.wanted_load_factors().back()}, solving, {scene.solver.tolerance});
   std::vector<program::Warning> all = scene.warnings;
+  const auto errors = crack_errors(scene, joint, path, increments.states, solving, scene.solver.tolerance);
   for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
-                           rim_warnings(joint, increments.states)})
+                           rim_warnings(joint, increments.states), crack_warnings(joint, increments.states, errors)})
     all.insert(all.end(), some.begin(), some.end());
   for (auto& each : all) each.text += " (with every variable of the study in its middle)";
   return all;
@@ -165,6 +167,12 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
         fmt::format("{}: /outputs: \"peaks\", but no plate's matrices hold stresses at p = {}; allowed: "
                     "matrices of stage2_extract without --loads-only, at their highest degree",
                     study.scene.file, joint.p));
+  if (study.scene.cracks &&
+      std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tip.empty(); }))
+    throw InputError(
+        fmt::format("{}: /outputs: \"cracks\", but no plate has cracks; allowed: at least one plate with \"cracks\" in "
+                    "its PLATE.json",
+                    study.scene.file));
   return joint;
 }
 
@@ -225,7 +233,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   }
   JointModel joint = load_studied(arguments, study, sampled);
   const formats::StudyOrigin origin = origin_of(study, joint, seed);
-  StudyNames names = study_names(joint, study.scene.peaks, study.scene.displacements);
+  StudyNames names = study_names(joint, study.scene);
   const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, names.size());
   blocks.check();
   if (merge_only) check_all_there(blocks);

@@ -253,13 +253,15 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
   if (const auto seed = root.find("seed")) study.seed = seed->integer(0, std::numeric_limits<int>::max());
   if (const auto outputs = root.find("outputs"))
     for (const auto& output : outputs->items()) {
-      const std::string word = output.choice({"forces", "peaks", "displacements"});
+      const std::string word = output.choice({"forces", "peaks", "displacements", "cracks"});
       study.peaks |= word == "peaks", study.displacements |= word == "displacements";
+      study.cracks |= word == "cracks";
     }
   if (const auto limits = root.find("limits")) {
-    limits->only({"force", "peak"});
+    limits->only({"force", "peak", "K_I"});
     if (const auto force = limits->find("force")) study.max_force = force->number(input::positive);
     if (const auto peak = limits->find("peak")) study.max_peak = peak->number(input::positive), study.peaks = true;
+    if (const auto K_I = limits->find("K_I")) study.max_K_I = K_I->number(input::positive), study.cracks = true;
   }
   return study;
 }

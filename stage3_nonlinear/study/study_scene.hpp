@@ -39,8 +39,8 @@ struct StudyScene {
   Sampling sampling = Sampling::random;
   std::uint64_t n_samples = 0;
   std::optional<std::uint64_t> seed;  ///< none: a random one
-  bool peaks = false, displacements = false;
-  std::optional<double> max_force, max_peak;  ///< limits whose exceedance is counted
+  bool peaks = false, displacements = false, cracks = false;
+  std::optional<double> max_force, max_peak, max_K_I;  ///< limits whose exceedance is counted
 };
 
 /// Reads a study of a joint; wildcards in its places are resolved in the joint. Throws InputError.

@@ -24,14 +24,16 @@ std::optional<PathStep> last_step(const JointEquations& equations, const std::ve
 
 }  // namespace
 
-StudyNames study_names(const JointModel& joint, bool peaks, bool displacements) {
+StudyNames study_names(const JointModel& joint, const StudyScene& study) {
   StudyNames names;
   for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
   for (const auto& plate : joint.plates) {
-    if (peaks && plate.stress_level)
+    if (study.peaks && plate.stress_level)
       for (const auto& hole : plate.stresses.rim_hole) names.peak.push_back(plate.name + ":" + hole);
-    if (displacements)
+    if (study.displacements)
       for (const auto& external : plate.externals) names.displacement.push_back(plate.name + ":" + external);
+    if (study.cracks)
+      for (const auto& tip : plate.cracks.tip) names.crack.push_back(plate.name + ":" + tip);
   }
   return names;
 }
@@ -68,6 +70,10 @@ SampleNumbers StudySolver::numbers(const JointEquations& equations, const PathSt
   if (!names_.displacement.empty())
     for (const auto& plate : state.plates)
       for (const double each : plate.De) result.all[at++] = each;
+  if (!names_.crack.empty())
+    for (VectorXd CrackState::*factor : {&CrackState::K_I, &CrackState::K_II})
+      for (const auto& plate : state.plates)
+        for (const double each : plate.cracks.*factor) result.all[at++] = each;
   if (!result.all.allFinite()) return nothing(SampleStatus::out_of_balance);
   result.c = step.c;
   return result;

@@ -9,6 +9,7 @@
 
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
+#include "stage3_nonlinear/study/study_scene.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -18,7 +19,7 @@ enum class SampleStatus { solved, refused, not_solved, out_of_balance };
 /// Results of a sample at the last increment.
 struct SampleNumbers {
   SampleStatus status = SampleStatus::solved;
-  VectorXd all;  ///< forces, then peaks, then displacements, in the order of StudySolver::names; NaN if not solved
+  VectorXd all;  ///< in the order of StudyNames: forces, peaks, displacements, K_I, K_II; NaN if not solved
   VectorXd c{};  ///< (r) contact coordinates; empty if not solved
 };
 
@@ -27,11 +28,14 @@ struct StudyNames {
   std::vector<std::string> force;         ///< fastener, and its plates if it has several planes
   std::vector<std::string> peak;          ///< "plate:hole"; empty if not requested
   std::vector<std::string> displacement;  ///< "plate:external" of rigid externals; empty if not requested
+  std::vector<std::string> crack;         ///< "plate:tip" of K_I and of K_II; empty if not requested
 
-  [[nodiscard]] Index size() const { return std::ssize(force) + std::ssize(peak) + std::ssize(displacement); }
+  [[nodiscard]] Index size() const {
+    return std::ssize(force) + std::ssize(peak) + std::ssize(displacement) + 2 * std::ssize(crack);
+  }
 };
 
-[[nodiscard]] StudyNames study_names(const JointModel& joint, bool peaks, bool displacements);
+[[nodiscard]] StudyNames study_names(const JointModel& joint, const StudyScene& study);
 
 /// Solves a joint for other parameters, each time from its solution with all variables in their middle, so that no
 /// result depends on another sample. Several threads may use it.

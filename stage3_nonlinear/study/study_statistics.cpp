@@ -35,6 +35,7 @@ struct Kind {
 std::vector<Kind> kinds_of(const StudyContext& a) {
   const std::string force = unit(a.units, 0, 1), stress = unit(a.units, -2, 1), length = unit(a.units, 1, 0);
   const Index f = std::ssize(a.names.force), r = std::ssize(a.names.peak), d = std::ssize(a.names.displacement);
+  const Index t = std::ssize(a.names.crack);
   const double max_force = a.study.max_force.value_or(infinite), max_peak = a.study.max_peak.value_or(infinite);
   std::vector<Kind> kinds{
       {"force", "load that each fastener transfers", force, a.names.force, 0, f, false, max_force},
@@ -46,6 +47,14 @@ std::vector<Kind> kinds_of(const StudyContext& a) {
   if (d > 0)
     kinds.push_back(
         {"displacement", "displacement of each rigid external", length, a.names.displacement, f + r, d, false});
+  if (t > 0) {
+    const std::string intensity = unit(a.units, -1.5, 1);
+    const Index K_I = f + r + d;
+    const double max_K_I = a.study.max_K_I.value_or(infinite);
+    kinds.push_back({"K_I", "K_I of each crack tip", intensity, a.names.crack, K_I, t, false, max_K_I});
+    kinds.push_back({"largest_K_I", "largest K_I of all", intensity, {"largest K_I"}, K_I, t, true, max_K_I});
+    kinds.push_back({"K_II", "K_II of each crack tip", intensity, a.names.crack, K_I + t, t, false});
+  }
   return kinds;
 }
 
@@ -58,7 +67,7 @@ VectorXd of_kind(const Kind& kind, const Eigen::Ref<const Eigen::RowVectorXd>& r
 /// Statistics of one number.
 struct Gathered {
   Moments moments;
-  std::uint64_t above = 0, governs = 0;
+  std::uint64_t above = 0, governs = 0, negative = 0;
   std::vector<double> ranked{};
 };
 
@@ -132,6 +141,7 @@ class Statistics {
         for (Index i = 0; i < values.size(); ++i) {
           all_[g][i].moments.add(values[i]);
           all_[g][i].above += values[i] > kinds_[g].limit ? 1 : 0;
+          all_[g][i].negative += values[i] < 0 ? 1 : 0;
           if (is_ranked) all_[g][i].ranked.push_back(values[i]);
         }
         Index at = 0;
@@ -154,6 +164,7 @@ class Statistics {
     for (VectorXd* each : {&group.middle, &group.mean, &group.deviation, &group.by_sensitivities, &group.exceeds,
                            &group.exceeds_low, &group.exceeds_high, &group.governs})
       each->resize(n);
+    if (group.name == "K_I") group.closed.resize(n);
     group.sensitivity.resize(n, v), group.correlation.resize(n, v);
     const bool has_middle = a_.middle.status == SampleStatus::solved;
     group.middle = has_middle ? of_kind(kind, a_.middle.all.transpose()) : VectorXd::Constant(n, infinite);
@@ -168,6 +179,7 @@ class Statistics {
       each.ranked.clear();
       for (Index k = 0; k < v; ++k) group.correlation(i, k) = rank_correlation(ranks, variables_[k].ranked);
       group.governs[i] = solved_ > 0 ? double(each.governs) / double(solved_) : 0;
+      if (group.closed.size() > 0) group.closed[i] = solved_ > 0 ? double(each.negative) / double(solved_) : 0;
       Proportion fraction = proportion(each.above, solved_, failed_);
       if (is_grid() || std::isinf(kind.limit)) fraction.low = fraction.high = fraction.value;
       group.exceeds[i] = fraction.value, group.exceeds_low[i] = fraction.low, group.exceeds_high[i] = fraction.high;

@@ -86,6 +86,19 @@ std::string doubts(const formats::StudyGroup& a) {
       100 * (a.by_sensitivities[worst] / a.deviation[worst] - 1));
 }
 
+/// Sentences about cracks whose faces overlap in some samples; empty if there are none.
+std::string closing(const formats::StudyGroup& a) {
+  std::string text;
+  for (Index i = 0; i < a.closed.size(); ++i)
+    if (a.closed[i] > 0)
+      text += fmt::format(
+          "  crack \"{}\" closes at its tip in {:.4g} % of the samples (K_I < 0), where its faces overlap in the "
+          "model: "
+          "take K_I as 0 there, and do not rely on K_II\n",
+          program::one_line(a.of[i]), 100 * a.closed[i]);
+  return text;
+}
+
 }  // namespace
 
 std::string study_summary(const formats::StudyResult& result, const StudyScene& scene, const std::string& failures) {
@@ -101,10 +114,13 @@ std::string study_summary(const formats::StudyResult& result, const StudyScene& 
     text += fmt::format("  {} samples failed ({} refused, {} not solved, {} out of balance): {}\n",
                         result.n_samples - result.n_status[0], result.n_status[1], result.n_status[2],
                         result.n_status[3], failures);
-  for (const auto& group : result.groups) text += table(group);
+  for (std::size_t g = 0; g < result.groups.size(); ++g) {
+    const bool repeats = result.groups[g].name.starts_with("largest") && result.groups[g - 1].of.size() == 1;
+    if (!repeats) text += table(result.groups[g]);
+  }
   for (const auto& group : result.groups)
     if (group.name.starts_with("largest")) text += causes(result, group);
-  for (const auto& group : result.groups) text += doubts(group);
+  for (const auto& group : result.groups) text += doubts(group) + closing(group);
   return text;
 }
 

@@ -217,7 +217,7 @@ def check_example(folder):
     printed = subprocess.run(["make", "-s", "table", "picture", f"PYTHON={sys.executable}"], cwd=copy, capture_output=True, text=True,
                              env={**os.environ, "PATH": f"{PROGRAMS}{os.pathsep}{os.environ['PATH']}"})
     assert printed.returncode == 0, printed
-    shown = text.split("```\n    c [mm]")[1].split("```")[0].splitlines()[1:]
+    shown = text.split("    c [mm]")[1].split("```")[0].splitlines()[1:]
     missing = [line for line in shown if line not in printed.stdout.splitlines()]
     assert len(shown) == 9 and not missing, (missing, printed.stdout)
     rows = np.loadtxt(copy / "out/beta.txt")
@@ -228,6 +228,32 @@ def check_example(folder):
     assert 0.03 < shed < 0.04, f"bolt 3 sheds {shed}, the page says up to 4 %"
     wrong = subprocess.run([ROOT / "scripts/beta_table", copy / "out/joint_8.h5", "--tip", "upper:d", "--stress", "1"], capture_output=True, text=True)
     assert wrong.returncode == 2 and 'has no tip "upper:d"; allowed: upper:c' in wrong.stderr, wrong
+
+
+def check_study(folder):
+    """K of a sample is that of its own run, negative ones are counted, and a joint without cracks cannot keep them."""
+    copy = folder / "examples/crack"  # as check_example has left it
+    path = {**os.environ, "PATH": f"{PROGRAMS}{os.pathsep}{os.environ['PATH']}"}
+    done = subprocess.run(["make", "-s", "study"], cwd=copy, capture_output=True, text=True, env=path)
+    text = (ROOT / "examples/crack/README.md").read_text()
+    shown = [line for line in text.splitlines() if line.startswith(("  K_I  ", "  upper:c  ", "  rank correlations of the largest K_I"))]
+    assert done.returncode == 0 and len(shown) == 3 and all(line in done.stdout.splitlines() for line in shown), done
+    run(copy, "stage3_nonlinear", "out/joint_4.json", "--study", "study.json", "--sample", "7", "-o", "out/one.json")
+    run(copy, "stage3_nonlinear", "out/one.json", "-o", "out/one.h5")
+    with h5py.File(copy / "out/study.h5") as study, h5py.File(copy / "out/one.h5") as one:
+        for mode in ("K_I", "K_II"):
+            near(f"sample 7: {mode}", study[f"samples/{mode}"][7, 0], one[f"plates/upper/crack/{mode}"][-1, 0], 1e-8)
+        assert study["statistics/K_I/closed"][0] == 0 and study["statistics/K_I/limit"][()] == 485
+    for name, change, message in (
+            ("pushed", {"variables": [{"at": "/loads/0/force", "values": [-6000, 6000]}]}, 'crack "upper:c" closes at its tip in 50 % of the samples'),
+            ("without", {"variables": [{"at": "/loads/0/force", "values": [6000]}]}, 'study.json: /outputs: "cracks", but no plate has cracks')):
+        (copy / "study.json").write_text(json.dumps({"format": "study", "version": 1, "outputs": ["cracks"], **change}))
+        if name == "without":
+            sheet = json.loads((copy / "upper.json").read_text())
+            matrices(copy / "out", {key: value for key, value in sheet.items() if key != "cracks"}, "upper_4.matrices")
+        done = subprocess.run([PROGRAMS / "stage3_nonlinear", "out/joint_4.json", "--study", "study.json", "-o", "out/study.h5"], cwd=copy,
+                              capture_output=True, text=True)
+        assert message in done.stdout + done.stderr and done.returncode == (2 if name == "without" else 0), (name, done)
 
 
 def check_refusals(folder):
@@ -265,6 +291,7 @@ def main():
         check_estimates(folder)
         check_place(folder)
         check_example(folder)
+        check_study(folder)
     end_if_missed()
 
 

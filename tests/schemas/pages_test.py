@@ -18,7 +18,7 @@ from programs import ROOT, Programs, must
 TEMPLATES = {"<d>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:],
              "<kind>": lambda file: [name for name, item in file["statistics"].items() if isinstance(item, h5py.Group)]}
 UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/length^2", "of largest_peak": "force/length^2",
-         "of displacement": "length"}  # of a study's numbers
+         "of displacement": "length", "of K_I": "force/length^1.5", "of largest_K_I": "force/length^1.5", "of K_II": "force/length^1.5"}  # of a study's numbers
 JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
@@ -28,7 +28,8 @@ JOINT = {
     "loads": [{"external": "center:P", "force": 100}],
     "increments": 5,
 }
-STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements"],
+CRACK = {"from": "hole:1", "angle": 90, "length": 0.1}
+STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements", "cracks"],
          "variables": [{"at": "/laws/bolt/A", "distribution": {"type": "uniform", "from": 900, "to": 1100}}]}
 
 
@@ -171,10 +172,12 @@ def main():
     examples, good = ROOT / "examples/three_fasteners", ROOT / "tests/schemas/good"
     with tempfile.TemporaryDirectory() as name:
         folder = pathlib.Path(name)
+        cracked = json.loads((examples / "center.json").read_text()) | {"cracks": [CRACK]}
+        (folder / "center.json").write_text(json.dumps(cracked))
         for source, p in [(good / "plate_plane_strain.json", "1..3"), (good / "plate_tables.json", "2..3"),
                           (good / "plate_half_holes.json", "2"), (good / "plate_springs.json", "1..2"),
                           (good / "plate_bolt.json", "1..3"), (good / "plate_product.json", "2..3"), (examples / "doubler.json", "1..4"),
-                          (examples / "center.json", "1..4")]:
+                          (folder / "center.json", "1..4")]:
             solution, matrices, labels = run_plate(programs, source, folder, p)
             problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)
         (folder / "joint.json").write_text(json.dumps(JOINT))
