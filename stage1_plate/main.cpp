@@ -81,6 +81,13 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
                                       disc, disc / E, E));
   }
   for (const auto& line : plate.missing_symmetry) say("symmetry-missing", line);
+  for (const auto& crack : scene.cracks)
+    if (crack.hole && scene.holes[*crack.hole].spring && !scene.holes[*crack.hole].spring->compression_only &&
+        !scene.holes[*crack.hole].spring->has_arc)
+      say("springs-pull",
+          fmt::format("/cracks: the springs all around hole \"{}\" pull the faces of crack \"{}\" together, as "
+                      "a fastener cannot: K is too low; give the spring \"compression_only\": true",
+                      scene.holes[*crack.hole].id, crack.id));
   if (has_links)
     say("springs-at-nodes", "points and links concentrate their load at nodes: the results depend on the mesh");
   if (thin.count > 0)

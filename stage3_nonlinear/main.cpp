@@ -17,6 +17,9 @@ const fastjoint::program::Command command{
         {"--all-stresses", "", "print the stresses around the holes at every increment, not at the last alone"},
         {"--rim-stresses", "", "also write the stresses around all holes, one degree apart, at every increment"},
         {"--csv", "FILE", "also write one line per increment and shear plane"},
+        {"--case", "NAME", "solve one of the load cases; default: all"},
+        {"--envelope", "FILE",
+         "also write a CSV of the largest and smallest value of every quantity over all cases, and where they are"},
         {"--sensitivities", "",
          "also write how the forces, and at the last increment the peaks, change with every load, clearance, gap, "
          "number of a\n"

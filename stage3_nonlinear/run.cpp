@@ -2,8 +2,10 @@
 #include "stage3_nonlinear/run.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <ostream>
 #include <utility>
@@ -13,8 +15,11 @@
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/warning.hpp"
+#include "stage3_nonlinear/output/case_summary.hpp"
+#include "stage3_nonlinear/output/case_warnings.hpp"
+#include "stage3_nonlinear/output/envelope.hpp"
+#include "stage3_nonlinear/output/joined_result.hpp"
 #include "stage3_nonlinear/output/output.hpp"
-#include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
 
@@ -25,22 +30,53 @@ constexpr const char* program_name = "stage3_nonlinear";
 
 using program::check_spare;
 
-void check_csv(const program::Arguments& arguments, const std::string& csv_file) {
-  for (const auto& path : {arguments.input, arguments.output})
-    check_spare("--csv", csv_file, path, "the input or the output file");
-  check_spare("--csv", csv_file, arguments.timings, "the file of --timings");
-  if (!csv_file.empty()) h5::check_can_write(csv_file);
+constexpr std::array table_options{"--csv", "--envelope"};
+
+/// Refuses tables that would overwrite another file.
+void check_tables(const program::Arguments& arguments) {
+  for (const char* option : table_options) {
+    const std::string table = arguments.text(option);
+    for (const auto& path : {arguments.input, arguments.output})
+      check_spare(option, table, path, "the input or the output file");
+    check_spare(option, table, arguments.timings, "the file of --timings");
+    if (!table.empty()) h5::check_can_write(table);
+  }
+  check_spare("--envelope", arguments.text("--envelope"), arguments.text("--csv"), "the file of --csv");
 }
 
 /// Refuses output files that would overwrite an input file.
-void check_results_spare(const program::Arguments& arguments, const std::string& csv_file, const JointScene& scene) {
+void check_results_spare(const program::Arguments& arguments, const JointScene& scene) {
   const auto check = [&](const std::string& input) {
     for (const auto& [option, path] :
-         {std::pair("-o", arguments.output), std::pair("--csv", csv_file), std::pair("--timings", arguments.timings)})
+         {std::pair("-o", arguments.output), std::pair("--csv", arguments.text("--csv")),
+          std::pair("--envelope", arguments.text("--envelope")), std::pair("--timings", arguments.timings)})
       check_spare(option, path, input, fmt::format("a file that {} reads", arguments.input));
   };
   for (const auto& plate : scene.plates) check(plate.file);
   for (const auto& [name, law] : scene.laws) check(law.law->file());
+}
+
+/// The cases to solve: all, or that of --case.
+std::vector<std::size_t> chosen_cases(const program::Arguments& arguments, const JointScene& scene) {
+  std::vector<std::size_t> chosen;
+  const std::string name = arguments.text("--case");
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < scene.cases.size(); ++i) {
+    names.push_back(scene.cases[i].name);
+    if (!arguments.flag("--case") || names.back() == name) chosen.push_back(i);
+  }
+  if (chosen.empty() || (arguments.flag("--case") && name.empty()))
+    throw InputError(fmt::format("--case: \"{}\"; allowed: {}", name,
+                                 names.front().empty() ? "no such option: the joint has no \"cases\""
+                                                       : fmt::format("{}", fmt::join(names, ", "))));
+  for (const char* option : {"--sensitivities", "--all-stresses"})
+    if (chosen.size() > 1 && arguments.flag(option))
+      throw InputError(fmt::format("{}: given for {}; allowed: together with --case NAME", option,
+                                   program::counted(chosen.size(), "case")));
+  if (arguments.flag("--envelope") && names.front().empty())
+    throw InputError(
+        fmt::format("--envelope: given for a joint without cases; allowed: with \"cases\" in {}", scene.file));
+  return chosen;
 }
 
 void warn(std::ostream& log, const std::vector<program::Warning>& warnings) {
@@ -57,9 +93,10 @@ double matrices_need(const JointScene& scene) {
   return bytes;
 }
 
-/// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments.
-void require_memory(const JointScene& scene, const JointModel& joint, bool with_csv, bool with_sensitivities,
-                    bool with_rim_stresses) {
+/// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments
+/// of the chosen cases.
+void require_memory(const JointScene& scene, const JointModel& joint, const std::vector<std::size_t>& chosen,
+                    bool with_csv, bool with_sensitivities, bool with_rim_stresses) {
   using program::bytes_text;
   const JointNumbers numbers = joint_numbers(joint);
   const double n = double(joint.n_planes());
@@ -84,8 +121,10 @@ void require_memory(const JointScene& scene, const JointModel& joint, bool with_
     solving += number * double(joint.n_unknowns()) * each * double(numbers.n_derivatives());
   }
   const double read = matrices_need(scene);
-  const Index n_steps = std::max<Index>(std::ssize(scene.load_factors), 1);  // how many events is not known yet
-  constexpr double copies = 2.5;                                             // in the states and in the tables
+  Index n_steps = 0;
+  for (const std::size_t at : chosen)
+    n_steps += std::max<Index>(std::ssize(scene.cases[at].load_factors), 1);  // how many events is not known yet
+  constexpr double copies = 2.5;                                              // in the states and in the tables
   const double results = number * (copies * of_step + around_rims) * double(n_steps);
   program::require_memory(
       scene.file + ": this", read + solving + results,
@@ -104,11 +143,57 @@ void set_crack_errors(const std::vector<CrackErrors>& errors, formats::JointResu
     }
 }
 
+/// What a load case comes to.
+struct SolvedCase {
+  formats::JointResult result;
+  std::vector<program::Warning> warnings;
+  std::string failure;  ///< empty if all increments converged
+  std::string summary;  ///< of every increment; empty if not wanted
+};
+
+/// Solves a load case. @param alone It is the only one, whose increments the summary tells.
+SolvedCase solve_case(const program::Arguments& arguments, const JointScene& scene, CaseRun& cases,
+                      CrackErrorEstimate& cracks, std::size_t at, bool alone, std::ostream& log) {
+  const CaseScene& its = scene.cases[at];
+  const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
+  const bool with_rim_stresses = arguments.flag("--rim-stresses"), with_slopes = arguments.flag("--sensitivities");
+  auto [equations, path, increments, missing] =
+      cases.follow(at, its.load_factors, solving, {scene.solver.tolerance, with_slopes, with_rim_stresses});
+  const JointModel& joint = cases.joint();
+  const auto& states = increments.states;
+  path.interference = search_interference(equations, solving, path);
+  SolvedCase solved{joint_result(joint, equations, path, increments, with_rim_stresses), {}, {}, {}};
+  if (missing) {
+    solved.result.complete = false;
+    solved.failure = fmt::format("{}: case \"{}\" comes after \"{}\", which was not solved", scene.file, its.name,
+                                 scene.cases[*missing].name);
+    return solved;
+  }
+  const auto errors = cracks.of(joint, at, path, states, solving);
+  set_crack_errors(errors, solved.result);
+  for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
+                           rim_warnings(joint, states), crack_warnings(joint, states, errors)})
+    solved.warnings.insert(solved.warnings.end(), some.begin(), some.end());
+  if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, path, increments);
+  if (alone) solved.summary = summary(scene, joint, path, states, solved.result, arguments.flag("--all-stresses"));
+  if (path.failure) solved.failure = failure_message(scene, its, joint, path, arguments.output);
+  return solved;
+}
+
+/// Throws IncompleteResult if some cases failed. @param failures Messages of those that did.
+void check_solved(const std::vector<std::string>& failures, std::size_t n_cases) {
+  if (failures.empty()) return;
+  const std::string more =
+      n_cases == 1 ? "" : fmt::format(" ({} of {} cases were not solved)", failures.size(), n_cases);
+  throw IncompleteResult(fmt::format("{}{}", fmt::join(failures, "\n"), more));
+}
+
 }  // namespace
 
 void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
   if (arguments.flag("--study")) {
-    for (const char* option : {"--csv", "--sensitivities", "--rim-stresses", "--all-stresses", "--verbose"})
+    for (const char* option :
+         {"--csv", "--envelope", "--case", "--sensitivities", "--rim-stresses", "--all-stresses", "--verbose"})
       if (arguments.flag(option))
         throw InputError(fmt::format("{}: given together with --study; allowed: one of them", option));
     return run_study(arguments, out, log, timings);
@@ -117,40 +202,42 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
     if (arguments.flag(option)) throw InputError(fmt::format("{}: given without --study; allowed: both", option));
   timings.phase("read");
   const int p = arguments.integer("--p", 1, formats::highest_degree, 0);
-  const std::string csv_file = arguments.text("--csv");
-  const bool with_sensitivities = arguments.flag("--sensitivities");
-  const bool with_rim_stresses = arguments.flag("--rim-stresses");
-  check_csv(arguments, csv_file);
+  check_tables(arguments);
   const auto document = input::parse(arguments.input, input::read_text_file(arguments.input));
   const JointScene scene = read_joint_scene(document);
-  check_results_spare(arguments, csv_file, scene);
+  const auto chosen = chosen_cases(arguments, scene);
+  check_results_spare(arguments, scene);
   warn(log, scene.warnings);
   program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
                           "matrices of fewer holes, or of stage2_extract --loads-only");
-  const JointModel joint = load_joint(scene, p);
-  require_memory(scene, joint, !csv_file.empty(), with_sensitivities, with_rim_stresses);
+  CaseRun cases(scene, load_joint(scene, p));
+  require_memory(scene, cases.joint(), chosen, !arguments.text("--csv").empty(), arguments.flag("--sensitivities"),
+                 arguments.flag("--rim-stresses"));
   timings.phase("solve");
-  const JointEquations equations = make_equations(joint);
-  const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
   program::report_share(0);
-  auto [path, increments] = follow_with_results(joint, equations, scene.load_factors, solving,
-                                                {scene.solver.tolerance, with_sensitivities, with_rim_stresses});
-  path.interference = search_interference(equations, solving, path);
+  CrackErrorEstimate cracks(scene, cases.joint());
+  formats::JointResult result;
+  CaseWarnings found;
+  std::string text;
+  std::vector<std::string> failures;
+  for (const std::size_t at : chosen) {
+    SolvedCase its = solve_case(arguments, scene, cases, cracks, at, chosen.size() == 1, log);
+    append(result, scene.cases[at].name, std::move(its.result));
+    found.add(scene.cases[at].name, its.warnings);
+    if (!its.failure.empty()) failures.push_back(std::move(its.failure));
+    text = std::move(its.summary);
+  }
   program::report_share(1);
-  warn(log, warnings(joint, equations, path));
-  warn(log, implausible_numbers(scene, joint, path));
-  warn(log, rim_warnings(joint, increments.states));
-  auto result = joint_result(joint, equations, path, increments, with_rim_stresses);
+  warn(log, found.all(chosen.size()));
+  const JointModel& joint = cases.joint();
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
-  const auto errors = crack_errors(scene, joint, path, increments.states, solving, scene.solver.tolerance);
-  set_crack_errors(errors, result);
-  warn(log, crack_warnings(joint, increments.states, errors));
-  if (with_sensitivities) result.sensitivity = sensitivity_history(joint, path, increments);
+  if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
   timings.phase("write");
   formats::write(arguments.output, result);
-  if (!csv_file.empty()) h5::write_whole_file(csv_file, csv(joint, result));
-  if (!arguments.quiet) out << summary(scene, joint, path, increments.states, result, arguments.flag("--all-stresses"));
-  if (path.failure) throw IncompleteResult(failure_message(scene, joint, path, arguments.output));
+  if (arguments.flag("--csv")) h5::write_whole_file(arguments.text("--csv"), csv(joint, result));
+  if (arguments.flag("--envelope")) h5::write_whole_file(arguments.text("--envelope"), envelope_csv(result));
+  if (!arguments.quiet) out << (chosen.size() == 1 ? text : case_summary(scene, joint, result));
+  check_solved(failures, chosen.size());
 }
 
 }  // namespace fastjoint::stage3

@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 11;
+constexpr int minor = 12;
 
 using V = RimValues;
 using enum Dimension;
@@ -183,6 +183,21 @@ void sensitivity_datasets(File& file, Sensitivity& a, Eigen::Index steps, Eigen:
   slopes("peak/gap", a.peak.gap, std::ssize(a.gap_hole), gradient, "dpeak by the radial gap of each");
 }
 
+template <class File, class Tables>
+void envelope_datasets(File& file, Tables& all, Eigen::Index steps) {
+  file("envelope/quantity", Column{all, &EnvelopeTable::quantity}, {any}, "1",
+       "quantities of the envelope, each with a group; none if the joint has no cases", h5::or_else(""));
+  for (auto& a : all) {
+    const std::string group = "envelope/" + a.quantity + "/";
+    file(group + "of", a.of, {any}, "1", "shear plane, plate:hole, plate:external or plate:tip");
+    const Eigen::Index k = std::ssize(a.of);
+    file(group + "largest", a.largest, {k}, a.unit, "largest value over all increments of all cases");
+    file(group + "largest_at", a.largest_at, {k}, "1", "row where it stands", h5::integers(0, int(steps) - 1));
+    file(group + "smallest", a.smallest, {k}, a.unit, "smallest value");
+    file(group + "smallest_at", a.smallest_at, {k}, "1", "row where it stands", h5::integers(0, int(steps) - 1));
+  }
+}
+
 template <class File, class Result>
 void datasets(File& file, Result& a) {
   header(file, a.header);
@@ -192,6 +207,8 @@ void datasets(File& file, Result& a) {
   file.attribute("p", a.p);
   file("load_factor", a.load_factor, {any}, "1", "fraction of the loads at this increment");
   const Eigen::Index steps = a.load_factor.size();
+  file("case/name", a.case_name, {any}, "1", "load cases; one without a name if the joint has none", h5::or_else(""));
+  file("case/of", a.case_of, {steps}, "1", "load case of each increment, counted from 0", h5::or_else(0));
   file("converged", a.converged, {steps}, "1", "1 where the increment converged");
   file("iterations", a.iterations, {steps}, "1", "iterations of the nonlinear solver, failed tries included");
   file("residual", a.residual, {steps}, "1",
@@ -225,6 +242,7 @@ void datasets(File& file, Result& a) {
   file("plate/plate_digest", Column{a.plates, &PlateHistory::plate_digest}, {plates}, "1",
        "digest of the PLATE.h5 that the matrices of each plate were extracted from", h5::or_else(""));
   for (auto& plate : a.plates) plate_datasets(file, plate, steps, units);
+  envelope_datasets(file, a.envelope, steps);
   if (auto* sensitivity = file.part("sensitivity", a.sensitivity))
     sensitivity_datasets(file, *sensitivity, steps, n, units);
 }

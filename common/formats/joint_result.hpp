@@ -125,16 +125,26 @@ struct SensitivityHistory {
   PeakSlopes peak{};                                        ///< at the last increment
 };
 
+/// Largest and smallest values of one quantity over all increments of all load cases.
+struct EnvelopeTable {
+  std::string quantity, unit;
+  std::vector<std::string> of{};                ///< (k) shear planes, or "plate:hole", "plate:external", "plate:tip"
+  Eigen::VectorXd largest{}, smallest{};        ///< (k)
+  Eigen::VectorXi largest_at{}, smallest_at{};  ///< (k) increments where they are, among all, from 0
+};
+
 /// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
-  int p = 0;                       ///< degree of the matrices
-  bool complete = false;           ///< true if every requested increment converged
-  Eigen::VectorXd load_factor;     ///< (steps)
-  Eigen::VectorXi converged;       ///< (steps) 1
-  Eigen::VectorXi iterations;      ///< (steps) of the nonlinear solver, including failed attempts
-  Eigen::VectorXd residual;        ///< (steps) maximum, relative to the maximum force
-  std::vector<std::string> event;  ///< (steps) events of fasteners at this increment, of rims in contact up to it
+  int p = 0;                           ///< degree of the matrices
+  bool complete = false;               ///< true if every requested increment converged
+  std::vector<std::string> case_name;  ///< (cases) load cases; one without a name of a joint without "cases"
+  Eigen::VectorXi case_of;             ///< (steps) case of each increment, whose load factors count in that case
+  Eigen::VectorXd load_factor;         ///< (steps)
+  Eigen::VectorXi converged;           ///< (steps) 1
+  Eigen::VectorXi iterations;          ///< (steps) of the nonlinear solver, including failed attempts
+  Eigen::VectorXd residual;            ///< (steps) maximum, relative to the maximum force
+  std::vector<std::string> event;      ///< (steps) events of fasteners at this increment, of rims in contact up to it
   // Each of the n shear planes has one entry. A fastener has one plane for each pair of adjacent plates.
   std::vector<std::string> fastener_id;              ///< (n)
   std::vector<std::string> first_hole, second_hole;  ///< (n) "plate:hole"; "ground" may be second
@@ -147,6 +157,7 @@ struct JointResult {
   std::vector<std::string> load_external;  ///< (s) "plate:external" of each load other than zero
   Eigen::MatrixXd load_stiffness;          ///< (steps, s) tangent dP/du as all loads grow together, force / length
   std::vector<PlateHistory> plates;
+  std::vector<EnvelopeTable> envelope{};          ///< of a joint with "cases"
   std::optional<SensitivityHistory> sensitivity;  ///< if requested
 };
 

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -39,6 +40,38 @@ TipField field(const Potentials& at, const Isotropic& material, Complex z) {
   return {{u.real(), u.imag()}, Eigen::Matrix2d{{xx, xy}, {xy, yy}}};
 }
 
+/// Ends of intervals of eta, ascending from -1 to 1, in each of which the dual field is smooth on an element of a
+/// layer.
+///
+/// The layer shrinks towards the tip, so that the dual field is a power of xi times a function of eta, which is steep
+/// around the place nearest to the tip where that is much nearer than the element is long.
+std::vector<double> smooth_intervals(const pfem::ElementMap& map, const Eigen::Vector2d& tip) {
+  constexpr double growth = 2;
+  const Eigen::Vector2d first = map.point(-1, -1) - tip, side = map.point(-1, 1) - map.point(-1, -1);
+  const double nearest = std::clamp(-first.dot(side) / side.squaredNorm(), 0.0, 1.0);
+  const double width = (first + nearest * side).norm() / side.norm();
+  std::vector<double> ends{0, 1};  // of the side
+  for (const double sign : {-1.0, 1.0})
+    for (double step = width, at = nearest + sign * step; at > 0 && at < 1; step *= growth, at += sign * step)
+      ends.push_back(at);
+  std::ranges::sort(ends);
+  for (double& end : ends) end = 2 * end - 1;
+  return ends;
+}
+
+/// Points and weights for functions of eta on an element of a layer.
+pfem::Rule rule_around(const pfem::ElementMap& map, const Eigen::Vector2d& tip, const pfem::Rule& gauss) {
+  const auto ends = smooth_intervals(map, tip);
+  const Eigen::Index n = gauss.x.size(), intervals = std::ssize(ends) - 1;
+  pfem::Rule rule{Eigen::VectorXd(n * intervals), Eigen::VectorXd(n * intervals)};
+  for (Eigen::Index k = 0; k < intervals; ++k) {
+    const double half = (ends[k + 1] - ends[k]) / 2, middle = (ends[k + 1] + ends[k]) / 2;
+    rule.x.segment(k * n, n) = middle + half * gauss.x.array();
+    rule.w.segment(k * n, n) = half * gauss.w;
+  }
+  return rule;
+}
+
 }  // namespace
 
 Isotropic isotropic(const Eigen::Matrix3d& D) {
@@ -57,9 +90,10 @@ Eigen::MatrixX2d stress_intensity_weights(const pfem::ElementMap& map, pfem::Spa
   const Isotropic material = isotropic(D);
   const double scale = material.mu / (material.kappa + 1) * std::sqrt(2 / std::numbers::pi);
   const auto rule = pfem::gauss(p + 8);  // the dual field is smooth in a layer, which ends well away from the tip
-  const Eigen::Index n = rule.x.size();
-  const Eigen::VectorXd xi = rule.x.replicate(n, 1);
-  const Eigen::VectorXd eta = rule.x.transpose().replicate(n, 1).reshaped();
+  const auto across = rule_around(map, tip.at, rule);
+  const Eigen::Index n = rule.x.size(), n_eta = across.x.size();
+  const Eigen::VectorXd xi = rule.x.replicate(n_eta, 1);
+  const Eigen::VectorXd eta = across.x.transpose().replicate(n, 1).reshaped();
   const Eigen::MatrixXd B = pfem::strain_operator(map, space, p, xi, eta);
   const Eigen::MatrixXd N = pfem::shape_values(space, p, xi, eta).N;
   const Eigen::Index n_modes = N.rows();
@@ -71,7 +105,7 @@ Eigen::MatrixX2d stress_intensity_weights(const pfem::ElementMap& map, pfem::Spa
     // times as large.
     const double s = (1 + xi[q]) / 2;
     const Eigen::Vector2d slope = -1.5 * s * s * J.inverse().transpose().col(0);
-    const double dA = J.determinant() * rule.w[q % n] * rule.w[q / n];
+    const double dA = J.determinant() * rule.w[q % n] * across.w[q / n];
     const Eigen::Vector2d x = turn.transpose() * (map.point(xi[q], eta[q]) - tip.at);
     for (const Mode mode : {Mode::I, Mode::II}) {
       const TipField dual = dual_field(mode, material, x);

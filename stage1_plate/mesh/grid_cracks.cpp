@@ -23,15 +23,16 @@ constexpr double same = 1e-9;
 
 class Planner {
  public:
-  Planner(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes)
-      : scene_(scene), grid_(grid), holes_(holes) {
+  Planner(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
+          const std::vector<CrackPlace>& places)
+      : scene_(scene), grid_(grid), holes_(holes), places_(places) {
     size_ = std::hypot(grid.x.back() - grid.x.front(), grid.y.back() - grid.y.front());
     result_.tips.resize(holes.size());
     result_.nodes = FixedNodes(grid);
   }
 
   GridCracks run() {
-    for (crack_ = 0; crack_ < count_of(scene_.cracks); ++crack_) plan(scene_.cracks[crack_]);
+    for (crack_ = 0; crack_ < count_of(scene_.cracks); ++crack_) plan(scene_.cracks[crack_], places_[crack_]);
     return std::move(result_);
   }
 
@@ -40,8 +41,8 @@ class Planner {
     reject(scene_, fmt::format("/cracks/{}", crack_), found, allowed);
   }
 
-  void plan(const Crack& crack) {
-    const auto [from, to] = ends(crack);
+  void plan(const Crack& crack, const CrackPlace& place) {
+    const auto& [from, to, tips] = place;
     result_.lines.emplace_back(from, to);
     const Point along = (to - from).normalized();
     const bool is_on_axis = along.cwiseAbs().minCoeff() < same;
@@ -49,55 +50,8 @@ class Planner {
       add_line(from, to, std::abs(along.y()) < std::abs(along.x()) ? 0 : 1);
     else
       check_inside_cell(crack, to);
-    for (const Point& tip : crack.tips == 2 ? std::vector{from, to} : std::vector{to}) {
-      if (crack.tips == 0) break;
-      add_tip(tip, element_size(tip, crack));
-    }
+    for (const TipPlace& tip : tips) add_tip(tip.at, tip.size);
     if (!is_on_axis) add_ray(*crack.hole, along);
-  }
-
-  [[nodiscard]] std::pair<Point, Point> ends(const Crack& crack) const {
-    Point from = crack.from, to = crack.to;
-    if (crack.hole) from = scene_.holes[*crack.hole].center + scene_.holes[*crack.hole].radius * crack.direction();
-    if (!crack.border.empty()) {
-      const bool is_vertical = crack.border == "left" || crack.border == "right";
-      const bool is_low = crack.border == "left" || crack.border == "bottom";
-      const auto& lines = is_vertical ? grid_.x : grid_.y;
-      from[is_vertical ? 0 : 1] = is_low ? lines.front() : lines.back();
-      from[is_vertical ? 1 : 0] = crack.at;
-    }
-    if (crack.to_hole) {
-      const Hole& hole = scene_.holes[*crack.to_hole];
-      const Point toward = hole.center - from;
-      to = hole.center - hole.radius * toward.normalized();
-    } else if (crack.length > 0) {
-      to = from + crack.length * crack.direction();
-    }
-    for (const Point& end : {from, to})
-      if (end.x() < grid_.x.front() - same * size_ || end.x() > grid_.x.back() + same * size_ ||
-          end.y() < grid_.y.front() - same * size_ || end.y() > grid_.y.back() + same * size_)
-        fail(fmt::format("it ends at ({:g}, {:g}), outside the plate", end.x(), end.y()), "cracks inside the plate");
-    return {from, to};
-  }
-
-  /// The smallest distance of a tip from what is around it: the crack's other end, the border, other holes.
-  [[nodiscard]] double element_size(const Point& tip, const Crack& crack) const {
-    const auto& [from, to] = result_.lines.back();
-    double size = (to - from).norm() / (crack.tips == 2 ? 2 : 1);
-    for (int i = 0; i < count_of(scene_.holes); ++i) {
-      const Hole& hole = scene_.holes[i];
-      const double distance = (tip - hole.center).norm() - hole.radius;
-      if (distance < same * size_)
-        fail(fmt::format("its tip at ({:g}, {:g}) is in hole \"{}\"", tip.x(), tip.y(), hole.id),
-             "tips inside the sheet; a crack up to another hole: \"to\": \"hole:ID\"");
-      size = std::min(size, distance);
-    }
-    size = std::min({size, tip.x() - grid_.x.front(), grid_.x.back() - tip.x(), tip.y() - grid_.y.front(),
-                     grid_.y.back() - tip.y()});
-    if (size < 1e-6 * size_)
-      fail(fmt::format("its tip at ({:g}, {:g}) is {:.2g} from a hole or the border", tip.x(), tip.y(), size),
-           "tips inside the sheet");
-    return size;
   }
 
   /// Index of the hole cell at (column, row), if it has a hole.
@@ -148,8 +102,9 @@ class Planner {
       fail("a crack that is neither along x nor along y and does not begin at a hole",
            "cracks along x or y, or from a hole inside its cell");
     const auto cell = std::ranges::find(holes_, *crack.hole, &HoleCell::hole);
-    if (!(tip.x() > grid_.x[cell->column] && tip.x() < grid_.x[cell->column + 1] && tip.y() > grid_.y[cell->row] &&
-          tip.y() < grid_.y[cell->row + 1]))
+    const double margin = same * size_;
+    if (!(tip.x() > grid_.x[cell->column] - margin && tip.x() < grid_.x[cell->column + 1] + margin &&
+          tip.y() > grid_.y[cell->row] - margin && tip.y() < grid_.y[cell->row + 1] + margin))
       fail(fmt::format("it leaves the cell of hole \"{}\"", scene_.holes[*crack.hole].id),
            "cracks that end inside the hole's cell, or along x or y");
   }
@@ -222,6 +177,7 @@ class Planner {
   const PlateScene& scene_;
   const GridGeometry& grid_;
   const std::vector<HoleCell>& holes_;
+  const std::vector<CrackPlace>& places_;
   double size_ = 0;
   int crack_ = 0;
   GridCracks result_;
@@ -242,8 +198,9 @@ double between(const std::vector<CellTip>& tips, const std::vector<double>& valu
 
 }  // namespace
 
-GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes) {
-  return Planner(scene, grid, holes).run();
+GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid, const std::vector<HoleCell>& holes,
+                       const std::vector<CrackPlace>& places) {
+  return Planner(scene, grid, holes, places).run();
 }
 
 std::vector<Eigen::VectorXd> tip_layers(const std::vector<CellTip>& tips, double radius, const Point& center,

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stage1_plate/mesh/crack_mesh.hpp"
+#include "stage1_plate/mesh/crack_places.hpp"
 #include "stage1_plate/mesh/grid_cells.hpp"
 
 namespace fastjoint::stage1 {
@@ -24,10 +25,10 @@ struct GridCracks {
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> lines;  ///< both ends of each crack
 };
 
-/// Plans the mesh lines of the scene's cracks. Throws InputError for a crack that leaves the plate, that runs through a
-/// hole, or that runs through the cell of a hole but not towards its centre.
+/// Plans the mesh lines of the scene's cracks. Throws InputError for a crack that runs through a hole, or that runs
+/// through the cell of a hole but not towards its centre.
 [[nodiscard]] GridCracks plan_cracks(const PlateScene& scene, const GridGeometry& grid,
-                                     const std::vector<HoleCell>& holes);
+                                     const std::vector<HoleCell>& holes, const std::vector<CrackPlace>& places);
 
 /// Radial coordinates of the layers of elements in the cell of a hole with tips: for each layer one for each ray.
 /// @param outline Points of the cell's outline, one on each ray. @param nearest Distance to the nearest side.

@@ -218,9 +218,11 @@ void add_sections(const PlateScene& scene, const CellElements& at, PlateMesh& pl
 
 }  // namespace
 
-PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
+PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& given) {
+  const auto places = place_cracks(scene, given);
+  const auto [grid, moves] = lines_through_tips(scene, given, places);
   const auto holes = find_hole_cells(scene, grid);
-  const GridCracks cracks = plan_cracks(scene, grid, holes);
+  const GridCracks cracks = plan_cracks(scene, grid, holes, places);
   const CellLines lines(scene, grid, holes, cracks.nodes);
   Builder builder;
   std::vector<CellElements> with_hole;
@@ -243,6 +245,7 @@ PlateMesh mesh_grid(const PlateScene& scene, const GridGeometry& grid) {
   name_border(grid, plate);
   for (const auto& at : with_hole) add_sections(scene, at, plate);
   open_cracks(scene, crack_paths(cracks, plate), plate);
+  plate.moved_lines = moves;
   return plate;
 }
 

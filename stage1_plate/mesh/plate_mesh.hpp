@@ -21,6 +21,7 @@ struct PlateMesh {
   std::vector<int> point_nodes;                         ///< vertex of each point spring
   std::vector<rim::Section> sections;                   ///< sections next to holes, in the order of the holes
   std::vector<pfem::CrackTip> tips;                     ///< tips of cracks, in the scene's order
+  std::vector<std::string> moved_lines;                 ///< cell lines that were moved for tips, and where to
   std::vector<bool> is_cracked;                         ///< for each hole: true if a crack begins at its rim
 };
 

@@ -56,8 +56,12 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     if (!pieces.empty()) shape.start = pieces[0].from, shape.sweep = pieces[0].to - pieces[0].from;
     const bool is_linked = hole.spring && hole.spring->link > 0;
     if (!(rim_compliance(scene, plate, i)(0, 0) > 0 && shape.repeats())) {
-      constexpr int default_order = 16;
-      shape.highest = in_contact ? hole.spring->harmonics.value_or(default_order) : 0;
+      // The waves of the elements are all that there are. A short crack feels the stress of its place on the rim, for
+      // which 16 are too few; more than the elements resolve do not help.
+      constexpr int least_order = 16;
+      const int resolved = resolved_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
+      const int order = plate.is_cracked[i] ? std::clamp(resolved, least_order, default_harmonics) : least_order;
+      shape.highest = in_contact ? hole.spring->harmonics.value_or(order) : 0;
       if (in_contact) waves = {shape, true};
       continue;
     }

@@ -165,7 +165,7 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   timings.phase("solve");
   solve_cases(problem, skeleton, solution);
   for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
-  return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns)};
+  return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns), plate.moved_lines};
 }
 
 std::string summary(const SolvedPlate& plate, const std::string& file) {
@@ -176,6 +176,7 @@ std::string summary(const SolvedPlate& plate, const std::string& file) {
                                  counted(a.disc_hole.size(), "disc"), counted(a.external_id.size(), "rigid external"),
                                  counted(a.traction_id.size(), "traction"), program::bytes_text(plate.need.total()));
   for (int i = 0; i < a.p.size(); ++i) text += fmt::format("  p = {}: {}\n", a.p[i], counted(a.ndof[i], "unknown"));
+  for (const auto& move : plate.moved_lines) text += fmt::format("  cell line {}\n", move);
   const auto on_springs = std::ranges::count_if(a.contact, [](const auto& rim) { return !rim.disk.is_given(); });
   if (on_springs > 0)
     text += fmt::format(

@@ -56,6 +56,7 @@ struct SolvedPlate {
   MemoryNeed need;
   formats::PlateSolution solution;
   std::vector<std::string> missing_symmetry;  ///< warnings
+  std::vector<std::string> moved_lines{};     ///< of PlateMesh
 };
 
 /// Mesh, matrices, unit cases. Phases: mesh, integrate, solve.

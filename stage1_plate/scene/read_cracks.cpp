@@ -50,7 +50,10 @@ void read_from_hole(const Value& value, const std::vector<Hole>& holes, Crack& c
 }
 
 void read_from_border(const Value& value, Crack& crack) {
-  crack.border = value.at("from").choice(borders);
+  const Value from = value.at("from");
+  if (index_of(borders, from.text()) == count_of(borders))
+    from.fail(fmt::format("\"{}\"", from.text()), "\"hole:ID\", left, right, bottom, top, or a point [x, y]");
+  crack.border = from.text();
   value.only({"id", "from", "at", "length"});
   crack.at = read_coordinate(value.at("at"));
   crack.length = read_quantity(value.at("length"));
@@ -86,8 +89,6 @@ std::vector<Crack> read_cracks(const Value& root, const PlateScene& scene) {
     Crack& crack = cracks.emplace_back();
     const auto id = item.find("id");
     crack.id = id ? id->text() : std::to_string(cracks.size());
-    if (!ids.insert(crack.id).second)
-      (id ? *id : item).fail(fmt::format("a second crack \"{}\"", crack.id), "each name once");
     if (const auto* mesh = std::get_if<MeshGeometry>(&scene.geometry)) {
       item.only({"id", "on"});
       std::vector<std::string> names;
@@ -96,6 +97,10 @@ std::vector<Crack> read_cracks(const Value& root, const PlateScene& scene) {
     } else {
       read_grid_crack(item, scene.holes, crack);
     }
+    // Both tips of a crack have names of their own, which no other crack may have either.
+    for (const char* end : {"", " start", " end"})
+      if (!ids.insert(crack.id + end).second)
+        (id ? *id : item).fail(fmt::format("a second crack or tip \"{}{}\"", crack.id, end), "each name once");
   }
   return cracks;
 }

@@ -238,6 +238,15 @@ void check_side(const PlateModel& plate, Index traction, const LoadScene& load, 
   }
 }
 
+void set_loads(JointModel& joint, const CaseScene& its) {
+  for (auto& plate : joint.plates) {
+    plate.external_force.setZero();
+    plate.external_displacement.assign(plate.externals.size(), std::nullopt);
+    plate.traction_force.setZero();
+  }
+  for (const auto& load : its.loads) apply_load(joint, load, its.wanted_load_factors());
+}
+
 Index JointModel::offset(Index plate) const {
   Index offset = 0;
   for (Index i = 0; i < plate; ++i) offset += plates[i].n_unknowns();
@@ -296,7 +305,8 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
-  for (const auto& load : scene.loads) apply_load(model, load, scene.wanted_load_factors());
+  for (const auto& each : scene.cases) set_loads(model, each);  // checks all of them
+  set_loads(model, scene.cases.front());
   return model;
 }
 

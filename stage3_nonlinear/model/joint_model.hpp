@@ -214,7 +214,10 @@ struct JointModel {
 /// Refuses a force on a side of a hole that the model does not have. @param factors The requested load factors.
 void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors);
 
-/// Reads the matrices of all plates and resolves every name.
+/// Sets the loads of the plates to those of a case. Throws InputError where one is not allowed.
+void set_loads(JointModel& joint, const CaseScene& its);
+
+/// Reads the matrices of all plates and resolves every name; loads are those of the first case.
 ///
 /// @param p Degree, or 0 for the highest that all plates have.
 /// Throws FileError, or InputError with the place in the joint's file or the dataset of a plate's.

@@ -55,7 +55,7 @@ Parameters parameters_of(const JointModel& joint) {
   return all;
 }
 
-Parameters parameters_of(const JointModel& joint, const JointScene& scene) {
+Parameters parameters_of(const JointModel& joint, const JointScene& scene, const CaseScene& its_case) {
   Parameters all = parameters_of(joint);
   Index plane = 0, hole = 0;
   for (Index i = 0; i < std::ssize(joint.fasteners); ++i) {
@@ -77,10 +77,11 @@ Parameters parameters_of(const JointModel& joint, const JointScene& scene) {
     const auto& [plate_at, at, is_traction, is_displacement] = loads[i];
     const PlateModel& plate = joint.plates[plate_at];
     const std::string& name = is_traction ? plate.tractions[at] : plate.externals[at];
-    for (const auto& load : scene.loads) {
+    all.load[i] = 0;
+    for (const auto& load : its_case.loads) {
       if (load.external.plate != plate.name || load.external.name != name) continue;
       all.load[i] = load.value;
-      if (is_traction) check_side(plate, at, load, scene.wanted_load_factors());
+      if (is_traction) check_side(plate, at, load, its_case.wanted_load_factors());
     }
   }
   return all;

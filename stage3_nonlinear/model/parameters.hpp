@@ -47,8 +47,9 @@ struct Parameters {
 
 /// The numbers that JOINT.json gives.
 [[nodiscard]] Parameters parameters_of(const JointModel& joint);
-/// The numbers of a scene that differs from the joint's only in numbers. Throws InputError where one is not allowed.
-[[nodiscard]] Parameters parameters_of(const JointModel& joint, const JointScene& scene);
+/// The numbers of a scene that differs from the joint's only in numbers, with the loads of a case. Throws InputError
+/// where one is not allowed.
+[[nodiscard]] Parameters parameters_of(const JointModel& joint, const JointScene& scene, const CaseScene& its);
 
 /// Indices of a rim of contact.
 struct RimPlace {

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "common/count.hpp"
+#include "stage3_nonlinear/output/csv_field.hpp"
+#include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/results/contact_history.hpp"
 
 namespace fastjoint::stage3 {
@@ -121,14 +123,6 @@ formats::PeakSlopes peak_slopes(const JointModel& joint, const JointNumbers& num
           .gap = next(std::ssize(numbers.gap))};
 }
 
-/// Encloses a field with a comma, a quote or a line break in quotes.
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + "\"";
-}
-
 /// Values of a hole's columns at a step, each after a comma; empty if not known.
 std::string rim_fields(const formats::RimHistory& rims, const std::string& hole, Index step) {
   const int at = index_of(rims.hole, hole);
@@ -157,8 +151,8 @@ std::string csv_heads(const JointModel& joint) {
       const bool has_unit = each.dimension != formats::Dimension::ratio;
       heads.push_back(has_unit ? with_unit(name, unit_of(each.dimension, joint.units)) : name);
     }
-  heads.insert(heads.end(), {with_unit("F_error", force), "event"});
-  std::ranges::transform(heads, heads.begin(), field);
+  heads.insert(heads.end(), {with_unit("F_error", force), "event", "joint", "case"});
+  std::ranges::transform(heads, heads.begin(), csv_field);
   return fmt::format("{}\n", fmt::join(heads, ","));
 }
 
@@ -247,10 +241,10 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
     const auto first = [&](Index j) { return a.transferred(i, 2 * j); };
     const VectorXd share = shares(joint, VectorXd::NullaryExpr(a.F.cols(), first));
     for (Index j = 0; j < a.F.cols(); ++j) {
-      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", i + 1, a.load_factor[i], field(a.fastener_id[j]),
-                          a.delta(i, j), a.F(i, j), a.transferred(i, 2 * j), a.transferred(i, 2 * j + 1),
-                          std::isfinite(share[j]) ? fmt::to_string(share[j]) : "", a.iterations[i], a.residual[i],
-                          field(a.first_hole[j]), field(a.second_hole[j]));
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}", increment_number(a, i), a.load_factor[i],
+                          csv_field(a.fastener_id[j]), a.delta(i, j), a.F(i, j), a.transferred(i, 2 * j),
+                          a.transferred(i, 2 * j + 1), std::isfinite(share[j]) ? fmt::to_string(share[j]) : "",
+                          a.iterations[i], a.residual[i], csv_field(a.first_hole[j]), csv_field(a.second_hole[j]));
       const Index directions = joint.n_directions();
       for (const auto* vectors : {&a.delta_vector, &a.F_vector})
         for (Index d = 0; directions > 1 && d < directions; ++d)
@@ -258,7 +252,8 @@ std::string csv(const JointModel& joint, const formats::JointResult& a) {
       for (const HoleModel& hole : joint.holes(joint.planes[j]))
         text += rim_fields(a.plates[hole.plate].rims, joint.plates[hole.plate].hole_of(hole.disc), i);
       if (joint.is_to_ground(joint.planes[j])) text += rim_fields({}, "", i);
-      text += fmt::format(",{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "", field(a.event[i]));
+      text += fmt::format(",{},{},{},{}\n", a.F_error ? fmt::to_string((*a.F_error)(i, j)) : "", csv_field(a.event[i]),
+                          csv_field(a.header.name), csv_field(a.case_name[a.case_of[i]]));
     }
   }
   return text;

@@ -27,6 +27,9 @@ namespace fastjoint::stage3 {
 /// empty if the plate's matrices do not have them.
 [[nodiscard]] std::string csv(const JointModel& joint, const formats::JointResult& result);
 
+/// Its first lines: the joint, its laws, and how well the stiffness of its plates is known.
+[[nodiscard]] std::string summary_title(const JointScene& scene, const JointModel& joint);
+
 /// The summary on stdout: the fasteners, the plates and the equilibrium of each increment.
 ///
 /// @param states       One per step of the path, as `result`.
@@ -62,8 +65,8 @@ namespace fastjoint::stage3 {
 
 /// Message for a path with a failure: why and where it ended, and what to check.
 /// @param output File with the increments before.
-[[nodiscard]] std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                                          const std::string& output);
+[[nodiscard]] std::string failure_message(const JointScene& scene, const CaseScene& its, const JointModel& joint,
+                                          const LoadPath& path, const std::string& output);
 
 /// "increment 2 (load factor 0.5)"
 [[nodiscard]] std::string increment_text(const LoadPath& path, const PathStep& step);

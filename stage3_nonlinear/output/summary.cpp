@@ -50,21 +50,6 @@ std::optional<double> relative_error(const PlateModel& plate) {
   return plate.S_error.cwiseAbs().maxCoeff() / plate.S.cwiseAbs().maxCoeff();
 }
 
-std::string title(const JointScene& scene, const JointModel& joint) {
-  std::string text =
-      fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
-                  program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
-                  joint.p, method(scene, joint));
-  for (const auto& [name, law] : scene.laws)
-    if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
-  for (const auto& plate : joint.plates)
-    if (const auto error = relative_error(plate))
-      text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name, *error);
-    else if (plate.S.isZero(0))
-      text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
-  return text;
-}
-
 std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
   const std::string length = unit(joint.units, 1, 0), force = unit(joint.units, 0, 1);
   const Index a = joint.n_directions(), n_components = a > 1 ? a : 0;
@@ -178,6 +163,11 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
         const double value = state.plates[i].rims[rim].*column.value;
         const auto quantity = shown(column);
         const bool unloaded = quantity.dimension == formats::Dimension::ratio && value == 0;
+        const bool no_peak =
+            state.plates[i].rims[rim].peak_hoop == 0 && !std::isfinite(state.plates[i].rims[rim].peak_error);
+        const bool of_peak = column.value == &RimState::peak_hoop || column.value == &RimState::peak_angle ||
+                             column.value == &RimState::peak_error;
+        if (no_peak && of_peak) return std::string("-");
         if (!std::isfinite(value) || unloaded || (quantity.needs_section && !sections))
           return std::string(column.unknown);
         return fmt::format(fmt::runtime(column.format), value == 0 ? 0 : value);
@@ -272,10 +262,25 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
 
 }  // namespace
 
+std::string summary_title(const JointScene& scene, const JointModel& joint) {
+  std::string text =
+      fmt::format("joint{}: {}, {}, p = {}, {}\n", scene.name.empty() ? "" : fmt::format(" \"{}\"", scene.name),
+                  program::counted(joint.plates.size(), "plate"), program::counted(joint.fasteners.size(), "fastener"),
+                  joint.p, method(scene, joint));
+  for (const auto& [name, law] : scene.laws)
+    if (const auto source = law.law->source()) text += fmt::format("law {}: {}\n", name, source->text);
+  for (const auto& plate : joint.plates)
+    if (const auto error = relative_error(plate))
+      text += fmt::format("the stiffness of {} is known to {:.1e} of its largest entry\n", plate.name, *error);
+    else if (plate.S.isZero(0))
+      text += fmt::format("the stiffness of {} is zero: its loads and fasteners balance without it\n", plate.name);
+  return text;
+}
+
 std::string summary(const JointScene& scene, const JointModel& joint, const LoadPath& path,
                     const std::vector<JointState>& states, const formats::JointResult& result, bool all_stresses) {
   const std::size_t width = name_width(joint);
-  std::string text = title(scene, joint);
+  std::string text = summary_title(scene, joint);
   for (Index i = 0; i < std::ssize(states); ++i) {
     const PathStep& step = path.steps[i];
     text +=

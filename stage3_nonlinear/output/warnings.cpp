@@ -209,13 +209,14 @@ void add_worst(std::vector<program::Warning>& warnings, const char* code, const 
                                 : fmt::format("{} ({} more of this kind, this is the worst)", worst, kind.size() - 1)});
 }
 
-std::string failure_message(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                            const std::string& output) {
+std::string failure_message(const JointScene& scene, const CaseScene& its, const JointModel& joint,
+                            const LoadPath& path, const std::string& output) {
   const PathFailure& failure = *path.failure;
   const std::string before = program::counted(failure.increment, "increment");
   const std::string kept = fmt::format("{} holds the {} before (complete = 0).", output, before);
-  const std::string increment = fmt::format("increment {} of {} (load factor {:.6g})", failure.increment + 1,
-                                            path.n_increments, failure.load_factor);
+  const std::string increment = fmt::format("{}increment {} of {} (load factor {:.6g})",
+                                            its.name.empty() ? "" : fmt::format("case \"{}\": ", its.name),
+                                            failure.increment + 1, path.n_increments, failure.load_factor);
   if (failure.unbalanced)
     return fmt::format(
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} Rounding "
@@ -227,12 +228,13 @@ std::string failure_message(const JointScene& scene, const JointModel& joint, co
       failure.locking ? fmt::format("On the sides that bear, {}. ", locking_text(*failure.locking)) : "";
   if (!failure.level.empty())
     return fmt::format(
-        "{}: limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} are at their "
+        "{}: {}limit load reached: beyond load factor {:.6g}, the last that converged, the laws of {} are at their "
         "maximum force{}; {} did not "
         "converge. {} {}Take smaller loads or displacements, or more or stronger fasteners; a joint without these "
         "shows "
         "the load of the others after their failure",
-        scene.file, failure.reached, names(joint, failure.level),
+        scene.file, its.name.empty() ? "" : fmt::format("case \"{}\": ", its.name), failure.reached,
+        names(joint, failure.level),
         failure.limit ? fmt::format(", and load factor {:.6g} is an upper bound of the limit load", *failure.limit)
                       : "",
         increment, kept, locking);

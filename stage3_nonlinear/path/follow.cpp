@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <utility>
-
 #include "common/program/progress.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
@@ -25,27 +23,6 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
   }
   path.left = walk.left();
   return path;
-}
-
-std::vector<LoadPath> follow_segments(const JointModel& joint, const std::shared_ptr<const CondensedSystem>& system,
-                                      const Parameters& parameters, const std::vector<Segment>& segments,
-                                      PathOptions options) {
-  std::vector<LoadPath> paths;
-  VectorXd before = VectorXd::Zero(parameters.load.size());
-  for (const Segment& segment : segments) {
-    Parameters its = parameters;
-    its.load = segment.load - before;
-    if (!before.isZero(0)) its.load_before = before;
-    JointEquations equations = make_equations(joint, system, std::move(its));
-    if (!paths.empty()) equations.history = paths.back().history;
-    paths.push_back(segment.load_factors.empty() ? follow_events(equations, options)
-                                                 : follow(equations, segment.load_factors, options));
-    if (paths.back().failure || paths.back().steps.empty()) break;
-    const PathStep& last = paths.back().steps.back();
-    before += last.load_factor * (segment.load - before);
-    options.start = last.c;
-  }
-  return paths;
 }
 
 }  // namespace fastjoint::stage3

@@ -167,18 +167,4 @@ inline constexpr double first_load_factor = 1e-6;
 [[nodiscard]] std::optional<Interference> search_interference(const JointEquations& equations,
                                                               const PathOptions& options, const LoadPath& path);
 
-/// A proportional part of a load path.
-struct Segment {
-  VectorXd load;                     ///< (l) at its end, as in Parameters; at its start those of the segment before
-  std::vector<double> load_factors;  ///< of its increments, from 0 at its start to 1 at its end; none: at every event
-};
-
-/// Follows a joint from no load through segments, each from the end of the one before; it ends with the first that
-/// fails.
-/// @param parameters Those of all segments; their loads are not used.
-[[nodiscard]] std::vector<LoadPath> follow_segments(const JointModel& joint,
-                                                    const std::shared_ptr<const CondensedSystem>& system,
-                                                    const Parameters& parameters, const std::vector<Segment>& segments,
-                                                    PathOptions options);
-
 }  // namespace fastjoint::stage3

@@ -16,17 +16,15 @@ bool has_degree(const JointModel& joint, int p) {
                              [&](const PlateModel& plate) { return (plate.degrees.p.array() == p).any(); });
 }
 
-/// States at the load factors of a path at another degree; empty if not all of them converge.
-std::vector<JointState> states_at(const JointScene& scene, int p, const LoadPath& path, PathOptions options,
+/// States at the load factors of a case's path at another degree; empty if not all of them converge.
+std::vector<JointState> states_at(CaseRun& other, std::size_t its_case, const LoadPath& path, PathOptions options,
                                   double tolerance) {
   std::vector<double> load_factors;
   for (const PathStep& step : path.steps) load_factors.push_back(step.load_factor);
   options.log = nullptr;
   try {
-    const JointModel joint = load_joint(scene, p);
-    auto [other, increments] =
-        follow_with_results(joint, make_equations(joint), load_factors, std::move(options), {tolerance});
-    if (increments.states.size() == path.steps.size()) return std::move(increments.states);
+    auto followed = other.follow(its_case, load_factors, std::move(options), {tolerance});
+    if (followed.increments.states.size() == path.steps.size()) return std::move(followed.increments.states);
   } catch (const NumericalError&) {  // then nothing is known of the errors
   }
   return {};
@@ -36,9 +34,8 @@ std::vector<JointState> states_at(const JointScene& scene, int p, const LoadPath
 /// @param sequence States of the plate, the lowest degree first.
 VectorXd errors_of(const std::vector<const CrackState*>& sequence, VectorXd CrackState::*factor,
                    VectorXd CrackState::*by_waves) {
-  constexpr double beyond_half = 0.25;
   const CrackState& last = *sequence.back();
-  VectorXd errors = beyond_half * last.*by_waves;
+  VectorXd errors = last.*by_waves;
   for (Index t = 0; t < errors.size(); ++t) {
     VectorXd values(std::ssize(sequence));
     for (Index i = 0; i < values.size(); ++i) values[i] = (sequence[i]->*factor)[t];
@@ -49,16 +46,22 @@ VectorXd errors_of(const std::vector<const CrackState*>& sequence, VectorXd Crac
 
 }  // namespace
 
-std::vector<CrackErrors> crack_errors(const JointScene& scene, const JointModel& joint, const LoadPath& path,
-                                      const std::vector<JointState>& states, const PathOptions& options,
-                                      double tolerance) {
+CrackErrorEstimate::CrackErrorEstimate(const JointScene& scene, const JointModel& joint)
+    : tolerance_(scene.solver.tolerance) {
+  if (std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tip.empty(); })) return;
+  for (int p = joint.p - 1; p >= joint.p - 2 && has_degree(joint, p); --p)
+    below_.emplace_back(scene, load_joint(scene, p));
+}
+
+std::vector<CrackErrors> CrackErrorEstimate::of(const JointModel& joint, std::size_t its_case, const LoadPath& path,
+                                                const std::vector<JointState>& states, const PathOptions& options) {
   std::vector<CrackErrors> errors(joint.plates.size());
   const bool has_cracks =
       std::ranges::any_of(joint.plates, [](const auto& plate) { return !plate.cracks.tip.empty(); });
   if (!has_cracks || states.empty()) return errors;
   std::vector<std::vector<JointState>> below;  // of the lower degrees, the lowest first
-  for (int p = joint.p - 1; p >= joint.p - 2 && has_degree(joint, p); --p) {
-    auto lower = states_at(scene, p, path, options, tolerance);
+  for (auto& degree : below_) {
+    auto lower = states_at(degree, its_case, path, options, tolerance_);
     if (lower.empty()) break;
     below.insert(below.begin(), std::move(lower));
   }

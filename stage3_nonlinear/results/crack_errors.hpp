@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "stage3_nonlinear/results/increments.hpp"
+#include "stage3_nonlinear/results/case_run.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -13,12 +13,22 @@ struct CrackErrors {
   MatrixXd K_I, K_II;
 };
 
-/// Errors of each plate's factors at every increment: the joint is solved again at up to two lower degrees, whose
-/// sequence is extrapolated (geometric_error); in contact a quarter of the part by the upper half of the waves is
-/// added.
-/// @param scene As the joint was read from. @param path The joint's own.
-[[nodiscard]] std::vector<CrackErrors> crack_errors(const JointScene& scene, const JointModel& joint,
-                                                    const LoadPath& path, const std::vector<JointState>& states,
-                                                    const PathOptions& options, double tolerance);
+/// Estimates the errors of each plate's factors at every increment of load cases: each case is solved again at up to
+/// two lower degrees, whose sequence is extrapolated (geometric_error); in contact the estimated part of the waves that
+/// are left out is added.
+class CrackErrorEstimate {
+ public:
+  /// Loads the joint at lower degrees if it has cracks.
+  /// @param scene As the joint was read from; outlives this.
+  CrackErrorEstimate(const JointScene& scene, const JointModel& joint);
+
+  /// Errors at the increments of a case, one entry for each plate.
+  [[nodiscard]] std::vector<CrackErrors> of(const JointModel& joint, std::size_t its_case, const LoadPath& path,
+                                            const std::vector<JointState>& states, const PathOptions& options);
+
+ private:
+  double tolerance_;
+  std::vector<CaseRun> below_;  ///< at the lower degrees, the highest first
+};
 
 }  // namespace fastjoint::stage3

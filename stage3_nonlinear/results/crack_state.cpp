@@ -8,16 +8,31 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Amplitudes of the upper half of the waves of each rim of contact, the others 0.
-VectorXd upper_half(const PlateModel& plate, const VectorXd& coefficients) {
-  VectorXd result = VectorXd::Zero(coefficients.size());
+/// Largest magnitude of the partial sums of a list's parts from index `from` up to, not including, `to`.
+double largest_sum(const Eigen::RowVectorXd& parts, Index from, Index to) {
+  double sum = 0, largest = 0;
+  for (Index k = from; k < to; ++k) sum += parts[k], largest = std::max(largest, std::abs(sum));
+  return largest;
+}
+
+/// Estimates the parts of K, (t), by waves above those that there are: what the last two octaves add, of each the
+/// largest of its partial sums since parts may cancel, goes on falling with their ratio, which is 1/2 where stresses at
+/// the ends of contact fall with n^-2.
+VectorXd part_of_waves_above(const PlateModel& plate, const MatrixXd& K, const VectorXd& coefficients) {
+  constexpr double slowest = 0.5;
+  VectorXd above = VectorXd::Zero(K.rows());
   Index at = plate.n_externals() + std::ssize(plate.discs);
   for (Index i = 0; i < std::ssize(plate.contact); ++i)
     for (const Index n : {Index{plate.waves[i].waves.size()}, Index{plate.waves[i].waves.n_shears()}}) {
-      result.segment(at + n / 2, n - n / 2) = coefficients.segment(at + n / 2, n - n / 2);
+      for (Index t = 0; t < K.rows(); ++t) {
+        const Eigen::RowVectorXd parts = K.row(t).segment(at, n).cwiseProduct(coefficients.segment(at, n).transpose());
+        const double last = largest_sum(parts, n / 2, n), before = largest_sum(parts, n / 4, n / 2);
+        const double ratio = before > 0 ? std::min(last / before, slowest) : slowest;
+        above[t] += last * ratio / (1 - ratio);
+      }
       at += n;
     }
-  return result;
+  return above;
 }
 
 }  // namespace
@@ -25,9 +40,12 @@ VectorXd upper_half(const PlateModel& plate, const VectorXd& coefficients) {
 CrackState crack_state(const PlateModel& plate, const VectorXd& coefficients) {
   if (plate.cracks.tip.empty()) return {};
   const auto &K_I = plate.cracks.K_I.back(), &K_II = plate.cracks.K_II.back();
-  const VectorXd upper = upper_half(plate, coefficients);
-  return {K_I * coefficients, K_II * coefficients, K_I.cwiseAbs() * upper.cwiseAbs(),
-          K_II.cwiseAbs() * upper.cwiseAbs()};
+  CrackState state{K_I * coefficients, K_II * coefficients, part_of_waves_above(plate, K_I, coefficients),
+                   part_of_waves_above(plate, K_II, coefficients)};
+  if (plate.contact.empty()) return state;
+  constexpr double by_contact = 3e-4;  // of K, measured: the waves that are left out change where disc and rim touch
+  for (VectorXd* part : {&state.K_I_waves, &state.K_II_waves}) *part += by_contact * state.K_I.cwiseAbs();
+  return state;
 }
 
 double geometric_error(const VectorXd& values) {

@@ -11,7 +11,7 @@ namespace fastjoint::stage3 {
 /// Stress intensity factors of a plate's t crack tips, stress length^1/2.
 struct CrackState {
   VectorXd K_I, K_II;              ///< (t)
-  VectorXd K_I_waves, K_II_waves;  ///< (t) sums of the absolute parts by the upper half of the waves of contact
+  VectorXd K_I_waves, K_II_waves;  ///< (t) estimated parts of the waves of contact that the elements leave out
 };
 
 /// @param coefficients Amplitudes of the unit cases of the plate's file.

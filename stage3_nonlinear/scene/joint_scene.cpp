@@ -172,15 +172,18 @@ LoadScene read_load(const Value& value, const JointScene& scene) {
   return load;
 }
 
-void read_loads(const Value& loads, JointScene& scene) {
-  for (const auto& item : loads.items(1)) {
+/// @param least Least number of loads.
+std::vector<LoadScene> read_loads(const Value& value, const JointScene& scene, std::size_t least) {
+  std::vector<LoadScene> loads;
+  for (const auto& item : value.items(least)) {
     const LoadScene load = read_load(item, scene);
-    for (const auto& [before, value, is_displacement] : scene.loads)
+    for (const auto& [before, number, is_displacement] : loads)
       if (before.plate == load.external.plate && before.name == load.external.name)
         refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
                "one load per external boundary");
-    scene.loads.push_back(load);
+    loads.push_back(load);
   }
+  return loads;
 }
 
 /// Load factors of the increments; none for "events".
@@ -195,6 +198,45 @@ std::vector<double> read_increments(const Value& value) {
     value.not_allowed(fmt::format("an integer from 1 to {}, a list of load factors, or \"events\"", max_increments));
   }
   return factors;
+}
+
+/// Sets the case that each follows; none may follow itself, over whatever others.
+void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) {
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (const auto after = items[i].find("after")) {
+      const auto found = std::ranges::find(cases, after->text(), &CaseScene::name);
+      if (found == cases.end())
+        after->fail(fmt::format("\"{}\" is no case", after->text()), listed(cases, &CaseScene::name));
+      cases[i].after = found - cases.begin();
+    }
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    std::size_t n_before = 0;
+    for (auto at = cases[i].after; at; at = cases[*at].after)
+      if (++n_before > cases.size())
+        items[i].at("after").fail(fmt::format("\"{}\" comes after itself", cases[i].name),
+                                  "cases that lead back to the unloaded joint");
+  }
+}
+
+/// Reads "cases", or the one case that "loads" and "increments" make.
+std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
+  const auto increments = root.find("increments"), given = root.find("cases");
+  const std::vector<double> factors = increments ? read_increments(*increments) : std::vector{1.0};
+  if (!given) return {{"", read_loads(root.at("loads"), scene, 1), factors}};
+  if (const auto loads = root.find("loads")) loads->fail("given together with \"cases\"", "one of them");
+  std::vector<CaseScene> cases;
+  std::set<std::string> names;
+  const auto items = given->items(1);
+  for (const auto& item : items) {
+    item.only({"name", "loads", "increments", "after"});
+    const auto own = item.find("increments");
+    cases.push_back({item.at("name").text(), read_loads(item.at("loads"), scene, 0),
+                     own ? read_increments(*own) : factors, std::nullopt, where(item)});
+    if (!names.insert(cases.back().name).second)
+      item.at("name").fail(fmt::format("\"{}\" stands twice", cases.back().name), "each name once");
+  }
+  read_order(items, cases);
+  return cases;
 }
 
 InitialScene read_initial(const Value& value) {
@@ -222,7 +264,7 @@ JointScene read_joint_scene(const input::Document& document) {
   const Value root(document);
   input::check_format(root, "joint");
   root.only({"$schema", "format", "version", "name", "units", "plates", "laws", "fasteners", "loads", "increments",
-             "initial", "solver"});
+             "cases", "initial", "solver"});
   JointScene scene;
   scene.file = document.file;
   if (const auto name = root.find("name")) scene.name = name->text();
@@ -232,8 +274,7 @@ JointScene read_joint_scene(const input::Document& document) {
   scene.laws = read_laws(root.at("laws"));
   read_fasteners(root.at("fasteners"), scene);
   scene.warnings = law_doubts(root.at("laws"), scene);
-  read_loads(root.at("loads"), scene);
-  if (const auto increments = root.find("increments")) scene.load_factors = read_increments(*increments);
+  scene.cases = read_cases(root, scene);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   return scene;
@@ -247,9 +288,9 @@ void read_again(const input::Document& document, const SceneParts& parts, JointS
     const auto fasteners = root.at("fasteners").items();
     for (const std::size_t at : parts.fasteners) scene.fasteners[at] = read_fastener(fasteners[at], scene);
   }
-  if (!parts.loads.empty()) {
-    const auto loads = root.at("loads").items();
-    for (const std::size_t at : parts.loads) scene.loads[at] = read_load(loads[at], scene);
+  for (const auto& [at, load] : parts.loads) {
+    const Value its = root.find("cases") ? root.at("cases").items()[at] : root;
+    scene.cases[at].loads[load] = read_load(its.at("loads").items()[load], scene);
   }
 }
 

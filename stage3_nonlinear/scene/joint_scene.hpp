@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/input/value.hpp"
@@ -60,6 +61,20 @@ struct LoadScene {
   bool is_displacement = false;
 };
 
+/// A load case: loads and the increments in which they grow.
+struct CaseScene {
+  std::string name;  ///< empty: the only one of a joint without "cases"
+  std::vector<LoadScene> loads;
+  std::vector<double> load_factors{1};  ///< one per increment; empty: increments at every event (follow_events)
+  std::optional<std::size_t> after{};   ///< the case whose last state it starts from, to whose loads its own are added
+  std::string where{};
+
+  /// The requested load factors; the full load if increments are at every event.
+  [[nodiscard]] std::vector<double> wanted_load_factors() const {
+    return load_factors.empty() ? std::vector{1.0} : load_factors;
+  }
+};
+
 /// First guesses of Bortman & Szabo, section 6.1.
 enum class Guess { rigid, linear, equal };
 
@@ -98,16 +113,10 @@ struct JointScene {
   std::vector<PlateScene> plates;
   std::map<std::string, LawScene> laws;
   std::vector<FastenerScene> fasteners;
-  std::vector<LoadScene> loads;
-  std::vector<double> load_factors{1};  ///< one per increment; empty: increments at every event (follow_events)
+  std::vector<CaseScene> cases;
   InitialScene initial;
   SolverScene solver;
   std::vector<program::Warning> warnings;
-
-  /// The requested load factors; the full load if increments are at every event.
-  [[nodiscard]] std::vector<double> wanted_load_factors() const {
-    return load_factors.empty() ? std::vector{1.0} : load_factors;
-  }
 };
 
 /// Reads types and ranges strictly and makes all checks that need no other file: plates exist and have fasteners, ids
@@ -117,7 +126,8 @@ struct JointScene {
 /// Some of the laws, fasteners and loads of JOINT.json.
 struct SceneParts {
   std::set<std::string> laws;
-  std::set<std::size_t> fasteners, loads;
+  std::set<std::size_t> fasteners;
+  std::set<std::pair<std::size_t, std::size_t>> loads;  ///< case, and load in it
 };
 
 /// Reads parts of a scene again from a document in which only their numbers have changed. Throws InputError.

@@ -11,6 +11,7 @@
 #include <limits>
 #include <ostream>
 #include <random>
+#include <set>
 #include <thread>
 #include <utility>
 
@@ -19,6 +20,7 @@
 #include "common/linalg/processor.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/warning.hpp"
+#include "stage3_nonlinear/output/case_warnings.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/results/increments.hpp"
@@ -125,21 +127,57 @@ std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& stu
   return seed;
 }
 
-/// Warnings of a run of the joint with all variables in their middle, at the last increment.
+/// Warnings of a run of the joint with all variables in their middle, at the last increment of every case.
 std::vector<program::Warning> middle_warnings(const JointModel& joint, const JointScene& scene,
-                                              const Parameters& middle) {
-  const JointEquations equations =
-      make_equations(joint, std::make_shared<const CondensedSystem>(condense(joint)), middle);
+                                              const std::vector<std::size_t>& cases) {
   const PathOptions solving{scene.initial, scene.solver};
-  const auto [path, increments] =
-      follow_with_results(joint, equations, {scene.wanted_load_factors().back()}, solving, {scene.solver.tolerance});
+  CaseRun run(scene, joint);
+  CrackErrorEstimate cracks(scene, joint);
+  CaseWarnings found;
+  for (const std::size_t at : cases) {
+    const auto [equations, path, increments, missing] =
+        run.follow(at, {scene.cases[at].wanted_load_factors().back()}, solving, {scene.solver.tolerance});
+    if (missing) continue;
+    const auto errors = cracks.of(joint, at, path, increments.states, solving);
+    for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
+                             rim_warnings(joint, increments.states), crack_warnings(joint, increments.states, errors)})
+      found.add(scene.cases[at].name, some);
+  }
   std::vector<program::Warning> all = scene.warnings;
-  const auto errors = crack_errors(scene, joint, path, increments.states, solving, scene.solver.tolerance);
-  for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
-                           rim_warnings(joint, increments.states), crack_warnings(joint, increments.states, errors)})
-    all.insert(all.end(), some.begin(), some.end());
+  for (const auto& each : found.all(cases.size())) all.push_back(each);
   for (auto& each : all) each.text += " (with every variable of the study in its middle)";
   return all;
+}
+
+/// Numbers of the cases that the study names, or of all. Throws InputError if they displace different externals, for
+/// which the joint would have to be condensed again.
+std::vector<std::size_t> studied_cases(const Study& study) {
+  std::vector<std::size_t> cases;
+  std::vector<std::string> names;
+  for (const auto& its : study.joint.cases) names.push_back(its.name);
+  for (const auto& name : study.scene.cases) {
+    const auto found = std::ranges::find(names, name);
+    if (found == names.end())
+      throw InputError(fmt::format(
+          "{}: /cases: \"{}\" is no case of the joint; allowed: {}", study.scene.file, name,
+          names.front().empty() ? "none, since it has no \"cases\"" : fmt::format("{}", fmt::join(names, ", "))));
+    cases.push_back(found - names.begin());
+  }
+  for (std::size_t i = 0; i < names.size() && study.scene.cases.empty(); ++i) cases.push_back(i);
+  const auto displaced = [&](std::size_t at) {
+    std::set<std::string> externals;
+    for (const auto& load : study.joint.cases[at].loads)
+      if (load.is_displacement) externals.insert(load.external.plate + ":" + load.external.name);
+    return externals;
+  };
+  for (const std::size_t at : cases)
+    for (auto its = std::optional(at); its; its = study.joint.cases[*its].after)
+      if (displaced(*its) != displaced(cases.front()))
+        throw InputError(
+            fmt::format("{}: /cases: \"{}\" and \"{}\" give displacements of different externals; allowed: "
+                        "cases that displace the same ones",
+                        study.scene.file, names[cases.front()], names[*its]));
+  return cases;
 }
 
 /// Sentence with the first failed samples, and how to write the joint of one.
@@ -239,15 +277,16 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   if (merge_only) check_all_there(blocks);
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
-  const Parameters middle = parameters_of(joint, middle_scene);
+  const auto cases = studied_cases(study);
+  set_loads(joint, middle_scene.cases[cases.front()]);
   if (slice.is_whole)
-    for (const auto& each : middle_warnings(joint, middle_scene, middle)) program::warn(log, program_name, each);
+    for (const auto& each : middle_warnings(joint, middle_scene, cases)) program::warn(log, program_name, each);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
     if (!study.scene.peaks) plate.stress_level.reset();
   }
-  const StudySolver solver(joint, study.joint, middle, std::move(names));
-  Samples samples(study, seed, joint, solver);
+  const StudySolver solver(joint, middle_scene, cases, std::move(names));
+  Samples samples(study, seed, solver);
   const auto [first, end] = blocks.of_slice(slice.number, slice.n);
   if (!merge_only) solve_blocks(blocks, first, end, arguments.quiet, samples, log);
   std::string summary;

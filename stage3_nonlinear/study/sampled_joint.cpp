@@ -14,6 +14,13 @@ namespace {
 
 using nlohmann::json;
 
+/// Index of the load in "/cases/I/loads/J/force".
+std::size_t load_number(const std::string& place) {
+  auto at = std::string::npos;
+  for (int slashes = 0; slashes < 4; ++slashes) at = place.find('/', at + 1);
+  return std::stoul(place.substr(at + 1));
+}
+
 /// Converts the path of a file in a document to one relative to the folder of another document.
 void turn_path(json& path, const std::filesystem::path& from, const std::filesystem::path& to) {
   const std::filesystem::path file = path.get<std::string>();
@@ -38,8 +45,12 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
                         name = json::json_pointer(place.substr(0, place.find('/', end + 1))).back();
       if (part == "laws")
         parts_.laws.insert(name);
+      else if (part == "fasteners")
+        parts_.fasteners.insert(std::stoul(name));
+      else if (part == "loads")
+        parts_.loads.insert({0, std::stoul(name)});
       else
-        (part == "fasteners" ? parts_.fasteners : parts_.loads).insert(std::stoul(name));
+        parts_.loads.insert({std::stoul(name), load_number(place)});
     }
   }
 }

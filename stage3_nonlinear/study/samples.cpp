@@ -15,8 +15,8 @@ std::vector<double> middle_values(const StudyScene& study) {
   return values;
 }
 
-Samples::Samples(const Study& study, std::uint64_t seed, const JointModel& joint, const StudySolver& solver)
-    : study_(study), seed_(seed), joint_(joint), solver_(solver), middle_(middle_values(study.scene)) {
+Samples::Samples(const Study& study, std::uint64_t seed, const StudySolver& solver)
+    : study_(study), seed_(seed), solver_(solver), middle_(middle_values(study.scene)) {
   find_slopes();
 }
 
@@ -24,7 +24,7 @@ SampleNumbers Samples::of_values(const std::vector<double>& values) {
   auto sampled = take();
   SampleNumbers result;
   try {
-    result = solver_.solve(parameters_of(joint_, sampled->scene(values)), away(values));
+    result = solver_.solve(sampled->scene(values), away(values));
   } catch (const InputError&) {
     result = solver_.nothing(SampleStatus::refused);
   }

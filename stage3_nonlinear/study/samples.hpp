@@ -25,8 +25,8 @@ struct Study {
 /// not depend on other samples.
 class Samples {
  public:
-  /// Solves near the middle for the slopes there. @param study, joint, solver Outlive this.
-  Samples(const Study& study, std::uint64_t seed, const JointModel& joint, const StudySolver& solver);
+  /// Solves near the middle for the slopes there. @param study, solver Outlive this.
+  Samples(const Study& study, std::uint64_t seed, const StudySolver& solver);
 
   /// (columns, v) derivative of each number by each variable in the middle; infinite if not known.
   [[nodiscard]] const MatrixXd& sensitivity() const { return slopes_; }
@@ -48,7 +48,6 @@ class Samples {
 
   const Study& study_;
   std::uint64_t seed_;
-  const JointModel& joint_;
   const StudySolver& solver_;
   std::vector<double> middle_;
   MatrixXd slopes_, c_slopes_;

@@ -93,8 +93,8 @@ void look_up(const json& at, const std::vector<std::string>& parts, std::size_t 
 
 std::vector<Found> places_of(const Value& place, const json& joint) {
   constexpr const char* allowed =
-      "JSON pointers to numbers of laws, fasteners or loads, such as \"/laws/NAME/k\", \"/fasteners/*/clearance\" or "
-      "\"/loads/0/force\"";
+      "JSON pointers to numbers of laws, fasteners or loads, such as \"/laws/NAME/k\", \"/fasteners/*/clearance\", "
+      "\"/loads/0/force\" or \"/cases/0/loads/0/force\"";
   const std::string text = place.text();
   std::vector<std::string> parts;
   for (std::size_t at = 0; at < text.size();) {
@@ -103,8 +103,10 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
     parts.push_back(text.substr(at + 1, end - at - 1));
     at = end;
   }
-  const std::set<std::string> varied{"laws", "fasteners", "loads"};
-  if (parts.size() < 3 || !varied.contains(parts[0])) place.not_allowed(allowed);
+  const std::set<std::string> varied{"laws", "fasteners", "loads", "cases"};
+  if (parts.size() < 3 || !varied.contains(parts[0]) ||
+      (parts[0] == "cases" && (parts.size() < 5 || parts[2] != "loads")))
+    place.not_allowed(allowed);
   std::vector<Found> found;
   look_up(joint, parts, 0, {}, found);
   if (found.empty())
@@ -241,7 +243,8 @@ void read_number(const Value& root, StudyScene& study) {
 StudyScene read_study_scene(const input::Document& document, const input::Document& joint) {
   const Value root(document);
   input::check_format(root, "study");
-  root.only({"$schema", "format", "version", "name", "samples", "seed", "sampling", "variables", "outputs", "limits"});
+  root.only({"$schema", "format", "version", "name", "samples", "seed", "sampling", "variables", "outputs", "limits",
+             "cases"});
   StudyScene study;
   study.file = document.file;
   study.text = document.text;
@@ -256,6 +259,12 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
       const std::string word = output.choice({"forces", "peaks", "displacements", "cracks"});
       study.peaks |= word == "peaks", study.displacements |= word == "displacements";
       study.cracks |= word == "cracks";
+    }
+  if (const auto cases = root.find("cases"))
+    for (const auto& name : cases->items(1)) {
+      if (std::ranges::find(study.cases, name.text()) != study.cases.end())
+        name.fail(fmt::format("\"{}\" stands twice", name.text()), "each case once");
+      study.cases.push_back(name.text());
     }
   if (const auto limits = root.find("limits")) {
     limits->only({"force", "peak", "K_I"});

@@ -40,6 +40,7 @@ struct StudyScene {
   std::uint64_t n_samples = 0;
   std::optional<std::uint64_t> seed;  ///< none: a random one
   bool peaks = false, displacements = false, cracks = false;
+  std::vector<std::string> cases{};                    ///< of the joint; empty: all
   std::optional<double> max_force, max_peak, max_K_I;  ///< limits whose exceedance is counted
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/study/study_solver.hpp"
 
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -9,21 +10,6 @@
 #include "stage3_nonlinear/results/increments.hpp"
 
 namespace fastjoint::stage3 {
-namespace {
-
-/// Follows a joint from no load to its last increment.
-std::optional<PathStep> last_step(const JointEquations& equations, const std::vector<double>& load_factors,
-                                  const PathOptions& options) {
-  Walk walk(equations, options);
-  (void)walk.assemble();
-  LoadPath path;
-  for (const double factor : load_factors)
-    if (!walk.reach(factor) || !walk.record(path, {})) return std::nullopt;
-  return std::move(path.steps.back());
-}
-
-}  // namespace
-
 StudyNames study_names(const JointModel& joint, const StudyScene& study) {
   StudyNames names;
   for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
@@ -38,58 +24,112 @@ StudyNames study_names(const JointModel& joint, const StudyScene& study) {
   return names;
 }
 
-StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, StudyNames names)
+CaseSolver::CaseSolver(const JointModel& joint, const JointScene& scene, std::size_t at,
+                       std::shared_ptr<const CondensedSystem> system)
     : joint_(joint),
-      load_factors_(scene.wanted_load_factors()),
+      at_(at),
+      load_factor_(scene.cases[at].wanted_load_factors().back()),
       options_{scene.initial, scene.solver},
-      tolerance_(scene.solver.tolerance),
-      system_(std::make_shared<const CondensedSystem>(condense(joint))),
-      names_(std::move(names)) {
-  const JointEquations equations = make_equations(joint, system_, middle);
-  rims_ = equations.rims;
-  const auto step = last_step(equations, load_factors_, options_);
-  middle_ = step ? numbers(equations, *step) : nothing(SampleStatus::not_solved);
-  if (middle_.status != SampleStatus::solved) return;
-  start_ = step->c;
-  (void)contact_state(equations, step->c);  // samples start at the last solutions of the rims
+      system_(std::move(system)) {
+  rims_ = equations_of(scene, at).rims;
+  middle_ = from_no_load(scene);
+  if (middle_)
+    (void)contact_state(equations_of(scene, at), middle_->c);  // samples start at these solutions of the rims
+}
+
+JointEquations CaseSolver::equations_of(const JointScene& scene, std::size_t at) const {
+  Parameters parameters = parameters_of(joint_, scene, scene.cases[at]);
+  VectorXd before = VectorXd::Zero(parameters.load.size());
+  for (auto its = scene.cases[at].after; its; its = scene.cases[*its].after)
+    before += scene.cases[*its].wanted_load_factors().back() * parameters_of(joint_, scene, scene.cases[*its]).load;
+  if (!before.isZero(0)) parameters.load_before = std::move(before);
+  return make_equations(joint_, system_, std::move(parameters), rims_);
+}
+
+std::optional<PathStep> CaseSolver::from_middle(const JointEquations& equations, const VectorXd& away) const {
+  if (!middle_ || !planes_that_may_snap(equations).empty()) return std::nullopt;  // the solution depends on the path
+  Walk walk(equations, options_);
+  if ((away.size() > 0 && walk.jump({load_factor_, middle_->c + away})) || walk.jump({load_factor_, middle_->c}))
+    return walk.step();
+  return std::nullopt;
+}
+
+std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const {
+  std::vector<std::size_t> chain{at_};
+  while (scene.cases[chain.back()].after) chain.push_back(*scene.cases[chain.back()].after);
+  PathOptions options = options_;
+  LoadPath path;
+  for (auto at = chain.rbegin(); at != chain.rend(); ++at) {
+    JointEquations equations = equations_of(scene, *at);
+    equations.history = std::move(path.history);
+    path = {};
+    Walk walk(equations, options);
+    (void)walk.assemble();
+    for (const double factor : scene.cases[*at].wanted_load_factors())
+      if (!walk.reach(factor) || !walk.record(path, {})) return std::nullopt;
+    options.start = path.steps.back().c;
+  }
+  return std::move(path.steps.back());
+}
+
+StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const std::vector<std::size_t>& cases,
+                         StudyNames names)
+    : joint_(joint), tolerance_(scene.solver.tolerance), names_(std::move(names)) {
+  const auto system = std::make_shared<const CondensedSystem>(condense(joint));
+  for (const std::size_t at : cases) cases_.emplace_back(joint, scene, at, system);
+  middle_ = solve(scene);
 }
 
 SampleNumbers StudySolver::nothing(SampleStatus status) const {
   return {status, VectorXd::Constant(names_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
 }
 
-SampleNumbers StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
+VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
+  VectorXd all(names_.size());
   const JointState state = joint_state(joint_, equations, step);
-  if (imbalance(state, tolerance_)) return nothing(SampleStatus::out_of_balance);
-  SampleNumbers result{SampleStatus::solved, VectorXd(names_.size()), {}};
-  result.all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
+  if (imbalance(state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
+  all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
   Index at = joint_.n_planes();
   if (!names_.peak.empty())
     for (const auto& plate : state.plates)
-      for (const auto& rim : plate.rims) result.all[at++] = rim.peak_hoop;
+      for (const auto& rim : plate.rims) all[at++] = rim.peak_hoop;
   if (!names_.displacement.empty())
     for (const auto& plate : state.plates)
-      for (const double each : plate.De) result.all[at++] = each;
+      for (const double each : plate.De) all[at++] = each;
   if (!names_.crack.empty())
     for (VectorXd CrackState::*factor : {&CrackState::K_I, &CrackState::K_II})
       for (const auto& plate : state.plates)
-        for (const double each : plate.cracks.*factor) result.all[at++] = each;
-  if (!result.all.allFinite()) return nothing(SampleStatus::out_of_balance);
-  result.c = step.c;
-  return result;
+        for (const double each : plate.cracks.*factor) all[at++] = each;
+  return all;
 }
 
-SampleNumbers StudySolver::solve(const Parameters& parameters, const VectorXd& away) const {
+void StudySolver::take(const VectorXd& its, VectorXd& all) const {
+  const Index first = std::ssize(names_.force) + std::ssize(names_.peak), n = std::ssize(names_.displacement),
+              K_II = first + n + std::ssize(names_.crack);
+  for (Index i = 0; i < all.size(); ++i) {
+    const bool has_sign = (i >= first && i < first + n) || i >= K_II;
+    if (has_sign ? std::abs(its[i]) > std::abs(all[i]) : its[i] > all[i]) all[i] = its[i];
+  }
+}
+
+SampleNumbers StudySolver::solve(const JointScene& scene, const VectorXd& away) const {
   try {
-    const JointEquations equations = make_equations(joint_, system_, parameters, rims_);
-    if (start_ && planes_that_may_snap(equations).empty()) {  // else the solution depends on the path
-      Walk walk(equations, options_);
-      const double load_factor = load_factors_.back();
-      if (away.size() > 0 && walk.jump({load_factor, *start_ + away})) return numbers(equations, walk.step());
-      if (walk.jump({load_factor, *start_})) return numbers(equations, walk.step());
+    SampleNumbers result;
+    for (Index i = 0; i < std::ssize(cases_); ++i) {
+      const Index r = away.size() / std::ssize(cases_);
+      const bool solved = cases_[i].solve(scene, away.segment(i * r, r), [&](const auto& equations, const auto& step) {
+        const VectorXd its = numbers(equations, step);
+        if (!its.allFinite()) result.status = SampleStatus::out_of_balance;
+        if (i == 0)
+          result.all = its;
+        else
+          take(its, result.all);
+        result.c.conservativeResize((i + 1) * step.c.size());
+        result.c.tail(step.c.size()) = step.c;
+      });
+      if (!solved) return nothing(SampleStatus::not_solved);
     }
-    const auto step = last_step(equations, load_factors_, options_);
-    return step ? numbers(equations, *step) : nothing(SampleStatus::not_solved);
+    return result.status == SampleStatus::solved ? result : nothing(result.status);
   } catch (const NumericalError&) {
     return nothing(SampleStatus::not_solved);
   }

@@ -20,7 +20,7 @@ enum class SampleStatus { solved, refused, not_solved, out_of_balance };
 struct SampleNumbers {
   SampleStatus status = SampleStatus::solved;
   VectorXd all;  ///< in the order of StudyNames: forces, peaks, displacements, K_I, K_II; NaN if not solved
-  VectorXd c{};  ///< (r) contact coordinates; empty if not solved
+  VectorXd c{};  ///< (cases r) contact coordinates; empty if not solved
 };
 
 /// Names of the numbers of a sample.
@@ -37,34 +37,73 @@ struct StudyNames {
 
 [[nodiscard]] StudyNames study_names(const JointModel& joint, const StudyScene& study);
 
-/// Solves a joint for other parameters, each time from its solution with all variables in their middle, so that no
-/// result depends on another sample. Several threads may use it.
+/// Solves one load case of a joint for other parameters.
+class CaseSolver {
+ public:
+  /// @param joint   Outlives this; has friction wherever a sample has some.
+  /// @param scene   With every variable in its middle; its cases and solver are used.
+  /// @param at      Number of the case.
+  CaseSolver(const JointModel& joint, const JointScene& scene, std::size_t at,
+             std::shared_ptr<const CondensedSystem> system);
+
+  /// Last state with every variable in its middle; none if not solved.
+  [[nodiscard]] const std::optional<PathStep>& middle() const { return middle_; }
+  /// Passes the equations and the last state with the parameters of a scene to `use`; false if not solved.
+  /// @param away Change of the contact coordinates from those of the middle to the start of the solver, (r); empty: 0.
+  template <class Use>
+  bool solve(const JointScene& scene, const VectorXd& away, Use use) const {
+    const JointEquations equations = equations_of(scene, at_);
+    auto step = from_middle(equations, away);
+    if (!step) step = from_no_load(scene);
+    if (step) use(equations, *step);
+    return step.has_value();
+  }
+
+ private:
+  /// Equations of a case under the last loads of the cases before it.
+  [[nodiscard]] JointEquations equations_of(const JointScene& scene, std::size_t at) const;
+  [[nodiscard]] std::optional<PathStep> from_middle(const JointEquations& equations, const VectorXd& away) const;
+  /// Follows the cases before this and this from no load through all increments.
+  [[nodiscard]] std::optional<PathStep> from_no_load(const JointScene& scene) const;
+
+  const JointModel& joint_;
+  std::size_t at_;
+  double load_factor_;  ///< the last
+  PathOptions options_;
+  std::shared_ptr<const CondensedSystem> system_;
+  std::vector<std::shared_ptr<const RimProblem>> rims_;  ///< solved in the middle
+  std::optional<PathStep> middle_;
+};
+
+/// Solves the load cases of a joint for other parameters, each time from the solution with all variables in their
+/// middle, so that no result depends on another sample. Several threads may use it.
+///
+/// Of several cases the numbers of a sample are their envelope: the largest of each, of displacements and K_II those of
+/// the largest magnitude.
 class StudySolver {
  public:
-  /// @param joint  Outlives this; has friction wherever a sample has some.
-  /// @param scene  Its load factors and solver are used.
-  /// @param middle Parameters with every variable in its middle.
-  StudySolver(const JointModel& joint, const JointScene& scene, const Parameters& middle, StudyNames names);
+  /// @param joint Outlives this; has friction wherever a sample has some.
+  /// @param scene With every variable in its middle. @param cases Numbers of the cases to solve.
+  StudySolver(const JointModel& joint, const JointScene& scene, const std::vector<std::size_t>& cases,
+              StudyNames names);
 
   [[nodiscard]] const StudyNames& names() const { return names_; }
   /// Results for the parameters of the middle; NaN if not solved.
   [[nodiscard]] const SampleNumbers& middle() const { return middle_; }
-  /// Results for other parameters.
-  /// @param away Change of the contact coordinates from those of the middle to the start of the solver, (r); empty: 0.
-  [[nodiscard]] SampleNumbers solve(const Parameters& parameters, const VectorXd& away = {}) const;
+  /// Results for other parameters; away from the middle as in CaseSolver, for all cases one after another.
+  [[nodiscard]] SampleNumbers solve(const JointScene& scene, const VectorXd& away = {}) const;
   /// Results of a sample that was not solved.
   [[nodiscard]] SampleNumbers nothing(SampleStatus status) const;
 
  private:
-  [[nodiscard]] SampleNumbers numbers(const JointEquations& equations, const PathStep& step) const;
+  /// Numbers of one case; not finite if it is out of balance.
+  [[nodiscard]] VectorXd numbers(const JointEquations& equations, const PathStep& step) const;
+  /// Takes the numbers of a case into the envelope of those before.
+  void take(const VectorXd& its, VectorXd& all) const;
 
   const JointModel& joint_;
-  std::vector<double> load_factors_;
-  PathOptions options_;
   double tolerance_;
-  std::shared_ptr<const CondensedSystem> system_;
-  std::vector<std::shared_ptr<const RimProblem>> rims_;  ///< solved in the middle
-  std::optional<VectorXd> start_;                        ///< (r) contact coordinates there, force
+  std::vector<CaseSolver> cases_;
   StudyNames names_;
   SampleNumbers middle_;
 };

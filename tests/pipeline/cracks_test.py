@@ -184,15 +184,15 @@ def check_estimates(folder):
             print(f"crack {length}, p = {p}: K_I {K:.8g}, off by {off:.1e}, estimate {bar / limit:.1e}")
             if not 0.1 * off < bar / limit < max(3 * off, 1e-4):  # where the error changes its sign it is far below its estimate
                 missed.append(f"error estimate of crack {length} at p = {p}")
-    for length in (0.1, 0.4):
+    for length in (0.003, 0.03, 0.4, 1.0):
         waves = {}
-        for highest in (16, 24):
+        for highest in ({}, {"harmonics": 128}):
             sheet = lug(length)
-            sheet["holes"][0]["spring"]["harmonics"] = highest
-            waves[highest], _ = joint(folder, sheet, 10)
-        ratio = waves[16]["K_I_error"][0] / abs(waves[16]["K_I"][0] - waves[24]["K_I"][0])
-        print(f"crack {length} in contact: estimate over the change by more waves {ratio:.2f}")
-        if not 0.3 <= ratio <= 1.5:
+            sheet["holes"][0]["spring"] |= highest
+            waves[len(highest)], _ = joint(folder, sheet, 10)
+        bar, change = waves[0]["K_I_error"][0] / waves[1]["K_I"][0], abs(waves[0]["K_I"][0] / waves[1]["K_I"][0] - 1)
+        print(f"crack {length} in contact: more waves change K_I by {change:.1e}, estimate {bar:.1e}")
+        if not change / 2 <= bar <= max(7 * change, 1e-3):
             missed.append(f"error of crack {length} in contact")
     shut, done = joint(folder, {**lug(0.4), "supports": [{"on": "bottom", "fix": ["y"]}]}, -10)
     assert shut["K_I"][0] < 0 and 'warning [crack-closes]: joint.json: crack "sheet:1" closes at its tip at increment 1' in done.stderr, done.stderr
@@ -208,6 +208,32 @@ def check_place(folder):
         with solved(folder, sheet) as file:
             found.append(factors(file, "P")[-1])
     near("crack of a hundredth, 500 away: K_I", found[1], found[0], 1e-6)
+
+
+def check_lines(folder):
+    """K runs smoothly where a tip passes a cell line, its ray a corner, its crack a parallel line, or two tips meet: no mesh line is seen in it."""
+    free = {"supports": [{"on": "bottom", "fix": ["x", "y"]}], "external": [{"id": "P", "on": "top", "direction": "y", "kind": "rigid"}]}
+    hole = {"holes": [{"id": "h", "center": [4, 4], "radius": 1}]}
+    grid = [0, 0.5, 8, 12]
+
+    def along(values, cracks_of, x=grid, y=grid, more=hole, allowed=1e-5):
+        found = []
+        for value in values:
+            with solved(folder, scene(x, y, p=[7, 8], cracks=cracks_of(value), **more, **free)) as file:
+                found.append([factors(file, "P", mode)[-1] for mode in ("K_I", "K_II")])
+        found, values = np.array(found), np.array(values)
+        fit = [np.polyval(np.polyfit(values - values[0], column, 3), values - values[0]) for column in found.T]
+        off = np.abs(found - np.transpose(fit)).max() / np.abs(found).max()
+        near(f"K at {values[0]:g} to {values[-1]:g}: off a cubic", off, 0, allowed, absolute=True)
+
+    along([2.8, 2.9, 2.96, 2.99, 2.999, 3, 3.001, 3.01, 3.05, 3.1, 3.2], lambda c: [{"from": "hole:h", "angle": 0, "length": c}])
+    along([40, 42, 44, 44.9, 44.99, 45, 45.01, 45.1, 46, 48], lambda a: [{"from": "hole:h", "angle": a, "length": 1}])
+    along([4.5, 4.6, 4.64, 4.656, 4.657], lambda c: [{"from": "hole:h", "angle": 45, "length": c}])
+    along([4.3, 4.4, 4.49, 4.499, 4.5, 4.501, 4.51, 4.6, 4.8], lambda at: [{"from": "left", "at": at, "length": 3}], y=[0, 4.5, 9], more={})
+    with solved(folder, scene([0, 4, 8], [0, 4, 8], p=[7, 8], cracks=[{"id": "a", "from": "left", "at": 4, "length": 3.95},
+                                                                     {"id": "b", "from": "right", "at": 4, "length": 3.95}], **free)) as file:
+        near("two tips a fortieth apart: K_I", factors(file, "P")[-1], factors(file, "P", tip=1)[-1], 1e-6)
+        near("  its change by the last degree", *factors(file, "P"), 1e-4)
 
 
 def check_example(folder):
@@ -260,14 +286,15 @@ def check_refusals(folder):
     hole = {"holes": [{"id": "h", "center": [0, 0], "radius": 0.5}, {"id": "g", "center": [3, 0.2], "radius": 0.5}]}
     for crack, message in (({"from": "hole:x", "angle": 0, "length": 1}, "/cracks/0/from"),
                            ({"from": "hole:h", "angle": 0, "length": 9}, "outside the plate"),
-                           ({"from": "hole:h", "angle": 0, "length": 2.2}, 'runs through the cell of hole "g", but not towards its centre'),
+                           ({"from": "hole:h", "angle": 0, "length": 1.5}, 'runs through the cell of hole "g", but not towards its centre'),
                            ({"from": "hole:h", "angle": 20, "length": 3}, 'leaves the cell of hole "h"'),
-                           ({"from": "hole:g", "angle": 180, "length": 1e-6}, "from a hole or the border"),
+                           ({"from": "hole:g", "angle": 180, "length": 1e-6}, "is 1e-06 from its other end; allowed: 1.7e-05 at least"),
                            ({"from": "left", "at": 9, "length": 1}, "outside the plate"),
                            ({"from": "left", "length": 1}, '/cracks/0: key "at" is missing'),
                            ({"from": "hole:h", "to": "hole:h"}, "/cracks/0/to"),
                            ({"from": [0, 2], "to": [1, 3]}, "neither along x nor along y"),
-                           ({"on": "left"}, "/cracks/0")):
+                           ({"on": "left"}, "/cracks/0"),
+                           ({"from": "h", "angle": 0, "length": 1}, 'allowed: "hole:ID", left, right, bottom, top')):
         sheet = scene([-6, -2, 1.5, 6], [-6, -2, 2, 6], **hole, cracks=[crack], supports=[{"on": "bottom", "fix": ["x", "y"]}],
                       external=[{"id": "P", "on": "top", "direction": "y", "kind": "rigid"}])
         (folder / "bad.json").write_text(json.dumps(sheet))
@@ -290,6 +317,7 @@ def main():
         check_energy(folder)
         check_estimates(folder)
         check_place(folder)
+        check_lines(folder)
         check_example(folder)
         check_study(folder)
     end_if_missed()

@@ -16,17 +16,21 @@ import h5py
 from programs import ROOT, Programs, must
 
 TEMPLATES = {"<d>": lambda file: file["p"][:], "<name>": lambda file: file["plate/name"].asstr()[:],
+             "<quantity>": lambda file: file["envelope/quantity"].asstr()[:],
              "<kind>": lambda file: [name for name, item in file["statistics"].items() if isinstance(item, h5py.Group)]}
 UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/length^2", "of largest_peak": "force/length^2",
-         "of displacement": "length", "of K_I": "force/length^1.5", "of largest_K_I": "force/length^1.5", "of K_II": "force/length^1.5"}  # of a study's numbers
+         "of displacement": "length", "of delta": "length", "of external_force": "force", "of transferred_first": "force",
+         "of transferred_second": "force", "of F": "force", "of bearing_load": "force", "of bearing_load_y": "force", "of bypass_load": "force",
+         "of bypass_error": "force", "of bearing_stress": "force/length^2", "of peak_hoop": "force/length^2", "of peak_error": "force/length^2",
+         "of contact_pressure": "force/length^2", "of peak_angle": "deg", "of against_slip": "deg", "of gross_concentration": "1",
+         "of net_concentration": "1", "of K_I": "force/length^1.5", "of largest_K_I": "force/length^1.5", "of K_II": "force/length^1.5"}  # of a study's numbers
 JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
     "laws": {"bolt": {"type": "power", "A": 1000, "n": 0.7}},
     "fasteners": [{"id": "1", "between": ["center:1", "doubler:1"], "law": "bolt", "clearance": 0.001,
                    "friction": 0.1}],
-    "loads": [{"external": "center:P", "force": 100}],
-    "increments": 5,
+    "cases": [{"name": "pull", "loads": [{"external": "center:P", "force": 100}], "increments": 5}],
 }
 CRACK = {"from": "hole:1", "angle": 90, "length": 0.1}
 STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements", "cracks"],
@@ -182,7 +186,7 @@ def main():
             problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)
         (folder / "joint.json").write_text(json.dumps(JOINT))
         result = folder / "joint.h5"
-        must(programs.joint(folder / "joint.json", result, "--sensitivities", "--rim-stresses"))
+        must(programs.joint(folder / "joint.json", result, "--case", "pull", "--sensitivities", "--rim-stresses"))
         problems += check(result_page, result, labels)
         (folder / "study.json").write_text(json.dumps(STUDY))
         study = folder / "study.h5"

@@ -238,6 +238,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.header = {"test 1", "joint", {"mm", "N"}, "{}"};
     a.complete = steps > 0;
     a.load_factor = Eigen::VectorXd::LinSpaced(steps, 0.5, 1);
+    a.case_name = {""};
+    a.case_of = Eigen::VectorXi::Zero(steps);
     a.converged = a.iterations = Eigen::VectorXi::Ones(steps);
     a.residual = Eigen::VectorXd::Zero(steps);
     a.event.assign(steps, "1 closes");

@@ -133,6 +133,8 @@ class StateOfAJoint : public testing::Test {
     result.direction = {"x"};
     result.load_factor = Eigen::Vector2d(0.5, 1);
     result.event.resize(result.load_factor.size());
+    result.case_name = {""};
+    result.case_of = Eigen::VectorXi::Zero(2);
     result.converged = result.iterations = Eigen::VectorXi::Ones(2);
     result.residual = Eigen::Vector2d::Zero();
     for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred})

@@ -64,7 +64,7 @@ class Failures : public ContactJoint {
     path.failure = PathFailure{1, 0.5, 0.25, entry, 1e-3, {}, {}};
     JointScene scene;
     scene.file = "joint.json";
-    return failure_message(scene, joint, path, "joint.h5");
+    return failure_message(scene, CaseScene{}, joint, path, "joint.h5");
   }
 };
 

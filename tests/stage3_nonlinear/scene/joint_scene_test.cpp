@@ -46,9 +46,9 @@ TEST(JointScene, ReadsTheContractsExample) {
   EXPECT_THAT(scene.fasteners[0].clearance, ElementsAre(0.06));
   EXPECT_THAT(scene.fasteners[0].friction, ElementsAre(0.1, 0.1));
   EXPECT_THAT(scene.fasteners[1].friction, ElementsAre(0, 0.2)) << "first plate is b";
-  EXPECT_FALSE(scene.loads[0].is_displacement);
-  EXPECT_TRUE(scene.loads[1].is_displacement);
-  EXPECT_THAT(scene.load_factors, ElementsAre(0.1, 0.5, -1));
+  EXPECT_FALSE(scene.cases[0].loads[0].is_displacement);
+  EXPECT_TRUE(scene.cases[0].loads[1].is_displacement);
+  EXPECT_THAT(scene.cases[0].load_factors, ElementsAre(0.1, 0.5, -1));
   EXPECT_EQ(scene.initial.stiffness, 1000);
   EXPECT_EQ(scene.solver.tolerance, 1e-8);
   EXPECT_EQ(scene.solver.max_iterations, 50);
@@ -83,9 +83,9 @@ TEST(JointScene, HasDefaults) {
   const JointScene scene = read({{"increments", "4"}});
   EXPECT_EQ(scene.name, "");
   EXPECT_FALSE(scene.units);
-  EXPECT_THAT(scene.load_factors, ElementsAre(0.25, 0.5, 0.75, 1));
-  EXPECT_THAT(read({{"increments", ""}}).load_factors, ElementsAre(1)) << "left out";
-  EXPECT_THAT(read({{"increments", R"("events")"}}).load_factors, IsEmpty());
+  EXPECT_THAT(scene.cases[0].load_factors, ElementsAre(0.25, 0.5, 0.75, 1));
+  EXPECT_THAT(read({{"increments", ""}}).cases[0].load_factors, ElementsAre(1)) << "left out";
+  EXPECT_THAT(read({{"increments", R"("events")"}}).cases[0].load_factors, IsEmpty());
   EXPECT_EQ(scene.solver.method, Method::fitting);
   EXPECT_EQ(scene.initial.guess, Guess::linear);
   EXPECT_FALSE(scene.initial.stiffness);

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+#include <vector>
+
+#include "stage1_plate/scene/scene.hpp"
+
+namespace fastjoint::stage1 {
+
+/// A tip of a crack in a grid.
+struct TipPlace {
+  Eigen::Vector2d at;
+  double size;  ///< of the elements around it: the distance to the nearest hole, border or crack, or the crack's length
+};
+
+/// A crack in a grid.
+struct CrackPlace {
+  Eigen::Vector2d from, to;
+  std::vector<TipPlace> tips;  ///< 0 to 2
+};
+
+/// Throws InputError for a crack that leaves the plate, and for a tip in a hole or too near to what is around it.
+[[nodiscard]] std::vector<CrackPlace> place_cracks(const PlateScene& scene, const GridGeometry& grid);
+
+/// A grid whose lines have been moved, and what has been done, "x = 86 to 86.5, through a tip".
+struct MovedGrid {
+  GridGeometry grid;
+  std::vector<std::string> moves{};
+};
+
+/// Moves cell lines that pass a tip more closely than elements around it are large: through the tip, or so that a
+/// corner of a hole's cell lies on the ray of its crack, since slivers between the two would spoil the stress intensity
+/// factors.
+///
+/// Throws InputError where a line cannot move: it is the border, the thickness or the material changes there, a hole is
+/// in its way, or it is near two tips.
+[[nodiscard]] MovedGrid lines_through_tips(const PlateScene& scene, const GridGeometry& grid,
+                                           const std::vector<CrackPlace>& cracks);
+
+}  // namespace fastjoint::stage1

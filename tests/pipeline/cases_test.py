@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Load cases and their envelope against single runs, one case after another, studies over cases, and what is refused.
+
+Usage: cases_test.py FOLDER_OF_PROGRAMS"""
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/support")]
+sys.dont_write_bytecode = True
+from one_hole import PROGRAMS, end_if_missed, matrices, near  # noqa: E402
+
+N = 3  # fasteners in a row
+
+
+def sheets(folder, contact=False):
+    """Two sheets in a lap, each with a rigid end and an edge under traction."""
+    spring = {"compression_only": True, "disk": {"E": 2e5, "nu": 0.3}} if contact else {"modulus": 1e5}
+    for name, free, fixed in (("upper", "right", None), ("lower", "left", "left")):
+        scene = {"format": "plate", "version": 1, "units": {"length": "mm", "force": "N"}, "analysis": "plane stress", "p": [4, 5],
+                 "materials": {"m": {"E": 7e4, "nu": 0.3}},
+                 "geometry": {"grid": {"x": [10 * i for i in range(N + 1)], "y": [0, 10], "thickness": 2}},
+                 "holes": [{"id": str(i), "center": [10 * i + 5, 5], "radius": 2, "spring": spring} for i in range(N)]}
+        if fixed:
+            scene["supports"] = [{"on": fixed, "fix": ["x", "y"]}]
+        else:
+            scene["external"] = [{"id": "P", "on": free, "direction": "x", "kind": "rigid"}, {"id": "T", "on": "top", "direction": "y", "kind": "traction"}]
+        matrices(folder, scene, name)
+
+
+def joint(cases=None, law=None, **more):
+    fasteners = [{"id": f"bolt {i}", "between": [f"upper:{i}", f"lower:{i}"], "law": "bolt"} for i in range(N)]
+    made = {"format": "joint", "version": 1, "name": "lap", "plates": {name: f"{name}.h5" for name in ("upper", "lower")},
+            "laws": {"bolt": law or {"type": "linear", "k": 3e4}}, "fasteners": fasteners}
+    return made | ({"cases": cases} if cases else {}) | more
+
+
+def run(folder, scene, *words, output="out.h5", status=0):
+    (folder / "joint.json").write_text(json.dumps(scene))
+    done = subprocess.run([PROGRAMS / "stage3_nonlinear", "joint.json", "-o", output, *words], cwd=folder, capture_output=True, text=True)
+    assert done.returncode == status, (done.stdout, done.stderr)
+    return done
+
+
+def loads(P, T=0.0):
+    return [{"external": "upper:P", "force": P}, {"external": "upper:T", "force": T}]
+
+
+def tables(file):
+    """Every table of a RESULT.h5 with a row for each increment, by path."""
+    steps, found = len(file["load_factor"]), {}
+    file.visititems(lambda name, item: found.update({name: item[:]}) if isinstance(item, h5py.Dataset) and item.dtype == float and item.ndim > 1 and len(item) == steps
+                    and "stiffness" not in name else None)
+    return found
+
+
+def against_single_runs(folder):
+    """A hundred cases of a linear joint and of one with gaps: rows, envelope and governing cases are those of a hundred runs."""
+    random = np.random.default_rng(3)
+    for kind, more, n in (("linear", {}, 100), ("with contact", {"gap": 0.01, "friction": 0.1}, 12)):
+        sheets(folder, contact=bool(more))
+        cases = [{"name": f"case {i}", "loads": loads(*random.uniform(-5000, 5000, 2)), "increments": int(random.integers(1, 4))} for i in range(n)]
+        scene = joint(cases)
+        for fastener in scene["fasteners"]:
+            fastener |= more
+        run(folder, scene, "--csv", "all.csv", "--envelope", "envelope.csv")
+        with h5py.File(folder / "out.h5") as file:
+            rows, of, envelope = tables(file), file["case/of"][:], file["envelope"]
+            assert list(file["case/name"].asstr()) == [case["name"] for case in cases]
+            largest = {quantity: [envelope[f"{quantity}/{each}"][:] for each in ("largest", "largest_at", "smallest", "smallest_at")]
+                       for quantity in envelope["quantity"].asstr()[:]}
+        worst = 0
+        for i in random.permutation(n)[:12]:
+            single = {key: value for key, value in scene.items() if key != "cases"} | {key: cases[i][key] for key in ("loads", "increments")}
+            run(folder, single, output="one.h5")
+            with h5py.File(folder / "one.h5") as file:
+                for path, table in tables(file).items():
+                    worst = max(worst, np.abs(rows[path][of == i] - table).max(initial=0) / max(np.abs(table).max(initial=0), 1e-9))
+        near(f"{kind}: rows of a case against its own run", worst, 0, 1e-7, absolute=True)
+        for quantity, path, of_column in (("transferred_first", "transferred", lambda t: t[:, :, 0]), ("displacement", "plates/upper/De", lambda t: t),
+                                          ("delta", "delta", lambda t: t)):
+            table = of_column(rows[path])
+            assert np.array_equal(largest[quantity][0], table.max(axis=0)) and np.array_equal(largest[quantity][1], table.argmax(axis=0)), quantity
+            assert np.array_equal(largest[quantity][2], table.min(axis=0)) and np.array_equal(largest[quantity][3], table.argmin(axis=0)), quantity
+        holes = [row for plate in ("lower", "upper") for row in rows[f"plates/{plate}/rim/peak_hoop"].T]
+        assert np.array_equal(largest["peak_hoop"][0], np.max(holes, axis=1))
+        lines = list(csv.DictReader(open(folder / "all.csv")))
+        assert len(lines) == N * len(of) and all(line["joint"] == "lap" for line in lines)
+        assert [line["case"] for line in lines[::N]] == [f"case {i}" for i in of]
+        named = {(line[1], line[2]): line for line in list(csv.reader(open(folder / "envelope.csv")))[1:]}
+        at = largest["transferred_first"][1][0]
+        line = named["transferred_first", "bolt 0"]
+        assert (float(line[4]), line[5]) == (largest["transferred_first"][0][0], f"case {of[at]}") and int(line[6]) == 1 + np.sum(of[:at] == of[at]), line
+        backwards = run(folder, scene | {"cases": cases[::-1]})
+        assert f'of case "case {of[at]}"' in backwards.stdout
+        with h5py.File(folder / "out.h5") as file:
+            turned = {quantity: file[f"envelope/{quantity}/largest"][:] for quantity in largest}
+        near(f"{kind}: envelope of the cases in reverse order", max(np.abs(turned[q] - largest[q][0]).max() / max(np.abs(largest[q][0]).max(), 1e-9) for q in largest),
+             0, 1e-7, absolute=True)
+
+
+def superposition(folder):
+    sheets(folder)
+    run(folder, joint([{"name": "P", "loads": loads(1000)}, {"name": "T", "loads": loads(0, 500)}, {"name": "both", "loads": loads(-2000, 250)},
+                       {"name": "after", "after": "P", "loads": loads(-3000, 250)}]))
+    with h5py.File(folder / "out.h5") as file:
+        for path, table in tables(file).items():
+            if path.split("/")[-1] in ("F", "transferred", "D", "De", "Pe", "F_vector", "bearing_load") and table.size:
+                signed = table if path not in ("F", "transferred") else file["F_vector"][:]
+                scale = np.abs(signed).max()
+                near(f"{path}: P and T superposed", np.abs(-2 * signed[0] + 0.5 * signed[1] - signed[2]).max() / scale, 0, 1e-12, absolute=True)
+                near(f"{path}: one case after another", np.abs(signed[3] - signed[2]).max() / scale, 0, 1e-12, absolute=True)
+
+
+def one_after_another(folder):
+    """A joint is assembled with interference, loaded, and loaded further: the state is that of all loads at once, which has no memory yet."""
+    sheets(folder, contact=True)
+    scene = joint([{"name": "pull more", "after": "pull", "loads": loads(2000, 300), "increments": 2}, {"name": "assembly", "loads": []},
+                   {"name": "pull", "after": "assembly", "loads": loads(1000)}])
+    for fastener in scene["fasteners"]:
+        fastener |= {"gap": -0.005}
+    run(folder, scene)
+    with h5py.File(folder / "out.h5") as file:
+        of, found, pressure = file["case/of"][:], file["F_vector"][:], file["plates/upper/contact/peak_pressure"][:]
+        assert list(of) == [0, 0, 1, 2] and pressure[2].min() > 50 and np.abs(found[2]).max() < 0.2 * np.abs(found[3]).max(), (of, found)
+    run(folder, {key: value for key, value in scene.items() if key != "cases"} | {"loads": loads(3000, 300)})
+    with h5py.File(folder / "out.h5") as file:
+        near("assembly, pull and pull more: forces", np.abs(found[1] - file["F_vector"][-1]).max() / 3000, 0, 1e-8, absolute=True)
+    done = run(folder, scene, "--case", "pull more")
+    assert "increment 2 of 2: load factor 1" in done.stdout and done.stdout.count("increment 1 of 2") == 1
+
+
+def failures(folder):
+    sheets(folder)
+    weak = {"type": "bilinear", "k": 3e4, "F_yield": 100, "k_yield": 0}
+    scene = joint([{"name": "small", "loads": loads(200)}, {"name": "large", "loads": loads(1000), "increments": [0.1, 0.2, 1]},
+                   {"name": "larger", "after": "large", "loads": loads(100)}], law=weak)
+    done = run(folder, scene, status=4)
+    assert 'case "large": limit load reached' in done.stderr and 'case "larger" comes after "large", which was not solved' in done.stderr \
+        and "(2 of 3 cases were not solved)" in done.stderr, done.stderr
+    with h5py.File(folder / "out.h5") as file:
+        assert list(file["case/of"][:]) == [0, 1, 1] and file.attrs["complete"] == 0
+    good = {"name": "a", "loads": loads(100)}
+    moved = [{"external": "upper:P", "displacement": 0.1}]
+    for cases, words, message in (
+            ([good, good], [], '/cases/1/name: "a" stands twice; allowed: each name once'),
+            ([good | {"after": "b"}], [], '/cases/0/after: "b" is no case; allowed: a'),
+            ([good | {"after": "b"}, {"name": "b", "loads": [], "after": "a"}], [], '/cases/0/after: "a" comes after itself'),
+            ([good, {"name": "b", "after": "a", "loads": moved}], [], '/cases/1/loads: gives displacements of other externals than "a"'),
+            ([good], ["--case", "c"], '--case: "c"; allowed: a'),
+            ([good, good | {"name": "b"}], ["--sensitivities"], "--sensitivities: given for 2 cases; allowed: together with --case NAME"),
+            ([good | {"loads": loads(1)[:1] * 2}], [], '"upper:P" is loaded already')):
+        done = run(folder, joint(cases), *words, status=2)
+        assert message in done.stderr, (message, done.stderr)
+    done = run(folder, joint([good], loads=loads(1)), status=2)
+    assert '/loads: given together with "cases"; allowed: one of them' in done.stderr, done.stderr
+    done = run(folder, joint(loads=loads(1)), "--envelope", "x.csv", status=2)
+    assert "--envelope: given for a joint without cases" in done.stderr, done.stderr
+    run(folder, joint([good, {"name": "moved", "loads": moved}]))  # which needs another condensed joint
+    with h5py.File(folder / "out.h5") as file:
+        near("a given displacement after a given force", file["plates/upper/De"][1, 0], 0.1, 1e-12)
+
+
+def studies(folder):
+    """The numbers of a sample are the largest of all cases' runs; a study can name cases, and vary their loads."""
+    sheets(folder, contact=True)
+    scene = joint([{"name": "pull", "loads": loads(1000)}, {"name": "push", "loads": loads(-1500, 200)}, {"name": "on top", "after": "pull", "loads": loads(500, 100)}])
+    variables = [{"name": "gap", "at": "/fasteners/*/gap", "each": True, "distribution": {"type": "uniform", "from": 0, "to": 0.02}},
+                 {"name": "load", "at": "/cases/1/loads/0/force", "use": "factor", "distribution": {"type": "uniform", "from": 0.5, "to": 1.5}}]
+    for chosen in (None, ["on top"], ["pull", "push"]):
+        study = {"format": "study", "version": 1, "samples": 6, "seed": 2, "variables": variables, "outputs": ["peaks", "displacements"]}
+        (folder / "study.json").write_text(json.dumps(study | ({"cases": chosen} if chosen else {})))
+        run(folder, scene, "--study", "study.json", output="study.h5")
+        run(folder, scene, "--study", "study.json", "--sample", "4", output="sample.json")
+        run(folder, json.loads((folder / "sample.json").read_text()))
+        with h5py.File(folder / "study.h5") as made, h5py.File(folder / "out.h5") as one:
+            keep = np.isin(one["case/name"].asstr()[:][one["case/of"][:]], chosen or ["pull", "push", "on top"])
+            moved = one["plates/upper/De"][:][keep, 0]
+            for name, found, truth in (("force", made["samples/force"][4], np.abs(one["transferred"][:, :, 0])[keep].max(axis=0)),
+                                       ("peak", made["samples/peak"][4][-N:], one["plates/upper/rim/peak_hoop"][:][keep].max(axis=0)),
+                                       ("displacement", made["samples/displacement"][4], moved[[np.abs(moved).argmax()]])):
+                near(f"study of {chosen or 'all cases'}: {name}", np.abs(found - truth).max() / np.abs(truth).max(), 0, 1e-7, absolute=True)
+    (folder / "study.json").write_text(json.dumps(study | {"cases": ["x"]}))
+    done = run(folder, scene, "--study", "study.json", output="study.h5", status=2)
+    assert 'study.json: /cases: "x" is no case of the joint; allowed: pull, push, on top' in done.stderr, done.stderr
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        for each in (against_single_runs, superposition, one_after_another, failures, studies):
+            each(Path(name))
+    end_if_missed()
+
+
+if __name__ == "__main__":
+    main()
