@@ -20,6 +20,7 @@ const fastjoint::program::Command command{
         {"--case", "NAME", "solve one of the load cases; default: all"},
         {"--envelope", "FILE",
          "also write a CSV of the largest and smallest value of every quantity over all cases, and where they are"},
+        {"--margins", "FILE", "also write a CSV of the margins of all checks"},
         {"--sensitivities", "",
          "also write how the forces, and at the last increment the peaks, change with every load, clearance, gap, "
          "number of a\n"

@@ -19,6 +19,7 @@
 #include "stage3_nonlinear/output/case_warnings.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/joined_result.hpp"
+#include "stage3_nonlinear/output/margins.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
@@ -30,7 +31,7 @@ constexpr const char* program_name = "stage3_nonlinear";
 
 using program::check_spare;
 
-constexpr std::array table_options{"--csv", "--envelope"};
+constexpr std::array table_options{"--csv", "--envelope", "--margins"};
 
 /// Refuses tables that would overwrite another file.
 void check_tables(const program::Arguments& arguments) {
@@ -41,7 +42,10 @@ void check_tables(const program::Arguments& arguments) {
     check_spare(option, table, arguments.timings, "the file of --timings");
     if (!table.empty()) h5::check_can_write(table);
   }
-  check_spare("--envelope", arguments.text("--envelope"), arguments.text("--csv"), "the file of --csv");
+  for (std::size_t i = 0; i < table_options.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      check_spare(table_options[i], arguments.text(table_options[i]), arguments.text(table_options[k]),
+                  fmt::format("the file of {}", table_options[k]));
 }
 
 /// Refuses output files that would overwrite an input file.
@@ -49,7 +53,8 @@ void check_results_spare(const program::Arguments& arguments, const JointScene& 
   const auto check = [&](const std::string& input) {
     for (const auto& [option, path] :
          {std::pair("-o", arguments.output), std::pair("--csv", arguments.text("--csv")),
-          std::pair("--envelope", arguments.text("--envelope")), std::pair("--timings", arguments.timings)})
+          std::pair("--envelope", arguments.text("--envelope")), std::pair("--margins", arguments.text("--margins")),
+          std::pair("--timings", arguments.timings)})
       check_spare(option, path, input, fmt::format("a file that {} reads", arguments.input));
   };
   for (const auto& plate : scene.plates) check(plate.file);
@@ -76,6 +81,9 @@ std::vector<std::size_t> chosen_cases(const program::Arguments& arguments, const
   if (arguments.flag("--envelope") && names.front().empty())
     throw InputError(
         fmt::format("--envelope: given for a joint without cases; allowed: with \"cases\" in {}", scene.file));
+  if (arguments.flag("--margins") && scene.checks.empty())
+    throw InputError(
+        fmt::format("--margins: given for a joint without checks; allowed: with \"margins\" in {}", scene.file));
   return chosen;
 }
 
@@ -192,8 +200,8 @@ void check_solved(const std::vector<std::string>& failures, std::size_t n_cases)
 
 void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
   if (arguments.flag("--study")) {
-    for (const char* option :
-         {"--csv", "--envelope", "--case", "--sensitivities", "--rim-stresses", "--all-stresses", "--verbose"})
+    for (const char* option : {"--csv", "--envelope", "--margins", "--case", "--sensitivities", "--rim-stresses",
+                               "--all-stresses", "--verbose"})
       if (arguments.flag(option))
         throw InputError(fmt::format("{}: given together with --study; allowed: one of them", option));
     return run_study(arguments, out, log, timings);
@@ -232,11 +240,16 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   const JointModel& joint = cases.joint();
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
+  if (!scene.checks.empty()) {
+    result.margins = margins(scene, joint, result);
+    warn(log, edge_warnings(scene, result.margins));
+  }
   timings.phase("write");
   formats::write(arguments.output, result);
   if (arguments.flag("--csv")) h5::write_whole_file(arguments.text("--csv"), csv(joint, result));
   if (arguments.flag("--envelope")) h5::write_whole_file(arguments.text("--envelope"), envelope_csv(result));
-  if (!arguments.quiet) out << (chosen.size() == 1 ? text : case_summary(scene, joint, result));
+  if (arguments.flag("--margins")) h5::write_whole_file(arguments.text("--margins"), margins_csv(result));
+  if (!arguments.quiet) out << (chosen.size() == 1 ? text : case_summary(scene, joint, result)) << margin_lines(result);
   check_solved(failures, chosen.size());
 }
 

@@ -89,6 +89,16 @@ template void contact_datasets(h5::Writer& file, const std::vector<ContactRim>& 
 template void contact_datasets(h5::Reader& file, std::vector<ContactRim>& a, const Units& units,
                                const std::string& group);
 
+template <class File, class AnyBorder>
+void border_datasets(File& file, AnyBorder& a, const Units& units, const std::string& group) {
+  file(group + "border/free", a.is_free, {h5::any}, "1",
+       "pieces of the sheet's outline: 1 for an edge without supports and externals, else 0",
+       h5::integers(0, 1).or_else(0));
+  const Eigen::Index k = a.is_free.size();
+  file(group + "border/ends", a.ends, {k, 4}, unit(units, 1, 0), "x and y of both ends of each piece, arcs as chords",
+       h5::or_else(0));
+}
+
 template <class File, class Waves>
 void wave_datasets(File& file, Waves& a, const Units& units) {
   using h5::Column;
@@ -127,6 +137,8 @@ void wave_datasets(File& file, Waves& a, const Units& units) {
   if constexpr (File::reads)
     for (std::size_t i = 0; i < owner.size(); ++i) a[owner[i]].acts.push_back(arcs[i]);
 }
+template void border_datasets(h5::Writer& file, const Border& a, const Units& units, const std::string& group);
+template void border_datasets(h5::Reader& file, Border& a, const Units& units, const std::string& group);
 template void wave_datasets(h5::Writer& file, const std::vector<WaveRim>& a, const Units& units);
 template void wave_datasets(h5::Reader& file, std::vector<WaveRim>& a, const Units& units);
 

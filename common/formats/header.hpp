@@ -63,6 +63,12 @@ struct WaveRim {
   return waves;
 }
 
+/// The outline of a sheet, in straight pieces.
+struct Border {
+  Eigen::MatrixXd ends = Eigen::MatrixXd(0, 4);  ///< (k, 4) x and y of both ends of each piece, length
+  Eigen::VectorXi is_free{};                     ///< (k) 1 for an edge without supports and loads, else 0
+};
+
 /// A plate with its degrees and unit cases, common to PLATE.h5 and MATRICES.h5: n_p degrees, e rigid externals, m discs
 /// (hole x direction), k loaded waves (rim in contact; pressures, then shears), h friction cases (hole, direction,
 /// bearing + then -) of other holes, q tractions.
@@ -79,6 +85,7 @@ struct UnitCases {
   std::vector<std::string> traction_hole{};   ///< (q) hole under cosine pressure, "" for an edge
   std::vector<ContactRim> contact{};          ///< in the order of the holes
   std::vector<WaveRim> waves{};               ///< rims of `contact`, then others in the order of the holes
+  Border border{};                            ///< none in a file before these had one
   std::vector<std::string> friction_hole;     ///< (h)
   std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y"
 
@@ -116,6 +123,10 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
 /// The datasets of UnitCases::waves.
 template <class File, class Waves>
 void wave_datasets(File& file, Waves& a, const Units& units);
+
+/// The datasets of a Border, in a group (its name ends with "/") or in the root.
+template <class File, class AnyBorder>
+void border_datasets(File& file, AnyBorder& a, const Units& units, const std::string& group = "");
 
 /// Number of degrees, the highest ones, that include waves without tractions and section forces. Their difference
 /// estimates errors.

@@ -26,6 +26,8 @@ constexpr auto quantities = std::to_array<RimQuantity>({
     {"peak_error", &V::peak_error, stress, "estimated error of the largest hoop stress", false, true},
     {"gross_concentration", &V::gross_concentration, ratio, "peak over the stress of the gross section", true},
     {"net_concentration", &V::net_concentration, ratio, "peak over the stress of the net section", true},
+    {"net_stress", &V::net_stress, stress,
+     "mean stress of the net section next to the hole that carries more, tension positive", true},
     {"against_slip", &V::against_slip, angle,
      "part of the contact on which friction acts against the slip that it assumes"},
 });
@@ -35,6 +37,8 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
   file(group + "hole", a.hole, {any}, "1", "holes, open ones included");
   const Eigen::Index r = a.hole.size();
   file(group + "sections", a.sections, {r}, "1", "number of sections across x next to each hole");
+  file(group + "center", a.center, {r, 2}, unit(units, 1, 0), "x and y of each hole's centre", h5::or_else(0));
+  file(group + "radius", a.radius, {r}, unit(units, 1, 0), "radius of each hole", h5::or_else(0));
   for (const auto& each : quantities) {
     const auto row = [&](auto& holes) { return Column{holes, each.value}; };
     file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
@@ -132,6 +136,7 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
        traction_sides());
   file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
   rim_datasets(file, group + "rim/", a.rims, steps, units);
+  border_datasets(file, a.border, units, group);
   crack_datasets(file, group + "crack/", a.cracks, steps, units);
 }
 
@@ -198,6 +203,24 @@ void envelope_datasets(File& file, Tables& all, Eigen::Index steps) {
   }
 }
 
+template <class File, class Table>
+void margin_datasets(File& file, Table& a, Eigen::Index steps) {
+  file("margin/check", a.check, {any}, "1", "check of each margin, the smallest margin first", h5::or_else(""));
+  const Eigen::Index m = std::ssize(a.check);
+  file("margin/of", a.of, {m}, "1", "shear plane, or plate:hole", h5::or_else(""));
+  file("margin/margin", a.margin, {m}, "1", "allowable / (FS FF applied) - 1; infinite where nothing is applied",
+       h5::infinite_too);
+  file("margin/allowable", a.allowable, {m}, "1", "allowable load or stress", h5::infinite_too);
+  file("margin/applied", a.applied, {m}, "1", "applied load or stress", h5::infinite_too);
+  file("margin/edge_ratio", a.edge_ratio, {m}, "1",
+       "distance of the hole's centre from the edge along its load over its diameter; infinite if it plays no part",
+       h5::infinite_too);
+  file("margin/at", a.at, {m}, "1", "row of the increment that governs", h5::integers(0, int(steps) - 1));
+  file("margin/unit", a.unit, {m}, "1", "unit of the allowable and of what is applied", h5::or_else(""));
+  file("margin/formula", a.formula, {m}, "1", "formula of the allowable", h5::or_else(""));
+  file("margin/inputs", a.inputs, {m}, "1", "its numbers and the factors", h5::or_else(""));
+}
+
 template <class File, class Result>
 void datasets(File& file, Result& a) {
   header(file, a.header);
@@ -243,6 +266,7 @@ void datasets(File& file, Result& a) {
        "digest of the PLATE.h5 that the matrices of each plate were extracted from", h5::or_else(""));
   for (auto& plate : a.plates) plate_datasets(file, plate, steps, units);
   envelope_datasets(file, a.envelope, steps);
+  if (!a.margins.check.empty() || File::reads) margin_datasets(file, a.margins, steps);
   if (auto* sensitivity = file.part("sensitivity", a.sensitivity))
     sensitivity_datasets(file, *sensitivity, steps, n, units);
 }

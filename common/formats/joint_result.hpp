@@ -18,6 +18,7 @@ struct RimValues {
   double peak_hoop = 0, peak_angle = 0, peak_error = 0;
   double against_slip = 0;                                ///< in contact with friction
   double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
+  double net_stress = 0;                                  ///< of that section, tension positive
 };
 
 enum class Dimension { force, stress, angle, ratio };
@@ -46,6 +47,8 @@ struct RimStresses {
 struct RimHistory {
   std::vector<std::string> hole;               ///< (r); empty if the plate's matrices have no stresses at this degree
   Eigen::VectorXi sections;                    ///< (r) number of sections across x next to the hole
+  Eigen::MatrixXd center{};                    ///< (r, 2) length
+  Eigen::VectorXd radius{};                    ///< (r) length
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
   std::optional<RimStresses> stresses{};       ///< if requested
 };
@@ -95,6 +98,7 @@ struct PlateHistory {
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
   RimHistory rims;
   CrackHistory cracks{};
+  Border border{};
   std::optional<DiscForces> disc_forces{};        ///< missing in files before version 1.5
   std::string matrices_digest{}, plate_digest{};  ///< digests of its MATRICES.h5 and PLATE.h5; empty if unknown
 };
@@ -133,6 +137,14 @@ struct EnvelopeTable {
   Eigen::VectorXi largest_at{}, smallest_at{};  ///< (k) increments where they are, among all, from 0
 };
 
+/// Margins of the checks of a joint, the smallest first.
+struct MarginTable {
+  std::vector<std::string> check{}, of{}, formula{}, inputs{}, unit{};  ///< (m)
+  Eigen::VectorXd margin{}, allowable{}, applied{};                     ///< (m)
+  Eigen::VectorXd edge_ratio{};                                         ///< (m) e/D; infinite if it plays no part
+  Eigen::VectorXi at{};                                                 ///< (m) increment that governs, among all
+};
+
 /// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.
 struct JointResult {
   Header header;
@@ -158,6 +170,7 @@ struct JointResult {
   Eigen::MatrixXd load_stiffness;          ///< (steps, s) tangent dP/du as all loads grow together, force / length
   std::vector<PlateHistory> plates;
   std::vector<EnvelopeTable> envelope{};          ///< of a joint with "cases"
+  MarginTable margins{};                          ///< of a joint with "margins"
   std::optional<SensitivityHistory> sensitivity;  ///< if requested
 };
 

@@ -16,7 +16,7 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 9;
+constexpr int minor = 10;
 constexpr const char* per_case = "per unit of the case";
 
 template <class File, class Matrices>
@@ -41,6 +41,7 @@ void name_datasets(File& file, Matrices& a) {
        "open hole that each traction presses on, empty for an edge", or_else(""));
   contact_datasets(file, a.contact, a.header.units);
   wave_datasets(file, a.waves, a.header.units);
+  border_datasets(file, a.border, a.header.units);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));

@@ -18,7 +18,7 @@ using h5::Column;
 
 constexpr const char* format = "plate-solution";
 constexpr int major = 5;
-constexpr int minor = 1;
+constexpr int minor = 2;
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
@@ -90,6 +90,7 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
        "rad", "start and end of each arc on which springs act, counter-clockwise from x");
   contact_datasets(file, a.contact, a.header.units);
   wave_datasets(file, a.waves, a.header.units);
+  border_datasets(file, a.border, a.header.units);
   if constexpr (File::reads)
     for (const auto& [hole, range] : arcs) a.hole_spring[hole].arcs.push_back(range);
 }

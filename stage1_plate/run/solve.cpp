@@ -15,6 +15,7 @@
 #include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/progress.hpp"
+#include "stage1_plate/mesh/outline.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/problem/wave_orders.hpp"
 
@@ -25,6 +26,15 @@ namespace {
 Eigen::VectorXd probe_coefficients(Eigen::Index n_cases) {
   const auto n = double(n_cases);
   return Eigen::VectorXd::LinSpaced(n_cases, 1, n) / n;
+}
+
+formats::Border border(const std::vector<OutlinePiece>& outline) {
+  formats::Border result{Eigen::MatrixXd(std::ssize(outline), 4), Eigen::VectorXi(std::ssize(outline))};
+  for (Eigen::Index i = 0; i < std::ssize(outline); ++i) {
+    result.ends.row(i) << outline[i].from.transpose(), outline[i].to.transpose();
+    result.is_free[i] = outline[i].is_free ? 1 : 0;
+  }
+  return result;
 }
 
 }  // namespace
@@ -58,6 +68,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.hole_rim = plate.rims;
   a.sections = plate.sections;
   a.tips = plate.tips;
+  a.border = border(outline_of(scene, plate));
   std::set<std::string> supported;
   for (const auto& support : scene.supports)
     for (const rim::Axis axis : support.fix) supported.insert(rim::name_of(axis));

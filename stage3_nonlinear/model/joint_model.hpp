@@ -55,8 +55,9 @@ struct PlateModel {
   std::vector<int> unsupported_axes;                 ///< axes along which no support of stage 1 reacts
   PlateDegrees degrees;                              ///< their sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
-  formats::PlateStresses stresses;        ///< as the file has them
-  std::optional<int> stress_level;        ///< those of the joint's degree, if there are any
+  formats::PlateStresses stresses;  ///< as the file has them
+  std::optional<int> stress_level;  ///< those of the joint's degree, if there are any
+  formats::Border border{};
   formats::CrackRows cracks{};            ///< rows of the joint's degree alone
   std::vector<formats::WaveRim> waves{};  ///< rims with waves of the elements: those of contact, then others
   std::vector<std::shared_ptr<const ShortWaves>> short_waves{};    ///< (g) the waves of higher order, in closed form

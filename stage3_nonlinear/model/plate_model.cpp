@@ -332,6 +332,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
     plate.S_error.setConstant(std::numeric_limits<double>::infinity());
   plate.stresses = std::move(a.stresses);
   plate.cracks = std::move(a.cracks);
+  plate.border = std::move(a.border);
   for (auto* rows : {&plate.cracks.K_I, &plate.cracks.K_II})
     if (!rows->empty()) *rows = {std::move((*rows)[level])};
   if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) {

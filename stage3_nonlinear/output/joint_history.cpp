@@ -98,6 +98,7 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
   history.traction = rows(&PlateState::traction, std::ssize(plate.tractions));
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
+  history.border = plate.border;
   history.cracks = crack_history(plate.cracks, states, at);
   if (plate.stress_level) history.rims = rims_of(plate.stresses);
   if (plate.stress_level && with_rim_stresses) history.rims.stresses = rim_stresses(history.rims.hole, states, at);

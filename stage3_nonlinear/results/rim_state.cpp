@@ -207,6 +207,7 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
                            ? std::max(std::abs(bypass(forces.col(1)) - state.bypass_load), energy_error * largest)
                            : unknown;
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
+  state.net_stress = force[loaded] / a.net_area[loaded];
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
   // Interference makes stresses without resultants, so that these are errors only.
@@ -278,7 +279,7 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
 }
 
 formats::RimHistory rims_of(const formats::PlateStresses& a) {
-  formats::RimHistory rims{a.rim_hole, Eigen::VectorXi(std::ssize(a.rim_hole)), {}};
+  formats::RimHistory rims{a.rim_hole, Eigen::VectorXi(std::ssize(a.rim_hole)), a.rim_center, a.rim_radius, {}, {}};
   for (Index i = 0; i < rims.sections.size(); ++i) rims.sections[i] = n_sections(a, rims.hole[i]);
   return rims;
 }

@@ -264,7 +264,7 @@ JointScene read_joint_scene(const input::Document& document) {
   const Value root(document);
   input::check_format(root, "joint");
   root.only({"$schema", "format", "version", "name", "units", "plates", "laws", "fasteners", "loads", "increments",
-             "cases", "initial", "solver"});
+             "cases", "initial", "solver", "margins"});
   JointScene scene;
   scene.file = document.file;
   if (const auto name = root.find("name")) scene.name = name->text();
@@ -275,6 +275,7 @@ JointScene read_joint_scene(const input::Document& document) {
   read_fasteners(root.at("fasteners"), scene);
   scene.warnings = law_doubts(root.at("laws"), scene);
   scene.cases = read_cases(root, scene);
+  if (const auto margins = root.find("margins")) scene.checks = read_margins(*margins);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   return scene;

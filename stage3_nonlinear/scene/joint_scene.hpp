@@ -13,6 +13,7 @@
 #include "common/program/warning.hpp"
 #include "common/units.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
+#include "stage3_nonlinear/scene/margin_scene.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -114,6 +115,7 @@ struct JointScene {
   std::map<std::string, LawScene> laws;
   std::vector<FastenerScene> fasteners;
   std::vector<CaseScene> cases;
+  std::vector<CheckScene> checks{};  ///< of "margins"
   InitialScene initial;
   SolverScene solver;
   std::vector<program::Warning> warnings;

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage1_plate/mesh/outline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "common/pfem/element.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using Point = Eigen::Vector2d;
+
+using Piece = OutlinePiece;
+using Places = std::set<std::pair<int, int>>;  ///< element, local edge
+
+Places sides_with(const std::map<std::string, std::vector<pfem::Side>>& sets, const std::set<std::string>& names) {
+  Places places;
+  for (const auto& name : names)
+    if (const auto found = sets.find(name); found != sets.end())
+      for (const auto& side : found->second) places.insert({side.element, side.local_edge});
+  return places;
+}
+
+/// Ends of the chords of a side.
+std::vector<Point> points_of(const PlateMesh& plate, int element, int local_edge) {
+  constexpr int chords = 8;
+  const bool is_arc = plate.edges.arc[plate.edges.of_element(local_edge, element)] >= 0;
+  const pfem::ElementMap map(plate.mesh, plate.edges, element);
+  std::vector<Point> points;
+  for (int i = 0; i <= (is_arc ? chords : 1); ++i) {
+    const double s = is_arc ? -1 + 2.0 * i / chords : -1 + 2.0 * i;
+    constexpr double xi[] = {0, 1, 0, -1}, eta[] = {-1, 0, 1, 0};  // of local edges 0 to 3: bottom, right, top, left
+    points.push_back(local_edge % 2 == 0 ? map.point(s, eta[local_edge]) : map.point(xi[local_edge], s));
+  }
+  return points;
+}
+
+/// Joins pieces that go on straight.
+std::vector<Piece> joined(std::vector<Piece> pieces, double tolerance) {
+  const auto goes_on = [&](Piece& a, const Piece& b) {
+    if (a.is_free != b.is_free) return false;
+    for (const bool at_end : {true, false})
+      for (const bool its_start : {true, false}) {
+        const Point &meets = at_end ? a.to : a.from, &other = its_start ? b.from : b.to;
+        if ((meets - other).norm() > tolerance) continue;
+        const Point u = (a.to - a.from).normalized(), v = (b.to - b.from).normalized();
+        if (std::abs(u.x() * v.y() - u.y() * v.x()) > 1e-9) continue;
+        (at_end ? a.to : a.from) = its_start ? b.to : b.from;
+        return true;
+      }
+    return false;
+  };
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (std::size_t k = i + 1; k < pieces.size();) {
+      if (!goes_on(pieces[i], pieces[k])) {
+        ++k;
+        continue;
+      }
+      pieces.erase(pieces.begin() + std::ptrdiff_t(k));
+      k = i + 1;
+    }
+  return pieces;
+}
+
+}  // namespace
+
+std::vector<OutlinePiece> outline_of(const PlateScene& scene, const PlateMesh& plate) {
+  std::set<std::string> held_names;
+  for (const auto& support : scene.supports) held_names.insert(support.on);
+  for (const auto& external : scene.externals) held_names.insert(external.on);
+  const Places held = sides_with(plate.sets, held_names);
+  Places rims;
+  for (const auto& rim : plate.rims)
+    for (const auto& side : rim.sides) rims.insert({side.element, side.local_edge});
+  const double size = (plate.mesh.nodes.rowwise().maxCoeff() - plate.mesh.nodes.rowwise().minCoeff()).norm();
+  const double tolerance = 1e-9 * size;
+  std::vector<Piece> pieces;
+  for (int element = 0; element < plate.mesh.n_elements(); ++element)
+    for (int local = 0; local < 4; ++local) {
+      if (plate.edges.n_elements[plate.edges.of_element(local, element)] > 1 || rims.contains({element, local}))
+        continue;
+      const auto points = points_of(plate, element, local);
+      for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        pieces.push_back({points[i], points[i + 1], !held.contains({element, local})});
+    }
+  // The faces of a crack lie on each other.
+  std::vector<Piece> outer;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const Point middle = (pieces[i].from + pieces[i].to) / 2;
+    const bool is_face = std::ranges::any_of(pieces, [&](const Piece& other) {
+      return &other != &pieces[i] && ((other.from + other.to) / 2 - middle).norm() < tolerance;
+    });
+    if (!is_face) outer.push_back(pieces[i]);
+  }
+  return joined(std::move(outer), tolerance);
+}
+
+}  // namespace fastjoint::stage1

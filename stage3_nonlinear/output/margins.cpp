@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/output/margins.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+
+#include "common/count.hpp"
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/output/csv_field.hpp"
+#include "stage3_nonlinear/output/envelope.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using formats::JointResult;
+using formats::MarginTable;
+using Point = Eigen::Vector2d;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Applied load and allowable at one increment, with the numbers that the allowable follows from.
+struct Applied {
+  double applied = 0, allowable = infinite;
+  std::string inputs{};
+  double edge_ratio = infinite;
+};
+
+/// One margin: the worst increment of a check of one item.
+struct Row {
+  double margin = infinite;
+  Applied worst{};
+  Index at = 0;
+  std::string of{}, formula{}, unit{};
+  const CheckScene* check = nullptr;
+};
+
+/// A hole of a plate, by indices.
+struct HoleAt {
+  Index plate, rim;
+  std::string name;  ///< "plate:hole"
+};
+
+/// Distance from a point along a direction to the nearest free piece of a border; infinite if there is none.
+double distance_along(const formats::Border& border, const Point& from, const Point& direction) {
+  double nearest = infinite;
+  if (direction.norm() == 0) return nearest;
+  const Point along = direction.normalized();
+  constexpr double touch = 1e-9;
+  for (Index i = 0; i < border.is_free.size(); ++i) {
+    if (border.is_free[i] == 0) continue;
+    const Point a = border.ends.row(i).head<2>().transpose() - from;
+    const Point side = border.ends.row(i).tail<2>().transpose() - from - a;
+    const double area = along.x() * side.y() - along.y() * side.x();
+    if (std::abs(area) < touch * side.norm()) continue;
+    const double s = (a.x() * along.y() - a.y() * along.x()) / area, r = (a.x() * side.y() - a.y() * side.x()) / area;
+    if (s >= -touch && s <= 1 + touch && r > 0) nearest = std::min(nearest, r);
+  }
+  return nearest;
+}
+
+class Margins {
+ public:
+  Margins(const JointScene& scene, const JointModel& joint, const JointResult& result)
+      : scene_(scene), joint_(joint), a_(result) {}
+
+  std::vector<Row> run() {
+    for (const auto& check : scene_.checks) {
+      check_ = &check;
+      if (check.kind == CheckKind::fastener_shear)
+        of_fasteners();
+      else
+        of_holes();
+    }
+    std::ranges::stable_sort(rows_, {}, &Row::margin);
+    return std::move(rows_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& found, const std::string& allowed) const {
+    refuse(check_->where, found, allowed);
+  }
+
+  /// Adds the smallest margin of an item. @param at Applied(step).
+  template <class At>
+  void add(const std::string& of, const std::string& formula, const std::string& unit, At at) {
+    Row row{.of = of, .formula = formula, .unit = unit, .check = check_};
+    for (Index step = 0; step < a_.load_factor.size(); ++step) {
+      const Applied now = at(step);
+      const double margin = now.applied > 0
+                                ? now.allowable / (check_->safety_factor * check_->fitting_factor * now.applied) - 1
+                                : infinite;
+      if (step == 0 || margin < row.margin) row.margin = margin, row.worst = now, row.at = step;
+    }
+    if (a_.load_factor.size() > 0) rows_.push_back(std::move(row));
+  }
+
+  void of_fasteners() {
+    for (const auto& id : check_->of)
+      if (std::ranges::find(joint_.fasteners, id, &FastenerModel::id) == joint_.fasteners.end())
+        fail(fmt::format("fastener \"{}\" does not exist", id), "ids of fasteners");
+    for (Index j = 0; j < joint_.n_planes(); ++j) {
+      const ShearPlane& plane = joint_.planes[j];
+      const std::string& id = joint_.fasteners[plane.fastener].id;
+      if (!check_->of.empty() && std::ranges::find(check_->of, id) == check_->of.end()) continue;
+      const double d = check_->is_force ? 0 : diameter(plane);
+      const double value = check_->allowable.at(0);
+      const double allowable = check_->is_force ? value : value * std::numbers::pi * d * d / 4;
+      const std::string inputs =
+          check_->is_force ? fmt::format("P_su = {:g}", value) : fmt::format("F_su = {:g}, d = {:g}", value, d);
+      add(joint_.short_name(plane), check_->is_force ? "P_su" : "F_su pi d^2 / 4", unit(joint_.units, 0, 1),
+          [&](Index step) {
+            const auto both = a_.transferred.row(step).segment<2>(2 * j);
+            return Applied{both.cwiseAbs().maxCoeff(), allowable, inputs};
+          });
+    }
+  }
+
+  /// Diameter of a plane's fastener: of the check, of JOINT.json, or of the hole less its gap.
+  [[nodiscard]] double diameter(const ShearPlane& plane) const {
+    if (check_->diameter) return *check_->diameter;
+    const FastenerScene& fastener = scene_.fasteners[plane.fastener];
+    if (fastener.diameter) return *fastener.diameter;
+    const HoleModel& hole = joint_.first_hole(plane);
+    const PlateModel& plate = joint_.plates[hole.plate];
+    const int rim = index_of(plate.stresses.rim_hole, plate.hole_of(hole.disc));
+    if (rim == count_of(plate.stresses.rim_hole))
+      fail(fmt::format("the diameter of fastener \"{}\" is not known", fastener.id), "\"diameter\" in the check");
+    return 2 * (plate.stresses.rim_radius[rim] - hole.gap);
+  }
+
+  void of_holes() {
+    std::vector<HoleAt> holes;
+    std::vector<std::string> known;
+    for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
+      const PlateModel& plate = joint_.plates[i];
+      known.push_back(plate.name);
+      for (Index rim = 0; rim < std::ssize(a_.plates[i].rims.hole); ++rim) {
+        const std::string& hole = a_.plates[i].rims.hole[rim];
+        known.push_back(plate.name + ":" + hole);
+        const auto named = [&](const std::string& each) { return each == plate.name || each == known.back(); };
+        if (check_->of.empty() || std::ranges::any_of(check_->of, named)) holes.push_back({i, rim, known.back()});
+      }
+    }
+    for (const auto& each : check_->of)
+      if (index_of(known, each) == count_of(known))
+        fail(fmt::format("\"{}\" is no plate and no hole with stresses", each),
+             fmt::format("{}", fmt::join(known, ", ")));
+    if (holes.empty())
+      fail("no hole with stresses", "matrices of stage2_extract without --loads-only, at their highest degree");
+    for (const auto& hole : holes) of_hole(hole);
+  }
+
+  void of_hole(const HoleAt& hole) {
+    const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
+    const double d = 2 * s.rim_radius[hole.rim], t = s.rim_thickness[hole.rim],
+                 value = check_->polygon.empty() ? check_->allowable.at(infinite) : 0;
+    const std::string force = unit(joint_.units, 0, 1), stress = unit(joint_.units, -2, 1);
+    const auto at_rim = [&](Index step) -> const formats::RimValues& {
+      return a_.plates[hole.plate].rims.values[step][hole.rim];
+    };
+    const bool has_fastener =
+        index_of(a_.plates[hole.plate].disc_hole, s.rim_hole[hole.rim]) < count_of(a_.plates[hole.plate].disc_hole);
+    switch (check_->kind) {
+      case CheckKind::bearing:
+        if (has_fastener) add(hole.name, "F_br d t", force, [&](Index step) { return bearing(hole, step, d); });
+        break;
+      case CheckKind::shear_out:
+        if (has_fastener)
+          add(hole.name, "2 F_su t (e - d cos 40 / 2)", force, [&](Index step) { return shear_out(hole, step, d, t); });
+        break;
+      case CheckKind::tension:
+        if (a_.plates[hole.plate].rims.sections[hole.rim] > 0)
+          add(hole.name, "F_tu", stress, [&](Index step) {
+            return Applied{at_rim(step).net_stress, value, fmt::format("F_tu = {:g}", value)};
+          });
+        break;
+      case CheckKind::peak:
+        add(hole.name, "limit", stress, [&](Index step) {
+          return Applied{at_rim(step).peak_hoop, value, fmt::format("limit = {:g}", value)};
+        });
+        break;
+      case CheckKind::bearing_bypass:
+        if (a_.plates[hole.plate].rims.sections[hole.rim] > 0)
+          add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(hole, at_rim(step)); });
+        break;
+      default:
+        break;
+    }
+  }
+
+  /// Force of the fastener on the sheet, friction included, along x and y.
+  [[nodiscard]] Point force_on(const HoleAt& hole, Index step) const {
+    const formats::PlateHistory& plate = a_.plates[hole.plate];
+    Point force = Point::Zero();
+    for (Index m = 0; m < std::ssize(plate.disc_hole); ++m)
+      if (plate.disc_hole[m] == plate.rims.hole[hole.rim])
+        force[plate.disc_direction[m] == "x" ? 0 : 1] +=
+            plate.disc_forces->bearing(step, m) + plate.disc_forces->friction(step, m);
+    return force;
+  }
+
+  /// Projected area d t of bearing along a force, that of the part of the hole that the model has.
+  [[nodiscard]] double area(const HoleAt& hole, const Point& force) const {
+    const auto areas = joint_.plates[hole.plate].stresses.bearing_area.row(hole.rim);
+    return force.norm() > 0 ? areas.cwiseProduct(force.cwiseAbs().transpose() / force.norm()).norm() : areas.maxCoeff();
+  }
+
+  [[nodiscard]] double edge_distance(const HoleAt& hole, const Point& force) const {
+    if (check_->edge_distance) return *check_->edge_distance;
+    const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
+    if (joint_.plates[hole.plate].border.is_free.size() == 0)
+      fail(fmt::format("the edge distance of {} is not known, since its matrices have no border", hole.name),
+           "\"edge_distance\" in the check, or matrices of this version");
+    return distance_along(joint_.plates[hole.plate].border, s.rim_center.row(hole.rim).transpose(), force);
+  }
+
+  Applied bearing(const HoleAt& hole, Index step, double d) const {
+    const Point force = force_on(hole, step);
+    const bool needs_edge = !check_->allowable.edge_ratio.empty() || check_->edge_distance ||
+                            joint_.plates[hole.plate].border.is_free.size() > 0;
+    const double e = needs_edge ? edge_distance(hole, force) : infinite, value = check_->allowable.at(e / d),
+                 A = area(hole, force);
+    return {force.norm(), value * A, fmt::format("F_br = {:g}, d t = {:g}, e/D = {:.4g}", value, A, e / d), e / d};
+  }
+
+  Applied shear_out(const HoleAt& hole, Index step, double d, double t) const {
+    const double cos_40 = std::cos(40 * std::numbers::pi / 180);
+    const Point force = force_on(hole, step);
+    const double e = edge_distance(hole, force), value = check_->allowable.at(e / d);
+    // Half a hole on a line of symmetry has one of the two planes.
+    const double planes = 2 * area(hole, force) / (d * t);
+    return {force.norm(), planes * value * t * std::max(e - d / 2 * cos_40, 0.0),
+            fmt::format("F_su = {:g}, t = {:g}, e = {:.5g}, d = {:g}", value, t, e, d), e / d};
+  }
+
+  /// The polygon along the ray of the two stresses; both as lengths on that ray.
+  Applied bearing_bypass(const HoleAt& hole, const formats::RimValues& rim) const {
+    const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
+    double gross = 0;
+    for (int i = 0; i < count_of(s.section_hole); ++i)
+      if (s.section_hole[i] == s.rim_hole[hole.rim]) gross = std::max(gross, s.gross_area[i]);
+    const Point stress(rim.bypass_load / gross, rim.bearing_stress);
+    const double allowable = stress.norm() > 0 ? reach(stress.normalized()) : infinite;
+    return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y())};
+  }
+
+  /// Distance from the origin to the polygon along a direction; the largest if there are several.
+  [[nodiscard]] double reach(const Point& along) const {
+    double found = -1;
+    for (std::size_t i = 0; i < check_->polygon.size(); ++i) {
+      const auto& [x, y] = check_->polygon[i];
+      const auto& [u, v] = check_->polygon[(i + 1) % check_->polygon.size()];
+      const Point a(x, y), side(u - x, v - y);
+      const double area = along.x() * side.y() - along.y() * side.x();
+      if (area == 0) continue;
+      const double s = (a.x() * along.y() - a.y() * along.x()) / area, r = (a.x() * side.y() - a.y() * side.x()) / area;
+      if (s >= 0 && s <= 1 && r > 0) found = std::max(found, r);
+    }
+    if (found < 0)
+      fail("a polygon that does not go around the origin", "points around it: [bypass stress, bearing stress]");
+    return found;
+  }
+
+  const JointScene& scene_;
+  const JointModel& joint_;
+  const JointResult& a_;
+  const CheckScene* check_ = nullptr;
+  std::vector<Row> rows_;
+};
+
+}  // namespace
+
+MarginTable margins(const JointScene& scene, const JointModel& joint, const JointResult& result) {
+  const auto rows = Margins(scene, joint, result).run();
+  const Index n = std::ssize(rows);
+  MarginTable table;
+  for (VectorXd* each : {&table.margin, &table.allowable, &table.applied, &table.edge_ratio}) each->resize(n);
+  table.at.resize(n);
+  for (Index i = 0; i < n; ++i) {
+    const Row& row = rows[i];
+    table.check.push_back(row.check->name);
+    table.of.push_back(row.of);
+    table.formula.push_back(row.formula);
+    table.inputs.push_back(
+        fmt::format("{}, FS = {:g}, FF = {:g}", row.worst.inputs, row.check->safety_factor, row.check->fitting_factor));
+    table.unit.push_back(row.unit);
+    table.margin[i] = row.margin, table.allowable[i] = row.worst.allowable, table.applied[i] = row.worst.applied;
+    table.edge_ratio[i] = row.worst.edge_ratio;
+    table.at[i] = int(row.at);
+  }
+  return table;
+}
+
+std::vector<program::Warning> edge_warnings(const JointScene& scene, const MarginTable& table) {
+  constexpr double least = 1.5;
+  if (table.edge_ratio.size() == 0) return {};
+  Index worst = 0;
+  if (!(table.edge_ratio.minCoeff(&worst) < least)) return {};
+  const auto n = (table.edge_ratio.array() < least).count();
+  return {{"edge-distance-small",
+           fmt::format(
+               "{}: {} is {:.3g} diameters from the edge along its load{}: below {:g} allowables of bearing are not "
+               "published, and here those of the check fall linearly to 0 where the rim touches the edge",
+               scene.file, table.of[worst], table.edge_ratio[worst],
+               n > 1 ? fmt::format(" (the worst of {})", program::counted(n, "margin")) : "", least)}};
+}
+
+std::string margin_lines(const JointResult& result) {
+  constexpr Index most = 12;
+  const MarginTable& a = result.margins;
+  const Index n = std::ssize(a.check);
+  if (n == 0) return {};
+  std::string text = "smallest margins = allowable / (FS FF applied) - 1\n";
+  text += fmt::format("  {:<20} {:<24} {:>9} {:>12} {:>12}  in\n", "check", "of", "margin", "allowable", "applied");
+  for (Index i = 0; i < std::min(n, most); ++i)
+    text += fmt::format("  {:<20} {:<24} {:>9} {:>12.6g} {:>12.6g}  {}: {}; {}\n", program::one_line(a.check[i]),
+                        program::one_line(a.of[i]),
+                        std::isfinite(a.margin[i]) ? fmt::format("{:+.3f}", a.margin[i]) : "no load", a.allowable[i],
+                        a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
+  if (n > most) text += fmt::format("  ... and {} more, larger (RESULT.h5 and --margins have all)\n", n - most);
+  return text;
+}
+
+std::string margins_csv(const JointResult& result) {
+  const MarginTable& a = result.margins;
+  std::string text = "joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs\n";
+  for (Index i = 0; i < std::ssize(a.check); ++i)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(result.header.name), csv_field(a.check[i]),
+                        csv_field(a.of[i]), a.margin[i], a.allowable[i], a.applied[i], csv_field(a.unit[i]),
+                        csv_field(result.case_name[result.case_of[a.at[i]]]), increment_number(result, a.at[i]),
+                        csv_field(a.formula[i]), csv_field(a.inputs[i]));
+  return text;
+}
+
+}  // namespace fastjoint::stage3

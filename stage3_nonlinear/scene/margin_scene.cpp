@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/scene/margin_scene.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+namespace fastjoint::stage3 {
+namespace {
+
+using input::Value;
+
+/// The key of the allowable of each kind of check.
+constexpr std::array allowable_keys{"F_br", "F_su", "F_tu", "F_su", "polygon", "limit"};
+
+Allowable read_allowable(const Value& value) {
+  if (!value.is_array()) return {{}, {value.number(input::positive)}};
+  Allowable table;
+  for (const auto& point : value.items(2)) {
+    const auto pair = point.numbers(2, 2, input::positive);
+    if (!table.edge_ratio.empty() && !(pair[0] > table.edge_ratio.back()))
+      point.fail("an e/D that does not rise", "points [e/D, stress] with ascending e/D");
+    table.edge_ratio.push_back(pair[0]);
+    table.value.push_back(pair[1]);
+  }
+  return table;
+}
+
+std::vector<std::pair<double, double>> read_polygon(const Value& value) {
+  std::vector<std::pair<double, double>> points;
+  for (const auto& point : value.items(3)) {
+    const auto pair = point.numbers(2, 2, input::any_number);
+    points.emplace_back(pair[0], pair[1]);
+  }
+  return points;
+}
+
+/// Keys of a check besides those of all.
+std::vector<const char*> own_keys(CheckKind kind) {
+  switch (kind) {
+    case CheckKind::bearing:
+      return {"F_br", "edge_distance"};
+    case CheckKind::fastener_shear:
+      return {"F_su", "P_su", "diameter"};
+    case CheckKind::tension:
+      return {"F_tu"};
+    case CheckKind::shear_out:
+      return {"F_su", "edge_distance"};
+    case CheckKind::bearing_bypass:
+      return {"polygon"};
+    case CheckKind::peak:
+      return {"limit"};
+  }
+  return {};
+}
+
+void check_keys(const Value& value, CheckKind kind) {
+  std::set<std::string> allowed{"check", "name", "of", "safety_factor", "fitting_factor"};
+  for (const char* key : own_keys(kind)) allowed.insert(key);
+  for (const auto& [key, member] : value.members())
+    if (!allowed.contains(key))
+      member.fail("unknown key", fmt::format("{} of a check \"{}\"", fmt::join(allowed, ", "), check_names[int(kind)]));
+}
+
+double factor(const Value& value, const char* key, double otherwise) {
+  const auto given = value.find(key);
+  return given ? given->number(input::positive) : otherwise;
+}
+
+CheckScene read_check(const Value& value, double safety_factor, double fitting_factor) {
+  const std::string kind = value.at("check").choice(check_names);
+  CheckScene check;
+  check.kind = static_cast<CheckKind>(std::ranges::find(check_names, kind) - check_names.begin());
+  check_keys(value, check.kind);
+  check.where = fmt::format("{}: {}", value.file(), value.pointer());
+  const auto name = value.find("name"), of = value.find("of");
+  check.name = name ? name->text() : kind;
+  if (of)
+    for (const auto& item : of->items(1)) check.of.push_back(item.text());
+  check.safety_factor = factor(value, "safety_factor", safety_factor);
+  check.fitting_factor = factor(value, "fitting_factor", fitting_factor);
+  const auto force = value.find("P_su");
+  if (force && value.find("F_su")) force->fail("given together with \"F_su\"", "one of them");
+  check.is_force = force.has_value();
+  if (check.kind == CheckKind::bearing_bypass)
+    check.polygon = read_polygon(value.at("polygon"));
+  else if (check.kind == CheckKind::bearing)
+    check.allowable = read_allowable(value.at("F_br"));
+  else
+    check.allowable = {{}, {(force ? *force : value.at(allowable_keys[int(check.kind)])).number(input::positive)}};
+  if (const auto e = value.find("edge_distance")) check.edge_distance = e->number(input::positive);
+  if (const auto d = value.find("diameter")) check.diameter = d->number(input::positive);
+  return check;
+}
+
+}  // namespace
+
+double Allowable::at(double ratio) const {
+  if (edge_ratio.empty()) return value.front();
+  const auto above = std::ranges::upper_bound(edge_ratio, ratio);
+  constexpr double at_rim = 0.5;  // there the rim touches the edge
+  if (above == edge_ratio.begin())
+    return value.front() * std::max(ratio - at_rim, 0.0) / std::max(edge_ratio.front() - at_rim, at_rim);
+  if (above == edge_ratio.end()) return value.back();
+  const auto i = above - edge_ratio.begin();
+  const double fraction = (ratio - edge_ratio[i - 1]) / (edge_ratio[i] - edge_ratio[i - 1]);
+  return value[i - 1] + fraction * (value[i] - value[i - 1]);
+}
+
+std::vector<CheckScene> read_margins(const Value& value) {
+  value.only({"safety_factor", "fitting_factor", "checks"});
+  const double safety_factor = factor(value, "safety_factor", 1), fitting_factor = factor(value, "fitting_factor", 1);
+  std::vector<CheckScene> checks;
+  for (const auto& item : value.at("checks").items(1))
+    checks.push_back(read_check(item, safety_factor, fitting_factor));
+  return checks;
+}
+
+}  // namespace fastjoint::stage3

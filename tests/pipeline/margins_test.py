@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Margins against hand calculations, over cases, edge distances read from outlines, and what is refused.
+
+Usage: margins_test.py FOLDER_OF_PROGRAMS"""
+import csv
+import json
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import h5py
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests/support")]
+sys.dont_write_bytecode = True
+from one_hole import PROGRAMS, end_if_missed, matrices, near  # noqa: E402
+
+D, T = 4.8, 1.6  # diameter and thickness
+P = 1000.0
+TABLE = [[1.5, 680], [2.0, 860]]
+
+
+def sheet(x, y, **more):
+    return {"format": "plate", "version": 1, "units": {"length": "mm", "force": "N"}, "analysis": "plane stress", "p": [5, 6],
+            "materials": {"m": {"E": 72e3, "nu": 0.3}}, "geometry": {"grid": {"x": x, "y": y, "thickness": T}},
+            "holes": [{"id": "1", "center": [0, 0], "radius": D / 2, "spring": {"compression_only": True, "disk": {"E": 2e5, "nu": 0.3}}}], **more}
+
+
+def lap(folder, edge, side=12):
+    """Two sheets with one rivet: one held on its left, the other pulled to the right and free to go along y only with the first."""
+    matrices(folder, sheet([-40, -20, edge], [-side, side], supports=[{"on": "left", "fix": ["x", "y"]}]), "a")
+    matrices(folder, sheet([-edge, 20, 40], [-side, side], external=[{"id": "P", "on": "right", "direction": "x", "kind": "rigid"},
+                                                               {"id": "Q", "on": "right", "direction": "y", "kind": "rigid"}]), "b")
+
+
+def solve(folder, checks, *words, cases=None, status=0, **factors):
+    joint = {"format": "joint", "version": 1, "name": "lap, one rivet", "plates": {"a": "a.h5", "b": "b.h5"}, "laws": {"rivet": {"type": "linear", "k": 3e4}},
+             "fasteners": [{"id": "7", "between": ["a:1", "b:1"], "law": "rivet"}], "margins": {"checks": checks, **factors},
+             "cases": cases or [{"name": "pull", "loads": [{"external": "b:P", "force": P}]}]}
+    (folder / "joint.json").write_text(json.dumps(joint))
+    done = subprocess.run([PROGRAMS / "stage3_nonlinear", "joint.json", "-o", "out.h5", "--margins", "margins.csv", *words], cwd=folder,
+                          capture_output=True, text=True)
+    assert done.returncode == status, (done.stdout, done.stderr)
+    if status:
+        return done
+    with h5py.File(folder / "out.h5") as file, open(folder / "margins.csv") as table:
+        rows = list(csv.DictReader(table))
+        assert [float(row["margin"]) for row in rows] == list(file["margin/margin"][:]) == sorted(file["margin/margin"][:])
+        return done, {(row["check"], row["of"]): row for row in rows}, {name: item[:] for name, item in file["plates/a/rim"].items()}
+
+
+def by_hand(folder):
+    """P = 1000 N, FS 1.5, FF 1.15, d = 4.8, t = 1.6, e/D = 1.8, F_bru 680 at 1.5 and 860 at 2.0; F_su 262."""
+    lap(folder, 1.8 * D)
+    checks = [{"check": "bearing", "F_br": TABLE}, {"check": "fastener shear", "F_su": 262}, {"check": "tension", "F_tu": 420},
+              {"check": "shear-out", "F_su": 260}, {"check": "peak", "of": ["a"], "limit": 900},
+              {"check": "bearing-bypass", "of": ["a:1"], "polygon": [[-300, 0], [-100, 500], [100, 500], [300, 0], [0, -1]]},
+              {"check": "fastener shear", "name": "by force, no factors", "P_su": 3000, "safety_factor": 1, "fitting_factor": 1}]
+    done, found, rim = solve(folder, checks, safety_factor=1.5, fitting_factor=1.15)
+    margin = {key: float(row["margin"]) for key, row in found.items()}
+    near("bearing", margin["bearing", "a:1"], 2.508313, 1e-6)
+    near("bearing of the other sheet", margin["bearing", "b:1"], 2.508313, 1e-6)
+    near("fastener shear", margin["fastener shear", "7"], 1.748429, 1e-6)
+    near("shear, by force", margin["by force, no factors", "7"], 2, 1e-9)
+    near("shear-out", margin["shear-out", "a:1"], 2 * 260 * T * (1.8 * D - D / 2 * np.cos(np.radians(40))) / (1.725 * P) - 1, 1e-9)
+    near("tension", margin["tension", "a:1"], 420 / (1.725 * P / (T * (24 - D))) - 1, 5e-3)
+    near("net stress", rim["net_stress"][0, 0], P / (T * (24 - D)), 5e-3)  # forces of sections are resultants of stresses at p = 6
+    near("peak", margin["peak", "a:1"], 900 / (1.725 * rim["peak_hoop"][0, 0]) - 1, 1e-12)
+    near("bearing-bypass without bypass", margin["bearing-bypass", "a:1"], 500 / (1.725 * P / (D * T)) - 1, 1e-4)
+    assert "F_br = 788, d t = 7.68, e/D = 1.8, FS = 1.5, FF = 1.15" in done.stdout and "edge-distance" not in done.stderr, done
+    assert done.stdout.index("fastener shear") < done.stdout.index("  bearing  "), "the smallest come first"
+    assert found["bearing", "a:1"]["joint"] == "lap, one rivet" and found["bearing", "a:1"]["case"] == "pull"
+
+
+def cases(folder):
+    """The load turns: towards the edge e = 1.2 D, away from it there is none, since the sheet goes on at its support; across it the side."""
+    lap(folder, 1.2 * D)
+    loads = [{"name": "pull", "loads": [{"external": "b:P", "force": P}], "increments": 2}, {"name": "push", "loads": [{"external": "b:P", "force": -1.2 * P}]},
+             {"name": "up", "loads": [{"external": "b:Q", "force": 0.5 * P}]}, {"name": "rest", "loads": []}]
+    done, found, _ = solve(folder, [{"check": "bearing", "F_br": TABLE}], cases=loads)
+    row = found["bearing", "a:1"]
+    near("e/D = 1.2: margin", float(row["margin"]), 680 * 0.7 * D * T / P - 1, 1e-6)
+    assert (row["case"], row["increment"]) == ("pull", "2") and "e/D = 1.2" in row["inputs"], row
+    assert "warning [edge-distance-small]: joint.json: " in done.stderr and \
+        ":1 is 1.2 diameters from the edge along its load (the worst of 2 margins)" in done.stderr, done.stderr
+    done, found, _ = solve(folder, [{"check": "bearing", "F_br": TABLE}], "--case", "push", cases=loads)
+    near("push: margin", float(found["bearing", "a:1"]["margin"]), 860 * D * T / (1.2 * P) - 1, 1e-6)
+    done, found, _ = solve(folder, [{"check": "bearing", "F_br": TABLE}], "--case", "up", cases=loads)
+    assert "e/D = 2.5" in found["bearing", "a:1"]["inputs"], found
+    done, found, _ = solve(folder, [{"check": "bearing", "F_br": TABLE}], "--case", "rest", cases=loads)
+    assert found["bearing", "a:1"]["margin"] == "inf" and "no load" in done.stdout
+
+
+def outlines(folder):
+    """A mesh's outline with an arc and a crack: straight pieces are joined, faces of cracks and holes are left out."""
+    lap(folder, 9.0)
+    with h5py.File(folder / "a.h5") as file:
+        ends, free = file["border/ends"][:], file["border/free"][:]
+        assert len(ends) == 4 and free.sum() == 3 and np.ptp(ends[:, [0, 2]]) == 49 and (ends[free == 0][:, [0, 2]] == -40).all(), (ends, free)
+    matrices(folder, sheet([-20, 9], [-12, 12], supports=[{"on": "left", "fix": ["x", "y"]}], cracks=[{"from": "hole:1", "angle": 90, "length": 2}]), "c")
+    with h5py.File(folder / "c.h5") as file:
+        assert len(file["border/free"]) == 4
+    matrices(folder, json.loads((ROOT / "tests/schemas/good/plate_mesh.json").read_text()) | {"p": [2, 3]}, "mesh")
+    with h5py.File(folder / "mesh.h5") as file:
+        ends = file["border/ends"][:]
+    points = ends.reshape(-1, 2)
+    meeting = [np.sum(np.hypot(*(points - point).T) < 1e-6 * np.ptp(points)) for point in points]
+    assert len(ends) == 4 and sorted(meeting) == [1, 1, 2, 2, 2, 2, 2, 2], ("closed but for the quarter of a hole", ends)
+
+
+def refusals(folder):
+    lap(folder, 9.0)
+    for check, message in (({"check": "bearing", "F_br": 500, "of": ["c"]}, '/margins/checks/0: "c" is no plate and no hole with stresses; allowed: a, a:1, b, b:1'),
+                           ({"check": "fastener shear", "F_su": 1, "of": ["9"]}, '/margins/checks/0: fastener "9" does not exist'),
+                           ({"check": "bearing", "F_br": [[2, 500], [1.5, 400]]}, "an e/D that does not rise"),
+                           ({"check": "tension", "F_tu": 500, "limit": 3}, "/margins/checks/0/limit: unknown key"),
+                           ({"check": "fastener shear", "F_su": 1, "P_su": 1}, 'given together with "F_su"'),
+                           ({"check": "bearing-bypass", "polygon": [[100, 100], [200, 100], [200, 200]]}, "does not go around the origin")):
+        done = solve(folder, [check], status=2)
+        assert message in done.stderr and not (folder / "margins.csv").exists(), (message, done.stderr)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        refusals(Path(name))
+        by_hand(Path(name))
+        cases(Path(name))
+        outlines(Path(name))
+    end_if_missed()
+
+
+if __name__ == "__main__":
+    main()
