@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
+#include <set>
 
 #include "common/count.hpp"
 #include "common/program/program.hpp"
@@ -77,7 +77,8 @@ class Margins {
       else
         of_holes();
     }
-    std::ranges::stable_sort(rows_, {}, &Row::margin);
+    // Equal ones, but for rounding, stay in the order of the joint.
+    std::ranges::stable_sort(rows_, {}, [](const Row& row) { return std::round(1e9 * row.margin); });
     return std::move(rows_);
   }
 
@@ -312,18 +313,24 @@ std::vector<program::Warning> edge_warnings(const JointScene& scene, const Margi
 }
 
 std::string margin_lines(const JointResult& result) {
-  constexpr Index most = 12;
+  constexpr std::size_t most = 12;
   const MarginTable& a = result.margins;
   const Index n = std::ssize(a.check);
   if (n == 0) return {};
+  std::set<Index> shown;  // the smallest of each check, then the smallest of all
+  std::set<std::string> checks;
+  for (Index i = 0; i < n; ++i)
+    if (checks.insert(a.check[i]).second) shown.insert(i);
+  for (Index i = 0; i < n && shown.size() < most; ++i) shown.insert(i);
   std::string text = "smallest margins = allowable / (FS FF applied) - 1\n";
   text += fmt::format("  {:<20} {:<24} {:>9} {:>12} {:>12}  in\n", "check", "of", "margin", "allowable", "applied");
-  for (Index i = 0; i < std::min(n, most); ++i)
+  for (const Index i : shown)
     text += fmt::format("  {:<20} {:<24} {:>9} {:>12.6g} {:>12.6g}  {}: {}; {}\n", program::one_line(a.check[i]),
                         program::one_line(a.of[i]),
                         std::isfinite(a.margin[i]) ? fmt::format("{:+.3f}", a.margin[i]) : "no load", a.allowable[i],
                         a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
-  if (n > most) text += fmt::format("  ... and {} more, larger (RESULT.h5 and --margins have all)\n", n - most);
+  if (n > std::ssize(shown))
+    text += fmt::format("  ... of {}; RESULT.h5 and --margins have all\n", program::counted(n, "margin"));
   return text;
 }
 

@@ -48,7 +48,8 @@ def solve(folder, checks, *words, cases=None, status=0, **factors):
         return done
     with h5py.File(folder / "out.h5") as file, open(folder / "margins.csv") as table:
         rows = list(csv.DictReader(table))
-        assert [float(row["margin"]) for row in rows] == list(file["margin/margin"][:]) == sorted(file["margin/margin"][:])
+        assert [float(row["margin"]) for row in rows] == list(file["margin/margin"][:])
+        assert (np.diff(file["margin/margin"][:]) > -1e-8).all() or len(rows) == 1 or np.isinf(file["margin/margin"][:]).any()
         return done, {(row["check"], row["of"]): row for row in rows}, {name: item[:] for name, item in file["plates/a/rim"].items()}
 
 
