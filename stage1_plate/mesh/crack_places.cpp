@@ -109,7 +109,7 @@ double element_size(const PlateScene& scene, const GridGeometry& grid, const std
   return size;
 }
 
-/// Where a cell line is to go.
+/// The new place of a cell line.
 struct Move {
   double to;
   int crack;  ///< for messages

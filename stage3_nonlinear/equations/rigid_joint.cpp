@@ -55,8 +55,8 @@ SparseMatrix relative_motions(const JointModel& joint) {
   return result;
 }
 
-/// Matrix Z: each independent unknown has its own column, and all discs of a fastener have that of its reference hole;
-/// the ground has none.
+/// Matrix Z: each independent unknown has its own column, all discs of a fastener have that of its reference hole, tied
+/// externals that of the first; the ground has none.
 SparseMatrix free_unknowns(const JointModel& joint) {
   const Index N = joint.n_unknowns();
   std::vector<Index> leader(N);
@@ -68,6 +68,11 @@ SparseMatrix free_unknowns(const JointModel& joint) {
     for (Index unknown = plate.first_moment(); unknown < plate.n_unknowns(); ++unknown)
       leader[joint.offset(i) + unknown] = -1;
   }
+  const auto unknown = [&](const std::pair<Index, Index>& external) {
+    return joint.offset(external.first) + joint.plates[external.first].n_discs() + external.second;
+  };
+  for (const auto& group : joint.ties)
+    for (const auto& external : group) leader[unknown(external)] = unknown(group.front());
   for (const auto& fastener : joint.fasteners) {
     const Index at = reference(joint, fastener);
     for (const auto& hole : fastener.holes)

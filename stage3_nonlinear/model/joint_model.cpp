@@ -238,13 +238,36 @@ void check_side(const PlateModel& plate, Index traction, const LoadScene& load, 
   }
 }
 
+/// Ties the externals of a load.
+void tie(JointModel& joint, const LoadScene& load) {
+  std::vector<Reference> names{load.external};
+  names.insert(names.end(), load.tied.begin(), load.tied.end());
+  auto& group = joint.ties.emplace_back();
+  for (const auto& name : names) {
+    const Index at = index_of(joint.plates, name.plate, &PlateModel::name);
+    const PlateModel& plate = joint.plates[at];
+    const Index external = index_of(plate.externals, name.name);
+    if (external == plate.n_externals())
+      refuse(name.where, fmt::format("\"{}:{}\" is no rigid external", name.plate, name.name),
+             "externals of kind \"rigid\" in a tie");
+    if (!group.empty() && plate.external_axis[external] != joint.plates[group[0].first].external_axis[group[0].second])
+      refuse(name.where, fmt::format("\"{}:{}\" moves along another axis than the first", name.plate, name.name),
+             "externals of one direction in a tie");
+    group.emplace_back(at, external);
+  }
+}
+
 void set_loads(JointModel& joint, const CaseScene& its) {
+  joint.ties.clear();
   for (auto& plate : joint.plates) {
     plate.external_force.setZero();
     plate.external_displacement.assign(plate.externals.size(), std::nullopt);
     plate.traction_force.setZero();
   }
-  for (const auto& load : its.loads) apply_load(joint, load, its.wanted_load_factors());
+  for (const auto& load : its.loads) {
+    apply_load(joint, load, its.wanted_load_factors());
+    if (!load.tied.empty()) tie(joint, load);
+  }
 }
 
 Index JointModel::offset(Index plate) const {

@@ -175,6 +175,8 @@ struct JointModel {
   std::vector<PlateModel> plates;
   std::vector<FastenerModel> fasteners;
   std::vector<ShearPlane> planes;
+  /// Groups of rigid externals that move as one, each by plate and external; the first carries the load of all.
+  std::vector<std::vector<std::pair<Index, Index>>> ties{};
 
   [[nodiscard]] Index n_directions() const { return axes.size(); }
   [[nodiscard]] Index n_planes() const { return planes.size(); }

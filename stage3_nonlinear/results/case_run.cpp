@@ -21,14 +21,15 @@ std::vector<bool> displaced_externals(const JointModel& joint) {
 JointEquations CaseRun::equations(std::size_t at, const End* before) {
   load(at);
   auto displaced = displaced_externals(joint_);
-  if (!system_ || displaced != displaced_) {
+  if (!system_ || displaced != displaced_ || joint_.ties != ties_) {
     if (before != nullptr)
       refuse(scene_.cases[at].where + "/loads",
-             fmt::format("gives displacements of other externals than \"{}\", after which it comes",
+             fmt::format("displaces or ties other externals than \"{}\", after which it comes",
                          scene_.cases[*scene_.cases[at].after].name),
-             "displacements of the same externals, 0 where one is to stay");
+             "the same ties, and displacements of the same externals, 0 where one is to stay");
     system_ = std::make_shared<const CondensedSystem>(condense(joint_));
     displaced_ = std::move(displaced);
+    ties_ = joint_.ties;
   }
   Parameters parameters = parameters_of(joint_);
   if (before != nullptr && !before->load.isZero(0)) parameters.load_before = before->load;

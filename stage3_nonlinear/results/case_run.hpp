@@ -49,6 +49,7 @@ class CaseRun {
   const JointScene& scene_;
   JointModel joint_;
   std::vector<bool> displaced_;  ///< externals with given displacements in the condensed system, plate after plate
+  std::vector<std::vector<std::pair<Index, Index>>> ties_;  ///< likewise
   std::shared_ptr<const CondensedSystem> system_;
   std::vector<std::shared_ptr<const RimProblem>> rims_;
   std::map<std::size_t, std::optional<End>> ends_;  ///< of the cases that others come after

@@ -82,9 +82,10 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 
 /// @param rim_F     (k) forces of the moments of the plate's rims.
 /// @param on_discs  (m) results of forces_on_discs.
+/// @param is_tied   (e) externals whose force follows from that of their group.
 /// @param worst_row Maximum of its value and the largest imbalance of a row of the plate, force.
-void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorXd& on_discs, double scale,
-                   PlateState& state, double& worst_row) {
+void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, const VectorXd& rim_F,
+                   const VectorXd& on_discs, double scale, PlateState& state, double& worst_row) {
   const Index m = plate.n_discs(), k = rim_F.size();
   VectorXd u(plate.n_unknowns());
   u << state.D, state.De, state.moments;
@@ -100,7 +101,7 @@ void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorX
   worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
                         (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
-    if (plate.external_displacement[i]) state.Pe[i] = required[m + i];
+    if (plate.external_displacement[i] || is_tied[i]) state.Pe[i] = required[m + i];
     worst_row = std::max(worst_row, std::abs(required[m + i] - state.Pe[i]));
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
@@ -110,6 +111,23 @@ void balance_plate(const PlateModel& plate, const VectorXd& rim_F, const VectorX
   }
   for (Index i = 0; i < m; ++i) state.by_fasteners[plate.axis_of(i)] += state.bearing[i] + state.friction[i];
   state.by_supports = -(state.applied + state.by_fasteners);
+}
+
+/// Externals of each plate that are in a group of ties.
+std::vector<std::vector<bool>> tied_externals(const JointModel& joint) {
+  std::vector<std::vector<bool>> tied;
+  for (const auto& plate : joint.plates) tied.emplace_back(plate.n_externals(), false);
+  for (const auto& group : joint.ties)
+    for (const auto& [plate, external] : group) tied[plate][external] = true;
+  return tied;
+}
+
+/// Force on all externals of each tie.
+VectorXd tie_forces(const JointModel& joint, const std::vector<PlateState>& plates) {
+  VectorXd sums = VectorXd::Zero(std::ssize(joint.ties));
+  for (Index i = 0; i < sums.size(); ++i)
+    for (const auto& [plate, external] : joint.ties[i]) sums[i] += plates[plate].Pe[external];
+  return sums;
 }
 
 /// Largest component of the resultant of bearing and friction on a fastener, over all that are not grounded, force.
@@ -203,13 +221,15 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   state.transferred_first = transferred(equations, step.F, 0);
   state.transferred_second = transferred(equations, step.F, 1);
   state.largest_force = std::max(step.F.lpNorm<Eigen::Infinity>(), step.scale);
+  const auto is_tied = tied_externals(joint);
+  const VectorXd on_ties = tie_forces(joint, state.plates);
   Index first_moment = 0;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     PlateState& its = state.plates[i];
     const Index k = its.moments.size();
-    balance_plate(plate, step.rim_F.segment(first_moment, k), on_discs.segment(joint.offset(i), plate.n_discs()),
-                  step.scale, its, state.out_of_balance);
+    balance_plate(plate, is_tied[i], step.rim_F.segment(first_moment, k),
+                  on_discs.segment(joint.offset(i), plate.n_discs()), step.scale, its, state.out_of_balance);
     first_moment += k;
     // The matrices alone do not show the axes: a sheet with statically determinate supports has no stiffness either.
     for (const int axis : plate.unsupported_axes)
@@ -217,6 +237,9 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
     for (const VectorXd* forces : {&its.Pe, &its.traction})
       state.largest_force = std::max(state.largest_force, forces->lpNorm<Eigen::Infinity>());
   }
+  if (on_ties.size() > 0)
+    state.out_of_balance =
+        std::max(state.out_of_balance, (tie_forces(joint, state.plates) - on_ties).lpNorm<Eigen::Infinity>());
   state.fasteners_out_of_balance = worst_fastener(joint, state.plates);
   if (!(state.largest_force > 0)) return state;
   for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;

@@ -162,12 +162,23 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
 
 LoadScene read_load(const Value& value, const JointScene& scene) {
   value.only({"external", "force", "displacement"});
-  LoadScene load{.external = read_reference(value.at("external"), scene, "\"plate:external\"")};
+  const Value external = value.at("external");
+  constexpr const char* allowed = "\"plate:external\", or a list of such that are tied";
+  LoadScene load;
+  if (external.is_array()) {
+    for (const auto& item : external.items(2)) load.tied.push_back(read_reference(item, scene, allowed));
+    load.external = load.tied.front();
+    load.tied.erase(load.tied.begin());
+  } else {
+    load.external = read_reference(external, scene, allowed);
+  }
   const auto force = value.find("force"), displacement = value.find("displacement");
   if (!force == !displacement)
     value.fail(force ? "both \"force\" and \"displacement\"" : "neither \"force\" nor \"displacement\"",
                "exactly one of them");
   load.is_displacement = displacement.has_value();
+  if (displacement && !load.tied.empty())
+    displacement->fail("given for tied externals", "\"force\", or the same displacement for each external");
   load.value = (force ? *force : *displacement).number();
   return load;
 }
@@ -175,11 +186,14 @@ LoadScene read_load(const Value& value, const JointScene& scene) {
 /// @param least Least number of loads.
 std::vector<LoadScene> read_loads(const Value& value, const JointScene& scene, std::size_t least) {
   std::vector<LoadScene> loads;
+  std::set<std::string> loaded;
   for (const auto& item : value.items(least)) {
     const LoadScene load = read_load(item, scene);
-    for (const auto& [before, number, is_displacement] : loads)
-      if (before.plate == load.external.plate && before.name == load.external.name)
-        refuse(load.external.where, fmt::format("\"{}:{}\" is loaded already", before.plate, before.name),
+    std::vector<Reference> all = load.tied;
+    all.push_back(load.external);
+    for (const auto& external : all)
+      if (!loaded.insert(external.plate + ":" + external.name).second)
+        refuse(external.where, fmt::format("\"{}:{}\" is loaded already", external.plate, external.name),
                "one load per external boundary");
     loads.push_back(load);
   }

@@ -60,6 +60,7 @@ struct LoadScene {
   Reference external;  ///< "plate:external"
   double value = 0;    ///< at load factor 1: force, or length
   bool is_displacement = false;
+  std::vector<Reference> tied{};  ///< externals that move with it; the force is that on all of them
 };
 
 /// A load case: loads and the increments in which they grow.

@@ -168,14 +168,17 @@ std::vector<std::size_t> studied_cases(const Study& study) {
     std::set<std::string> externals;
     for (const auto& load : study.joint.cases[at].loads)
       if (load.is_displacement) externals.insert(load.external.plate + ":" + load.external.name);
+    for (const auto& load : study.joint.cases[at].loads)
+      for (const auto& tied : load.tied)
+        externals.insert(load.external.plate + ":" + load.external.name + " to " + tied.plate + ":" + tied.name);
     return externals;
   };
   for (const std::size_t at : cases)
     for (auto its = std::optional(at); its; its = study.joint.cases[*its].after)
       if (displaced(*its) != displaced(cases.front()))
         throw InputError(
-            fmt::format("{}: /cases: \"{}\" and \"{}\" give displacements of different externals; allowed: "
-                        "cases that displace the same ones",
+            fmt::format("{}: /cases: \"{}\" and \"{}\" displace or tie different externals; allowed: "
+                        "cases that displace and tie the same ones",
                         study.scene.file, names[cases.front()], names[*its]));
   return cases;
 }

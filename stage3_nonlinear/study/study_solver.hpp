@@ -78,8 +78,8 @@ class CaseSolver {
 /// Solves the load cases of a joint for other parameters, each time from the solution with all variables in their
 /// middle, so that no result depends on another sample. Several threads may use it.
 ///
-/// Of several cases the numbers of a sample are their envelope: the largest of each, of displacements and K_II those of
-/// the largest magnitude.
+/// The numbers of a sample are the envelope of its cases: the largest of each, of displacements and K_II those of the
+/// largest magnitude.
 class StudySolver {
  public:
   /// @param joint Outlives this; has friction wherever a sample has some.

@@ -57,7 +57,7 @@ def loads(P, T=0.0):
 def tables(file):
     """Every table of a RESULT.h5 with a row for each increment, by path."""
     steps, found = len(file["load_factor"]), {}
-    file.visititems(lambda name, item: found.update({name: item[:]}) if isinstance(item, h5py.Dataset) and item.dtype == float and item.ndim > 1 and len(item) == steps
+    file.visititems(lambda name, item: found.update({name: item[:]}) if isinstance(item, h5py.Dataset) and item.dtype == float and item.ndim > 1 and len(item) == steps and name.split("/")[-1] not in ("center", "ends", "at")
                     and "stiffness" not in name else None)
     return found
 
@@ -154,7 +154,7 @@ def failures(folder):
             ([good, good], [], '/cases/1/name: "a" stands twice; allowed: each name once'),
             ([good | {"after": "b"}], [], '/cases/0/after: "b" is no case; allowed: a'),
             ([good | {"after": "b"}, {"name": "b", "loads": [], "after": "a"}], [], '/cases/0/after: "a" comes after itself'),
-            ([good, {"name": "b", "after": "a", "loads": moved}], [], '/cases/1/loads: gives displacements of other externals than "a"'),
+            ([good, {"name": "b", "after": "a", "loads": moved}], [], '/cases/1/loads: displaces or ties other externals than "a"'),
             ([good], ["--case", "c"], '--case: "c"; allowed: a'),
             ([good, good | {"name": "b"}], ["--sensitivities"], "--sensitivities: given for 2 cases; allowed: together with --case NAME"),
             ([good | {"loads": loads(1)[:1] * 2}], [], '"upper:P" is loaded already')):
@@ -167,6 +167,39 @@ def failures(folder):
     run(folder, joint([good, {"name": "moved", "loads": moved}]))  # which needs another condensed joint
     with h5py.File(folder / "out.h5") as file:
         near("a given displacement after a given force", file["plates/upper/De"][1, 0], 0.1, 1e-12)
+
+
+def ties(folder):
+    """Two lugs pulled as one: they move alike, share the force by their stiffness, and are what equal given displacements make of them."""
+    sheets(folder)
+    for name in ("one", "two"):
+        spring = {"modulus": 1e5 if name == "one" else 3e4}
+        scene = {"format": "plate", "version": 1, "units": {"length": "mm", "force": "N"}, "analysis": "plane stress", "p": [4, 5],
+                 "materials": {"m": {"E": 7e4, "nu": 0.3}}, "geometry": {"grid": {"x": [0, 10, 20], "y": [0, 10], "thickness": 2}},
+                 "holes": [{"id": "h", "center": [5, 5], "radius": 2, "spring": spring}], "supports": [{"on": "bottom", "fix": ["y"]}],
+                 "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}]}
+        matrices(folder, scene, name)
+    lugs = {"format": "joint", "version": 1, "plates": {name: f"{name}.h5" for name in ("one", "two")}, "laws": {"pin": {"type": "power", "A": 2e4, "n": 0.8}},
+            "fasteners": [{"id": name, "between": [f"{name}:h", "ground"], "law": "pin", "clearance": 0.01 if name == "one" else 0} for name in ("one", "two")]}
+    both = [{"external": ["one:P", "two:P"], "force": 3000}]
+    run(folder, lugs | {"loads": both, "increments": 3})
+    with h5py.File(folder / "out.h5") as file:
+        moved = [file[f"plates/{name}/De"][-1, 0] for name in ("one", "two")]
+        forces, found = [file[f"plates/{name}/Pe"][-1, 0] for name in ("one", "two")], file["F"][-1]
+        assert list(file["stiffness/external"].asstr()) == ["one:P"] and file["stiffness/tangent"][-1, 0] > 0
+    near("tied lugs: displacement", moved[1], moved[0], 1e-12)
+    near("tied lugs: force", sum(forces), 3000, 1e-9)
+    assert 1.05 * forces[0] < forces[1], forces
+    run(folder, lugs | {"cases": [{"name": "moved", "loads": [{"external": f"{name}:P", "displacement": moved[0]} for name in ("one", "two")]},
+                                  {"name": "tied", "loads": both}, {"name": "free", "loads": [{"external": "one:P", "force": 1000}]}]})
+    with h5py.File(folder / "out.h5") as file:
+        near("tied lugs: loads by given displacements", np.abs(file["F"][0] - found).max() / 3000, 0, 1e-8, absolute=True)
+        near("tied lugs: among other cases", np.abs(file["F"][1] - found).max() / 3000, 0, 1e-8, absolute=True)
+        near("one lug alone", abs(file["F_vector"][2, 0, 0]), 1000, 1e-9)
+    for load, message in (({"external": ["one:P"], "force": 1}, "/loads/0/external"), ({"external": ["one:P", "one:P"], "force": 1}, "is loaded already"),
+                          ({"external": ["one:P", "two:P"], "displacement": 1}, "given for tied externals"),
+                          ({"external": ["one:P", "two:Q"], "force": 1}, '"two:Q" is no rigid external')):
+        assert message in run(folder, lugs | {"loads": [load]}, status=2).stderr, load
 
 
 def studies(folder):
@@ -195,7 +228,7 @@ def studies(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for each in (against_single_runs, superposition, one_after_another, failures, studies):
+        for each in (against_single_runs, superposition, one_after_another, failures, ties, studies):
             each(Path(name))
     end_if_missed()
 

@@ -275,6 +275,8 @@ BAD_INPUTS = [
     ("joint_check_two_strengths", "joint_laws", "/margins/checks/2/P_su", 1),
     ("joint_check_polygon_of_two", "joint_laws", "/margins/checks/6/polygon", [[1, 1], [2, 2]]),
     ("joint_check_limit_negative", "joint_laws", "/margins/checks/7/limit", -1),
+    ("joint_tie_of_one", "joint_laws", "/cases/0/loads/0/external", ["strap:P"]),
+    ("joint_tie_of_a_number", "joint_laws", "/cases/0/loads/0/external", ["strap:P", 1]),
     ("joint_cases_none", "joint_laws", "/cases", []),
     ("joint_case_nameless", "joint_laws", "/cases/0/name", ""),
     ("joint_case_loads_object", "joint_laws", "/cases/0/loads", {}),
