@@ -146,9 +146,11 @@ TEST_F(Run, WritesACsvWithAllDigits) {
           "transferred_second [lbf],share [%],iterations,residual,first,second,bearing_load_first [lbf],"
           "bearing_load_y_first [lbf],bearing_stress_first [lbf/in^2],bypass_load_first [lbf],"
           "bypass_error_first [lbf],peak_hoop_first [lbf/in^2],peak_angle_first [deg],"
-          "peak_error_first [lbf/in^2],gross_concentration_first,net_concentration_first,against_slip_first [deg],"));
+          "peak_error_first [lbf/in^2],gross_concentration_first,net_concentration_first,net_stress_first [lbf/in^2],"
+          "against_slip_first [deg],"));
   EXPECT_THAT(test::read_file(csv_),
-              HasSubstr(",net_concentration_second,against_slip_second [deg],F_error [lbf],event,joint,case\n"));
+              HasSubstr(",net_concentration_second,net_stress_second [lbf/in^2],against_slip_second [deg],"
+                        "F_error [lbf],event,joint,case\n"));
   std::istringstream lines(test::read_file(csv_));
   std::string header, line;
   std::getline(lines, header);

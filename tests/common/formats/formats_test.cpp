@@ -272,6 +272,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     RimHistory& rims = plate.rims;
     rims.hole = {"1"};
     rims.sections = Eigen::VectorXi::Constant(1, 2);
+    rims.center = Eigen::MatrixXd::Constant(1, 2, 3.5);
+    rims.radius = Eigen::VectorXd::Constant(1, 0.25);
     rims.values.resize(steps, std::vector<RimValues>(1));
     EXPECT_EQ(rim_quantities().size() * sizeof(double), sizeof(RimValues)) << "each member has its row";
     for (const auto& one : rim_quantities())
@@ -318,6 +320,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     EXPECT_EQ(b.plates[0].waves[0].waves, rim::Harmonics{4});
     EXPECT_EQ(b.plates[0].friction_bearing, plate.friction_bearing);
     EXPECT_EQ(b.plates[0].rims.sections, rims.sections);
+    EXPECT_EQ(b.plates[0].rims.center, rims.center);
+    EXPECT_EQ(b.plates[0].rims.radius, rims.radius);
     for (const auto& each : rim_quantities())
       for (int step = 0; step < steps; ++step)
         EXPECT_EQ(b.plates[0].rims.values.at(step).at(0).*each.value, rims.values[step][0].*each.value) << each.name;
