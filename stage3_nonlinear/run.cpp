@@ -93,7 +93,7 @@ void warn(std::ostream& log, const std::vector<program::Warning>& warnings) {
 
 /// Bytes of the program and of the plates' matrices.
 double matrices_need(const JointScene& scene) {
-  double bytes = 21e6;  // the program itself
+  double bytes = 22e6;  // the program itself
   for (const auto& plate : scene.plates) {
     std::error_code none;
     if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 2 * double(size);

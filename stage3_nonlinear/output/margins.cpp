@@ -90,7 +90,8 @@ class Margins {
   /// Adds the smallest margin of an item. @param at Applied(step).
   template <class At>
   void add(const std::string& of, const std::string& formula, const std::string& unit, At at) {
-    Row row{.of = of, .formula = formula, .unit = unit, .check = check_};
+    Row row;
+    row.of = of, row.formula = formula, row.unit = unit, row.check = check_;
     for (Index step = 0; step < a_.load_factor.size(); ++step) {
       const Applied now = at(step);
       const double margin = now.applied > 0
