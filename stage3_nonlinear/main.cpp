@@ -21,6 +21,8 @@ const fastjoint::program::Command command{
         {"--envelope", "FILE",
          "also write a CSV of the largest and smallest value of every quantity over all cases, and where they are"},
         {"--margins", "FILE", "also write a CSV of the margins of all checks"},
+        {"--totals", "FILE",
+         "also write a CSV of the forces on sheets and rows of holes, and of the displacements of loaded edges"},
         {"--sensitivities", "",
          "also write how the forces, and at the last increment the peaks, change with every load, clearance, gap, "
          "number of a\n"

@@ -20,6 +20,7 @@
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/joined_result.hpp"
 #include "stage3_nonlinear/output/margins.hpp"
+#include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
@@ -31,7 +32,7 @@ constexpr const char* program_name = "stage3_nonlinear";
 
 using program::check_spare;
 
-constexpr std::array table_options{"--csv", "--envelope", "--margins"};
+constexpr std::array table_options{"--csv", "--envelope", "--margins", "--totals"};
 
 /// Refuses tables that would overwrite another file.
 void check_tables(const program::Arguments& arguments) {
@@ -51,11 +52,10 @@ void check_tables(const program::Arguments& arguments) {
 /// Refuses output files that would overwrite an input file.
 void check_results_spare(const program::Arguments& arguments, const JointScene& scene) {
   const auto check = [&](const std::string& input) {
-    for (const auto& [option, path] :
-         {std::pair("-o", arguments.output), std::pair("--csv", arguments.text("--csv")),
-          std::pair("--envelope", arguments.text("--envelope")), std::pair("--margins", arguments.text("--margins")),
-          std::pair("--timings", arguments.timings)})
-      check_spare(option, path, input, fmt::format("a file that {} reads", arguments.input));
+    const std::string role = fmt::format("a file that {} reads", arguments.input);
+    check_spare("-o", arguments.output, input, role);
+    check_spare("--timings", arguments.timings, input, role);
+    for (const char* option : table_options) check_spare(option, arguments.text(option), input, role);
   };
   for (const auto& plate : scene.plates) check(plate.file);
   for (const auto& [name, law] : scene.laws) check(law.law->file());
@@ -87,8 +87,10 @@ std::vector<std::size_t> chosen_cases(const program::Arguments& arguments, const
   return chosen;
 }
 
-void warn(std::ostream& log, const std::vector<program::Warning>& warnings) {
+/// Prints warnings and adds them to those for the result.
+void warn(std::ostream& log, const std::vector<program::Warning>& warnings, std::vector<program::Warning>& all) {
   for (const auto& each : warnings) program::warn(log, program_name, each);
+  all.insert(all.end(), warnings.begin(), warnings.end());
 }
 
 /// Bytes of the program and of the plates' matrices.
@@ -200,8 +202,8 @@ void check_solved(const std::vector<std::string>& failures, std::size_t n_cases)
 
 void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
   if (arguments.flag("--study")) {
-    for (const char* option : {"--csv", "--envelope", "--margins", "--case", "--sensitivities", "--rim-stresses",
-                               "--all-stresses", "--verbose"})
+    for (const char* option : {"--csv", "--envelope", "--margins", "--totals", "--case", "--sensitivities",
+                               "--rim-stresses", "--all-stresses", "--verbose"})
       if (arguments.flag(option))
         throw InputError(fmt::format("{}: given together with --study; allowed: one of them", option));
     return run_study(arguments, out, log, timings);
@@ -215,7 +217,8 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   const JointScene scene = read_joint_scene(document);
   const auto chosen = chosen_cases(arguments, scene);
   check_results_spare(arguments, scene);
-  warn(log, scene.warnings);
+  std::vector<program::Warning> warnings;
+  warn(log, scene.warnings, warnings);
   program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
                           "matrices of fewer holes, or of stage2_extract --loads-only");
   CaseRun cases(scene, load_joint(scene, p));
@@ -236,19 +239,24 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
     text = std::move(its.summary);
   }
   program::report_share(1);
-  warn(log, found.all(chosen.size()));
+  warn(log, found.all(chosen.size()), warnings);
   const JointModel& joint = cases.joint();
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
   if (!scene.checks.empty()) {
     result.margins = margins(scene, joint, result);
-    warn(log, edge_warnings(scene, result.margins));
+    warn(log, edge_warnings(scene, result.margins), warnings);
+  }
+  for (const auto& each : warnings) {
+    result.warning_code.emplace_back(each.code);
+    result.warning.push_back(each.text);
   }
   timings.phase("write");
   formats::write(arguments.output, result);
   if (arguments.flag("--csv")) h5::write_whole_file(arguments.text("--csv"), csv(joint, result));
   if (arguments.flag("--envelope")) h5::write_whole_file(arguments.text("--envelope"), envelope_csv(result));
   if (arguments.flag("--margins")) h5::write_whole_file(arguments.text("--margins"), margins_csv(result));
+  if (arguments.flag("--totals")) h5::write_whole_file(arguments.text("--totals"), totals_csv(result));
   if (!arguments.quiet) out << (chosen.size() == 1 ? text : case_summary(scene, joint, result)) << margin_lines(result);
   check_solved(failures, chosen.size());
 }

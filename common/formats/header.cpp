@@ -137,6 +137,24 @@ void wave_datasets(File& file, Waves& a, const Units& units) {
   if constexpr (File::reads)
     for (std::size_t i = 0; i < owner.size(); ++i) a[owner[i]].acts.push_back(arcs[i]);
 }
+template <class File, class Places>
+void place_datasets(File& file, Places& a, const Units& units, const UnitCases& cases) {
+  if constexpr (File::reads) {
+    if (!file.has("support/range")) return;
+  } else {
+    if (!a.is_known()) return;
+  }
+  const std::string length = unit(units, 1, 0);
+  file("disc/center", a.disc, {cases.n_discs(), 2}, length, "x and y of each disc");
+  file("external/range", a.external, {cases.n_externals(), 2}, length,
+       "least and greatest coordinate of each external along its direction");
+  file("traction/range", a.traction, {cases.n_tractions(), 2}, length,
+       "least and greatest coordinate of each traction along its direction, 0 of a moment");
+  file("support/range", a.support, {2, 2}, length,
+       "least and greatest x of the supports that fix x, then y of those that fix y, 0 of none");
+}
+template void place_datasets(h5::Writer& file, const Places& a, const Units& units, const UnitCases& cases);
+template void place_datasets(h5::Reader& file, Places& a, const Units& units, const UnitCases& cases);
 template void border_datasets(h5::Writer& file, const Border& a, const Units& units, const std::string& group);
 template void border_datasets(h5::Reader& file, Border& a, const Units& units, const std::string& group);
 template void wave_datasets(h5::Writer& file, const std::vector<WaveRim>& a, const Units& units);

@@ -69,6 +69,16 @@ struct Border {
   Eigen::VectorXi is_free{};                     ///< (k) 1 for an edge without supports and loads, else 0
 };
 
+/// Where forces act on a plate; empty in a file before these had it.
+struct Places {
+  Eigen::MatrixXd disc = Eigen::MatrixXd(0, 2);      ///< (m, 2) x and y of each disc, length
+  Eigen::MatrixXd external = Eigen::MatrixXd(0, 2);  ///< (e, 2) least and greatest coordinate along its direction
+  Eigen::MatrixXd traction = Eigen::MatrixXd(0, 2);  ///< (q, 2) the same; of a moment 0
+  Eigen::MatrixXd support = Eigen::MatrixXd(0, 2);   ///< (2, 2) of all supports along x, along y; 0 of none
+
+  [[nodiscard]] bool is_known() const { return support.rows() > 0; }
+};
+
 /// A plate with its degrees and unit cases, common to PLATE.h5 and MATRICES.h5: n_p degrees, e rigid externals, m discs
 /// (hole x direction), k loaded waves (rim in contact; pressures, then shears), h friction cases (hole, direction,
 /// bearing + then -) of other holes, q tractions.
@@ -81,11 +91,13 @@ struct UnitCases {
   /// (q); a load in a hole has one case for each side in the model, both of a unit force along the direction. A
   /// negative force uses the second.
   std::vector<std::string> traction_id, traction_direction;
+  std::vector<double> traction_arm{};         ///< (q) length; the moment `rotation` of a force f is f times this, else 0
   std::vector<std::string> traction_bearing;  ///< (q) side of the hole that bears, "+x", ...; "" for edges
   std::vector<std::string> traction_hole{};   ///< (q) hole under cosine pressure, "" for an edge
   std::vector<ContactRim> contact{};          ///< in the order of the holes
   std::vector<WaveRim> waves{};               ///< rims of `contact`, then others in the order of the holes
   Border border{};                            ///< none in a file before these had one
+  Places places{};
   std::vector<std::string> friction_hole;     ///< (h)
   std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y"
 
@@ -128,6 +140,10 @@ void wave_datasets(File& file, Waves& a, const Units& units);
 template <class File, class AnyBorder>
 void border_datasets(File& file, AnyBorder& a, const Units& units, const std::string& group = "");
 
+/// Places of the forces on a plate; no datasets before these had any.
+template <class File, class Places>
+void place_datasets(File& file, Places& a, const Units& units, const UnitCases& cases);
+
 /// Number of degrees, the highest ones, that include waves without tractions and section forces. Their difference
 /// estimates errors.
 inline constexpr Eigen::Index n_stress_degrees = 2;
@@ -135,6 +151,12 @@ inline constexpr Eigen::Index n_stress_degrees = 2;
 /// Names of the sides of a hole.
 inline const std::vector<std::string> side_names = {"+x", "-x", "+y", "-y"};
 
+/// Direction of a traction that is a moment.
+constexpr const char* rotation = "rotation";
+/// Descriptions of the datasets of every file.
+constexpr const char* traction_boundaries =
+    "external boundaries under a given traction, uniform on edges, a cosine pressure in holes, or a moment";
+constexpr const char* traction_arm = "moment per force of each traction whose direction is rotation, 0 of others";
 /// Description of the dataset traction/bearing of every file.
 inline constexpr const char* bearing_side =
     "side of the hole that bears, +x, -x, +y or -y, for each traction in a hole, empty for an edge";

@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 12;
+constexpr int minor = 13;
 
 using V = RimValues;
 using enum Dimension;
@@ -69,6 +69,34 @@ void crack_datasets(File& file, const std::string& group, Cracks& a, Eigen::Inde
   file(group + "K_II", a.K_II, {steps, t}, intensity, "stress intensity factor of the sliding mode at each tip");
   file(group + "K_I_error", a.K_I_error, {steps, t}, intensity, "estimated error of K_I", h5::infinite_too);
   file(group + "K_II_error", a.K_II_error, {steps, t}, intensity, "estimated error of K_II", h5::infinite_too);
+}
+
+template <class File, class Plate>
+void total_datasets(File& file, const std::string& group, Plate& a, Eigen::Index steps, const Units& units) {
+  if constexpr (File::reads) {
+    if (!file.has(group + "total/applied")) return;  // before version 1.13
+  } else {
+    if (a.applied.cols() == 0) return;
+  }
+  const std::string force = unit(units, 0, 1), length = unit(units, 1, 0);
+  const Eigen::Index q = std::ssize(a.traction_id);
+  file(group + "traction/arm", a.traction_arm, {q}, length, traction_arm);
+  file(group + "traction/displacement", a.traction_displacement, {steps, q}, length,
+       "mean displacement of each traction boundary along its direction, of a moment rotation times arm",
+       h5::infinite_too);
+  file(group + "total/applied", a.applied, {steps, 2}, force, "force of externals along x and y");
+  file(group + "total/by_fasteners", a.by_fasteners, {steps, 2}, force, "force of the fasteners along x and y");
+  file(group + "total/by_supports", a.by_supports, {steps, 2}, force,
+       "minus the sum of these: the reaction of supports, or where there are none what is out of balance");
+  auto& rows = a.rows;
+  file(group + "row/direction", rows.direction, {any}, "1", "x or y, for each row of holes with that coordinate");
+  const Eigen::Index w = std::ssize(rows.direction);
+  file(group + "row/at", rows.at, {w}, length, "this coordinate");
+  file(group + "row/holes", rows.holes, {w}, "1", "number of holes in the row");
+  file(group + "row/force", rows.force, {steps, w}, force, "force of the fasteners of each row along its direction");
+  const char* section = "force in the plate over its whole section there, tension positive";
+  file(group + "row/before", rows.before, {steps, w}, force, section, h5::infinite_too);
+  file(group + "row/after", rows.after, {steps, w}, force, section, h5::infinite_too);
 }
 
 template <class File, class Plate>
@@ -131,10 +159,11 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
   file(group + "traction/id", a.traction_id, {any}, "1",
-       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
+       traction_boundaries);
   file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side,
        traction_sides());
   file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");
+  total_datasets(file, group, a, steps, units);
   rim_datasets(file, group + "rim/", a.rims, steps, units);
   border_datasets(file, a.border, units, group);
   crack_datasets(file, group + "crack/", a.cracks, steps, units);
@@ -232,6 +261,8 @@ void datasets(File& file, Result& a) {
   const Eigen::Index steps = a.load_factor.size();
   file("case/name", a.case_name, {any}, "1", "load cases; one without a name if the joint has none", h5::or_else(""));
   file("case/of", a.case_of, {steps}, "1", "load case of each increment, counted from 0", h5::or_else(0));
+  file("warning/code", a.warning_code, {any}, "1", "warnings, as stage3_nonlinear printed them", h5::or_else(""));
+  file("warning/text", a.warning, {std::ssize(a.warning_code)}, "1", "text of each", h5::or_else(""));
   file("converged", a.converged, {steps}, "1", "1 where the increment converged");
   file("iterations", a.iterations, {steps}, "1", "iterations of the nonlinear solver, failed tries included");
   file("residual", a.residual, {steps}, "1",

@@ -80,6 +80,15 @@ struct CrackHistory {
   Eigen::MatrixXd K_I, K_II, K_I_error, K_II_error;  ///< (steps, t)
 };
 
+/// Forces along one axis on the rows of a plate's holes, whose discs move along it.
+struct RowHistory {
+  std::vector<std::string> direction;  ///< (w) "x" or "y"
+  Eigen::VectorXd at;                  ///< (w) coordinate along it, length
+  Eigen::VectorXi holes;               ///< (w) number of holes
+  Eigen::MatrixXd force;               ///< (steps, w) of the fasteners on the plate
+  Eigen::MatrixXd before, after;       ///< (steps, w) of the plate over the sections next to the row; infinite: unknown
+};
+
 /// Displacements and forces of one plate of a joint, one row per increment.
 struct PlateHistory {
   std::string name;
@@ -96,6 +105,10 @@ struct PlateHistory {
   ContactHistory contacts{};
   Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
   Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
+  std::vector<double> traction_arm{};                        ///< (q) as in UnitCases
+  Eigen::MatrixXd traction_displacement{};                   ///< (steps, q) their mean, length; infinite: unknown
+  Eigen::MatrixXd applied{}, by_fasteners{}, by_supports{};  ///< (steps, 2) resultants along x and y, force
+  RowHistory rows{};
   RimHistory rims;
   CrackHistory cracks{};
   Border border{};
@@ -171,6 +184,8 @@ struct JointResult {
   std::vector<PlateHistory> plates;
   std::vector<EnvelopeTable> envelope{};          ///< of a joint with "cases"
   MarginTable margins{};                          ///< of a joint with "margins"
+  std::vector<std::string> warning_code{};        ///< (a) of each warning that stage3_nonlinear printed
+  std::vector<std::string> warning{};             ///< (a) its text
   std::optional<SensitivityHistory> sensitivity;  ///< if requested
 };
 

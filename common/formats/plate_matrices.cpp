@@ -16,7 +16,7 @@ using h5::or_else;
 
 constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
-constexpr int minor = 10;
+constexpr int minor = 11;
 constexpr const char* per_case = "per unit of the case";
 
 template <class File, class Matrices>
@@ -30,8 +30,11 @@ void name_datasets(File& file, Matrices& a) {
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
   file("external/direction", a.external_direction, {a.n_externals()}, "1", "x or y, for each external", or_else("x"));
   file("traction/id", a.traction_id, {any}, "1",
-       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes", or_else(""));
-  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x or y, for each traction", or_else("x"));
+       traction_boundaries, or_else(""));
+  file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x, y or rotation, for each traction",
+       or_else("x"));
+  if (File::reads || std::ssize(a.traction_arm) == a.n_tractions())
+    file("traction/arm", a.traction_arm, {a.n_tractions()}, unit(a.header.units, 1, 0), traction_arm, or_else(0));
   file("traction/bearing", a.traction_bearing, {a.n_tractions()}, "1", bearing_side, traction_sides());
   h5::Allowed axis = h5::one_of({"x", "y"});
   axis.word = "";
@@ -45,6 +48,7 @@ void name_datasets(File& file, Matrices& a) {
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
+  place_datasets(file, a.places, a.header.units, a);
 }
 
 template <class File, class Matrices>

@@ -18,7 +18,7 @@ using h5::Column;
 
 constexpr const char* format = "plate-solution";
 constexpr int major = 5;
-constexpr int minor = 2;
+constexpr int minor = 3;
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
@@ -126,9 +126,11 @@ void name_datasets(File& file, Solution& a) {
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "x or y, for each external", axis);
   file("traction/id", a.traction_id, {any}, "1",
-       "external boundaries under a given traction, uniform on edges or a cosine pressure in holes");
+       traction_boundaries);
   const Index q = a.traction_id.size();
-  file("traction/direction", a.traction_direction, {q}, "1", "x or y, for each traction", axis);
+  file("traction/direction", a.traction_direction, {q}, "1", "x, y or rotation, for each traction",
+       h5::one_of({"x", "y", rotation}));
+  file("traction/arm", a.traction_arm, {q}, unit(a.header.units, 1, 0), traction_arm, h5::or_else(0));
   const h5::Allowed hole{.text = "names in hole/id", .words = a.hole_id};
   h5::Allowed hole_or_edge = hole;
   hole_or_edge.words->emplace_back();
@@ -140,6 +142,7 @@ void name_datasets(File& file, Solution& a) {
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", hole);
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
+  place_datasets(file, a.places, a.header.units, a);
   file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1", "vertex of the mesh of each point spring",
        h5::index_into(a.mesh.n_nodes()));
   const Index n_points = a.points.size();

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -119,19 +121,36 @@ void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
   }
 }
 
-/// Adds a uniform traction of unit total force on an edge.
-void add_uniform(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
-                 Loads& loads) {
-  const auto& sides = plate.sets.at(external.on);
-  double area = 0;
-  for (const auto& side : sides)
-    area += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, plate.edges, side, 1).ds.sum();
-  for (const auto& side : sides) {
+/// Adds the load of a traction on an edge.
+/// @param traction Stress at a point, shape (2).
+void add_traction(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
+                  const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& traction, Loads& loads) {
+  for (const auto& side : plate.sets.at(external.on)) {
     const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
-    const Eigen::VectorXd spread = plate.mesh.thickness[side.element] / area * (rule.N * rule.ds);
-    add_load(problem, side.element, rule.modes, (spread * rim::unit_vector(external.direction).transpose()).reshaped(),
-             column, loads);
+    Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
+    for (int q = 0; q < rule.ds.size(); ++q)
+      load += plate.mesh.thickness[side.element] * rule.ds[q] * rule.N.col(q) * traction(rule.x.col(q)).transpose();
+    add_load(problem, side.element, rule.modes, load.reshaped(), column, loads);
   }
+}
+
+/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small rotation
+/// about the edge's centroid, so without a force, and linear along a straight edge as in bending.
+void add_edge_load(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
+                   Loads& loads) {
+  const EdgeMoments edge = edge_moments(plate, external.on);
+  if (external.kind == ExternalKind::moment)
+    add_traction(
+        plate, external, problem, column,
+        [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+          return Eigen::Vector2d(edge.centroid.y() - x.y(), x.x() - edge.centroid.x()) / (edge.area * edge.arm);
+        },
+        loads);
+  else
+    add_traction(
+        plate, external, problem, column,
+        [&](const Eigen::Vector2d&) -> Eigen::Vector2d { return rim::unit_vector(external.direction) / edge.area; },
+        loads);
 }
 
 /// Adds the cosine pressure on the bearing half of an open hole, of unit force along the external's direction; it is
@@ -168,21 +187,38 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
     if (list[column].side != 0)
       add_pressure(scene, plate, list[column], problem, column, loads);
     else
-      add_uniform(plate, scene.externals[list[column].external], problem, column, loads);
+      add_edge_load(plate, scene.externals[list[column].external], problem, column, loads);
   }
   const auto n_f = problem.T_f.rows(), nc = problem.T_c.rows();
   Eigen::SparseMatrix<double> T(n_f + nc, count_of(list));
   T.setFromTriplets(loads.begin(), loads.end());
   problem.T_f = T.topRows(n_f);
   problem.T_c = T.bottomRows(nc);
+  constexpr double negligible = 1e-12;  // of the unit force; rounding is about 1e-16
   for (int column = 0; column < count_of(list); ++column) {
-    if (Eigen::VectorXd(problem.T_f.col(column)).isZero(0) && problem.T_c.col(column).isZero(0))
+    if (Eigen::VectorXd(problem.T_f.col(column)).isZero(negligible) && problem.T_c.col(column).isZero(negligible))
       reject(scene, fmt::format("/external/{}", list[column].external), "supports fix all displacements that it loads",
              "a load along a direction in which the plate is free to move there");
   }
 }
 
 }  // namespace
+
+EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge) {
+  EdgeMoments all{};
+  const auto sum_over = [&](const auto& add) {
+    for (const auto& side : plate.sets.at(edge)) {
+      const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, 2);
+      for (int q = 0; q < rule.ds.size(); ++q) add(plate.mesh.thickness[side.element] * rule.ds[q], rule.x.col(q));
+    }
+  };
+  sum_over([&](double area, const Eigen::Vector2d& x) { all.area += area, all.centroid += area * x; });
+  all.centroid /= all.area;
+  double second = 0;
+  sum_over([&](double area, const Eigen::Vector2d& x) { second += area * (x - all.centroid).squaredNorm(); });
+  all.arm = std::sqrt(second / all.area);
+  return all;
+}
 
 std::vector<int> rigid_externals(const PlateScene& scene) {
   std::vector<int> list;
@@ -195,7 +231,7 @@ std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMes
   std::vector<TractionCase> list;
   for (int i = 0; i < count_of(scene.externals); ++i) {
     const ExternalKind kind = scene.externals[i].kind;
-    if (kind == ExternalKind::traction) list.push_back({i, 0});
+    if (kind == ExternalKind::traction || kind == ExternalKind::moment) list.push_back({i, 0});
     if (kind != ExternalKind::bearing) continue;
     list.push_back({i, 1});
     if (unit_force(scene, plate, {i, -1}) > 0) list.push_back({i, -1});

@@ -20,11 +20,19 @@ using plate::Unknowns;
 /// and a negative force are separate cases.
 struct TractionCase {
   int external;  ///< index into PlateScene::externals
-  int side;      ///< 1 or -1: bearing half of the hole, along or against the direction; 0 on an edge
+  int side;      ///< 1 or -1: bearing half of the hole, along or against the direction; 0 on an edge or of a moment
 };
 
 /// The loads in the order of the externals. A hole has a case against its direction only if the model has a rim there.
 [[nodiscard]] std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate);
+
+/// An edge, weighted with its thickness.
+struct EdgeMoments {
+  double area;               ///< length^2
+  Eigen::Vector2d centroid;  ///< (2)
+  double arm;                ///< radius of gyration about the centroid, length
+};
+[[nodiscard]] EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge);
 
 /// First disc of a point spring; the discs of point springs come last.
 [[nodiscard]] int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point);

@@ -18,6 +18,7 @@
 #include "stage1_plate/mesh/outline.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/problem/wave_orders.hpp"
+#include "stage1_plate/run/places.hpp"
 
 namespace fastjoint::stage1 {
 namespace {
@@ -75,6 +76,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.supported.assign(supported.begin(), supported.end());
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = unknowns.dofs;
+  a.places = places_of(scene, plate, unknowns);
   a.space = problem.numbering.space;
   a.p = degrees(scene);
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[p]; });
@@ -85,7 +87,9 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   for (const auto& [i, side] : traction_cases(scene, plate)) {
     const External& external = scene.externals[i];
     a.traction_id.push_back(external.id);
-    a.traction_direction.push_back(rim::name_of(external.direction));
+    const bool is_moment = external.kind == ExternalKind::moment;
+    a.traction_direction.push_back(is_moment ? formats::rotation : rim::name_of(external.direction));
+    a.traction_arm.push_back(is_moment ? edge_moments(plate, external.on).arm : 0);
     a.traction_hole.push_back(side != 0 ? external.on : "");
     a.traction_bearing.push_back(side == 0 ? "" : rim::name_of({external.direction, side}));
   }

@@ -136,17 +136,21 @@ std::string read_bearing_hole(const Value& value, const std::vector<Hole>& holes
 
 std::vector<External> read_externals(const Value& root, const std::vector<std::string>& edge_names,
                                      const std::vector<Hole>& holes) {
-  const std::map<std::string, ExternalKind> kinds = {
-      {"rigid", ExternalKind::rigid}, {"traction", ExternalKind::traction}, {"bearing", ExternalKind::bearing}};
+  const std::map<std::string, ExternalKind> kinds = {{"rigid", ExternalKind::rigid},
+                                                     {"traction", ExternalKind::traction},
+                                                     {"bearing", ExternalKind::bearing},
+                                                     {"moment", ExternalKind::moment}};
   std::vector<External> externals;
   std::set<std::string> ids;
   for (const auto& item : read_items(root, "external")) {
     item.only({"id", "on", "direction", "kind"});
-    const ExternalKind kind = kinds.at(item.at("kind").choice({"rigid", "traction", "bearing"}));
+    const ExternalKind kind = kinds.at(item.at("kind").choice({"rigid", "traction", "bearing", "moment"}));
+    if (const auto direction = item.find("direction"); direction && kind == ExternalKind::moment)
+      direction->fail("given for a moment, which turns", "an external of kind \"moment\" without \"direction\"");
     const Value on = item.at("on");
     externals.push_back({read_new_name(item.at("id"), ids),
                          kind == ExternalKind::bearing ? read_bearing_hole(on, holes) : on.choice(edge_names),
-                         read_axis(item.at("direction")), kind});
+                         kind == ExternalKind::moment ? rim::Axis::x : read_axis(item.at("direction")), kind});
   }
   return externals;
 }

@@ -81,12 +81,13 @@ struct Support {
   std::vector<rim::Axis> fix;
 };
 
-/// A rigidly moving edge, an edge under uniform traction, or an open hole under cosine pressure.
-enum class ExternalKind { rigid, traction, bearing };
+/// A rigidly moving edge, an edge under uniform traction, an open hole under cosine pressure, or edges under the traction
+/// of a moment without a force.
+enum class ExternalKind { rigid, traction, bearing, moment };
 
 struct External {
   std::string id, on;
-  rim::Axis direction;
+  rim::Axis direction;  ///< of no meaning for a moment
   ExternalKind kind;
 };
 

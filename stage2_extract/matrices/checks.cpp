@@ -169,7 +169,7 @@ std::vector<FreeTranslation> free_translations(const PlateSolution& plate, const
     result.push_back(
         {axis, is_along(direction),
          (friction * a.friction_resultant.array() + (1 - friction) * a.friction_resultant_across.array()).transpose(),
-         (traction + (1 - traction) * a.traction_resultant_across.array()).transpose(),
+         (traction + (1 - traction) * a.traction_resultant_across.array()).transpose(),  // 0 of a moment
          waves_of_translation(plate, axis)});
   }
   return result;

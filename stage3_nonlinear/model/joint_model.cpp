@@ -202,6 +202,9 @@ void apply_load(JointModel& model, const LoadScene& load, const std::vector<doub
   const Reference& name = load.external;
   PlateModel& plate = model.plates[index_of(model.plates, name.plate, &PlateModel::name)];
   const Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
+  if (rigid < plate.n_externals() && load.is_moment)
+    refuse(name.where, fmt::format("\"{}\" moves along an axis and takes no moment", name.name),
+           "\"force\" or \"displacement\", or an external of kind \"moment\"");
   if (rigid < plate.n_externals() && load.is_displacement) {
     plate.external_displacement[rigid] = load.value;
   } else if (rigid < plate.n_externals()) {
@@ -210,8 +213,13 @@ void apply_load(JointModel& model, const LoadScene& load, const std::vector<doub
     if (load.is_displacement)
       refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
              "\"force\", or an external of kind \"rigid\"");
+    const bool is_moment = plate.is_moment(traction);
+    if (is_moment != load.is_moment)
+      refuse(name.where, fmt::format("\"{}\" carries a {}", name.name, is_moment ? "moment" : "force"),
+             is_moment ? "\"moment\", force x length" : "\"force\", or an external of kind \"moment\"");
     for (Index i = traction; i < std::ssize(plate.tractions); ++i)
-      if (plate.tractions[i] == name.name) plate.traction_force[i] = load.value;
+      if (plate.tractions[i] == name.name)
+        plate.traction_force[i] = is_moment ? load.value / plate.traction_arm[i] : load.value;
     check_side(plate, traction, load, factors);
   } else {
     auto known = plate.externals;

@@ -51,7 +51,9 @@ struct PlateModel {
   VectorXd friction_unit_force, friction_resultant;  ///< (h), length^2
   VectorXd friction_resultant_across;                ///< (h), length^2; empty: all 0
   VectorXd traction_resultant_across;                ///< (q), dimensionless; empty: all 0
-  std::vector<int> external_axis, traction_axis;     ///< (e), (q) 0 x, 1 y
+  std::vector<int> external_axis, traction_axis;     ///< (e), (q) 0 x, 1 y; any of a moment
+  std::vector<double> traction_arm{};                ///< (q) a moment over its force, length; 0 of a force
+  formats::Places places{};                          ///< of the discs of the file, externals, tractions and supports
   std::vector<int> unsupported_axes;                 ///< axes along which no support of stage 1 reacts
   PlateDegrees degrees;                              ///< their sequence shows the error of S
   MatrixXd S_error;  ///< (m+e+k, m+e+k) from the file; infinite if it has none or p is not its highest degree
@@ -75,6 +77,10 @@ struct PlateModel {
   /// (q) side of the hole that bears under the force of this case; none or no list for edges
   std::vector<BearingSide> traction_bearing{};
 
+  /// True if a traction is a moment.
+  [[nodiscard]] bool is_moment(Index traction) const {
+    return traction < std::ssize(traction_arm) && traction_arm[traction] > 0;
+  }
   /// Sign of the force under which a traction's side of its hole bears; 0 for edges.
   [[nodiscard]] int bearing_sign(Index traction) const {
     if (traction >= std::ssize(traction_bearing) || !traction_bearing[traction]) return 0;

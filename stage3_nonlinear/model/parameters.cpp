@@ -80,7 +80,7 @@ Parameters parameters_of(const JointModel& joint, const JointScene& scene, const
     all.load[i] = 0;
     for (const auto& load : its_case.loads) {
       if (load.external.plate != plate.name || load.external.name != name) continue;
-      all.load[i] = load.value;
+      all.load[i] = load.is_moment ? load.value / plate.traction_arm[at] : load.value;
       if (is_traction) check_side(plate, at, load, its_case.wanted_load_factors());
     }
   }

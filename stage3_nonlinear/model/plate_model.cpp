@@ -35,6 +35,20 @@ std::vector<int> axes_of(const std::string& file, const char* dataset, const std
   return axes;
 }
 
+/// Axes of the tractions; 0 for moments, which have an arm.
+std::vector<int> traction_axes(const std::string& file, const formats::PlateMatrices& a) {
+  std::vector<std::string> names = a.traction_direction;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const double arm = i < a.traction_arm.size() ? a.traction_arm[i] : 0;
+    if ((names[i] == formats::rotation) != (arm > 0))
+      throw FileError(fmt::format("{}:traction/arm: is {:g} for the direction \"{}\", expected an arm above 0 for "
+                                  "\"rotation\", and 0 for \"x\" and \"y\"",
+                                  file, arm, names[i]));
+    if (names[i] == formats::rotation) names[i] = rim::axis_names[0];
+  }
+  return axes_of(file, "traction/direction", names);
+}
+
 /// Names the holes, and finds the index of each disc of the file among the discs of all directions. Discs of a hole
 /// must follow each other; a repeated direction counts as another hole, which check_once refuses.
 void place_discs(const std::string& file, const formats::PlateMatrices& a, PlateModel& plate) {
@@ -318,7 +332,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.traction_resultant_across = a.traction_resultant_across;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
   plate.traction_bearing = bearing_sides(a.traction_bearing);
-  plate.traction_axis = axes_of(file, "traction/direction", a.traction_direction);
+  plate.traction_arm = a.traction_arm;
+  plate.traction_axis = traction_axes(file, a);
+  plate.places = a.places;
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   plate.contact = a.contact;

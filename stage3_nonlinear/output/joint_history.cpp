@@ -13,6 +13,7 @@
 #include "stage3_nonlinear/output/csv_field.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/results/contact_history.hpp"
+#include "stage3_nonlinear/results/row_forces.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -58,6 +59,32 @@ formats::CrackHistory crack_history(const formats::CrackRows& cracks, const std:
   return a;
 }
 
+/// Sets the resultants and the rows of a plate.
+void set_totals(const PlateModel& plate, const std::vector<JointState>& states, Index at,
+                formats::PlateHistory& history) {
+  const auto rows = disc_rows(plate);
+  const Index n = std::ssize(states), w = std::ssize(rows);
+  for (auto* table : {&history.applied, &history.by_fasteners, &history.by_supports}) table->resize(n, 2);
+  auto& its = history.rows;
+  for (auto* table : {&its.force, &its.before, &its.after}) table->resize(n, w);
+  its.at.resize(w), its.holes.resize(w);
+  for (Index i = 0; i < w; ++i) {
+    its.direction.emplace_back(rim::axis_names[rows[i].axis]);
+    its.at[i] = rows[i].at;
+    its.holes[i] = count_of(rows[i].discs);
+  }
+  for (Index step = 0; step < n; ++step) {
+    const PlateState& state = states[step].plates[at];
+    history.applied.row(step) = state.applied;
+    history.by_fasteners.row(step) = state.by_fasteners;
+    history.by_supports.row(step) = state.by_supports;
+    const RowForces forces = row_forces(plate, rows, state);
+    its.force.row(step) = forces.force;
+    its.before.row(step) = forces.before;
+    its.after.row(step) = forces.after;
+  }
+}
+
 formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, Index at,
                                     bool with_rim_stresses) {
   formats::PlateHistory history;
@@ -97,6 +124,10 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.w = rows(&PlateState::w, n_w);
   history.Lambda = rows(&PlateState::Lambda, plate.R.cols()).leftCols(std::ssize(plate.friction_hole));
   history.traction = rows(&PlateState::traction, std::ssize(plate.tractions));
+  history.traction_arm = plate.traction_arm;
+  history.traction_arm.resize(plate.tractions.size());
+  history.traction_displacement = rows(&PlateState::traction_displacement, std::ssize(plate.tractions));
+  set_totals(plate, states, at, history);
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
   history.border = plate.border;
   history.cracks = crack_history(plate.cracks, states, at);

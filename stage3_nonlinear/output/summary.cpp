@@ -9,6 +9,7 @@
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/secondary_bending.hpp"
+#include "stage3_nonlinear/output/totals.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -86,6 +87,14 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
   if (state.plates_out_of_balance)
     text += fmt::format(", sheet along axes without supports by {:.1e}", *state.plates_out_of_balance);
   return text + "\n";
+}
+
+/// Arm of a moment, "plate:external"; 0 of other boundaries.
+double arm_of(const JointModel& joint, const std::string& name) {
+  for (const auto& plate : joint.plates)
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+      if (plate.is_moment(i) && plate.name + ":" + plate.tractions[i] == name) return plate.traction_arm[i];
+  return 0;
 }
 
 /// The largest force of all increments with its error bar.
@@ -291,10 +300,15 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   }
   if (states.empty()) return text;
   if (result.F_error) text += error_bar(joint, result);
+  const Index last = std::ssize(states) - 1;
+  text += external_table(result, joint.units, last) + row_table(result, joint.units, last);
   constexpr std::size_t few = 4;
-  for (std::size_t i = 0; i < result.load_external.size() && result.load_external.size() <= few; ++i)
+  for (std::size_t i = 0; i < result.load_external.size() && result.load_external.size() <= few; ++i) {
+    const double arm = arm_of(joint, result.load_external[i]), stiffness = result.load_stiffness(last, i);
     text += fmt::format("  tangent stiffness at {}: {:.6g} {}\n", result.load_external[i],
-                        result.load_stiffness(states.size() - 1, i), unit(joint.units, -1, 1));
+                        arm > 0 ? stiffness * arm * arm : stiffness,
+                        arm > 0 ? unit(joint.units, 1, 1) + "/rad" : unit(joint.units, -1, 1));
+  }
   return text + legend + interference_lines(joint, path, result) +
          stress_tables(joint, path, states, result, all_stresses) + highest_peak(joint, states.back()) +
          secondary_bending(joint, states.back());

@@ -91,6 +91,11 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, co
   u << state.D, state.De, state.moments;
   VectorXd required = plate.S * u + plate.T * state.traction;
   if (state.Lambda.size() > 0) required += plate.R * state.Lambda;
+  const Index q = state.traction.size();
+  state.traction_displacement.setConstant(q, std::numeric_limits<double>::infinity());
+  const bool has_compliance = !plate.degrees.C.empty() && plate.degrees.C.back().rows() == q;
+  if (q > 0 && has_compliance && state.Lambda.isZero(0))
+    state.traction_displacement = plate.degrees.C.back() * state.traction - plate.T.transpose() * u;
   state.bearing = on_discs;
   state.friction = VectorXd::Zero(m);
   set_friction(plate, state);
@@ -106,6 +111,7 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, co
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
   for (Index i = 0; i < std::ssize(state.traction); ++i) {
+    if (plate.is_moment(i)) continue;  // has no resultant
     state.applied[plate.traction_axis[i]] += state.traction[i];
     state.applied[1 - plate.traction_axis[i]] += state.traction[i] * entry_or_0(plate.traction_resultant_across, i);
   }

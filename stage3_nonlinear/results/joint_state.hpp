@@ -23,6 +23,7 @@ struct PlateState {
   VectorXd added;              ///< coefficients of all waves of contact that the fields use, stress
   VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
   VectorXd traction;           ///< (q) force on each traction boundary, force
+  VectorXd traction_displacement;  ///< (q) mean along each, length; infinite where friction cases act on the plate
   VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
   // If its matrices hold stresses at the joint's degree: of every hole, and of rims with waves and a closed form.
   std::vector<RimState> rims = {};

@@ -161,7 +161,7 @@ void read_fasteners(const Value& fasteners, JointScene& scene) {
 }
 
 LoadScene read_load(const Value& value, const JointScene& scene) {
-  value.only({"external", "force", "displacement"});
+  value.only({"external", "force", "displacement", "moment"});
   const Value external = value.at("external");
   constexpr const char* allowed = "\"plate:external\", or a list of such that are tied";
   LoadScene load;
@@ -172,14 +172,18 @@ LoadScene read_load(const Value& value, const JointScene& scene) {
   } else {
     load.external = read_reference(external, scene, allowed);
   }
-  const auto force = value.find("force"), displacement = value.find("displacement");
-  if (!force == !displacement)
-    value.fail(force ? "both \"force\" and \"displacement\"" : "neither \"force\" nor \"displacement\"",
+  const auto force = value.find("force"), displacement = value.find("displacement"), moment = value.find("moment");
+  const int n_given = int{force.has_value()} + int{displacement.has_value()} + int{moment.has_value()};
+  if (n_given != 1)
+    value.fail(n_given > 1 ? "more than one of \"force\", \"displacement\" and \"moment\""
+                           : "none of \"force\", \"displacement\" and \"moment\"",
                "exactly one of them");
   load.is_displacement = displacement.has_value();
-  if (displacement && !load.tied.empty())
-    displacement->fail("given for tied externals", "\"force\", or the same displacement for each external");
-  load.value = (force ? *force : *displacement).number();
+  load.is_moment = moment.has_value();
+  if (!force && !load.tied.empty())
+    (displacement ? *displacement : *moment)
+        .fail("given for tied externals", "\"force\", or a load of its own for each external");
+  load.value = (force ? *force : displacement ? *displacement : *moment).number();
   return load;
 }
 

@@ -58,8 +58,8 @@ struct FastenerScene {
 
 struct LoadScene {
   Reference external;  ///< "plate:external"
-  double value = 0;    ///< at load factor 1: force, or length
-  bool is_displacement = false;
+  double value = 0;    ///< at load factor 1: force, length, or moment
+  bool is_displacement = false, is_moment = false;
   std::vector<Reference> tied{};  ///< externals that move with it; the force is that on all of them
 };
 

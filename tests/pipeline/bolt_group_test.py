@@ -21,6 +21,7 @@ sys.dont_write_bytecode = True
 import pictures  # noqa: E402
 
 LOAD, AT = 15000, 300  # on the right edge of each bracket, downward
+FAR = 1075  # of the load of long_arm.json
 BOLTS = np.array([(40, -70), (110, -70), (40, 0), (110, 0), (40, 70), (110, 70)], dtype=float)
 
 
@@ -30,16 +31,16 @@ def call(*words):
     return result.stdout
 
 
-def handbook():
+def handbook(at=AT):
     """Of rigid plates: on the web, P / n and P e r / sum r^2 across r, shape (bolts, 2)."""
     r = BOLTS - BOLTS.mean(axis=0)
-    turning = LOAD * (AT - BOLTS[:, 0].mean()) / (r**2).sum()
+    turning = LOAD * (at - BOLTS[:, 0].mean()) / (r**2).sum()
     return np.array([0, -LOAD / len(r)]) + turning * np.column_stack([r[:, 1], -r[:, 0]])
 
 
-def solve(change=lambda scene: None, *words):
+def solve(change=lambda scene: None, *words, joint="tight"):
     """Forces on the web and on the back bracket, each (bolts, 2), of the joint after a change of its scene."""
-    scene = json.loads(Path("tight.json").read_text())
+    scene = json.loads(Path(f"{joint}.json").read_text())
     change(scene)
     Path("changed.json").write_text(json.dumps(scene))
     call("stage3_nonlinear", "changed.json", "-o", "changed.h5", "--quiet", *words)
@@ -99,6 +100,43 @@ def check_handbook(page):
             touching = np.concatenate([f[f"plates/{plate}/contact/touching"][-1] for plate in ("front", "web")])
         touching = touching[touching > 0]
         assert [int(touching.min()), round(touching.max())] == [low, high], (name, touching)
+
+
+def check_moment(page):
+    """A force beyond the bracket is one on its edge and a moment about any point: the handbook's group under its arm, by order 1 in the
+    ratio of stiffness; each bracket in balance, and the totals name the rotation of the edge."""
+    expected, error = handbook(FAR), []
+    for k in (1e4, 1e3, 1e2):
+        def soften(scene):
+            scene["laws"]["bolt"]["k"] = k
+        front, _ = solve(soften, joint="long_arm")
+        error.append(np.abs(front - expected).max() / np.abs(expected).max())
+    order = np.log10(np.array(error[:-1]) / error[1:])
+    print("under a moment, difference from the handbook:", error, "order:", order)
+    assert (np.abs(order - 1) < 0.02).all() and error[-1] < 2e-4
+    front, _ = solve(joint="long_arm")
+    about = np.array([-123.0, 456.0])  # the moment of a moment is the same about every point
+    r = BOLTS - about
+    moment = r[:, 0] @ -front[:, 1] - r[:, 1] @ -front[:, 0] - LOAD * (AT - about[0]) - LOAD * (FAR - AT)
+    assert abs(moment) < 1e-7 * LOAD * FAR, moment
+    with h5py.File("long_arm.h5") as f:
+        row = np.hypot(*f["F_vector"][-1].reshape(6, 2, 2)[:, 0].T)
+        plate = f["plates/front"]
+        arm, by, turn = (plate[f"traction/{name}"][..., 0] for name in ("arm", "force", "displacement"))
+        assert np.isclose(arm, 210 / np.sqrt(12)) and np.isclose(by[-1] * arm, -LOAD * (FAR - AT)) and turn[-1] < 0
+    for row in (np.hypot(*expected.T), row):
+        assert f"| {' | '.join(f'{force:.0f}' for force in row)} |" in page, ("the example's page has these numbers", row)
+    # The same rotation by work: half the sum over loads is the strain energy, quadratic in the moment alone.
+    def turned(moment):
+        def change(scene):
+            scene["loads"] = [{"external": f"{plate}:M", "moment": moment} for plate in ("front", "back")]
+            scene["laws"]["bolt"]["k"] = 1e3
+        solve(change, "--totals", "totals.csv", joint="long_arm")
+        lines = csv.DictReader(open("totals.csv", encoding="utf-8"))
+        return [float(line["value"]) for line in lines if line["quantity"] == "rotation" and line["plate"] == "front"][-1]
+    r = BOLTS - BOLTS.mean(axis=0)
+    rigid = 1e5 / (1e3 * (r**2).sum())  # bolts alone: moment / (k sum r^2)
+    assert np.isclose(turned(2e5), 2 * turned(1e5)) and 0.999 < turned(1e5) / rigid < 1.05, (turned(1e5), rigid)
 
 
 def check_csv():
@@ -246,6 +284,7 @@ def main(bin_folder):
         pictures.check_field("pictures/stress.png")
         check_balance()
         check_handbook(Path("README.md").read_text(encoding="utf-8"))
+        check_moment(Path("README.md").read_text(encoding="utf-8"))
         check_csv()
         check_field()
         check_row()

@@ -181,6 +181,9 @@ BAD_INPUTS = [
     ("plate_external_edge_empty", "plate_mesh", "/external/0/on", ""),
     ("plate_external_direction_unknown", "plate_half_holes", "/external/0/direction", "xy"),
     ("plate_external_bearing_of_number", "plate_springs", "/external/0/on", 1),
+    ("plate_moment_with_direction", "plate_bolt", "/external/1/direction", "x"),
+    ("plate_moment_on_no_edge", "plate_bolt", "/external/1/on", "1"),
+    ("plate_external_without_direction", "plate_bolt", "/external/0/direction", MISSING),
     ("plate_external_kind_unknown", "plate_half_holes", "/external/0/kind", "elastic"),
     ("plate_space_unknown", "plate_half_holes", "/space", "serendipity"),
     ("plate_space_empty", "plate_half_holes", "/space", ""),
@@ -307,6 +310,7 @@ BAD_INPUTS = [
 
     ("joint_loads_none", "joint_minimal", "/loads", []),
     ("joint_load_force_and_displacement", "joint_laws", "/cases/0/loads/0/displacement", 0.1),
+    ("joint_load_force_and_moment", "joint_laws", "/cases/0/loads/0/moment", 0.1),
     ("joint_load_neither", "joint_laws", "/cases/0/loads/0/force", MISSING),
     ("joint_load_force_text", "joint_laws", "/cases/0/loads/0/force", "1 kN"),
     ("joint_load_without_plate", "joint_laws", "/cases/0/loads/0/external", "P"),

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "common/formats/header.hpp"
+#include "stage1_plate/problem/plate_problem.hpp"
+
+namespace fastjoint::stage1 {
+
+/// Where discs, externals and supports act on the plate.
+[[nodiscard]] formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
+
+}  // namespace fastjoint::stage1

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/output/totals.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "stage3_nonlinear/output/csv_field.hpp"
+#include "stage3_nonlinear/output/envelope.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+using formats::JointResult;
+using formats::PlateHistory;
+
+/// A number of a sheet: what it is of, where along the direction, what it is.
+struct Total {
+  std::string direction, of, at, quantity;
+  double value;
+  std::string unit;
+};
+
+std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index step) {
+  const std::string force = unit(units, 0, 1), length = unit(units, 1, 0), moment = unit(units, 1, 1);
+  std::vector<Total> all;
+  for (int axis = 0; axis < 2; ++axis)
+    for (const auto& [quantity, table] :
+         {std::pair("applied", &plate.applied), std::pair("by fasteners", &plate.by_fasteners),
+          std::pair("by supports", &plate.by_supports)})
+      all.push_back({axis == 0 ? "x" : "y", "sheet", "", quantity, (*table)(step, axis), force});
+  const auto& rows = plate.rows;
+  for (Index i = 0; i < std::ssize(rows.direction); ++i)
+    for (const auto& [quantity, table] : {std::pair("by fasteners", &rows.force),
+                                          std::pair("in sheet before", &rows.before),
+                                          std::pair("in sheet after", &rows.after)})
+      all.push_back({rows.direction[i], "row", fmt::format("{}", rows.at[i]), quantity, (*table)(step, i), force});
+  for (Index i = 0; i < std::ssize(plate.external_id); ++i) {
+    all.push_back({"", plate.external_id[i], "", "force", plate.Pe(step, i), force});
+    all.push_back({"", plate.external_id[i], "", "displacement", plate.De(step, i), length});
+  }
+  for (Index i = 0; i < std::ssize(plate.traction_id); ++i) {
+    const double arm = plate.traction_arm[i], f = plate.traction(step, i), u = plate.traction_displacement(step, i);
+    if (i > 0 && plate.traction_id[i] == plate.traction_id[i - 1] && f == 0) continue;  // other side of a hole
+    all.push_back({"", plate.traction_id[i], "", arm > 0 ? "moment" : "force", arm > 0 ? f * arm : f,
+                   arm > 0 ? moment : force});
+    all.push_back({"", plate.traction_id[i], "", arm > 0 ? "rotation" : "displacement", arm > 0 ? u / arm : u,
+                   arm > 0 ? "rad" : length});
+  }
+  std::erase_if(all, [](const Total& each) { return !std::isfinite(each.value); });
+  return all;
+}
+
+}  // namespace
+
+std::string totals_csv(const JointResult& a) {
+  std::string text = "increment,load_factor,plate,direction,of,at,quantity,value,unit,joint,case\n";
+  for (Index step = 0; step < a.load_factor.size(); ++step)
+    for (const auto& plate : a.plates)
+      for (const auto& [direction, of, at, quantity, value, unit] : totals(plate, a.header.units, step))
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", increment_number(a, step), a.load_factor[step],
+                            csv_field(plate.name), direction, csv_field(of), at, quantity, value, csv_field(unit),
+                            csv_field(a.header.name), csv_field(a.case_name[a.case_of[step]]));
+  return text;
+}
+
+std::string row_table(const JointResult& a, const Units& units, Index step) {
+  std::map<std::string, double> carried;
+  for (const auto& plate : a.plates)
+    for (Index i = 0; i < std::ssize(plate.rows.direction); ++i)
+      carried[plate.rows.direction[i]] += std::abs(plate.rows.force(step, i));
+  if (carried.empty()) return {};
+  const std::string along = std::ranges::max_element(carried, {}, [](const auto& each) { return each.second; })->first;
+  const auto shown = [](double force) { return std::isfinite(force) ? fmt::format("{:.8g}", force + 0.0) : "-"; };
+  std::string lines;
+  for (const auto& plate : a.plates) {
+    const auto& rows = plate.rows;
+    if (std::ranges::count(rows.direction, along) < 2) continue;
+    for (Index i = 0; i < std::ssize(rows.direction); ++i)
+      if (rows.direction[i] == along)
+        lines += fmt::format("  {:<24} {:>12.6g} {:>6} {:>16} {:>16} {:>16}\n", plate.name, rows.at[i], rows.holes[i],
+                             shown(rows.force(step, i)), shown(rows.before(step, i)), shown(rows.after(step, i)));
+  }
+  if (lines.empty()) return lines;
+  const std::string force = fmt::format("[{}]", unit(units, 0, 1));
+  return fmt::format("  {:<24} {:>12} {:>6} {:>16} {:>16} {:>16}\n", "rows of holes on", along, "holes", "fasteners",
+                     "sheet before", "sheet after") +
+         fmt::format("  {:<24} {:>12} {:>6} {:>16} {:>16} {:>16}\n", "", fmt::format("[{}]", unit(units, 1, 0)), "",
+                     force, force, force) +
+         lines;
+}
+
+std::string external_table(const JointResult& a, const Units& units, Index step) {
+  std::string lines;
+  for (const auto& plate : a.plates)
+    for (const auto& [direction, of, at, quantity, value, its_unit] : totals(plate, units, step))
+      if (direction.empty())
+        lines += fmt::format("  {:<24} {:<14} {:>16.8g} {}\n", plate.name + ":" + of, quantity, value + 0.0, its_unit);
+  return lines.empty() ? lines : "  external boundaries\n" + lines;
+}
+
+}  // namespace fastjoint::stage3

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/row_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace fastjoint::stage3 {
+namespace {
+
+/// A force along an axis that acts somewhere between two coordinates.
+struct PlacedForce {
+  double from, to, value;
+};
+
+/// Difference of coordinates within which two discs are of one row.
+double tolerance(const PlateModel& plate, int axis) {
+  constexpr double relative = 1e-3;
+  const auto centers = plate.places.disc.col(axis);
+  return relative * (centers.maxCoeff() - centers.minCoeff());
+}
+
+constexpr double negligible = 1e-10;  ///< of the largest force: rounding
+
+/// All forces on the sheet along an axis.
+struct PlacedForces {
+  std::vector<PlacedForce> all;
+  double largest = 0;
+};
+
+PlacedForces forces_along(const PlateModel& plate, int axis, const PlateState& state) {
+  PlacedForces result;
+  auto& forces = result.all;
+  for (Index i = 0; i < std::ssize(plate.discs); ++i) {
+    const Index disc = plate.discs[i];
+    const double at = plate.places.disc(i, axis);
+    if (plate.axis_of(disc) == axis) forces.push_back({at, at, state.bearing[disc] + state.friction[disc]});
+  }
+  for (Index i = 0; i < plate.n_externals(); ++i)
+    if (plate.external_axis[i] == axis)
+      forces.push_back({plate.places.external(i, 0), plate.places.external(i, 1), state.Pe[i]});
+  for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+    if (plate.traction_axis[i] == axis && !plate.is_moment(i))
+      forces.push_back({plate.places.traction(i, 0), plate.places.traction(i, 1), state.traction[i]});
+  for (const auto& force : forces) result.largest = std::max(result.largest, std::abs(force.value));
+  const double reaction = state.by_supports[axis];
+  if (std::abs(reaction) > negligible * result.largest)  // else there is no support
+    forces.push_back({plate.places.support(axis, 0), plate.places.support(axis, 1), reaction});
+  return result;
+}
+
+/// Sum of the forces beyond a section, the tension in the sheet there.
+double beyond(const PlacedForces& forces, double section) {
+  double sum = 0;
+  for (const auto& force : forces.all) {
+    if (force.from < section && force.to > section && force.value != 0) return std::numeric_limits<double>::infinity();
+    if (force.from >= section) sum += force.value;
+  }
+  return std::abs(sum) <= negligible * forces.largest ? 0 : sum;
+}
+
+}  // namespace
+
+std::vector<DiscRow> disc_rows(const PlateModel& plate) {
+  std::vector<DiscRow> rows;
+  if (!plate.places.is_known()) return rows;
+  for (const int axis : plate.axes) {
+    std::vector<Index> order;
+    for (Index i = 0; i < std::ssize(plate.discs); ++i)
+      if (plate.axis_of(plate.discs[i]) == axis) order.push_back(i);
+    const auto at = [&](Index disc) { return plate.places.disc(disc, axis); };
+    std::ranges::stable_sort(order, {}, at);
+    double first = -std::numeric_limits<double>::infinity();
+    for (const Index i : order) {
+      if (at(i) - first > tolerance(plate, axis)) rows.push_back({axis, 0, {}}), first = at(i);
+      DiscRow& row = rows.back();
+      row.at += (at(i) - row.at) / double(row.discs.size() + 1);
+      row.discs.push_back(plate.discs[i]);
+    }
+  }
+  return rows;
+}
+
+RowForces row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state) {
+  const Index n = std::ssize(rows);
+  RowForces result{VectorXd::Zero(n), VectorXd(n), VectorXd(n)};
+  for (Index i = 0; i < n; ++i) {
+    const auto& [axis, at, discs] = rows[i];
+    for (const Index disc : discs) result.force[i] += state.bearing[disc] + state.friction[disc];
+    const auto forces = forces_along(plate, axis, state);
+    // Rounding of the places must not put an edge at the row on its other side.
+    const double margin = tolerance(plate, axis) + 1e-9 * std::abs(at);
+    result.before[i] = beyond(forces, at - margin);
+    result.after[i] = beyond(forces, at + margin);
+  }
+  return result;
+}
+
+}  // namespace fastjoint::stage3
