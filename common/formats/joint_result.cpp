@@ -39,6 +39,14 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
   file(group + "sections", a.sections, {r}, "1", "number of sections across x next to each hole");
   file(group + "center", a.center, {r, 2}, unit(units, 1, 0), "x and y of each hole's centre", h5::or_else(0));
   file(group + "radius", a.radius, {r}, unit(units, 1, 0), "radius of each hole", h5::or_else(0));
+  const auto sizes = [&](const char* name, auto& value, int power, const char* meaning) {
+    if (File::reads || value.size() == r)
+      file(group + name, value, {r}, unit(units, power, 0), meaning, h5::or_else(0));
+  };
+  sizes("thickness", a.thickness, 1, "mean thickness of the plate at each hole, 0 if not known");
+  sizes("gross_area", a.gross_area, 2,
+        "area of the smaller section across x next to the hole, without it, 0 if there is none");
+  sizes("net_area", a.net_area, 2, "net area of this section");
   for (const auto& each : quantities) {
     const auto row = [&](auto& holes) { return Column{holes, each.value}; };
     file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
@@ -158,8 +166,7 @@ void plate_datasets(File& file, Plate& a, Eigen::Index steps, const Units& units
   const Eigen::Index h = a.friction_hole.size();
   file(group + "friction/bearing", a.friction_bearing, {h}, "1", "bearing side of each friction case: +x, -x, +y, -y");
   file(group + "Lambda", a.Lambda, {steps, h}, unit(units, -2, 1), "peak stress of each friction case");
-  file(group + "traction/id", a.traction_id, {any}, "1",
-       traction_boundaries);
+  file(group + "traction/id", a.traction_id, {any}, "1", traction_boundaries);
   file(group + "traction/bearing", a.traction_bearing, {std::ssize(a.traction_id)}, "1", bearing_side,
        traction_sides());
   file(group + "traction/force", a.traction, {steps, std::ssize(a.traction_id)}, force, "total force of each traction");

@@ -48,7 +48,8 @@ struct RimHistory {
   std::vector<std::string> hole;               ///< (r); empty if the plate's matrices have no stresses at this degree
   Eigen::VectorXi sections;                    ///< (r) number of sections across x next to the hole
   Eigen::MatrixXd center{};                    ///< (r, 2) length
-  Eigen::VectorXd radius{};                    ///< (r) length
+  Eigen::VectorXd radius{}, thickness{};       ///< (r) length; 0 if not known
+  Eigen::VectorXd gross_area{}, net_area{};    ///< (r) of the smaller section across x next to the hole; 0 without one
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
   std::optional<RimStresses> stresses{};       ///< if requested
 };
@@ -103,8 +104,8 @@ struct PlateHistory {
   Eigen::MatrixXd amounts{};     ///< (steps, k) amplitude of each of these waves, stress
   Eigen::MatrixXd w{};  ///< (steps, sum of sizes) waves of the disc's normal displacement relative to the sheet, length
   ContactHistory contacts{};
-  Eigen::MatrixXd Lambda;    ///< (steps, h) peak stress of each friction case, stress
-  Eigen::MatrixXd traction;  ///< (steps, q) force on each traction boundary, force
+  Eigen::MatrixXd Lambda;                                    ///< (steps, h) peak stress of each friction case, stress
+  Eigen::MatrixXd traction;                                  ///< (steps, q) force on each traction boundary, force
   std::vector<double> traction_arm{};                        ///< (q) as in UnitCases
   Eigen::MatrixXd traction_displacement{};                   ///< (steps, q) their mean, length; infinite: unknown
   Eigen::MatrixXd applied{}, by_fasteners{}, by_supports{};  ///< (steps, 2) resultants along x and y, force

@@ -29,8 +29,7 @@ void name_datasets(File& file, Matrices& a) {
        "modulus of the distributed springs between disc and sheet, 0 where there are none", or_else(0));
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
   file("external/direction", a.external_direction, {a.n_externals()}, "1", "x or y, for each external", or_else("x"));
-  file("traction/id", a.traction_id, {any}, "1",
-       traction_boundaries, or_else(""));
+  file("traction/id", a.traction_id, {any}, "1", traction_boundaries, or_else(""));
   file("traction/direction", a.traction_direction, {a.n_tractions()}, "1", "x, y or rotation, for each traction",
        or_else("x"));
   if (File::reads || std::ssize(a.traction_arm) == a.n_tractions())

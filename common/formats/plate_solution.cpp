@@ -125,8 +125,7 @@ void name_datasets(File& file, Solution& a) {
        {.text = "numbers that do not fall", .low = 0, .step = 0});
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one");
   file("external/direction", a.external_direction, {std::ssize(a.external_id)}, "1", "x or y, for each external", axis);
-  file("traction/id", a.traction_id, {any}, "1",
-       traction_boundaries);
+  file("traction/id", a.traction_id, {any}, "1", traction_boundaries);
   const Index q = a.traction_id.size();
   file("traction/direction", a.traction_direction, {q}, "1", "x, y or rotation, for each traction",
        h5::one_of({"x", "y", rotation}));

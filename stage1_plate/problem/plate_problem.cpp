@@ -134,8 +134,8 @@ void add_traction(const PlateMesh& plate, const External& external, const PlateP
   }
 }
 
-/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small rotation
-/// about the edge's centroid, so without a force, and linear along a straight edge as in bending.
+/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small
+/// rotation about the edge's centroid, so without a force, and linear along a straight edge as in bending.
 void add_edge_load(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
                    Loads& loads) {
   const EdgeMoments edge = edge_moments(plate, external.on);
@@ -197,7 +197,8 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
   constexpr double negligible = 1e-12;  // of the unit force; rounding is about 1e-16
   for (int column = 0; column < count_of(list); ++column) {
     if (Eigen::VectorXd(problem.T_f.col(column)).isZero(negligible) && problem.T_c.col(column).isZero(negligible))
-      reject(scene, fmt::format("/external/{}", list[column].external), "supports fix all displacements that it loads",
+      reject(scene, fmt::format("/external/{}", list[column].external),
+             "supports fix all displacements that it loads, or another external moves all that a moment would turn",
              "a load along a direction in which the plate is free to move there");
   }
 }

@@ -34,9 +34,9 @@ std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index s
       all.push_back({axis == 0 ? "x" : "y", "sheet", "", quantity, (*table)(step, axis), force});
   const auto& rows = plate.rows;
   for (Index i = 0; i < std::ssize(rows.direction); ++i)
-    for (const auto& [quantity, table] : {std::pair("by fasteners", &rows.force),
-                                          std::pair("in sheet before", &rows.before),
-                                          std::pair("in sheet after", &rows.after)})
+    for (const auto& [quantity, table] :
+         {std::pair("by fasteners", &rows.force), std::pair("in sheet before", &rows.before),
+          std::pair("in sheet after", &rows.after)})
       all.push_back({rows.direction[i], "row", fmt::format("{}", rows.at[i]), quantity, (*table)(step, i), force});
   for (Index i = 0; i < std::ssize(plate.external_id); ++i) {
     all.push_back({"", plate.external_id[i], "", "force", plate.Pe(step, i), force});
@@ -45,8 +45,8 @@ std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index s
   for (Index i = 0; i < std::ssize(plate.traction_id); ++i) {
     const double arm = plate.traction_arm[i], f = plate.traction(step, i), u = plate.traction_displacement(step, i);
     if (i > 0 && plate.traction_id[i] == plate.traction_id[i - 1] && f == 0) continue;  // other side of a hole
-    all.push_back({"", plate.traction_id[i], "", arm > 0 ? "moment" : "force", arm > 0 ? f * arm : f,
-                   arm > 0 ? moment : force});
+    all.push_back(
+        {"", plate.traction_id[i], "", arm > 0 ? "moment" : "force", arm > 0 ? f * arm : f, arm > 0 ? moment : force});
     all.push_back({"", plate.traction_id[i], "", arm > 0 ? "rotation" : "displacement", arm > 0 ? u / arm : u,
                    arm > 0 ? "rad" : length});
   }

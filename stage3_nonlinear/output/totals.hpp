@@ -12,8 +12,8 @@ namespace fastjoint::stage3 {
 /// is not known has no line.
 [[nodiscard]] std::string totals_csv(const formats::JointResult& result);
 
-/// Table of the rows of sheets with more than one along the axis on which rows carry most, at a row of the result; empty
-/// if there are none.
+/// Table of the rows of sheets with more than one along the axis on which rows carry most, at a row of the result;
+/// empty if there are none.
 [[nodiscard]] std::string row_table(const formats::JointResult& result, const Units& units, Eigen::Index step);
 /// Table of the loads and displacements of all externals at a row of the result; empty if there are none.
 [[nodiscard]] std::string external_table(const formats::JointResult& result, const Units& units, Eigen::Index step);

@@ -279,8 +279,25 @@ int n_sections(const formats::PlateStresses& a, const std::string& hole) {
 }
 
 formats::RimHistory rims_of(const formats::PlateStresses& a) {
-  formats::RimHistory rims{a.rim_hole, Eigen::VectorXi(std::ssize(a.rim_hole)), a.rim_center, a.rim_radius, {}, {}};
-  for (Index i = 0; i < rims.sections.size(); ++i) rims.sections[i] = n_sections(a, rims.hole[i]);
+  const Index r = std::ssize(a.rim_hole);
+  formats::RimHistory rims{.hole = a.rim_hole,
+                           .sections = Eigen::VectorXi(r),
+                           .center = a.rim_center,
+                           .radius = a.rim_radius,
+                           .thickness = a.rim_thickness,
+                           .gross_area = VectorXd::Zero(r),
+                           .net_area = VectorXd::Zero(r),
+                           .values = {}};
+  for (Index i = 0; i < r; ++i) {
+    rims.sections[i] = n_sections(a, rims.hole[i]);
+    for (Index s = 0; s < std::ssize(a.section_hole); ++s) {
+      const bool is_across_x = a.section_side[s].ends_with("x"), is_first = rims.net_area[i] == 0;
+      if (a.section_hole[s] != rims.hole[i] || !is_across_x || (!is_first && a.net_area[s] >= rims.net_area[i]))
+        continue;
+      rims.net_area[i] = a.net_area[s];
+      rims.gross_area[i] = a.gross_area[s];
+    }
+  }
   return rims;
 }
 

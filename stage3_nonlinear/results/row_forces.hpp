@@ -14,8 +14,8 @@ struct DiscRow {
   std::vector<Index> discs;  ///< unknowns along the axis
 };
 
-/// The rows of a sheet, of each axis of the joint in ascending order; none if its file does not tell the places. Centres
-/// that differ by less than a thousandth of the extent of all are of one row.
+/// The rows of a sheet, of each axis of the joint in ascending order; none if its file does not tell the places.
+/// Centres that differ by less than a thousandth of the extent of all are of one row.
 [[nodiscard]] std::vector<DiscRow> disc_rows(const PlateModel& plate);
 
 /// Forces along the axis of each row, shape (rows).

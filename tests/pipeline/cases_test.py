@@ -138,6 +138,56 @@ def one_after_another(folder):
     assert "increment 2 of 2: load factor 1" in done.stdout and done.stdout.count("increment 1 of 2") == 1
 
 
+def totals(folder):
+    """Rows, sections and edges: each sum is that of its fasteners, tension grows row by row to the load, and the CSV holds what the file holds."""
+    sheets(folder, contact=True)
+    cases = [{"name": "pull", "loads": loads(900), "increments": 2}, {"name": "both", "loads": loads(-500, 70)}]
+    run(folder, joint(cases), "--totals", "totals.csv")
+    lines = list(csv.DictReader(open(folder / "totals.csv", encoding="utf-8")))
+    key = lambda line: (line["case"], int(line["increment"]), line["plate"], line["direction"], line["of"], line["at"], line["quantity"])
+    found = {key(line): float(line["value"]) for line in lines}
+    assert len(found) == len(lines), "each number once"
+    n = 0
+    with h5py.File(folder / "out.h5") as file:
+        for row, (case, step) in enumerate((("pull", 1), ("pull", 2), ("both", 1))):
+            T = 70 * (case == "both")
+            for name in ("upper", "lower"):
+                plate = file[f"plates/{name}"]
+                at = lambda direction, of, place, quantity: found.get((case, step, name, direction, of, place, quantity))
+                for axis in (0, 1):
+                    parts = [plate[f"total/{each}"][row, axis] for each in ("applied", "by_fasteners", "by_supports")]
+                    assert parts == [at("xy"[axis], "sheet", "", each) for each in ("applied", "by fasteners", "by supports")]
+                    assert abs(sum(parts)) < 1e-9
+                rows = plate["row"]
+                for i, direction in enumerate(rows["direction"].asstr()):
+                    for each, quantity in (("force", "by fasteners"), ("before", "in sheet before"), ("after", "in sheet after")):
+                        value = rows[each][row, i]
+                        assert at(direction, "row", f"{rows['at'][i]:g}", quantity) == (value if np.isfinite(value) else None), (name, i, each)
+                        n += np.isfinite(value)
+                along = [i for i, direction in enumerate(rows["direction"].asstr()) if direction == "x"]
+                assert list(rows["at"][along]) == [5, 15, 25] and list(rows["holes"][along]) == [1, 1, 1]
+                force, before, after = (rows[each][row][along] for each in ("force", "before", "after"))
+                near("tension past a row", np.abs(before - after - force).max(), 0, 1e-8, absolute=True)
+                near("tension between rows", np.abs(after[:-1] - before[1:]).max(), 0, 1e-8, absolute=True)
+                P = file["plates/upper/Pe"][row, 0]
+                near("tension at the ends", np.abs([before[0] - (name == "lower") * P, after[-1] - (name == "upper") * P]).max(), 0, 1e-8, absolute=True)
+                near("forces of rows", abs(force.sum() - plate["total/by_fasteners"][row, 0]), 0, 1e-9, absolute=True)
+            assert found[case, step, "upper", "", "P", "", "displacement"] == file["plates/upper/De"][row, 0]
+            moved = file["plates/upper/traction/displacement"][row, 0]
+            assert np.isfinite(moved) and found[case, step, "upper", "", "T", "", "displacement"] == moved and found[case, step, "upper", "", "T", "", "force"] == T
+    # Three rows along x and one along y, whose section crosses the support of the lower sheet where that reacts along y.
+    assert n == 3 * 2 * 3 * (N + 1) - 2, ("rows with their sections", n)
+    # The mean displacement under a traction is that by which its work is that of the joint: by a linear joint without gaps, Maxwell's theorem.
+    sheets(folder)
+    moved = []
+    for one, other in ((1, 0), (0, 1)):
+        run(folder, joint(loads=loads(one, other)))
+        with h5py.File(folder / "out.h5") as file:
+            moved.append([file["plates/upper/De"][-1, 0], file["plates/upper/traction/displacement"][-1, 0]])
+    near("Maxwell's theorem of an edge that moves as one and one under traction", abs(moved[0][1] / moved[1][0] - 1), 0, 1e-9, absolute=True)
+    assert moved[1][1] > 0
+
+
 def failures(folder):
     sheets(folder)
     weak = {"type": "bilinear", "k": 3e4, "F_yield": 100, "k_yield": 0}
@@ -228,7 +278,7 @@ def studies(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for each in (against_single_runs, superposition, one_after_another, failures, ties, studies):
+        for each in (against_single_runs, superposition, one_after_another, totals, failures, ties, studies):
             each(Path(name))
     end_if_missed()
 
