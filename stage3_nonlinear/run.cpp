@@ -195,7 +195,7 @@ void check_solved(const std::vector<std::string>& failures, std::size_t n_cases)
   if (failures.empty()) return;
   const std::string more =
       n_cases == 1 ? "" : fmt::format(" ({} of {} cases were not solved)", failures.size(), n_cases);
-  throw IncompleteResult(fmt::format("{}{}", fmt::join(failures, "\n"), more));
+  throw IncompleteResult(fmt::format("{}{}", fmt::join(failures, "; "), more));
 }
 
 }  // namespace
@@ -224,6 +224,10 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   CaseRun cases(scene, load_joint(scene, p));
   require_memory(scene, cases.joint(), chosen, !arguments.text("--csv").empty(), arguments.flag("--sensitivities"),
                  arguments.flag("--rim-stresses"));
+  if (!scene.checks.empty()) {
+    std::vector<program::Warning> later;
+    (void)margins(scene, cases.joint(), {}, later);  // ends before anything is solved if a check cannot be made
+  }
   timings.phase("solve");
   program::report_share(0);
   CrackErrorEstimate cracks(scene, cases.joint());
@@ -244,7 +248,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
   if (!scene.checks.empty()) {
-    result.margins = margins(scene, joint, result);
+    std::vector<program::Warning> left_out;
+    result.margins = margins(scene, joint, result, left_out);
+    warn(log, left_out, warnings);
     warn(log, edge_warnings(scene, result.margins), warnings);
   }
   for (const auto& each : warnings) {

@@ -27,7 +27,7 @@ constexpr auto quantities = std::to_array<RimQuantity>({
     {"gross_concentration", &V::gross_concentration, ratio, "peak over the stress of the gross section", true},
     {"net_concentration", &V::net_concentration, ratio, "peak over the stress of the net section", true},
     {"net_stress", &V::net_stress, stress,
-     "mean stress of the net section next to the hole that carries more, tension positive", true},
+     "largest mean stress of the net sections across x next to the hole, tension positive", true},
     {"against_slip", &V::against_slip, angle,
      "part of the contact on which friction acts against the slip that it assumes"},
 });
@@ -228,6 +228,7 @@ template <class File, class Tables>
 void envelope_datasets(File& file, Tables& all, Eigen::Index steps) {
   file("envelope/quantity", Column{all, &EnvelopeTable::quantity}, {any}, "1",
        "quantities of the envelope, each with a group; none if the joint has no cases", h5::or_else(""));
+  if constexpr (File::reads) return;  // it follows from the rest, and its units from its quantities
   for (auto& a : all) {
     const std::string group = "envelope/" + a.quantity + "/";
     file(group + "of", a.of, {any}, "1", "shear plane, plate:hole, plate:external or plate:tip");
@@ -255,6 +256,21 @@ void margin_datasets(File& file, Table& a, Eigen::Index steps) {
   file("margin/unit", a.unit, {m}, "1", "unit of the allowable and of what is applied", h5::or_else(""));
   file("margin/formula", a.formula, {m}, "1", "formula of the allowable", h5::or_else(""));
   file("margin/inputs", a.inputs, {m}, "1", "its numbers and the factors", h5::or_else(""));
+}
+
+/// What laws remember; nothing if none does.
+template <class File, class Result>
+void memory_datasets(File& file, Result& a, Eigen::Index steps, Eigen::Index rows, const Units& units) {
+  if constexpr (File::reads) {
+    if (!file.has("memory/set")) return;
+  } else {
+    if (a.set.size() == 0) return;
+  }
+  const Eigen::Index n = a.fastener_id.size(), directions = n > 0 ? rows / n : 0;
+  file("memory/set", a.set, {steps, n, directions}, unit(units, 1, 0),
+       "permanent set of each plane: the part of delta that yield or slip in bearing has left");
+  file("memory/dissipated", a.dissipated, {steps, n}, unit(units, 1, 1),
+       "energy that slip and yield of each plane have taken since the joint was unloaded");
 }
 
 template <class File, class Result>
@@ -291,6 +307,7 @@ void datasets(File& file, Result& a) {
   file("F_vector", a.F_vector, {steps, n, directions}, force, "components of F");
   file("transferred", a.transferred, {steps, n, 2}, force,
        "bearing and friction together, on the first and on the second plate");
+  memory_datasets(file, a, steps, n * directions, units);
   file("stiffness/external", a.load_external, {any}, "1", "plate:external of each load other than zero",
        h5::or_else(""));
   file("stiffness/tangent", a.load_stiffness, {steps, std::ssize(a.load_external)}, unit(units, -1, 1),

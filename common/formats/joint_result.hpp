@@ -18,7 +18,7 @@ struct RimValues {
   double peak_hoop = 0, peak_angle = 0, peak_error = 0;
   double against_slip = 0;                                ///< in contact with friction
   double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
-  double net_stress = 0;                                  ///< of that section, tension positive
+  double net_stress = 0;                                  ///< of the net section in larger tension; tension positive
 };
 
 enum class Dimension { force, stress, angle, ratio };
@@ -180,6 +180,9 @@ struct JointResult {
   std::optional<Eigen::MatrixXd> F_error;            ///< (steps, n) estimated error, if the plates' errors are known
   Eigen::MatrixXd delta_vector, F_vector;            ///< (steps, n a) their components, direction varying fastest
   Eigen::MatrixXd transferred;  ///< (steps, n 2) F + friction resultant on each plane's first, then second plate
+  /// (steps, n a) permanent set of the bearing of each plane, (steps, n) energy dissipated by slip and yield so far;
+  /// empty if no law remembers
+  Eigen::MatrixXd set{}, dissipated{};
   std::vector<std::string> load_external;  ///< (s) "plate:external" of each load other than zero
   Eigen::MatrixXd load_stiffness;          ///< (steps, s) tangent dP/du as all loads grow together, force / length
   std::vector<PlateHistory> plates;

@@ -169,6 +169,18 @@ void JointEquations::commit(const VectorXd& c) {
   }
 }
 
+std::vector<PlaneMemory> JointEquations::memories() const {
+  std::vector<PlaneMemory> all;
+  bool any = false;
+  for (std::size_t i = 0; i < interfaces.size() && std::ssize(all) < n_planes(); ++i) {
+    auto of_interface = interfaces[i].interface->memories(history.empty() ? History() : history[i]);
+    any = any || !of_interface.empty();
+    of_interface.resize(interfaces[i].interface->size() / n_directions(), {VectorXd::Zero(n_directions())});
+    all.insert(all.end(), of_interface.begin(), of_interface.end());
+  }
+  return any ? all : std::vector<PlaneMemory>();
+}
+
 VectorXd JointEquations::load_at(double load_factor) const {
   return of_active_cases(*this, load_factor, parameters.load_at(load_factor));
 }

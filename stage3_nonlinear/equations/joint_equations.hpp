@@ -54,6 +54,10 @@ struct JointEquations {
   [[nodiscard]] VectorXd q_at(double load_factor) const;
   /// Updates the histories of the interfaces with the solution of an increment, the contact coordinates c, (r).
   void commit(const VectorXd& c);
+  /// What the planes remember, (n); empty if no law remembers.
+  [[nodiscard]] std::vector<PlaneMemory> memories() const;
+  /// True if a law remembers.
+  [[nodiscard]] bool remembers() const { return !memories().empty(); }
   /// True if there is no load at load factor 0.
   [[nodiscard]] bool starts_unloaded() const { return parameters.load_before.size() == 0; }
   /// Forces of rigid fasteners at a load factor, (r), force.

@@ -50,6 +50,7 @@ std::vector<Corner> corners_of(const Contact& contact) {
 
 FastenerInterface::FastenerInterface(std::vector<Contact> planes, Place place)
     : planes_(std::move(planes)), place_(std::move(place)) {
+  for (const Contact& plane : planes_) branches_.push_back(plane.law->branches(plane.clearance));
   for (const auto& hole : place_.friction_holes) {
     auto& sides = sides_.emplace_back();
     for (const Side side : {plus_side, minus_side}) {
@@ -143,12 +144,82 @@ MatrixXd FastenerInterface::friction_by_force(const VectorXd& F) const {
   return slopes;
 }
 
-Response FastenerInterface::respond(const VectorXd& c, const History& /*history*/) const {
+std::vector<Slider> FastenerInterface::sliders(const History& history, Index plane) const {
+  const Index a = place_.n_directions;
+  std::vector<Slider> result(branches_[plane].size(), Slider{PlaneVector::Zero(a)});
+  if (history.size() == 0) return result;
+  Index at = 0;
+  for (Index j = 0; j < plane; ++j) at += std::ssize(branches_[j]) * (a + 2);
+  for (Slider& slider : result) {
+    slider = {history.segment(at, a), history[at + a] != 0, history[at + a + 1]};
+    at += a + 2;
+  }
+  return result;
+}
+
+std::optional<RememberedState> FastenerInterface::remembered_state(const VectorXd& c, const History& history,
+                                                                   Index plane) const {
+  if (branches_[plane].empty() || history.size() == 0) return std::nullopt;
+  const auto before = sliders(history, plane);
+  const auto at_rest = [](const Slider& slider) { return slider.set.isZero(0); };
+  if (std::ranges::all_of(before, at_rest)) return std::nullopt;  // then the law's own curve holds
+  const Index a = place_.n_directions;
+  return state_from(before, c.segment(plane * a, a), plane);
+}
+
+RememberedState FastenerInterface::state_from(const std::vector<Slider>& before, const VectorXd& c, Index plane) const {
+  const Contact& contact = planes_[plane];
+  const double k = contact.stiffness;
+  RememberedState state = remembered(branches_[plane], before, c, k, branch(contact, c).delta * along(c));
+  if (!contact.one_sided || state.F[0] > 0) return state;
+  state = {PlaneVector::Zero(1), c / k, PlaneMatrix::Zero(1, 1), PlaneMatrix::Constant(1, 1, 1 / k), before};
+  for (Slider& slider : state.sliders) slider.moves = false;
+  return state;
+}
+
+History FastenerInterface::commit(const VectorXd& c, const History& history) const {
+  const Index a = place_.n_directions;
+  std::vector<double> next;
+  for (Index j = 0; j < std::ssize(planes_); ++j) {
+    if (branches_[j].empty()) continue;
+    for (const Slider& slider : state_from(sliders(history, j), c.segment(j * a, a), j).sliders) {
+      next.insert(next.end(), slider.set.begin(), slider.set.end());
+      next.push_back(slider.moves ? 1 : 0);
+      next.push_back(slider.dissipated);
+    }
+  }
+  return History::Map(next.data(), std::ssize(next));
+}
+
+std::vector<PlaneMemory> FastenerInterface::memories(const History& history) const {
+  std::vector<PlaneMemory> result;
+  if (std::ranges::all_of(branches_, [](const auto& each) { return each.empty(); })) return result;
+  for (Index j = 0; j < std::ssize(planes_); ++j) {
+    PlaneMemory& memory = result.emplace_back(PlaneMemory{VectorXd::Zero(place_.n_directions)});
+    const auto of_plane = sliders(history, j);
+    for (std::size_t b = 0; b < of_plane.size(); ++b) {
+      const bool is_slip = branches_[j][b].is_slip;
+      if (!is_slip) memory.set = of_plane[b].set;
+      (is_slip ? memory.slips : memory.yields) = of_plane[b].moves;
+      memory.dissipated += of_plane[b].dissipated;
+    }
+  }
+  return result;
+}
+
+Response FastenerInterface::respond(const VectorXd& c, const History& history) const {
   const Index n = c.size(), a = place_.n_directions;
   Response response{VectorXd(n), VectorXd(n), {}, MatrixXd::Zero(n, n), MatrixXd::Zero(n, n), {}};
   for (Index j = 0; j < std::ssize(planes_); ++j) {
     const VectorXd here = c.segment(j * a, a), e = along(here);
     const double length = here.norm();
+    if (const auto state = remembered_state(c, history, j)) {
+      response.F.segment(j * a, a) = state->F;
+      response.delta.segment(j * a, a) = state->delta;
+      response.dF.block(j * a, j * a, a, a) = state->dF;
+      response.ddelta.block(j * a, j * a, a, a) = state->ddelta;
+      continue;
+    }
     const Branch on = branch(planes_[j], here);
     if (on.failed) response.failed = j * a;
     response.F.segment(j * a, a) = on.F * e;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "stage3_nonlinear/interfaces/interface.hpp"
+#include "stage3_nonlinear/interfaces/plane_memory.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 
@@ -65,6 +66,8 @@ class FastenerInterface : public Interface {
   [[nodiscard]] Index size() const override { return std::ssize(planes_) * place_.n_directions; }
   [[nodiscard]] Index n_friction() const override { return place_.n_columns; }
   [[nodiscard]] Response respond(const VectorXd& c, const History& history) const override;
+  [[nodiscard]] History commit(const VectorXd& c, const History& history) const override;
+  [[nodiscard]] std::vector<PlaneMemory> memories(const History& history) const override;
   void add_trace(double trace, Response& response) const override;
   [[nodiscard]] MatrixXd friction_by_force(const VectorXd& F) const override;
   [[nodiscard]] std::vector<std::vector<Corner>> corners() const override;
@@ -93,7 +96,17 @@ class FastenerInterface : public Interface {
   void add_law_changes(const VectorXd& c, const MatrixXd& by_force, std::vector<Change>& result) const;
   [[nodiscard]] Change change_by_mu(Index hole, const VectorXd& F) const;
 
+  /// Sliders of a plane's branches in a history.
+  [[nodiscard]] std::vector<Slider> sliders(const History& history, Index plane) const;
+  /// State of a plane that remembers something; none of a plane whose law is elastic or whose sliders have not moved.
+  [[nodiscard]] std::optional<RememberedState> remembered_state(const VectorXd& c, const History& history,
+                                                                Index plane) const;
+
+  /// The state at the coordinates of a plane, (a), from its sliders before; open where a one-sided plane would pull.
+  [[nodiscard]] RememberedState state_from(const std::vector<Slider>& before, const VectorXd& c, Index plane) const;
+
   std::vector<Contact> planes_;
+  std::vector<std::vector<MemoryBranch>> branches_;  ///< of each plane
   Place place_;
   std::vector<std::array<HoleFriction, 2>> sides_;  ///< of each of Place::friction_holes
 };

@@ -10,7 +10,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Internal variables of an interface at a state of the path. No interface has any so far: it is empty.
+/// Internal variables of an interface at a state of the path; empty before its first increment, and of one that
+/// remembers nothing.
 using History = VectorXd;
 
 /// Forces and displacements of an interface at its n contact coordinates c, with derivatives by c.
@@ -30,6 +31,13 @@ enum class CornerKind { slip, contact, yield, touch, part };
 struct Corner {
   double at;  ///< Interface::position, or its magnitude if the interface bears both ways; >= 0, force
   CornerKind kind;
+};
+
+/// What a shear plane remembers after an increment.
+struct PlaneMemory {
+  VectorXd set;                       ///< (a) permanent set of its bearing, length
+  double dissipated = 0;              ///< energy that slip and yield have taken so far, force x length
+  bool slips = false, yields = false; ///< in the last increment
 };
 
 /// Kind of an input parameter.
@@ -57,6 +65,8 @@ class Interface {
   [[nodiscard]] virtual Response respond(const VectorXd& c, const History& history) const = 0;
   /// The history once the joint has come to rest at c.
   [[nodiscard]] virtual History commit(const VectorXd& /*c*/, const History& history) const { return history; }
+  /// What its planes remember; empty if none does.
+  [[nodiscard]] virtual std::vector<PlaneMemory> memories(const History& /*history*/) const { return {}; }
   /// Adds a small stiffness where the slopes of a response vanish (docs/theory.md, section 8.5).
   virtual void add_trace(double trace, Response& response) const = 0;
   /// Derivatives of Lambda by F, (t, n), on the sides that bear under F, if friction depends only on the forces; else

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -46,6 +47,21 @@ struct Source {
   int n_shear = 1;                 ///< shear planes; with two, sheet 1 is the one in the middle
 };
 
+/// A value that rises with a length, and its slope.
+struct Rise {
+  double value, slope;
+};
+using RadialFunction = std::function<Rise(double length)>;
+
+/// Part of a law that remembers, in parallel with the others: an elastic part in series with a slider, which moves as
+/// long as the force less a backstress exceeds a limit (docs/theory.md, section 8.8).
+struct MemoryBranch {
+  RadialFunction elastic;     ///< force by the elastic displacement, length
+  RadialFunction backstress;  ///< force by the set of the slider, length
+  double limit;               ///< force > 0
+  bool is_slip = false;       ///< the slider is friction that slips, else a fastener or hole that yields
+};
+
 /// Force of a fastener against the relative displacement of its discs, delta >= 0, its clearance included.
 ///
 /// The parameter of the curve is a contact coordinate c >= 0 in force units: c = F + k delta if the law never falls,
@@ -81,6 +97,9 @@ class Law {
   [[nodiscard]] virtual std::vector<Parameter> parameters() const { return {}; }
   /// Derivatives of F and delta at fixed c and k: first by the clearance, then by each of parameters(), in their order.
   [[nodiscard]] virtual std::vector<Slope> slopes(double c, double k, double clearance) const = 0;
+  /// Branches of a law that keeps what has yielded or slipped; none of an elastic law. From no set they give the law's
+  /// own curve.
+  [[nodiscard]] virtual std::vector<MemoryBranch> branches(double /*clearance*/) const { return {}; }
   [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
   /// Path of the file that holds the law's points, if it has one of its own.
   [[nodiscard]] virtual std::string file() const { return {}; }

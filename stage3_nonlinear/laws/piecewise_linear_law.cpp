@@ -29,16 +29,32 @@ struct PolylineParameter {
   Polyline derivative;  ///< of every vertex and of the last slope
 };
 
+/// A branch that remembers: open up to a gap, then a stiffness, in series with a slider that moves at a limit.
+struct LinearBranch {
+  double gap, k, limit, k_yield;  ///< length, force / length, force, slope of the branch while the slider moves
+  bool takes_clearance, is_slip;
+};
+
+MemoryBranch memory_branch(const LinearBranch& branch, double clearance) {
+  const double k = branch.k, gap = branch.gap + (branch.takes_clearance ? clearance : 0);
+  const double hardening = k * branch.k_yield / (k - branch.k_yield);
+  return {.elastic = [=](double x) { return x > gap ? Rise{k * (x - gap), k} : Rise{0, gap > 0 ? 0 : k}; },
+          .backstress = [=](double s) { return Rise{hardening * s, hardening}; },
+          .limit = branch.limit,
+          .is_slip = branch.is_slip};
+}
+
 /// Law that is linear between corners.
 class PiecewiseLinearLaw final : public Law {
  public:
   /// @param first_moved The clearance moves the vertices from this one on along delta.
   PiecewiseLinearLaw(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
-                     std::optional<Source> source)
+                     std::optional<Source> source, std::vector<LinearBranch> branches)
       : curve_(std::move(curve)),
         first_moved_(first_moved),
         parameters_(std::move(parameters)),
-        source_(std::move(source)) {}
+        source_(std::move(source)),
+        branches_(std::move(branches)) {}
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
     const Piece on = piece(c, k, clearance);
@@ -96,6 +112,12 @@ class PiecewiseLinearLaw final : public Law {
 
   [[nodiscard]] std::optional<Source> source() const override { return source_; }
 
+  [[nodiscard]] std::vector<MemoryBranch> branches(double clearance) const override {
+    std::vector<MemoryBranch> result;
+    for (const auto& branch : branches_) result.push_back(memory_branch(branch, clearance));
+    return result;
+  }
+
  private:
   /// Piece of the curve in terms of c, from its first point on.
   struct Piece {
@@ -145,11 +167,31 @@ class PiecewiseLinearLaw final : public Law {
   std::size_t first_moved_;
   std::vector<PolylineParameter> parameters_;
   std::optional<Source> source_;
+  std::vector<LinearBranch> branches_;  ///< none of a law without memory
 };
 
+/// @param branches Of a law that remembers.
 LawPointer piecewise_linear_law(Polyline curve, std::size_t first_moved, std::vector<PolylineParameter> parameters,
-                                std::optional<Source> source = std::nullopt) {
-  return std::make_shared<PiecewiseLinearLaw>(std::move(curve), first_moved, std::move(parameters), std::move(source));
+                                std::optional<Source> source = std::nullopt, std::vector<LinearBranch> branches = {}) {
+  return std::make_shared<PiecewiseLinearLaw>(std::move(curve), first_moved, std::move(parameters), std::move(source),
+                                              std::move(branches));
+}
+
+/// True if a law is asked to unload along its loading curve.
+bool is_reversible(const input::Value& law) {
+  const auto reversible = law.find("reversible");
+  return reversible && reversible->boolean();
+}
+
+/// Slope after yield of a law that remembers, which must be less than that before.
+double read_k_yield(const input::Value& law, double k, const char* name_of_k) {
+  const auto value = law.at("k_yield");
+  const double k_yield = value.number(input::not_negative);
+  if (!is_reversible(law) && !(k_yield < k))
+    value.fail(fmt::format("{}", k_yield),
+               fmt::format("less than {} = {}, or \"reversible\": true, since a law that stiffens keeps no set",
+                           name_of_k, k));
+  return k_yield;
 }
 
 }  // namespace
@@ -170,25 +212,30 @@ LawPointer read_rigid_law(const input::Value& law) {
   return piecewise_linear_law({{{0, 0}}, infinite}, 0, {});
 }
 
-/// Reads {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ...}: k up to F_yield, k_yield beyond.
+/// Reads {"type": "bilinear", "k": ..., "F_yield": ..., "k_yield": ..., "reversible": ...}: k up to F_yield, k_yield
+/// beyond, back with k unless it is reversible.
 LawPointer read_bilinear_law(const input::Value& law) {
-  law.only({"type", "k", "F_yield", "k_yield", "one_sided"});
+  law.only({"type", "k", "F_yield", "k_yield", "one_sided", "reversible"});
   const double k = law.at("k").number(input::positive);
   const double F = law.at("F_yield").number(input::positive);
-  const double k_yield = law.at("k_yield").number(input::not_negative);
+  const double k_yield = read_k_yield(law, k, "k");
+  std::vector<LinearBranch> branches;
+  if (!is_reversible(law)) branches = {{0, k, F, k_yield, true, false}};
   return piecewise_linear_law({{{0, 0}, {F / k, F}}, k_yield}, 0,
                               {{{"k", -1, 1}, {{{0, 0}, {-F / (k * k), 0}}, 0}},
                                {{"F_yield", 0, 1}, {{{0, 0}, {1 / k, 1}}, 0}},
-                               {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}});
+                               {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}}, 1}}},
+                              std::nullopt, std::move(branches));
 }
 
 /// Reads {"type": "four stage", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield"}: Bortman & Szabo,
 /// Figure 2.
 ///
 /// Static friction holds up to F_slip; then the joint slips by "slip" plus the clearance, bears elastically up to
-/// F_yield and yields beyond.
+/// F_yield and yields beyond. Unless it is reversible, friction keeps its slip and acts beside the bearing, and the
+/// bearing keeps its yield.
 LawPointer read_four_stage_law(const input::Value& law) {
-  law.only({"type", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield", "one_sided"});
+  law.only({"type", "k_stick", "F_slip", "slip", "k_bearing", "F_yield", "k_yield", "one_sided", "reversible"});
   const double k_stick = law.at("k_stick").number(input::positive);
   const double F_slip = law.at("F_slip").number(input::positive);
   const double slip = law.at("slip").number(input::not_negative);
@@ -196,10 +243,13 @@ LawPointer read_four_stage_law(const input::Value& law) {
   const auto yield = law.at("F_yield");
   const double F_yield = yield.number(input::positive);
   if (!(F_yield > F_slip)) yield.fail(fmt::format("{}", F_yield), fmt::format("more than F_slip = {}", F_slip));
-  const double k_yield = law.at("k_yield").number(input::not_negative);
+  const double k_yield = read_k_yield(law, k_bearing, "k_bearing");
   const double stuck = F_slip / k_stick, slipped = stuck + slip;
   const double bearing = (F_yield - F_slip) / k_bearing;
   const double d_stick = -stuck / k_stick;
+  std::vector<LinearBranch> branches;
+  if (!is_reversible(law))
+    branches = {{0, k_stick, F_slip, 0, false, true}, {slipped, k_bearing, F_yield - F_slip, k_yield, true, false}};
   return piecewise_linear_law(
       {{{stuck, F_slip}, {slipped, F_slip}, {slipped + bearing, F_yield}}, k_yield}, 1,
       std::vector<PolylineParameter>{
@@ -208,7 +258,8 @@ LawPointer read_four_stage_law(const input::Value& law) {
           {{"slip", 1, 0}, {{{0, 0}, {1, 0}, {1, 0}}, 0}},
           {{"k_bearing", -1, 1}, {{{0, 0}, {0, 0}, {-bearing / k_bearing, 0}}, 0}},
           {{"F_yield", 0, 1}, {{{0, 0}, {0, 0}, {1 / k_bearing, 1}}, 0}},
-          {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}, {0, 0}}, 1}}});
+          {{"k_yield", -1, 1}, {{{0, 0}, {0, 0}, {0, 0}}, 1}}},
+      std::nullopt, std::move(branches));
 }
 
 }  // namespace fastjoint::stage3

@@ -24,14 +24,31 @@ namespace {
 class TableLaw final : public Law {
  public:
   /// @param points (0, 0) and at least two more: delta rises, F does not fall.
-  TableLaw(const TestPoints& points, std::string file)
-      : spline_(gsl_interp_alloc(gsl_interp_steffen, points.size()), &gsl_interp_free), file_(std::move(file)) {
+  /// @param F_yield Force from which it keeps a set; infinite: none.
+  TableLaw(const TestPoints& points, std::string file, double F_yield)
+      : spline_(gsl_interp_alloc(gsl_interp_steffen, points.size()), &gsl_interp_free),
+        file_(std::move(file)),
+        F_yield_(F_yield) {
     if (!spline_) throw std::bad_alloc();
     for (const auto& [delta, F] : points) {
       x_.push_back(delta);
       F_.push_back(F);
     }
     gsl_interp_init(spline_.get(), x_.data(), F_.data(), x_.size());
+    if (keeps_a_set()) yields_at_ = stretch(F_yield_);
+  }
+
+  /// A stretch beyond yield at which the curve is steeper than the line from no load to yield, along which the law
+  /// unloads; none if it is nowhere.
+  [[nodiscard]] std::optional<double> steeper_beyond_yield() const {
+    constexpr int parts = 16;
+    constexpr double rounding = 1e-9;
+    for (std::size_t i = 0; i + 1 < x_.size(); ++i)
+      for (int part = 0; part <= parts; ++part) {
+        const double x = x_[i] + (x_[i + 1] - x_[i]) * part / parts;
+        if (x > yields_at_ && force_and_slope(x)[1] > (1 - rounding) * F_yield_ / yields_at_) return x;
+      }
+    return std::nullopt;
   }
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
@@ -73,7 +90,44 @@ class TableLaw final : public Law {
 
   [[nodiscard]] std::string file() const override { return file_; }
 
+  /// Elastic along the curve up to yield, then along the line from no load to there; the rest is set.
+  [[nodiscard]] std::vector<MemoryBranch> branches(double clearance) const override {
+    if (!keeps_a_set()) return {};
+    const double k = F_yield_ / yields_at_;
+    return {{.elastic =
+                 [=, this](double x) {
+                   const double stretch = x - clearance;
+                   if (stretch < 0) return Rise{0, 0};
+                   if (stretch > yields_at_) return Rise{F_yield_ + k * (stretch - yields_at_), k};
+                   const auto [F, slope] = force_and_slope(stretch);
+                   return Rise{F, slope};
+                 },
+             .backstress =
+                 [=, this](double set) {
+                   const auto excess = [&](double x) {  // set of the curve's point x less this one
+                     const auto [F, slope] = force_and_slope(x);
+                     return std::pair(x - F / k - set, 1 - slope / k);
+                   };
+                   double high = std::max(x_.back(), yields_at_);
+                   while (excess(high).first < 0) high *= 2;
+                   const double x = set > 0 ? rising_root(excess, yields_at_, high) : yields_at_;
+                   const auto [F, slope] = force_and_slope(x);
+                   return Rise{F - F_yield_, slope / (1 - slope / k)};
+                 },
+             .limit = F_yield_}};
+  }
+
  private:
+  [[nodiscard]] bool keeps_a_set() const { return std::isfinite(F_yield_); }
+  /// Stretch at a force that the points reach.
+  [[nodiscard]] double stretch(double F) const {
+    const auto excess = [&](double x) {
+      const auto [force, slope] = force_and_slope(x);
+      return std::pair(force - F, slope);
+    };
+    return rising_root(excess, 0, x_.back());
+  }
+
   [[nodiscard]] std::array<double, 2> force_and_slope(double x) const {
     const double in_range = std::min(x, x_.back());
     const double F = gsl_interp_eval(spline_.get(), x_.data(), F_.data(), in_range, nullptr);
@@ -84,6 +138,7 @@ class TableLaw final : public Law {
   std::vector<double> x_, F_;  ///< points with (0, 0): stretch, length; force
   std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline_;
   std::string file_;
+  double F_yield_, yields_at_ = 0;  ///< force, length
 };
 
 using Fields = std::vector<std::string_view>;
@@ -129,7 +184,7 @@ double checked(std::string_view field, const std::string& place) {
 
 /// Points given in the law itself, not in a file.
 TestPoints points_of(const input::Value& law) {
-  law.only({"type", "delta", "F", "one_sided"});
+  law.only({"type", "delta", "F", "F_yield", "one_sided"});
   constexpr std::size_t max_points = 100000;
   const auto delta = law.at("delta").numbers(2, max_points, input::not_negative);
   const auto F = law.at("F").numbers(delta.size(), delta.size(), input::not_negative);
@@ -168,7 +223,7 @@ TestPoints read_points(const std::string& path) {
 LawPointer read_table_law(const input::Value& law) {
   const auto file = law.find("file");
   const auto path = file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : std::string();
-  if (file) law.only({"type", "file", "one_sided"});
+  if (file) law.only({"type", "file", "F_yield", "one_sided"});
   auto points = file ? read_points(path) : points_of(law);
   const auto& place = file ? *file : law;
   if (points[0][0] != 0) points.insert(points.begin(), {0, 0});
@@ -185,7 +240,16 @@ LawPointer read_table_law(const input::Value& law) {
                  "forces that do not fall: smooth the data, or fit a law to it (scripts/fit_law)");
   }
   if (!(points.back()[1] > 0)) place.fail("no force at any point", "a force > 0");
-  return std::make_shared<TableLaw>(points, path);
+  const auto yield = law.find("F_yield");
+  const double F_yield = yield ? yield->number(input::positive) : std::numeric_limits<double>::infinity();
+  if (yield && F_yield > points.back()[1])
+    yield->fail(fmt::format("{}", F_yield), fmt::format("at most the largest force of the points, {}", points.back()[1]));
+  auto result = std::make_shared<TableLaw>(points, path, F_yield);
+  if (const auto steeper = yield ? result->steeper_beyond_yield() : std::nullopt)
+    yield->fail(fmt::format("{}, beyond which the curve is steeper, at delta = {:.6g}, than the line from no load to there",
+                            F_yield, *steeper),
+                "a force beyond which the curve is flatter than that line, along which the law unloads");
+  return result;
 }
 
 }  // namespace fastjoint::stage3

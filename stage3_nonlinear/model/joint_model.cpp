@@ -212,7 +212,7 @@ void apply_load(JointModel& model, const LoadScene& load, const std::vector<doub
   } else if (traction < plate.traction_force.size()) {
     if (load.is_displacement)
       refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
-             "\"force\", or an external of kind \"rigid\"");
+             plate.is_moment(traction) ? "\"moment\"" : "\"force\", or an external of kind \"rigid\"");
     const bool is_moment = plate.is_moment(traction);
     if (is_moment != load.is_moment)
       refuse(name.where, fmt::format("\"{}\" carries a {}", name.name, is_moment ? "moment" : "force"),

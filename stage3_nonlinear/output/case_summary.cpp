@@ -25,7 +25,8 @@ struct Largest {
   std::string at = "-";
 
   void take(double other, const std::string& place) {
-    if (other > value) value = other, at = place;
+    constexpr double nothing = 1e-100;  // what rounding leaves of a joint without load
+    if (other > std::max(value, nothing)) value = other, at = place;
   }
   [[nodiscard]] std::string text() const { return at == "-" ? at : fmt::format("{:.6g} at {}", value, at); }
 };
@@ -81,7 +82,8 @@ std::string table(const JointResult& a, const EnvelopeTable& its, const char* me
 std::string case_summary(const JointScene& scene, const JointModel& joint, const JointResult& result) {
   std::string text =
       summary_title(scene, joint) + case_lines(joint, result) +
-      "envelope of all cases (RESULT.h5 and --envelope have every quantity; --case NAME tells of one):\n";
+      fmt::format("envelope of {} (RESULT.h5 and --envelope have every quantity; --case NAME tells of one):\n",
+                  result.complete ? "all cases" : "the increments that were solved, NOT of all cases");
   constexpr std::array shown{std::pair("transferred_first", "load transferred"),
                              std::pair("bearing_stress", "bearing stress"), std::pair("peak_hoop", "peak hoop stress"),
                              std::pair("K_I", "K_I"), std::pair("displacement", "displacement")};

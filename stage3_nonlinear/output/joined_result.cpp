@@ -16,6 +16,7 @@ using Eigen::MatrixXd;
 template <class Rows>
 void add_rows(Rows& all, const Rows& more) {
   const Index n = all.rows();
+  if (more.rows() == 0) return;
   if (n == 0) {
     all = more;
     return;
@@ -95,7 +96,7 @@ void append(formats::JointResult& all, const std::string& case_name, formats::Jo
     add_rows(all.*list, its.*list);
   add_items(all.event, its.event);
   for (const auto table : {&JointResult::delta, &JointResult::F, &JointResult::delta_vector, &JointResult::F_vector,
-                           &JointResult::transferred})
+                           &JointResult::transferred, &JointResult::set, &JointResult::dissipated})
     add_rows(all.*table, its.*table);
   if (all.F_error && its.F_error)
     add_rows(*all.F_error, *its.F_error);

@@ -211,6 +211,11 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
     result.event.push_back(event_text(joint, step.events));
     result.delta_vector.row(i) = step.delta;
     result.F_vector.row(i) = step.F;
+    for (Index j = 0; j < std::ssize(step.memories); ++j) {
+      if (i == 0 && j == 0) result.set.resize(steps, n * a), result.dissipated.resize(steps, n);
+      result.set.row(i).segment(j * a, a) = step.memories[j].set;
+      result.dissipated(i, j) = step.memories[j].dissipated;
+    }
     result.delta.row(i) = magnitudes(step.delta, a);
     result.F.row(i) = magnitudes(step.F, a);
     for (Index j = 0; j < n; ++j)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -14,6 +15,7 @@
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/csv_field.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
+#include "stage3_nonlinear/results/rim_state.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -35,7 +37,7 @@ struct Applied {
 struct Row {
   double margin = infinite;
   Applied worst{};
-  Index at = 0;
+  Index at = -1;
   std::string of{}, formula{}, unit{};
   const CheckScene* check = nullptr;
 };
@@ -69,13 +71,18 @@ class Margins {
   Margins(const JointScene& scene, const JointModel& joint, const JointResult& result)
       : scene_(scene), joint_(joint), a_(result) {}
 
+  /// Warnings of holes for which a check cannot be made.
+  [[nodiscard]] std::vector<program::Warning>& warnings() { return warnings_; }
+
   std::vector<Row> run() {
     for (const auto& check : scene_.checks) {
       check_ = &check;
+      left_out_.clear();
       if (check.kind == CheckKind::fastener_shear)
         of_fasteners();
       else
         of_holes();
+      for (const auto& [reason, holes] : left_out_) warn(reason, holes);
     }
     // Equal ones, but for rounding, stay in the order of the joint.
     std::ranges::stable_sort(rows_, {}, [](const Row& row) { return std::round(1e9 * row.margin); });
@@ -87,6 +94,15 @@ class Margins {
     refuse(check_->where, found, allowed);
   }
 
+  void warn(const char* reason, const std::vector<std::string>& holes) {
+    constexpr std::size_t most = 4;
+    const std::vector<std::string> first(holes.begin(), holes.begin() + std::ptrdiff_t(std::min(most, holes.size())));
+    warnings_.push_back({"check-left-out",
+                         fmt::format("{}: check \"{}\" is not made for {}{}: {}", scene_.file, check_->name,
+                                     fmt::join(first, ", "),
+                                     holes.size() > most ? fmt::format(" and {} more", holes.size() - most) : "", reason)});
+  }
+
   /// Adds the smallest margin of an item. @param at Applied(step).
   template <class At>
   void add(const std::string& of, const std::string& formula, const std::string& unit, At at) {
@@ -94,12 +110,14 @@ class Margins {
     row.of = of, row.formula = formula, row.unit = unit, row.check = check_;
     for (Index step = 0; step < a_.load_factor.size(); ++step) {
       const Applied now = at(step);
+      if (!std::isfinite(now.applied)) continue;  // not known
       const double margin = now.applied > 0
                                 ? now.allowable / (check_->safety_factor * check_->fitting_factor * now.applied) - 1
                                 : infinite;
-      if (step == 0 || margin < row.margin) row.margin = margin, row.worst = now, row.at = step;
+      if (row.at < 0 || margin < row.margin) row.margin = margin, row.worst = now, row.at = step;
     }
-    if (a_.load_factor.size() > 0) rows_.push_back(std::move(row));
+    if (row.at >= 0) rows_.push_back(std::move(row));
+    else if (a_.load_factor.size() > 0) left_out_["its value is not known"].push_back(of);
   }
 
   void of_fasteners() {
@@ -110,17 +128,33 @@ class Margins {
       const ShearPlane& plane = joint_.planes[j];
       const std::string& id = joint_.fasteners[plane.fastener].id;
       if (!check_->of.empty() && std::ranges::find(check_->of, id) == check_->of.end()) continue;
-      const double d = check_->is_force ? 0 : diameter(plane);
+      const double d = check_->is_force ? 0 : diameter(plane), part = modelled_part(plane);
       const double value = check_->allowable.at(0);
-      const double allowable = check_->is_force ? value : value * std::numbers::pi * d * d / 4;
+      const double allowable = part * (check_->is_force ? value : value * std::numbers::pi * d * d / 4);
       const std::string inputs =
-          check_->is_force ? fmt::format("P_su = {:g}", value) : fmt::format("F_su = {:g}, d = {:g}", value, d);
+          (check_->is_force ? fmt::format("P_su = {:g}", value) : fmt::format("F_su = {:g}, d = {:g}", value, d)) +
+          (part < 1 ? fmt::format(", {:g} of the fastener is in the model", part) : "");
       add(joint_.short_name(plane), check_->is_force ? "P_su" : "F_su pi d^2 / 4", unit(joint_.units, 0, 1),
           [&](Index step) {
             const auto both = a_.transferred.row(step).segment<2>(2 * j);
             return Applied{both.cwiseAbs().maxCoeff(), allowable, inputs};
           });
     }
+  }
+
+  /// Part of a plane's fastener whose load the model has: a half where a line of symmetry goes through its hole.
+  [[nodiscard]] double modelled_part(const ShearPlane& plane) const {
+    const HoleModel& hole = joint_.first_hole(plane);
+    const PlateModel& plate = joint_.plates[hole.plate];
+    const int rim = index_of(plate.stresses.rim_hole, plate.hole_of(hole.disc));
+    if (rim == count_of(plate.stresses.rim_hole)) return 1;
+    const double whole = 2 * plate.stresses.rim_radius[rim] * plate.stresses.rim_thickness[rim];
+    double part = 1;
+    for (Index d = 0; d < joint_.n_directions(); ++d)
+      if (plate.has_disc(hole.disc + d) && whole > 0)
+        part = std::min(part, plate.stresses.bearing_area(rim, plate.axis_of(hole.disc + d)) / whole);
+    constexpr double nearly = 1 - 1e-6;  // thickness may differ around a hole
+    return part < nearly && std::abs(part - 0.5) < 0.05 ? 0.5 : 1;
   }
 
   /// Diameter of a plane's fastener: of the check, of JOINT.json, or of the hole less its gap.
@@ -142,8 +176,8 @@ class Margins {
     for (Index i = 0; i < std::ssize(joint_.plates); ++i) {
       const PlateModel& plate = joint_.plates[i];
       known.push_back(plate.name);
-      for (Index rim = 0; rim < std::ssize(a_.plates[i].rims.hole); ++rim) {
-        const std::string& hole = a_.plates[i].rims.hole[rim];
+      for (Index rim = 0; plate.stress_level && rim < std::ssize(plate.stresses.rim_hole); ++rim) {
+        const std::string& hole = plate.stresses.rim_hole[rim];
         known.push_back(plate.name + ":" + hole);
         const auto named = [&](const std::string& each) { return each == plate.name || each == known.back(); };
         if (check_->of.empty() || std::ranges::any_of(check_->of, named)) holes.push_back({i, rim, known.back()});
@@ -166,8 +200,15 @@ class Margins {
     const auto at_rim = [&](Index step) -> const formats::RimValues& {
       return a_.plates[hole.plate].rims.values[step][hole.rim];
     };
-    const bool has_fastener =
-        index_of(a_.plates[hole.plate].disc_hole, s.rim_hole[hole.rim]) < count_of(a_.plates[hole.plate].disc_hole);
+    const auto& fastened = joint_.plates[hole.plate].holes;
+    const bool has_fastener = index_of(fastened, s.rim_hole[hole.rim]) < count_of(fastened);
+    const bool has_section = n_sections(s, s.rim_hole[hole.rim]) > 0, needs_section = check_->kind == CheckKind::tension ||
+                                                                                      check_->kind == CheckKind::bearing_bypass;
+    if (needs_section && !has_section) {
+      left_out_["it has no section across x"].push_back(hole.name);
+      return;
+    }
+    if (has_fastener && check_->kind == CheckKind::shear_out) require_border(hole);
     switch (check_->kind) {
       case CheckKind::bearing:
         if (has_fastener) add(hole.name, "F_br d t", force, [&](Index step) { return bearing(hole, step, d); });
@@ -177,19 +218,19 @@ class Margins {
           add(hole.name, "2 F_su t (e - d cos 40 / 2)", force, [&](Index step) { return shear_out(hole, step, d, t); });
         break;
       case CheckKind::tension:
-        if (a_.plates[hole.plate].rims.sections[hole.rim] > 0)
-          add(hole.name, "F_tu", stress, [&](Index step) {
-            return Applied{at_rim(step).net_stress, value, fmt::format("F_tu = {:g}", value)};
-          });
+        add(hole.name, "F_tu", stress, [&](Index step) {
+          return Applied{at_rim(step).net_stress, value, fmt::format("F_tu = {:g}", value)};
+        });
         break;
       case CheckKind::peak:
         add(hole.name, "limit", stress, [&](Index step) {
-          return Applied{at_rim(step).peak_hoop, value, fmt::format("limit = {:g}", value)};
+          const formats::RimValues& rim = at_rim(step);
+          const bool unknown = rim.peak_hoop == 0 && std::isinf(rim.peak_error);
+          return Applied{unknown ? infinite : rim.peak_hoop, value, fmt::format("limit = {:g}", value)};
         });
         break;
       case CheckKind::bearing_bypass:
-        if (a_.plates[hole.plate].rims.sections[hole.rim] > 0)
-          add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(hole, at_rim(step)); });
+        add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(hole, at_rim(step)); });
         break;
       default:
         break;
@@ -213,12 +254,16 @@ class Margins {
     return force.norm() > 0 ? areas.cwiseProduct(force.cwiseAbs().transpose() / force.norm()).norm() : areas.maxCoeff();
   }
 
-  [[nodiscard]] double edge_distance(const HoleAt& hole, const Point& force) const {
-    if (check_->edge_distance) return *check_->edge_distance;
-    const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
-    if (joint_.plates[hole.plate].border.is_free.size() == 0)
+  void require_border(const HoleAt& hole) const {
+    if (!check_->edge_distance && joint_.plates[hole.plate].border.is_free.size() == 0)
       fail(fmt::format("the edge distance of {} is not known, since its matrices have no border", hole.name),
            "\"edge_distance\" in the check, or matrices of this version");
+  }
+
+  [[nodiscard]] double edge_distance(const HoleAt& hole, const Point& force) const {
+    require_border(hole);
+    if (check_->edge_distance) return *check_->edge_distance;
+    const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
     return distance_along(joint_.plates[hole.plate].border, s.rim_center.row(hole.rim).transpose(), force);
   }
 
@@ -243,18 +288,15 @@ class Margins {
 
   /// The polygon along the ray of the two stresses; both as lengths on that ray.
   Applied bearing_bypass(const HoleAt& hole, const formats::RimValues& rim) const {
-    const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
-    double gross = 0;
-    for (int i = 0; i < count_of(s.section_hole); ++i)
-      if (s.section_hole[i] == s.rim_hole[hole.rim]) gross = std::max(gross, s.gross_area[i]);
+    const double gross = a_.plates[hole.plate].rims.gross_area[hole.rim];
     const Point stress(rim.bypass_load / gross, rim.bearing_stress);
     const double allowable = stress.norm() > 0 ? reach(stress.normalized()) : infinite;
     return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y())};
   }
 
-  /// Distance from the origin to the polygon along a direction; the largest if there are several.
+  /// Distance from the origin to the polygon along a direction.
   [[nodiscard]] double reach(const Point& along) const {
-    double found = -1;
+    double found = infinite;
     for (std::size_t i = 0; i < check_->polygon.size(); ++i) {
       const auto& [x, y] = check_->polygon[i];
       const auto& [u, v] = check_->polygon[(i + 1) % check_->polygon.size()];
@@ -262,10 +304,9 @@ class Margins {
       const double area = along.x() * side.y() - along.y() * side.x();
       if (area == 0) continue;
       const double s = (a.x() * along.y() - a.y() * along.x()) / area, r = (a.x() * side.y() - a.y() * side.x()) / area;
-      if (s >= 0 && s <= 1 && r > 0) found = std::max(found, r);
+      constexpr double rounding = 1e-12;
+      if (s >= -rounding && s <= 1 + rounding && r > 0) found = std::min(found, r);
     }
-    if (found < 0)
-      fail("a polygon that does not go around the origin", "points around it: [bypass stress, bearing stress]");
     return found;
   }
 
@@ -274,12 +315,17 @@ class Margins {
   const JointResult& a_;
   const CheckScene* check_ = nullptr;
   std::vector<Row> rows_;
+  std::map<const char*, std::vector<std::string>> left_out_;  ///< holes of the check by the reason
+  std::vector<program::Warning> warnings_;
 };
 
 }  // namespace
 
-MarginTable margins(const JointScene& scene, const JointModel& joint, const JointResult& result) {
-  const auto rows = Margins(scene, joint, result).run();
+MarginTable margins(const JointScene& scene, const JointModel& joint, const JointResult& result,
+                    std::vector<program::Warning>& left_out) {
+  Margins all(scene, joint, result);
+  const auto rows = all.run();
+  left_out.insert(left_out.end(), all.warnings().begin(), all.warnings().end());
   const Index n = std::ssize(rows);
   MarginTable table;
   for (VectorXd* each : {&table.margin, &table.allowable, &table.applied, &table.edge_ratio}) each->resize(n);
@@ -323,12 +369,16 @@ std::string margin_lines(const JointResult& result) {
   for (Index i = 0; i < n; ++i)
     if (checks.insert(a.check[i]).second) shown.insert(i);
   for (Index i = 0; i < n && shown.size() < most; ++i) shown.insert(i);
-  std::string text = "smallest margins = allowable / (FS FF applied) - 1\n";
+  std::string text = fmt::format("smallest margins = allowable / (FS FF applied) - 1{}\n",
+                                 result.complete ? "" : ", of the increments that were solved, NOT of all cases");
   text += fmt::format("  {:<20} {:<24} {:>9} {:>12} {:>12}  in\n", "check", "of", "margin", "allowable", "applied");
   for (const Index i : shown)
     text += fmt::format("  {:<20} {:<24} {:>9} {:>12.6g} {:>12.6g}  {}: {}; {}\n", program::one_line(a.check[i]),
                         program::one_line(a.of[i]),
-                        std::isfinite(a.margin[i]) ? fmt::format("{:+.3f}", a.margin[i]) : "no load", a.allowable[i],
+                        std::isfinite(a.margin[i]) ? fmt::format("{:+.3f}", a.margin[i])
+                        : a.applied[i] > 0         ? "no limit"
+                                                   : "no load",
+                        a.allowable[i],
                         a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
   if (n > std::ssize(shown))
     text += fmt::format("  ... of {}; RESULT.h5 and --margins have all\n", program::counted(n, "margin"));

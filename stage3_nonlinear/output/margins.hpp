@@ -13,8 +13,11 @@ namespace fastjoint::stage3 {
 /// cases, margin = allowable / (FS FF applied) - 1; the smallest first. Infinite where nothing is applied.
 ///
 /// Throws InputError if a check names what is not there, or needs stresses or an edge distance that are not known.
+/// @param result Of no increments to check the scene alone.
+/// @param left_out Gets a warning for each check of the holes that it cannot be made for.
 [[nodiscard]] formats::MarginTable margins(const JointScene& scene, const JointModel& joint,
-                                           const formats::JointResult& result);
+                                           const formats::JointResult& result,
+                                           std::vector<program::Warning>& left_out);
 
 /// Warning of holes that are checked for bearing or shear-out nearer to an edge than 1.5 diameters.
 [[nodiscard]] std::vector<program::Warning> edge_warnings(const JointScene& scene, const formats::MarginTable& table);

@@ -2,6 +2,7 @@
 #include "stage3_nonlinear/output/output.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,6 +88,19 @@ std::string plate_table(const JointModel& joint, const JointState& state, std::s
   if (state.plates_out_of_balance)
     text += fmt::format(", sheet along axes without supports by {:.1e}", *state.plates_out_of_balance);
   return text + "\n";
+}
+
+/// Lines of the planes that have kept a set or dissipated energy.
+std::string memory_lines(const JointModel& joint, const PathStep& step) {
+  std::string text;
+  for (Index j = 0; j < std::ssize(step.memories); ++j) {
+    const PlaneMemory& memory = step.memories[j];
+    if (memory.dissipated == 0) continue;
+    text += fmt::format("  {} keeps a set of {:.6g} {}, has dissipated {:.6g} {}\n", joint.short_name(joint.planes[j]),
+                        fmt::join(memory.set, ", "), unit(joint.units, 1, 0), memory.dissipated,
+                        unit(joint.units, 1, 1));
+  }
+  return text;
 }
 
 /// Arm of a moment, "plate:external"; 0 of other boundaries.
@@ -296,7 +310,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
         fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
                     path.n_increments, step.load_factor, program::counted(step.iterations, "iteration"), step.residual);
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
-    text += fastener_table(joint, step, states[i], width) + plate_table(joint, states[i], width);
+    text += fastener_table(joint, step, states[i], width) + memory_lines(joint, step) + plate_table(joint, states[i], width);
   }
   if (states.empty()) return text;
   if (result.F_error) text += error_bar(joint, result);

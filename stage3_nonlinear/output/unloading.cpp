@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Warnings of unloaded fasteners: neither laws nor friction depend on the history.
+// Warnings of unloaded fasteners: of elastic laws and of friction, which do not depend on the history.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -76,6 +76,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
       const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
       const Contact& contact = equations.contacts[j];
       const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
+      if (!step.memories.empty() && !contact.law->branches(contact.clearance).empty()) continue;  // it remembers
       const bool curved =
           !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(step.c, k * gap);
       if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);
@@ -83,8 +84,8 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
     if (unloaded.empty()) continue;
     result.push_back(
         {"permanent-set",
-         fmt::format("{} unloads {} along its loading curve: laws do not depend on the history, but real fasteners "
-                     "keep a permanent set, so that real forces differ from this increment on",
+         fmt::format("{} unloads {} along its loading curve: this law keeps no permanent set, but real fasteners do, "
+                     "so that real forces differ from this increment on",
                      increment_text(path, step), names(joint, unloaded))});
     return;
   }

@@ -213,7 +213,8 @@ std::string failure_message(const JointScene& scene, const CaseScene& its, const
                             const LoadPath& path, const std::string& output) {
   const PathFailure& failure = *path.failure;
   const std::string before = program::counted(failure.increment, "increment");
-  const std::string kept = fmt::format("{} holds the {} before (complete = 0).", output, before);
+  const std::string kept = fmt::format("{} holds the {} before{} (complete = 0).", output, before,
+                                       its.name.empty() ? "" : " of this case, and the other cases");
   const std::string increment = fmt::format("{}increment {} of {} (load factor {:.6g})",
                                             its.name.empty() ? "" : fmt::format("case \"{}\": ", its.name),
                                             failure.increment + 1, path.n_increments, failure.load_factor);

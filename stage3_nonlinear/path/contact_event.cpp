@@ -32,6 +32,7 @@ constexpr std::array words{
 
 ContactCorners::ContactCorners(const JointEquations& equations, bool interference_alone)
     : n_planes_(equations.n_planes()) {
+  for (const Contact& plane : equations.contacts) remembers_.push_back(!plane.law->branches(plane.clearance).empty());
   for (const PlacedInterface& placed : equations.interfaces) {
     auto corners = placed.interface->corners();
     for (Index entry = 0; entry < std::ssize(corners); ++entry) {
@@ -110,6 +111,13 @@ std::vector<ContactEvent> ContactCorners::at(const VectorXd& before, const Vecto
   const auto of_rims = between(rims_before, here);
   result.insert(result.end(), of_rims.begin(), of_rims.end());
   return result;
+}
+
+void ContactCorners::leave_to_memory(std::vector<ContactEvent>& events, bool onward_too) const {
+  std::erase_if(events, [&](const ContactEvent& event) {
+    const bool of_slider = event.kind == CornerKind::slip || event.kind == CornerKind::yield;
+    return event.plane < n_planes_ && remembers_[event.plane] && of_slider && (event.back || onward_too);
+  });
 }
 
 std::string event_text(const JointModel& joint, const std::vector<ContactEvent>& events) {

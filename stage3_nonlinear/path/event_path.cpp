@@ -253,13 +253,20 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   path.n_increments = events.size() + (ends_there ? 0 : 1);
   if (failed) path.failure = walk.failure(events.size(), *failed);
   path.left = walk.left();
-  for (const auto& event : events) {
+  const bool remembers = equations.remembers();
+  for (Index i = 0; i < std::ssize(events); ++i) {
+    auto event = events[i];
     walk.put(event.place, event.iterations);
+    corners.leave_to_memory(event.events, false);
+    if (remembers && !walk.reach(event.place.load_factor)) {  // with what it has kept of the increments before
+      path.failure = walk.failure(i, event.place.load_factor);
+      return path;
+    }
     if (!walk.record(path, event.events)) return path;
   }
   if (failed || ends_there) return path;
   if (!walk.reach(1)) {
-    path.failure = walk.failure(events.size(), 1);
+    path.failure = walk.failure(std::ssize(events), 1);
   } else {
     walk.record(path, {});
   }

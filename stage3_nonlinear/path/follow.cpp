@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <utility>
+
 #include "common/program/progress.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
@@ -18,7 +20,9 @@ LoadPath follow(const JointEquations& equations, const std::vector<double>& load
       path.failure = walk.failure(i, load_factors[i]);
       break;
     }
-    if (!walk.record(path, corners.at(before, passed, walk.here().c))) break;
+    auto events = corners.at(before, passed, walk.here().c);
+    corners.leave_to_memory(events);
+    if (!walk.record(path, std::move(events))) break;
     passed = corners.passed(walk.here().c);
   }
   path.left = walk.left();

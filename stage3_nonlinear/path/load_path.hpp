@@ -47,11 +47,15 @@ class ContactCorners {
   /// @param passed_before passed() of `before`.
   [[nodiscard]] std::vector<ContactEvent> at(const VectorXd& before, const Eigen::VectorXi& passed_before,
                                              const VectorXd& c) const;
+  /// Removes the slip and yield of planes that remember them: what they do follows from their sliders (Walk::record).
+  /// @param onward_too Also where they begin, not where they end alone.
+  void leave_to_memory(std::vector<ContactEvent>& events, bool onward_too = true) const;
   /// Distance within which c is on a corner at `at`, force.
   [[nodiscard]] static double nearness(const VectorXd& c, double at);
 
  private:
   Index n_planes_;
+  std::vector<bool> remembers_;                               ///< (n)
   std::vector<std::vector<Corner>> corners_;                  ///< of each entry
   std::vector<std::pair<const PlacedInterface*, Index>> at_;  ///< interface of each entry, and its number there
 };
@@ -73,6 +77,7 @@ struct PathStep {
   VectorXd Lambda = {};                   ///< (t) amplitudes of friction
   std::vector<ContactEvent> events = {};  ///< events of planes exactly here, and of rims since the increment before
   VectorXd c = {};                        ///< (r) contact coordinates, force
+  std::vector<PlaneMemory> memories = {};  ///< (n) of each plane; empty if no law remembers
   /// Reference force of residuals: force_scale, or rounding of clearances over the tolerance.
   double scale = 0;
 
@@ -157,7 +162,8 @@ inline constexpr double first_load_factor = 1e-6;
 /// Follows the joint to load factor 1 with an increment at every load factor in (0, 1] at which a fastener passes a
 /// corner of its law (ContactCorners), and one at 1.
 ///
-/// Histories of interfaces change at increments only: all events are searched with those at load factor 0. Newton's
+/// Histories of interfaces change at increments only: all events are searched with those at load factor 0, and laws that
+/// remember then follow the increments found. Newton's
 /// method solves for the load factor at which the fastener is on its corner, between solved states; the interval is
 /// halved if the order of events is in doubt (docs/theory.md, section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);

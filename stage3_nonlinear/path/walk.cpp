@@ -78,14 +78,37 @@ PathStep Walk::step(const SolvedPoint& point) const {
           .scale = scale};
 }
 
+namespace {
+
+/// Adds the events of planes that remember: where they begin to slip or yield, unless that is said of this increment or
+/// of the one before, and where they cease to.
+void add_events(const std::vector<PlaneMemory>& before, const std::vector<PlaneMemory>& now, const LoadPath& path,
+                std::vector<ContactEvent>& events) {
+  const auto is_said = [](const std::vector<ContactEvent>& in, const ContactEvent& event) {
+    return std::ranges::find(in, event) != in.end();
+  };
+  for (Index j = 0; j < std::ssize(now); ++j)
+    for (const auto& [moves, kind] :
+         {std::pair(&PlaneMemory::slips, CornerKind::slip), std::pair(&PlaneMemory::yields, CornerKind::yield)}) {
+      const ContactEvent event{j, kind, !(now[j].*moves)};
+      if (now[j].*moves == before[j].*moves || is_said(events, event)) continue;
+      if (event.back || path.steps.empty() || !is_said(path.steps.back().events, event)) events.push_back(event);
+    }
+}
+
+}  // namespace
+
 bool Walk::record(LoadPath& path, std::vector<ContactEvent> events) {
   SolvedPoint point(equations_, here_.load_factor, here_.c);
   PathStep step = this->step(point);
   step.events = std::move(events);
   auto unbalanced = options_.each ? options_.each(std::move(point), step) : std::nullopt;
   if (!unbalanced) {
+    const auto before = equations_.memories();
     equations_.commit(here_.c);
     path.history = equations_.history;
+    step.memories = equations_.memories();
+    add_events(before, step.memories, path, step.events);
     path.steps.push_back(std::move(step));
     return true;
   }

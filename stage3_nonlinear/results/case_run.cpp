@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/case_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -22,11 +20,6 @@ JointEquations CaseRun::equations(std::size_t at, const End* before) {
   load(at);
   auto displaced = displaced_externals(joint_);
   if (!system_ || displaced != displaced_ || joint_.ties != ties_) {
-    if (before != nullptr)
-      refuse(scene_.cases[at].where + "/loads",
-             fmt::format("displaces or ties other externals than \"{}\", after which it comes",
-                         scene_.cases[*scene_.cases[at].after].name),
-             "the same ties, and displacements of the same externals, 0 where one is to stay");
     system_ = std::make_shared<const CondensedSystem>(condense(joint_));
     displaced_ = std::move(displaced);
     ties_ = joint_.ties;

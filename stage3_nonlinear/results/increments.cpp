@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/increments.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "common/errors.hpp"
 
 namespace fastjoint::stage3 {
 std::optional<Imbalance> imbalance(const JointState& state, double tolerance) {
@@ -12,6 +16,28 @@ std::optional<Imbalance> imbalance(const JointState& state, double tolerance) {
   if (worst <= allowed) return std::nullopt;
   return Imbalance{what, worst, allowed};
 }
+
+namespace {
+
+/// Throws InputError where a plane is not on the curve of its law, whose derivatives by the law's numbers are known.
+void require_first_loading(const JointModel& joint, const SolvedPoint& point) {
+  constexpr double same = 1e-9;
+  const JointEquations& equations = point.equations();
+  if (!equations.remembers()) return;
+  JointEquations first = equations;
+  first.history.clear();
+  const VectorXd off = contact_state(first, point.c()).F - point.state().F;
+  const Index a = equations.n_directions();
+  for (Index j = 0; j < equations.n_planes(); ++j)
+    if (off.segment(j * a, a).norm() > same * point.state().F.lpNorm<Eigen::Infinity>())
+      throw InputError(
+          fmt::format("--sensitivities: at load factor {:g} {} has unloaded or turned after it slipped or yielded, and "
+                      "derivatives through such a history are not known; allowed: increments before that, or laws with "
+                      "\"reversible\": true",
+                      point.load_factor(), joint.name(joint.planes[j])));
+}
+
+}  // namespace
 
 std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, const JointEquations& equations,
                                                     const std::vector<double>& load_factors, PathOptions options,
@@ -28,6 +54,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
     if (errors.are_known()) F_error.push_back(errors.at(point, state));
     all.stiffness.push_back(tangent_stiffness(joint, point));
     if (wanted.sensitivities) {
+      require_first_loading(joint, point);
       slopes = state_slopes(all.numbers, point);
       all.sensitivity.push_back(sensitivity(all.numbers, slopes, point));
     }

@@ -207,7 +207,10 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
                            ? std::max(std::abs(bypass(forces.col(1)) - state.bypass_load), energy_error * largest)
                            : unknown;
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
-  state.net_stress = force[loaded] / a.net_area[loaded];
+  const auto net = [&](const std::optional<Index>& section) {
+    return section ? force[*section] / a.net_area[*section] : -std::numeric_limits<double>::infinity();
+  };
+  state.net_stress = std::max(net(plus), net(minus));
   constexpr double rounding = 1e-9;
   if (!(std::abs(force[loaded]) > rounding * largest)) return;
   // Interference makes stresses without resultants, so that these are errors only.

@@ -233,6 +233,10 @@ void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) 
       if (++n_before > cases.size())
         items[i].at("after").fail(fmt::format("\"{}\" comes after itself", cases[i].name),
                                   "cases that lead back to the unloaded joint");
+    if (cases[i].after && cases[i].held() != cases[*cases[i].after].held())
+      items[i].at("loads").fail(
+          fmt::format("displaces or ties other externals than \"{}\", after which it comes", cases[*cases[i].after].name),
+          "the same ties, and displacements of the same externals, 0 where one is to stay");
   }
 }
 
@@ -277,6 +281,16 @@ SolverScene read_solver(const Value& value) {
 }
 
 }  // namespace
+
+std::set<std::string> CaseScene::held() const {
+  std::set<std::string> names;
+  const auto full_name = [](const Reference& external) { return external.plate + ":" + external.name; };
+  for (const auto& load : loads) {
+    if (load.is_displacement) names.insert(full_name(load.external));
+    for (const auto& tied : load.tied) names.insert(full_name(load.external) + " to " + full_name(tied));
+  }
+  return names;
+}
 
 JointScene read_joint_scene(const input::Document& document) {
   const Value root(document);

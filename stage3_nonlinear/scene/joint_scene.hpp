@@ -71,6 +71,9 @@ struct CaseScene {
   std::optional<std::size_t> after{};   ///< the case whose last state it starts from, to whose loads its own are added
   std::string where{};
 
+  /// Externals with a given displacement, "plate:external", and ties, "plate:external to plate:external": what the
+  /// condensed system depends on.
+  [[nodiscard]] std::set<std::string> held() const;
   /// The requested load factors; the full load if increments are at every event.
   [[nodiscard]] std::vector<double> wanted_load_factors() const {
     return load_factors.empty() ? std::vector{1.0} : load_factors;

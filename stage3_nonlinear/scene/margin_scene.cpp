@@ -5,11 +5,15 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <array>
 #include <set>
 
 namespace fastjoint::stage3 {
 namespace {
+
+constexpr double at_rim = 0.5;  ///< e/D at which the rim touches the edge
 
 using input::Value;
 
@@ -23,6 +27,7 @@ Allowable read_allowable(const Value& value) {
     const auto pair = point.numbers(2, 2, input::positive);
     if (!table.edge_ratio.empty() && !(pair[0] > table.edge_ratio.back()))
       point.fail("an e/D that does not rise", "points [e/D, stress] with ascending e/D");
+    if (!(pair[0] > at_rim)) point.fail(fmt::format("e/D = {:g}", pair[0]), "more than 0.5, where the rim touches the edge");
     table.edge_ratio.push_back(pair[0]);
     table.value.push_back(pair[1]);
   }
@@ -35,6 +40,20 @@ std::vector<std::pair<double, double>> read_polygon(const Value& value) {
     const auto pair = point.numbers(2, 2, input::any_number);
     points.emplace_back(pair[0], pair[1]);
   }
+  // Seen from the origin the corners turn one way and once around, so that each ray meets one side.
+  double turned = 0;
+  int rising = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto& [x, y] = points[i];
+    const auto& [u, v] = points[(i + 1) % points.size()];
+    const double area = x * v - y * u;
+    rising += area > 0 ? 1 : area < 0 ? -1 : 0;
+    turned += std::atan2(area, x * u + y * v);
+  }
+  const bool once = std::abs(std::abs(turned) - 2 * std::numbers::pi) < 1e-6;
+  if (!once || std::size_t(std::abs(rising)) != points.size())
+    value.fail("a polygon that does not go once around the origin, corner after corner as seen from there",
+               "corners [bypass stress, bearing stress] in order around [0, 0]");
   return points;
 }
 
@@ -101,9 +120,8 @@ CheckScene read_check(const Value& value, double safety_factor, double fitting_f
 double Allowable::at(double ratio) const {
   if (edge_ratio.empty()) return value.front();
   const auto above = std::ranges::upper_bound(edge_ratio, ratio);
-  constexpr double at_rim = 0.5;  // there the rim touches the edge
   if (above == edge_ratio.begin())
-    return value.front() * std::max(ratio - at_rim, 0.0) / std::max(edge_ratio.front() - at_rim, at_rim);
+    return value.front() * std::max(ratio - at_rim, 0.0) / (edge_ratio.front() - at_rim);
   if (above == edge_ratio.end()) return value.back();
   const auto i = above - edge_ratio.begin();
   const double fraction = (ratio - edge_ratio[i - 1]) / (edge_ratio[i] - edge_ratio[i - 1]);

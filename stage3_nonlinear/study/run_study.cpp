@@ -164,18 +164,9 @@ std::vector<std::size_t> studied_cases(const Study& study) {
     cases.push_back(found - names.begin());
   }
   for (std::size_t i = 0; i < names.size() && study.scene.cases.empty(); ++i) cases.push_back(i);
-  const auto displaced = [&](std::size_t at) {
-    std::set<std::string> externals;
-    for (const auto& load : study.joint.cases[at].loads)
-      if (load.is_displacement) externals.insert(load.external.plate + ":" + load.external.name);
-    for (const auto& load : study.joint.cases[at].loads)
-      for (const auto& tied : load.tied)
-        externals.insert(load.external.plate + ":" + load.external.name + " to " + tied.plate + ":" + tied.name);
-    return externals;
-  };
   for (const std::size_t at : cases)
     for (auto its = std::optional(at); its; its = study.joint.cases[*its].after)
-      if (displaced(*its) != displaced(cases.front()))
+      if (study.joint.cases[*its].held() != study.joint.cases[cases.front()].held())
         throw InputError(
             fmt::format("{}: /cases: \"{}\" and \"{}\" displace or tie different externals; allowed: "
                         "cases that displace and tie the same ones",
