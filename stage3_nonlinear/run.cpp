@@ -20,8 +20,8 @@
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/joined_result.hpp"
 #include "stage3_nonlinear/output/margins.hpp"
-#include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/output/output.hpp"
+#include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
 

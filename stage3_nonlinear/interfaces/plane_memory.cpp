@@ -29,7 +29,8 @@ Along radial(const RadialFunction& function, const PlaneVector& v) {
 }
 
 /// Root of the gradient of a convex function by Newton's method with an exact search along each step.
-/// @param at x -> gradient and a positive semi-definite matrix near its derivative. @param size Of terms of the gradient.
+/// @param at x -> gradient and a positive semi-definite matrix near its derivative. @param size Of terms of the
+/// gradient.
 template <class Function>
 PlaneVector minimum(Function at, PlaneVector x, double size) {
   for (int i = 0; i < max_iterations; ++i) {

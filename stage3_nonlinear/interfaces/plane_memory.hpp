@@ -21,12 +21,12 @@ struct Slider {
 
 /// State of a shear plane with a law that remembers.
 struct RememberedState {
-  PlaneVector F, delta;       ///< force, length
-  PlaneMatrix dF, ddelta;     ///< by c, symmetric; dimensionless, length / force
+  PlaneVector F, delta;    ///< force, length
+  PlaneMatrix dF, ddelta;  ///< by c, symmetric; dimensionless, length / force
   std::vector<Slider> sliders;
 };
 
-/// The state at which F + k delta = c, from the sliders before the increment (docs/theory.md, section 8.8).
+/// The state at which F + k delta = c, from the sliders before the increment (docs/theory.md, section 8.9).
 ///
 /// Each branch is an elastic part in series with a slider that moves under its force less its backstress where that
 /// exceeds its limit. Of an increment delta its potential is the least over the slider's set s of

@@ -54,7 +54,7 @@ struct Rise {
 using RadialFunction = std::function<Rise(double length)>;
 
 /// Part of a law that remembers, in parallel with the others: an elastic part in series with a slider, which moves as
-/// long as the force less a backstress exceeds a limit (docs/theory.md, section 8.8).
+/// long as the force less a backstress exceeds a limit (docs/theory.md, section 8.9).
 struct MemoryBranch {
   RadialFunction elastic;     ///< force by the elastic displacement, length
   RadialFunction backstress;  ///< force by the set of the slider, length

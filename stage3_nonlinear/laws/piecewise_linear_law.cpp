@@ -37,10 +37,16 @@ struct LinearBranch {
 
 MemoryBranch memory_branch(const LinearBranch& branch, double clearance) {
   const double k = branch.k, gap = branch.gap + (branch.takes_clearance ? clearance : 0);
-  const double hardening = k * branch.k_yield / (k - branch.k_yield);
-  return {.elastic = [=](double x) { return x > gap ? Rise{k * (x - gap), k} : Rise{0, gap > 0 ? 0 : k}; },
-          .backstress = [=](double s) { return Rise{hardening * s, hardening}; },
-          .limit = branch.limit,
+  const double hardening = branch.k_yield < k ? k * branch.k_yield / (k - branch.k_yield) : infinite;
+  return {.elastic =
+              [=](double x) {
+                return x > gap ? Rise{k * (x - gap), k} : Rise{0, gap > 0 ? 0 : k};
+              },
+          .backstress =
+              [=](double s) {
+                return hardening < infinite ? Rise{hardening * s, hardening} : Rise{0, 0};
+              },
+          .limit = hardening < infinite ? branch.limit : infinite,  // a slope that does not fall is no yield
           .is_slip = branch.is_slip};
 }
 
@@ -183,14 +189,14 @@ bool is_reversible(const input::Value& law) {
   return reversible && reversible->boolean();
 }
 
-/// Slope after yield of a law that remembers, which must be less than that before.
+/// Slope after yield of a law that remembers, which must not be more than that before.
 double read_k_yield(const input::Value& law, double k, const char* name_of_k) {
   const auto value = law.at("k_yield");
   const double k_yield = value.number(input::not_negative);
-  if (!is_reversible(law) && !(k_yield < k))
-    value.fail(fmt::format("{}", k_yield),
-               fmt::format("less than {} = {}, or \"reversible\": true, since a law that stiffens keeps no set",
-                           name_of_k, k));
+  if (!is_reversible(law) && k_yield > k)
+    value.fail(
+        fmt::format("{}", k_yield),
+        fmt::format("at most {} = {}, or \"reversible\": true, since a law that stiffens keeps no set", name_of_k, k));
   return k_yield;
 }
 
@@ -220,7 +226,7 @@ LawPointer read_bilinear_law(const input::Value& law) {
   const double F = law.at("F_yield").number(input::positive);
   const double k_yield = read_k_yield(law, k, "k");
   std::vector<LinearBranch> branches;
-  if (!is_reversible(law)) branches = {{0, k, F, k_yield, true, false}};
+  if (!is_reversible(law) && k_yield < k) branches = {{0, k, F, k_yield, true, false}};
   return piecewise_linear_law({{{0, 0}, {F / k, F}}, k_yield}, 0,
                               {{{"k", -1, 1}, {{{0, 0}, {-F / (k * k), 0}}, 0}},
                                {{"F_yield", 0, 1}, {{{0, 0}, {1 / k, 1}}, 0}},

@@ -243,12 +243,14 @@ LawPointer read_table_law(const input::Value& law) {
   const auto yield = law.find("F_yield");
   const double F_yield = yield ? yield->number(input::positive) : std::numeric_limits<double>::infinity();
   if (yield && F_yield > points.back()[1])
-    yield->fail(fmt::format("{}", F_yield), fmt::format("at most the largest force of the points, {}", points.back()[1]));
+    yield->fail(fmt::format("{}", F_yield),
+                fmt::format("at most the largest force of the points, {}", points.back()[1]));
   auto result = std::make_shared<TableLaw>(points, path, F_yield);
   if (const auto steeper = yield ? result->steeper_beyond_yield() : std::nullopt)
-    yield->fail(fmt::format("{}, beyond which the curve is steeper, at delta = {:.6g}, than the line from no load to there",
-                            F_yield, *steeper),
-                "a force beyond which the curve is flatter than that line, along which the law unloads");
+    yield->fail(
+        fmt::format("{}, beyond which the curve is steeper, at delta = {:.6g}, than the line from no load to there",
+                    F_yield, *steeper),
+        "a force beyond which the curve is flatter than that line, along which the law unloads");
   return result;
 }
 

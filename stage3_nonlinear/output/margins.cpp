@@ -97,10 +97,10 @@ class Margins {
   void warn(const char* reason, const std::vector<std::string>& holes) {
     constexpr std::size_t most = 4;
     const std::vector<std::string> first(holes.begin(), holes.begin() + std::ptrdiff_t(std::min(most, holes.size())));
-    warnings_.push_back({"check-left-out",
-                         fmt::format("{}: check \"{}\" is not made for {}{}: {}", scene_.file, check_->name,
-                                     fmt::join(first, ", "),
-                                     holes.size() > most ? fmt::format(" and {} more", holes.size() - most) : "", reason)});
+    warnings_.push_back(
+        {"check-left-out",
+         fmt::format("{}: check \"{}\" is not made for {}{}: {}", scene_.file, check_->name, fmt::join(first, ", "),
+                     holes.size() > most ? fmt::format(" and {} more", holes.size() - most) : "", reason)});
   }
 
   /// Adds the smallest margin of an item. @param at Applied(step).
@@ -116,8 +116,10 @@ class Margins {
                                 : infinite;
       if (row.at < 0 || margin < row.margin) row.margin = margin, row.worst = now, row.at = step;
     }
-    if (row.at >= 0) rows_.push_back(std::move(row));
-    else if (a_.load_factor.size() > 0) left_out_["its value is not known"].push_back(of);
+    if (row.at >= 0)
+      rows_.push_back(std::move(row));
+    else if (a_.load_factor.size() > 0)
+      left_out_["its value is not known"].push_back(of);
   }
 
   void of_fasteners() {
@@ -202,8 +204,8 @@ class Margins {
     };
     const auto& fastened = joint_.plates[hole.plate].holes;
     const bool has_fastener = index_of(fastened, s.rim_hole[hole.rim]) < count_of(fastened);
-    const bool has_section = n_sections(s, s.rim_hole[hole.rim]) > 0, needs_section = check_->kind == CheckKind::tension ||
-                                                                                      check_->kind == CheckKind::bearing_bypass;
+    const bool has_section = n_sections(s, s.rim_hole[hole.rim]) > 0,
+               needs_section = check_->kind == CheckKind::tension || check_->kind == CheckKind::bearing_bypass;
     if (needs_section && !has_section) {
       left_out_["it has no section across x"].push_back(hole.name);
       return;
@@ -378,8 +380,7 @@ std::string margin_lines(const JointResult& result) {
                         std::isfinite(a.margin[i]) ? fmt::format("{:+.3f}", a.margin[i])
                         : a.applied[i] > 0         ? "no limit"
                                                    : "no load",
-                        a.allowable[i],
-                        a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
+                        a.allowable[i], a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
   if (n > std::ssize(shown))
     text += fmt::format("  ... of {}; RESULT.h5 and --margins have all\n", program::counted(n, "margin"));
   return text;

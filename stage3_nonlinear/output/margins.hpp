@@ -16,8 +16,7 @@ namespace fastjoint::stage3 {
 /// @param result Of no increments to check the scene alone.
 /// @param left_out Gets a warning for each check of the holes that it cannot be made for.
 [[nodiscard]] formats::MarginTable margins(const JointScene& scene, const JointModel& joint,
-                                           const formats::JointResult& result,
-                                           std::vector<program::Warning>& left_out);
+                                           const formats::JointResult& result, std::vector<program::Warning>& left_out);
 
 /// Warning of holes that are checked for bearing or shear-out nearer to an edge than 1.5 diameters.
 [[nodiscard]] std::vector<program::Warning> edge_warnings(const JointScene& scene, const formats::MarginTable& table);

@@ -96,9 +96,9 @@ std::string memory_lines(const JointModel& joint, const PathStep& step) {
   for (Index j = 0; j < std::ssize(step.memories); ++j) {
     const PlaneMemory& memory = step.memories[j];
     if (memory.dissipated == 0) continue;
-    text += fmt::format("  {} keeps a set of {:.6g} {}, has dissipated {:.6g} {}\n", joint.short_name(joint.planes[j]),
-                        fmt::join(memory.set, ", "), unit(joint.units, 1, 0), memory.dissipated,
-                        unit(joint.units, 1, 1));
+    text +=
+        fmt::format("  {} keeps a set of {:.6g} {}, has dissipated {:.6g} {}\n", joint.short_name(joint.planes[j]),
+                    fmt::join(memory.set, ", "), unit(joint.units, 1, 0), memory.dissipated, unit(joint.units, 1, 1));
   }
   return text;
 }
@@ -310,7 +310,8 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
         fmt::format("increment {} of {}: load factor {:.6g}, {}, residual {:.1e} of the largest force\n", i + 1,
                     path.n_increments, step.load_factor, program::counted(step.iterations, "iteration"), step.residual);
     if (!step.events.empty()) text += fmt::format("  {}\n", event_text(joint, step.events));
-    text += fastener_table(joint, step, states[i], width) + memory_lines(joint, step) + plate_table(joint, states[i], width);
+    text += fastener_table(joint, step, states[i], width) + memory_lines(joint, step) +
+            plate_table(joint, states[i], width);
   }
   if (states.empty()) return text;
   if (result.F_error) text += error_bar(joint, result);

@@ -73,10 +73,10 @@ struct PathStep {
   int iterations;     ///< of all tries
   double residual;    ///< largest, over `scale`
   TangentCheck check;
-  VectorXd rim_F = {}, moments = {};      ///< (r - n a) forces and moments of rims of contact, force, length
-  VectorXd Lambda = {};                   ///< (t) amplitudes of friction
-  std::vector<ContactEvent> events = {};  ///< events of planes exactly here, and of rims since the increment before
-  VectorXd c = {};                        ///< (r) contact coordinates, force
+  VectorXd rim_F = {}, moments = {};       ///< (r - n a) forces and moments of rims of contact, force, length
+  VectorXd Lambda = {};                    ///< (t) amplitudes of friction
+  std::vector<ContactEvent> events = {};   ///< events of planes exactly here, and of rims since the increment before
+  VectorXd c = {};                         ///< (r) contact coordinates, force
   std::vector<PlaneMemory> memories = {};  ///< (n) of each plane; empty if no law remembers
   /// Reference force of residuals: force_scale, or rounding of clearances over the tolerance.
   double scale = 0;
@@ -162,10 +162,10 @@ inline constexpr double first_load_factor = 1e-6;
 /// Follows the joint to load factor 1 with an increment at every load factor in (0, 1] at which a fastener passes a
 /// corner of its law (ContactCorners), and one at 1.
 ///
-/// Histories of interfaces change at increments only: all events are searched with those at load factor 0, and laws that
-/// remember then follow the increments found. Newton's
-/// method solves for the load factor at which the fastener is on its corner, between solved states; the interval is
-/// halved if the order of events is in doubt (docs/theory.md, section 8.7).
+/// Histories of interfaces change at increments only: all events are searched with those at load factor 0, and laws
+/// that remember then follow the increments found. Newton's method solves for the load factor at which the fastener is
+/// on its corner, between solved states; the interval is halved if the order of events is in doubt (docs/theory.md,
+/// section 8.7).
 [[nodiscard]] LoadPath follow_events(const JointEquations& equations, const PathOptions& options);
 
 /// Searches for the events at which rims with interference lose full contact, as follow_events does, up to the largest

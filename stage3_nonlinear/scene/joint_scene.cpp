@@ -234,9 +234,9 @@ void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) 
         items[i].at("after").fail(fmt::format("\"{}\" comes after itself", cases[i].name),
                                   "cases that lead back to the unloaded joint");
     if (cases[i].after && cases[i].held() != cases[*cases[i].after].held())
-      items[i].at("loads").fail(
-          fmt::format("displaces or ties other externals than \"{}\", after which it comes", cases[*cases[i].after].name),
-          "the same ties, and displacements of the same externals, 0 where one is to stay");
+      items[i].at("loads").fail(fmt::format("displaces or ties other externals than \"{}\", after which it comes",
+                                            cases[*cases[i].after].name),
+                                "the same ties, and displacements of the same externals, 0 where one is to stay");
   }
 }
 

@@ -5,9 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
-#include <array>
 #include <set>
 
 namespace fastjoint::stage3 {
@@ -27,7 +27,8 @@ Allowable read_allowable(const Value& value) {
     const auto pair = point.numbers(2, 2, input::positive);
     if (!table.edge_ratio.empty() && !(pair[0] > table.edge_ratio.back()))
       point.fail("an e/D that does not rise", "points [e/D, stress] with ascending e/D");
-    if (!(pair[0] > at_rim)) point.fail(fmt::format("e/D = {:g}", pair[0]), "more than 0.5, where the rim touches the edge");
+    if (!(pair[0] > at_rim))
+      point.fail(fmt::format("e/D = {:g}", pair[0]), "more than 0.5, where the rim touches the edge");
     table.edge_ratio.push_back(pair[0]);
     table.value.push_back(pair[1]);
   }
@@ -120,8 +121,7 @@ CheckScene read_check(const Value& value, double safety_factor, double fitting_f
 double Allowable::at(double ratio) const {
   if (edge_ratio.empty()) return value.front();
   const auto above = std::ranges::upper_bound(edge_ratio, ratio);
-  if (above == edge_ratio.begin())
-    return value.front() * std::max(ratio - at_rim, 0.0) / (edge_ratio.front() - at_rim);
+  if (above == edge_ratio.begin()) return value.front() * std::max(ratio - at_rim, 0.0) / (edge_ratio.front() - at_rim);
   if (above == edge_ratio.end()) return value.back();
   const auto i = above - edge_ratio.begin();
   const double fraction = (ratio - edge_ratio[i - 1]) / (edge_ratio[i] - edge_ratio[i - 1]);

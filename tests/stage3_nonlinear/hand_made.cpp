@@ -63,7 +63,7 @@ std::shared_ptr<const stage3::Law> random_piecewise_law(std::mt19937& random) {
   if (kind < 0.4) return linear_law(k);
   if (kind < 0.7) return bilinear_law(k, F, yielding);
   return law_of(fmt::format(R"({{"type": "four stage", "k_stick": {}, "F_slip": {}, "slip": {}, "k_bearing": {},
-                                "F_yield": {}, "k_yield": {}}})",
+                                "F_yield": {}, "k_yield": {}, "reversible": true}})",
                             3 * k, 0.1 * F, decades(random, 1e-4, 1e-1), k, F, yielding));
 }
 

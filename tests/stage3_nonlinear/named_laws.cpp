@@ -151,6 +151,7 @@ std::shared_ptr<const stage3::Law> LawText::law() const {
                        numbers[1].second, numbers[2].second);
   } else {
     for (const auto& [name, value] : numbers) text += fmt::format(R"(, "{}": {})", name, value);
+    if (type == "bilinear" || type == "four stage") text += R"(, "reversible": true)";
   }
   const auto document = input::parse("joint.json", fmt::format(R"({{"type": "{}"{}}})", type, text));
   return stage3::read_law(input::Value(document));

@@ -168,9 +168,10 @@ TEST_P(UnloadingOf, IsSaidWhereTheLawHasNoMemoryOfWhatHappened) {
   }
 }
 
-constexpr const char* yields = R"({"type": "bilinear", "k": 1000, "F_yield": 40, "k_yield": 100})";
+constexpr const char* yields = R"({"type": "bilinear", "k": 1000, "F_yield": 40, "k_yield": 100, "reversible": true})";
 constexpr const char* slips =
-    R"({"type": "four stage", "k_stick": 9000, "F_slip": 20, "slip": 0.1, "k_bearing": 1000, "F_yield": 90, "k_yield": 9})";
+    R"({"type": "four stage", "k_stick": 9000, "F_slip": 20, "slip": 0.1, "k_bearing": 1000, "F_yield": 90, "k_yield": 9,
+        "reversible": true})";
 constexpr const char* points = R"({"type": "table", "delta": [0, 0.1, 0.2, 0.4], "F": [0, 30, 50, 70]})";
 INSTANTIATE_TEST_SUITE_P(Each, UnloadingOf,
                          testing::Values(Unloading{"yielded", yields, "[1, 0.9, 0.5]", "2 (load factor 0.9)"},

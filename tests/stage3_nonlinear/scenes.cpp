@@ -18,7 +18,8 @@ std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0) 
 }
 
 std::shared_ptr<const stage3::Law> bilinear_law(double k, double F_yield, double k_yield) {
-  return law_of(fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})", k, F_yield, k_yield));
+  return law_of(fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}, "reversible": true}})", k,
+                            F_yield, k_yield));
 }
 
 std::shared_ptr<const stage3::Law> cubic_law(const std::array<double, 3>& delta, const std::array<double, 3>& F) {

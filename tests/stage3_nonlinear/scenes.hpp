@@ -14,6 +14,7 @@ namespace fastjoint::test {
 [[nodiscard]] std::shared_ptr<const stage3::Law> law_of(const std::string& text);
 [[nodiscard]] std::shared_ptr<const stage3::Law> linear_law(double k);
 [[nodiscard]] std::shared_ptr<const stage3::Law> power_law(double A, double n, double delta0 = 0);
+/// Without memory.
 [[nodiscard]] std::shared_ptr<const stage3::Law> bilinear_law(double k, double F_yield, double k_yield);
 [[nodiscard]] std::shared_ptr<const stage3::Law> cubic_law(const std::array<double, 3>& delta,
                                                            const std::array<double, 3>& F);
