@@ -258,9 +258,12 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
     auto event = events[i];
     walk.put(event.place, event.iterations);
     corners.leave_to_memory(event.events, false);
-    if (remembers && !walk.reach(event.place.load_factor)) {  // with what it has kept of the increments before
-      path.failure = walk.failure(i, event.place.load_factor);
-      return path;
+    if (remembers) {  // solve it with what it has kept of the increments before
+      if (!walk.reach(event.place.load_factor)) {
+        path.failure = walk.failure(i, event.place.load_factor);
+        return path;
+      }
+      walk.put(walk.here(), event.iterations);
     }
     if (!walk.record(path, event.events)) return path;
   }

@@ -108,7 +108,7 @@ def corners():
     """Bilinear laws with clearance, along y alone: solvers and events agree on either side."""
     matrices("sheet", False, False, ["y"])
     matrices("image", True, False, ["y"])
-    law = {"type": "bilinear", "k": 50000, "F_yield": 400, "k_yield": 5000}
+    law = {"type": "bilinear", "k": 50000, "F_yield": 400, "k_yield": 5000, "reversible": True}
     found = {}
     for method in ("hybridsj", "damped newton"):
         joint("sheet", law, 1000, solver={"method": method, "tolerance": 1e-12})

@@ -27,9 +27,9 @@ UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/len
 JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
-    "laws": {"bolt": {"type": "power", "A": 1000, "n": 0.7}},
+    "laws": {"bolt": {"type": "power", "A": 1000, "n": 0.7}, "soft": {"type": "bilinear", "k": 5000, "F_yield": 20, "k_yield": 500}},
     "fasteners": [{"id": "1", "between": ["center:1", "doubler:1"], "law": "bolt", "clearance": 0.001,
-                   "friction": 0.1}],
+                   "friction": 0.1}, {"id": "2", "between": ["center:2", "doubler:2"], "law": "soft"}],
     "cases": [{"name": "pull", "loads": [{"external": "center:P", "force": 100}], "increments": 5}],
     "margins": {"checks": [{"check": "peak", "limit": 1000}]},
 }
