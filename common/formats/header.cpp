@@ -137,6 +137,18 @@ void wave_datasets(File& file, Waves& a, const Units& units) {
   if constexpr (File::reads)
     for (std::size_t i = 0; i < owner.size(); ++i) a[owner[i]].acts.push_back(arcs[i]);
 }
+template <class File, class Expansion>
+void expansion_dataset(File& file, Expansion& a) {
+  if constexpr (File::reads) {
+    if (!file.has("expansion")) return;
+  }
+  file("expansion", a, {h5::any}, "1/degree", "free strain x, y and xy, of the tensor, per degree of temperature");
+  if constexpr (File::reads)
+    if (a.size() != 0 && a.size() != 3) a.resize(0);  // not what this is
+}
+template void expansion_dataset(h5::Writer& file, const Eigen::VectorXd& a);
+template void expansion_dataset(h5::Reader& file, Eigen::VectorXd& a);
+
 template <class File, class Places>
 void place_datasets(File& file, Places& a, const Units& units, const UnitCases& cases) {
   if constexpr (File::reads) {
@@ -152,6 +164,7 @@ void place_datasets(File& file, Places& a, const Units& units, const UnitCases& 
        "least and greatest coordinate of each traction along its direction, 0 of a moment");
   file("support/range", a.support, {2, 2}, length,
        "least and greatest x of the supports that fix x, then y of those that fix y, 0 of none");
+  file("support/middle", a.support_middle, {2, 2}, length, "least and greatest of the middles of these edges");
 }
 template void place_datasets(h5::Writer& file, const Places& a, const Units& units, const UnitCases& cases);
 template void place_datasets(h5::Reader& file, Places& a, const Units& units, const UnitCases& cases);

@@ -71,10 +71,11 @@ struct Border {
 
 /// Where forces act on a plate; empty in a file before these had it.
 struct Places {
-  Eigen::MatrixXd disc = Eigen::MatrixXd(0, 2);      ///< (m, 2) x and y of each disc, length
-  Eigen::MatrixXd external = Eigen::MatrixXd(0, 2);  ///< (e, 2) least and greatest coordinate along its direction
-  Eigen::MatrixXd traction = Eigen::MatrixXd(0, 2);  ///< (q, 2) the same; of a moment 0
-  Eigen::MatrixXd support = Eigen::MatrixXd(0, 2);   ///< (2, 2) of all supports along x, along y; 0 of none
+  Eigen::MatrixXd disc = Eigen::MatrixXd(0, 2);            ///< (m, 2) x and y of each disc, length
+  Eigen::MatrixXd external = Eigen::MatrixXd(0, 2);        ///< (e, 2) least and greatest coordinate along its direction
+  Eigen::MatrixXd traction = Eigen::MatrixXd(0, 2);        ///< (q, 2) the same; of a moment 0
+  Eigen::MatrixXd support = Eigen::MatrixXd(0, 2);         ///< (2, 2) of all supports along x, along y; 0 of none
+  Eigen::MatrixXd support_middle = Eigen::MatrixXd(0, 2);  ///< (2, 2) the same of their middles
 
   [[nodiscard]] bool is_known() const { return support.rows() > 0; }
 };
@@ -91,13 +92,14 @@ struct UnitCases {
   /// (q); a load in a hole has one case for each side in the model, both of a unit force along the direction. A
   /// negative force uses the second.
   std::vector<std::string> traction_id, traction_direction;
-  std::vector<double> traction_arm{};         ///< (q) length; the moment `rotation` of a force f is f times this, else 0
+  std::vector<double> traction_arm{};  ///< (q) length; the moment `rotation` of a force f is f times this, else 0
   std::vector<std::string> traction_bearing;  ///< (q) side of the hole that bears, "+x", ...; "" for edges
   std::vector<std::string> traction_hole{};   ///< (q) hole under cosine pressure, "" for an edge
   std::vector<ContactRim> contact{};          ///< in the order of the holes
   std::vector<WaveRim> waves{};               ///< rims of `contact`, then others in the order of the holes
   Border border{};                            ///< none in a file before these had one
   Places places{};
+  Eigen::VectorXd expansion{};                ///< (3) free strain x, y, xy (of the tensor) per degree; (0) not known
   std::vector<std::string> friction_hole;     ///< (h)
   std::vector<std::string> friction_bearing;  ///< (h) "+x", "-x", "+y", "-y"
 
@@ -143,6 +145,10 @@ void border_datasets(File& file, AnyBorder& a, const Units& units, const std::st
 /// Places of the forces on a plate; no datasets before these had any.
 template <class File, class Places>
 void place_datasets(File& file, Places& a, const Units& units, const UnitCases& cases);
+
+/// Coefficients of thermal expansion; no dataset of a sheet without.
+template <class File, class Expansion>
+void expansion_dataset(File& file, Expansion& a);
 
 /// Number of degrees, the highest ones, that include waves without tractions and section forces. Their difference
 /// estimates errors.

@@ -92,6 +92,9 @@ void total_datasets(File& file, const std::string& group, Plate& a, Eigen::Index
   file(group + "traction/displacement", a.traction_displacement, {steps, q}, length,
        "mean displacement of each traction boundary along its direction, of a moment rotation times arm",
        h5::infinite_too);
+  file(group + "free/D", a.free_D, {steps, std::ssize(a.disc_hole)}, length,
+       "part of D that deforms nothing: free expansion, and holes off their place");
+  file(group + "free/De", a.free_De, {steps, std::ssize(a.external_id)}, length, "part of De by free expansion");
   file(group + "total/applied", a.applied, {steps, 2}, force, "force of externals along x and y");
   file(group + "total/by_fasteners", a.by_fasteners, {steps, 2}, force, "force of the fasteners along x and y");
   file(group + "total/by_supports", a.by_supports, {steps, 2}, force,

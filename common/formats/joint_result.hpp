@@ -97,8 +97,10 @@ struct PlateHistory {
   std::vector<std::string> traction_bearing{};  ///< (q) as in UnitCases
   std::vector<ContactRim> contact{};            ///< (g)
   std::vector<std::string> friction_hole, friction_bearing;
-  Eigen::MatrixXd D;             ///< (steps, m) disc displacements, length
-  Eigen::MatrixXd De;            ///< (steps, e) displacements of the rigid externals, length
+  Eigen::MatrixXd D;   ///< (steps, m) disc displacements, length
+  Eigen::MatrixXd De;  ///< (steps, e) displacements of the rigid externals, length
+  /// Parts of D and De that deform nothing: the free shape of the sheet by temperature and holes off their place
+  Eigen::MatrixXd free_D{}, free_De{};
   Eigen::MatrixXd Pe;            ///< (steps, e) forces on them, force
   std::vector<WaveRim> waves{};  ///< (g) waves of the rims in contact
   Eigen::MatrixXd amounts{};     ///< (steps, k) amplitude of each of these waves, stress

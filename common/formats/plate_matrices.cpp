@@ -48,6 +48,7 @@ void name_datasets(File& file, Matrices& a) {
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
   place_datasets(file, a.places, a.header.units, a);
+  expansion_dataset(file, a.expansion);
 }
 
 template <class File, class Matrices>

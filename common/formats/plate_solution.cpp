@@ -142,6 +142,7 @@ void name_datasets(File& file, Solution& a) {
   file("friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
        "bearing side of each friction case: +x, -x, +y, -y", h5::one_of(side_names));
   place_datasets(file, a.places, a.header.units, a);
+  expansion_dataset(file, a.expansion);
   file("point/vertex", Column{a.points, &PointSpring::vertex}, {any}, "1", "vertex of the mesh of each point spring",
        h5::index_into(a.mesh.n_nodes()));
   const Index n_points = a.points.size();

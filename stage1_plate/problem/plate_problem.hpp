@@ -82,7 +82,7 @@ void integrate(const PlateScene& scene, const PlateMesh& plate, PlateProblem& pr
                                                         const Unknowns& unknowns);
 
 /// Throws NumericalError if the plate, or a part of it, has a rigid body motion while all externals and discs are
-/// fixed. The message describes the motion (docs/theory.md, section 4.6) and missing symmetry supports. The
+/// fixed. The message describes the motion (docs/theory.md, section 4.7) and missing symmetry supports. The
 /// factorisation alone would not detect it.
 void check_rigid_motions(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 

@@ -62,11 +62,18 @@ formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const
   for (int i = 0; i < count_of(tractions); ++i)
     places.traction.row(i) = range_of(scene, plate, scene.externals[tractions[i].external]);
   places.support.resize(2, 2);
+  places.support_middle.resize(2, 2);
   for (const rim::Axis axis : rim::both_axes) {
-    Range range;
-    for (const auto& support : scene.supports)
-      if (std::ranges::find(support.fix, axis) != support.fix.end()) add_edge(plate, support.on, axis, range);
+    Range range, middle;
+    for (const auto& support : scene.supports) {
+      if (std::ranges::find(support.fix, axis) == support.fix.end()) continue;
+      Range its;
+      add_edge(plate, support.on, axis, its);
+      for (const double end : {its.from, its.to}) range.add(end);
+      middle.add((its.from + its.to) / 2);
+    }
     places.support.row(rim::coordinate(axis)) = range.row();
+    places.support_middle.row(rim::coordinate(axis)) = middle.row();
   }
   return places;
 }

@@ -77,6 +77,10 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = unknowns.dofs;
   a.places = places_of(scene, plate, unknowns);
+  if (scene.expansion) {
+    a.expansion.resize(3);
+    a.expansion << (*scene.expansion)(0, 0), (*scene.expansion)(1, 1), (*scene.expansion)(0, 1);
+  }
   a.space = problem.numbering.space;
   a.p = degrees(scene);
   a.ndof = a.p.unaryExpr([&](int p) { return unknowns.n_free[p]; });

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/scene/read_parts.hpp"
 
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "common/count.hpp"
 #include "common/pfem/material.hpp"
 #include "common/rim/angles.hpp"
@@ -14,8 +18,20 @@ using pfem::Analysis;
 /// Allowed range of Poisson's ratio of an isotropic body.
 constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = true};
 
+/// Strain of free expansion per degree along axis 1 and axis 2, turned to x and y; none if it is not given.
+std::optional<Eigen::Matrix2d> read_expansion(const Value& value, const char* along, const char* across, double angle,
+                                              Analysis analysis) {
+  const auto first = value.find(along), second = value.find(across);
+  if (!first && !second) return std::nullopt;
+  if (!first || !second) value.fail(fmt::format("\"{}\" alone", first ? along : across), "the other one too, or none");
+  if (analysis == Analysis::plane_strain) first->fail("given in plane strain", "only in plane stress");
+  Eigen::Matrix2d turned, expansion = Eigen::Vector2d(first->number(), second->number()).asDiagonal();
+  turned << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return turned * expansion * turned.transpose();
+}
+
 Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
-  value.only({"E", "nu"});
+  value.only({"E", "nu", "alpha"});
   const auto constants = pfem::isotropic(read_quantity(value.at("E")), value.at("nu").number(poisson_range));
   if (!pfem::is_stable(constants, analysis))
     value.at("nu").not_allowed(
@@ -24,7 +40,7 @@ Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
 }
 
 Eigen::Matrix3d read_orthotropic(const Value& value, Analysis analysis) {
-  value.only({"E1", "E2", "nu12", "G12", "angle", "E3", "nu13", "nu23"});
+  value.only({"E1", "E2", "nu12", "G12", "angle", "E3", "nu13", "nu23", "alpha1", "alpha2"});
   pfem::OrthotropicConstants c{};
   c.E1 = read_quantity(value.at("E1"));
   c.E2 = read_quantity(value.at("E2"));
@@ -97,8 +113,12 @@ Materials read_materials(const Value& root) {
   const Value list = root.at("materials");
   for (const auto& [name, value] : list.members()) {
     materials.name.push_back(name);
-    materials.elasticity.push_back(value.find("E") || value.find("nu") ? read_isotropic(value, analysis)
-                                                                       : read_orthotropic(value, analysis));
+    const bool isotropic = value.find("E") || value.find("nu");
+    materials.elasticity.push_back(isotropic ? read_isotropic(value, analysis) : read_orthotropic(value, analysis));
+    const auto angle = value.find("angle");
+    materials.expansion.push_back(
+        isotropic ? read_expansion(value, "alpha", "alpha", 0, analysis)
+                  : read_expansion(value, "alpha1", "alpha2", angle ? angle->number() * rim::degree : 0, analysis));
   }
   if (materials.name.empty()) list.fail("no material", "at least one");
   return materials;

@@ -16,7 +16,8 @@ namespace fastjoint::stage1 {
 /// Materials in the order of their names.
 struct Materials {
   std::vector<std::string> name;
-  std::vector<Eigen::Matrix3d> elasticity;  ///< for the scene's analysis, stress
+  std::vector<Eigen::Matrix3d> elasticity;                ///< for the scene's analysis, stress
+  std::vector<std::optional<Eigen::Matrix2d>> expansion;  ///< strain in x and y per degree, if given
 };
 
 [[nodiscard]] pfem::Analysis read_analysis(const input::Value& root);

@@ -214,6 +214,9 @@ PlateScene read_scene(const input::Document& document) {
   scene.units = read_units(root);
   const Materials materials = read_materials(root);
   scene.elasticity = materials.elasticity;
+  const auto& expansion = materials.expansion;
+  if (std::ranges::all_of(expansion, [&](const auto& each) { return each == expansion.front(); }))
+    scene.expansion = expansion.front();
   scene.geometry = read_geometry(root.at("geometry"), materials);
   std::set<std::string> disc_ids;
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);

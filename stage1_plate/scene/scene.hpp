@@ -81,8 +81,8 @@ struct Support {
   std::vector<rim::Axis> fix;
 };
 
-/// A rigidly moving edge, an edge under uniform traction, an open hole under cosine pressure, or edges under the traction
-/// of a moment without a force.
+/// A rigidly moving edge, an edge under uniform traction, an open hole under cosine pressure, or edges under the
+/// traction of a moment without a force.
 enum class ExternalKind { rigid, traction, bearing, moment };
 
 struct External {
@@ -113,6 +113,8 @@ struct PlateScene {
   std::string name;
   Units units;
   std::vector<Eigen::Matrix3d> elasticity;  ///< elasticity of each material, stress
+  std::optional<Eigen::Matrix2d>
+      expansion{};  ///< strain in x and y per degree; none if not given, or not the same of all
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
   std::vector<PointSpring> points;

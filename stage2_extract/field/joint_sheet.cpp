@@ -85,7 +85,9 @@ JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file,
   if (result.joint.load_factor.size() == 0)
     throw InputError(fmt::format("{}: holds no increment that converged", result_file));
   result.coefficients.resize(plate.n_cases(), result.joint.load_factor.size());
-  result.coefficients << sheet.De.transpose(), sheet.D.transpose(), sheet.amounts.transpose(), sheet.Lambda.transpose(),
+  Eigen::MatrixXd De = sheet.De, D = sheet.D;  // what deforms the sheet
+  if (sheet.free_D.size() == D.size() && sheet.free_De.size() == De.size()) De -= sheet.free_De, D -= sheet.free_D;
+  result.coefficients << De.transpose(), D.transpose(), sheet.amounts.transpose(), sheet.Lambda.transpose(),
       sheet.traction.transpose();
   return result;
 }

@@ -199,7 +199,25 @@ VectorXd JointEquations::q_at(double load_factor) const {
 }
 
 VectorXd JointEquations::rigid_forces(double load_factor) const {
-  return starts_unloaded() ? VectorXd(load_factor * q_at(load_factor)) : rigid_forces_by(*system, load_at(load_factor));
+  if (starts_unloaded()) return load_factor * q_at(load_factor);
+  return rigid_forces_by(*system, load_at(load_factor)) + forces_of_offsets();
+}
+
+VectorXd JointEquations::forces_of_offsets() const {
+  if (parameters.offset.size() == 0) return VectorXd::Zero(n_unknowns());
+  return without_rounding(system->S_ud.leftCols(parameters.offset.size()) * parameters.offset, force_of_offsets());
+}
+
+double JointEquations::force_of_offsets() const {
+  const Index n = parameters.offset.size();
+  if (n == 0) return 0;
+  return (system->S_ud.leftCols(n).cwiseAbs() * parameters.offset.cwiseAbs()).maxCoeff();
+}
+
+VectorXd JointEquations::deforming(const VectorXd& delta) const {
+  VectorXd result = delta;
+  result.head(parameters.offset.size()) -= parameters.offset;
+  return result;
 }
 
 VectorXd JointEquations::required(const ContactState& state, bool friction) const {

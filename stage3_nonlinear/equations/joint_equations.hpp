@@ -50,6 +50,8 @@ struct JointEquations {
   /// force.
   [[nodiscard]] double force_of_clearances() const;
   [[nodiscard]] double force_of_gaps() const;
+  /// Largest force that would push the free sheets together, plane by plane, force.
+  [[nodiscard]] double force_of_offsets() const;
   /// Derivative of the forces of rigid fasteners by the load factor, (r).
   [[nodiscard]] VectorXd q_at(double load_factor) const;
   /// Updates the histories of the interfaces with the solution of an increment, the contact coordinates c, (r).
@@ -59,7 +61,11 @@ struct JointEquations {
   /// True if a law remembers.
   [[nodiscard]] bool remembers() const { return !memories().empty(); }
   /// True if there is no load at load factor 0.
-  [[nodiscard]] bool starts_unloaded() const { return parameters.load_before.size() == 0; }
+  [[nodiscard]] bool starts_unloaded() const { return !parameters.starts_loaded(); }
+  /// S_ud times the offsets of the planes, the forces of rigid fasteners by the free shapes of the sheets, (r); force.
+  [[nodiscard]] VectorXd forces_of_offsets() const;
+  /// Relative displacements of the planes and moments of a solution less the offsets: what deforms the sheets, (r).
+  [[nodiscard]] VectorXd deforming(const VectorXd& delta) const;
   /// Forces of rigid fasteners at a load factor, (r), force.
   [[nodiscard]] VectorXd rigid_forces(double load_factor) const;
   /// Loads of the load cases at a load factor, and their derivatives by it, (l).

@@ -14,6 +14,7 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "stage3_nonlinear/model/fastener_gaps.hpp"
+#include "stage3_nonlinear/model/free_shape.hpp"
 #include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
@@ -265,7 +266,7 @@ void tie(JointModel& joint, const LoadScene& load) {
   }
 }
 
-void set_loads(JointModel& joint, const CaseScene& its) {
+void set_loads(JointModel& joint, const JointScene& scene, const CaseScene& its) {
   joint.ties.clear();
   for (auto& plate : joint.plates) {
     plate.external_force.setZero();
@@ -276,6 +277,13 @@ void set_loads(JointModel& joint, const CaseScene& its) {
     apply_load(joint, load, its.wanted_load_factors());
     if (!load.tied.empty()) tie(joint, load);
   }
+  auto shapes = free_shapes(joint, scene, its);
+  for (std::size_t i = 0; i < shapes.size(); ++i) joint.plates[i].free = std::move(shapes[i]);
+  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
+    for (Index at = 0; at < std::ssize(joint.fasteners[i].holes); ++at) {
+      HoleModel& hole = joint.fasteners[i].holes[at];
+      hole.gap = gap_of(scene.fasteners[i], at, joint.plates[hole.plate]) + gap_growth(joint, scene, its, i, at);
+    }
 }
 
 Index JointModel::offset(Index plate) const {
@@ -336,8 +344,8 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
-  for (const auto& each : scene.cases) set_loads(model, each);  // checks all of them
-  set_loads(model, scene.cases.front());
+  for (const auto& each : scene.cases) set_loads(model, scene, each);  // checks all of them
+  set_loads(model, scene, scene.cases.front());
   return model;
 }
 

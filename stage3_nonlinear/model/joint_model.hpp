@@ -34,6 +34,11 @@ struct PlateDegrees {
 ///
 /// The external forces in equilibrium with them are S u + R Lambda + T f (docs/theory.md, section 4). S does not hold
 /// the springs of a rim of contact: the force that they transmit is minus the force on its moments.
+/// Displacements of the discs and externals of a sheet without forces, as it lies before the joint is made.
+struct FreeShape {
+  VectorXd D, De;  ///< (m), (e) length
+};
+
 struct PlateModel {
   std::string name, file;
   std::string matrices_digest, plate_digest;             ///< of its MATRICES.h5, and of its PLATE.h5
@@ -70,6 +75,8 @@ struct PlateModel {
   Index n_loaded_waves = 0;                  ///< of which this many are waves of contact
   std::vector<std::string> traction_hole{};  ///< (q) hole that each traction presses on, "" for an edge
   VectorXd traction_unit_force{};            ///< (q) force per unit peak of its cosine pressure, length^2
+  VectorXd expansion{};                      ///< (3) formats::UnitCases::expansion
+  FreeShape free{};                          ///< of the load case
   // Loads at load factor 1.
   VectorXd external_force;                                   ///< (e), 0 where a displacement is given
   std::vector<std::optional<double>> external_displacement;  ///< (e)
@@ -223,8 +230,9 @@ struct JointModel {
 /// Refuses a force on a side of a hole that the model does not have. @param factors The requested load factors.
 void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors);
 
-/// Sets the loads of the plates to those of a case. Throws InputError where one is not allowed.
-void set_loads(JointModel& joint, const CaseScene& its);
+/// Sets the loads of the plates, their free shapes and the gaps of the fasteners to those of a case. Throws InputError
+/// where one is not allowed.
+void set_loads(JointModel& joint, const JointScene& scene, const CaseScene& its);
 
 /// Reads the matrices of all plates and resolves every name; loads are those of the first case.
 ///

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/model/parameters.hpp"
 
+#include <algorithm>
+
 #include "stage3_nonlinear/model/fastener_gaps.hpp"
+#include "stage3_nonlinear/model/free_shape.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -31,6 +34,21 @@ std::vector<LoadCase> load_cases(const JointModel& joint) {
   return cases;
 }
 
+namespace {
+
+void set_free_shapes(const JointModel& joint, const std::vector<FreeShape>& shapes, Parameters& all) {
+  if (std::ranges::any_of(shapes, [](const FreeShape& each) { return each.D.size() == 0 && each.De.size() == 0; }))
+    return;  // not set
+  all.offset = free_offsets(joint, shapes);
+  const auto loads = loads_of(joint);
+  VectorXd given = VectorXd::Zero(std::ssize(loads));
+  for (Index i = 0; i < given.size(); ++i)
+    if (loads[i].is_displacement) given[i] = shapes[loads[i].plate].De[loads[i].at];
+  all.free_given = given.isZero(0) ? VectorXd() : given;
+}
+
+}  // namespace
+
 Parameters parameters_of(const JointModel& joint) {
   Parameters all;
   const auto loads = loads_of(joint);
@@ -42,6 +60,9 @@ Parameters parameters_of(const JointModel& joint) {
                   : is_displacement ? *its.external_displacement[at]
                                     : its.external_force[at];
   }
+  std::vector<FreeShape> shapes;
+  for (const auto& plate : joint.plates) shapes.push_back(plate.free);
+  set_free_shapes(joint, shapes, all);
   all.clearance.resize(joint.n_planes());
   for (Index j = 0; j < joint.n_planes(); ++j) {
     all.law.push_back(joint.planes[j].law);
@@ -70,8 +91,10 @@ Parameters parameters_of(const JointModel& joint, const JointScene& scene, const
       all.mu[hole] = its.friction[j];
       all.gap[hole] = gap_of(its, j, plate);
       check_gap(its, its.between[j].name, plate, all.gap[hole]);
+      all.gap[hole] += gap_growth(joint, scene, its_case, i, j);
     }
   }
+  set_free_shapes(joint, free_shapes(joint, scene, its_case), all);
   const auto loads = loads_of(joint);
   for (Index i = 0; i < std::ssize(loads); ++i) {
     const auto& [plate_at, at, is_traction, is_displacement] = loads[i];

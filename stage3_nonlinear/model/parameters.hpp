@@ -38,10 +38,21 @@ struct Parameters {
   VectorXd clearance;           ///< (n) length
   VectorXd mu, gap;             ///< of each fastener in each of its holes, fastener after fastener; gap: length
   VectorXd load_before = {};    ///< loads at load factor 0, force or length; empty: none
+  // At every load factor, by the free shapes of the sheets; empty: none.
+  VectorXd offset = {};      ///< (n a) relative displacements of the planes at which the sheets are free, length
+  VectorXd free_given = {};  ///< each of loads_of: free displacement of an external that is displaced, length
 
-  /// Loads at a load factor.
-  [[nodiscard]] VectorXd load_at(double load_factor) const {
+  /// Loads that the input gives at a load factor.
+  [[nodiscard]] VectorXd given_at(double load_factor) const {
     return load_before.size() > 0 ? VectorXd(load_before + load_factor * load) : VectorXd(load_factor * load);
+  }
+  /// Loads on the sheets at a load factor: displacements are those beyond their free shape.
+  [[nodiscard]] VectorXd load_at(double load_factor) const {
+    return free_given.size() > 0 ? VectorXd(given_at(load_factor) - free_given) : given_at(load_factor);
+  }
+  /// True if there are forces in the joint at load factor 0.
+  [[nodiscard]] bool starts_loaded() const {
+    return load_before.size() > 0 || offset.size() > 0 || free_given.size() > 0;
   }
 };
 

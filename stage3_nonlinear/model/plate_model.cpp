@@ -41,9 +41,10 @@ std::vector<int> traction_axes(const std::string& file, const formats::PlateMatr
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double arm = i < a.traction_arm.size() ? a.traction_arm[i] : 0;
     if ((names[i] == formats::rotation) != (arm > 0))
-      throw FileError(fmt::format("{}:traction/arm: is {:g} for the direction \"{}\", expected an arm above 0 for "
-                                  "\"rotation\", and 0 for \"x\" and \"y\"",
-                                  file, arm, names[i]));
+      throw FileError(
+          fmt::format("{}:traction/arm: is {:g} for the direction \"{}\", expected an arm above 0 for "
+                      "\"rotation\", and 0 for \"x\" and \"y\"",
+                      file, arm, names[i]));
     if (names[i] == formats::rotation) names[i] = rim::axis_names[0];
   }
   return axes_of(file, "traction/direction", names);
@@ -335,6 +336,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.traction_arm = a.traction_arm;
   plate.traction_axis = traction_axes(file, a);
   plate.places = a.places;
+  plate.expansion = a.expansion;
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
   plate.contact = a.contact;

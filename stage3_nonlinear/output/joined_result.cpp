@@ -55,10 +55,10 @@ void add_contacts(formats::ContactHistory& all, const formats::ContactHistory& i
 void add_plate(formats::PlateHistory& all, formats::PlateHistory& its) {
   using formats::CrackHistory;
   using formats::PlateHistory;
-  for (const auto table :
-       {&PlateHistory::D, &PlateHistory::De, &PlateHistory::Pe, &PlateHistory::amounts, &PlateHistory::w,
-        &PlateHistory::Lambda, &PlateHistory::traction, &PlateHistory::traction_displacement, &PlateHistory::applied,
-        &PlateHistory::by_fasteners, &PlateHistory::by_supports})
+  for (const auto table : {&PlateHistory::D, &PlateHistory::De, &PlateHistory::free_D, &PlateHistory::free_De,
+                           &PlateHistory::Pe, &PlateHistory::amounts, &PlateHistory::w, &PlateHistory::Lambda,
+                           &PlateHistory::traction, &PlateHistory::traction_displacement, &PlateHistory::applied,
+                           &PlateHistory::by_fasteners, &PlateHistory::by_supports})
     add_rows(all.*table, its.*table);
   for (const auto table : {&formats::RowHistory::force, &formats::RowHistory::before, &formats::RowHistory::after})
     add_rows(all.rows.*table, its.rows.*table);

@@ -112,6 +112,14 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   };
   history.D = of_discs(&PlateState::D);
   history.De = rows(&PlateState::De, plate.n_externals());
+  history.free_D = MatrixXd::Zero(history.D.rows(), history.D.cols());
+  history.free_De = MatrixXd::Zero(history.De.rows(), history.De.cols());
+  if (plate.free.De.size() == plate.n_externals() && plate.free.D.size() == plate.n_discs()) {
+    history.free_D.rowwise() = plate.free.D(plate.discs).transpose();
+    history.free_De.rowwise() = plate.free.De.transpose();
+    history.D += history.free_D;
+    history.De += history.free_De;
+  }
   history.Pe = rows(&PlateState::Pe, plate.n_externals());
   Index n_added = 0, n_w = 0;
   for (Index i = 0; i < std::ssize(plate.contact); ++i) {

@@ -27,7 +27,8 @@ Walk::Walk(const JointEquations& equations, const PathOptions& options)
       may_snap_(!planes_that_may_snap(equations).empty()),
       here_{0, options.start.value_or(VectorXd::Zero(equations.n_unknowns()))} {
   constexpr double rounding = 4 * std::numeric_limits<double>::epsilon();
-  rounding_ = rounding * std::max(equations.force_of_clearances(), equations.force_of_gaps());
+  rounding_ =
+      rounding * std::max({equations.force_of_clearances(), equations.force_of_gaps(), equations.force_of_offsets()});
 }
 
 bool Walk::is_small(double residual) const {

@@ -55,7 +55,7 @@ FollowedCase CaseRun::follow(std::size_t at, const std::vector<double>& load_fac
   const bool is_needed = std::ranges::any_of(scene_.cases, [&](const auto& other) { return other.after == at; });
   if (is_needed && !path.failure && !path.steps.empty()) {
     const PathStep& last = path.steps.back();
-    ends_[at] = End{now.parameters.load_at(last.load_factor), last.c, path.history};
+    ends_[at] = End{now.parameters.given_at(last.load_factor), last.c, path.history};
   }
   return {std::move(now), std::move(path), std::move(increments)};
 }

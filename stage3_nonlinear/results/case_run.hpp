@@ -27,7 +27,7 @@ class CaseRun {
   /// The joint, with the loads of the case that was followed last.
   [[nodiscard]] const JointModel& joint() const { return joint_; }
   /// Sets the loads of the joint to those of a case.
-  void load(std::size_t at) { set_loads(joint_, scene_.cases[at]); }
+  void load(std::size_t at) { set_loads(joint_, scene_, scene_.cases[at]); }
 
   /// Follows a case, and before it those that it comes after, as far as they have not been.
   ///

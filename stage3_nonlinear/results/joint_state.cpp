@@ -217,7 +217,7 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
 JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {
   const CondensedSystem& system = *equations.system;
   const VectorXd load = equations.load_at(step.load_factor);
-  const VectorXd D = displacements(joint, system, load, step.all_delta(), step.Lambda);
+  const VectorXd D = displacements(joint, system, load, equations.deforming(step.all_delta()), step.Lambda);
   const VectorXd on_discs = forces_on_discs(joint, equations, step);
   JointState state;
   std::vector<ContactLoad> contacts;

@@ -59,7 +59,7 @@ class NearbyStates {
         slopes_(slopes),
         state_(point.state()),
         load_(equations_.load_at(point.load_factor())),
-        D_(displacements(joint, *equations_.system, load_, state_.delta, state_.Lambda)),
+        D_(displacements(joint, *equations_.system, load_, equations_.deforming(state_.delta), state_.Lambda)),
         dD_(displacements(joint, *equations_.system, slopes.load, slopes.delta, slopes.Lambda)),
         holes_(std::move(holes)) {
     constexpr double rounding = 1e-9;

@@ -111,9 +111,20 @@ void read_gaps(const Value& value, FastenerScene& fastener) {
     fastener.hole_diameter = for_each_of(*of_holes, n, [](const Value& each) { return each.number(input::positive); });
 }
 
+/// Reads {"plate": [x, y], ...}: where holes are off.
+void read_offset(const Value& value, FastenerScene& fastener) {
+  for (const auto& [plate, offset] : value.members()) {
+    const auto found = std::ranges::find(fastener.between, plate, &Reference::plate);
+    if (found == fastener.between.end())
+      offset.fail("not a plate of this fastener", listed(fastener.between, &Reference::plate));
+    const auto xy = offset.numbers(2, 2, input::any_number);
+    fastener.offset[found - fastener.between.begin()] = {xy[0], xy[1]};
+  }
+}
+
 FastenerScene read_fastener(const Value& value, const JointScene& scene) {
-  value.only(
-      {"id", "between", "law", "clearance", "friction", "law_includes_friction", "gap", "diameter", "hole_diameter"});
+  value.only({"id", "between", "law", "clearance", "friction", "law_includes_friction", "gap", "diameter",
+              "hole_diameter", "offset", "expansion"});
   FastenerScene fastener;
   fastener.where = where(value);
   fastener.id = value.at("id").text();
@@ -133,6 +144,9 @@ FastenerScene read_fastener(const Value& value, const JointScene& scene) {
   read_gaps(value, fastener);
   fastener.friction.assign(fastener.between.size(), 0.0);
   if (const auto friction = value.find("friction")) fastener.friction = read_friction(*friction, fastener.between);
+  fastener.offset.assign(fastener.between.size(), {0, 0});
+  if (const auto offset = value.find("offset")) read_offset(*offset, fastener);
+  if (const auto expansion = value.find("expansion")) fastener.expansion = expansion->number();
   if (const auto includes = value.find("law_includes_friction")) fastener.law_includes_friction = includes->boolean();
   return fastener;
 }
@@ -218,6 +232,17 @@ std::vector<double> read_increments(const Value& value) {
   return factors;
 }
 
+/// Reads temperatures, of plates by name and of the fasteners, into a case.
+void read_temperatures(const Value& item, const JointScene& scene, CaseScene& its) {
+  if (const auto temperatures = item.find("temperatures"))
+    for (const auto& [plate, value] : temperatures->members()) {
+      if (std::ranges::find(scene.plates, plate, &PlateScene::name) == scene.plates.end())
+        value.fail("no plate has this name", listed(scene.plates, &PlateScene::name));
+      its.temperature[plate] = value.number();
+    }
+  if (const auto fasteners = item.find("fastener_temperature")) its.fastener_temperature = fasteners->number();
+}
+
 /// Sets the case that each follows; none may follow itself, over whatever others.
 void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) {
   for (std::size_t i = 0; i < cases.size(); ++i)
@@ -233,6 +258,10 @@ void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) 
       if (++n_before > cases.size())
         items[i].at("after").fail(fmt::format("\"{}\" comes after itself", cases[i].name),
                                   "cases that lead back to the unloaded joint");
+    for (auto at = cases[i].after; at; at = cases[*at].after) {  // temperatures stay unless they change
+      cases[i].temperature.insert(cases[*at].temperature.begin(), cases[*at].temperature.end());
+      if (!cases[i].fastener_temperature) cases[i].fastener_temperature = cases[*at].fastener_temperature;
+    }
     if (cases[i].after && cases[i].held() != cases[*cases[i].after].held())
       items[i].at("loads").fail(fmt::format("displaces or ties other externals than \"{}\", after which it comes",
                                             cases[*cases[i].after].name),
@@ -244,16 +273,25 @@ void read_order(const std::vector<Value>& items, std::vector<CaseScene>& cases) 
 std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
   const auto increments = root.find("increments"), given = root.find("cases");
   const std::vector<double> factors = increments ? read_increments(*increments) : std::vector{1.0};
-  if (!given) return {{"", read_loads(root.at("loads"), scene, 1), factors}};
+  if (!given) {
+    CaseScene only{"", read_loads(root.at("loads"), scene, 1), factors};
+    only.where = where(root);
+    read_temperatures(root, scene, only);
+    return {only};
+  }
+  for (const char* key : {"temperatures", "fastener_temperature"})
+    if (const auto own = root.find(key)) own->fail("given together with \"cases\"", "it in each case");
   if (const auto loads = root.find("loads")) loads->fail("given together with \"cases\"", "one of them");
   std::vector<CaseScene> cases;
   std::set<std::string> names;
   const auto items = given->items(1);
   for (const auto& item : items) {
-    item.only({"name", "loads", "increments", "after"});
+    item.only({"name", "loads", "increments", "after", "temperatures", "fastener_temperature"});
     const auto own = item.find("increments");
-    cases.push_back({item.at("name").text(), read_loads(item.at("loads"), scene, 0),
-                     own ? read_increments(*own) : factors, std::nullopt, where(item)});
+    cases.push_back(
+        {item.at("name").text(), read_loads(item.at("loads"), scene, 0), own ? read_increments(*own) : factors});
+    cases.back().where = where(item);
+    read_temperatures(item, scene, cases.back());
     if (!names.insert(cases.back().name).second)
       item.at("name").fail(fmt::format("\"{}\" stands twice", cases.back().name), "each name once");
   }
@@ -295,8 +333,8 @@ std::set<std::string> CaseScene::held() const {
 JointScene read_joint_scene(const input::Document& document) {
   const Value root(document);
   input::check_format(root, "joint");
-  root.only({"$schema", "format", "version", "name", "units", "plates", "laws", "fasteners", "loads", "increments",
-             "cases", "initial", "solver", "margins"});
+  root.only({"$schema", "format", "version", "name", "units", "plates", "laws", "fasteners", "loads", "temperatures",
+             "fastener_temperature", "increments", "cases", "initial", "solver", "margins"});
   JointScene scene;
   scene.file = document.file;
   if (const auto name = root.find("name")) scene.name = name->text();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -47,8 +48,10 @@ struct FastenerScene {
   std::vector<double> clearance;     ///< (n) radial gap, length
   std::vector<double> gap{};         ///< (h) radial, in holes with compression-only springs, length; empty if not given
   std::optional<double> diameter{};  ///< of the fastener, instead of gaps, length
-  std::vector<double> hole_diameter{};  ///< (h) length; empty: those of the sheets' matrices
-  std::vector<double> friction;         ///< (h) mu in each hole
+  std::vector<double> hole_diameter{};          ///< (h) length; empty: those of the sheets' matrices
+  std::vector<double> friction;                 ///< (h) mu in each hole
+  std::vector<std::array<double, 2>> offset{};  ///< (h) of each hole's centre in its free sheet, x and y; length
+  std::optional<double> expansion{};            ///< of the shank per degree; none: as its sheets
   bool law_includes_friction = false;
   std::string where;
 
@@ -67,8 +70,10 @@ struct LoadScene {
 struct CaseScene {
   std::string name;  ///< empty: the only one of a joint without "cases"
   std::vector<LoadScene> loads;
-  std::vector<double> load_factors{1};  ///< one per increment; empty: increments at every event (follow_events)
-  std::optional<std::size_t> after{};   ///< the case whose last state it starts from, to whose loads its own are added
+  std::vector<double> load_factors{1};          ///< one per increment; empty: increments at every event (follow_events)
+  std::map<std::string, double> temperature{};  ///< change of plates since the assembly, degrees; others: 0
+  std::optional<double> fastener_temperature{};  ///< none: the mean of a fastener's sheets
+  std::optional<std::size_t> after{};  ///< the case whose last state it starts from, to whose loads its own are added
   std::string where{};
 
   /// Externals with a given displacement, "plate:external", and ties, "plate:external to plate:external": what the

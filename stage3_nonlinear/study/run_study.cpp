@@ -272,7 +272,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
   const auto cases = studied_cases(study);
-  set_loads(joint, middle_scene.cases[cases.front()]);
+  set_loads(joint, middle_scene, middle_scene.cases[cases.front()]);
   if (slice.is_whole)
     for (const auto& each : middle_warnings(joint, middle_scene, cases)) program::warn(log, program_name, each);
   for (auto& plate : joint.plates) {

@@ -57,7 +57,7 @@ def loads(P, T=0.0):
 def tables(file):
     """Every table of a RESULT.h5 with a row for each increment, by path."""
     steps, found = len(file["load_factor"]), {}
-    file.visititems(lambda name, item: found.update({name: item[:]}) if isinstance(item, h5py.Dataset) and item.dtype == float and item.ndim > 1 and len(item) == steps and name.split("/")[-1] not in ("center", "ends", "at")
+    file.visititems(lambda name, item: found.update({name: item[:]}) if isinstance(item, h5py.Dataset) and item.dtype == float and item.ndim > 1 and len(item) == steps and "/free/" not in name and name.split("/")[-1] not in ("center", "ends", "at")
                     and "stiffness" not in name else None)
     return found
 
