@@ -15,16 +15,16 @@ namespace fastjoint::stage3 {
 
 /// One plate at one increment.
 struct PlateState {
-  VectorXd D;                  ///< (m) disc displacements, length
-  VectorXd De, Pe;             ///< (e) displacements of the rigid externals and forces on them, length, force
-  VectorXd moments;            ///< (k) long waves of the rims of contact, length
-  VectorXd w;                  ///< all waves of the disc's normal displacement at the rims of contact, length
-  VectorXd waves;              ///< coefficient of each loaded wave of its file, stress
-  VectorXd added;              ///< coefficients of all waves of contact that the fields use, stress
-  VectorXd Lambda;             ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
-  VectorXd traction;           ///< (q) force on each traction boundary, force
+  VectorXd D;                      ///< (m) disc displacements, length
+  VectorXd De, Pe;                 ///< (e) displacements of the rigid externals and forces on them, length, force
+  VectorXd moments;                ///< (k) long waves of the rims of contact, length
+  VectorXd w;                      ///< all waves of the disc's normal displacement at the rims of contact, length
+  VectorXd waves;                  ///< coefficient of each loaded wave of its file, stress
+  VectorXd added;                  ///< coefficients of all waves of contact that the fields use, stress
+  VectorXd Lambda;                 ///< (h + s) peak stress of each friction case, then of each shear of contact, stress
+  VectorXd traction;               ///< (q) force on each traction boundary, force
   VectorXd traction_displacement;  ///< (q) mean along each, length; infinite where friction cases act on the plate
-  VectorXd bearing, friction;  ///< (m) resultants of the fasteners' bearing and friction on each disc, force
+  VectorXd bearing, friction;      ///< (m) resultants of the fasteners' bearing and friction on each disc, force
   // If its matrices hold stresses at the joint's degree: of every hole, and of rims with waves and a closed form.
   std::vector<RimState> rims = {};
   std::vector<std::optional<LoadedRim>> loaded = {};
