@@ -33,6 +33,7 @@ struct FastenerGeometry {
 /// too, and the fastener itself.
 struct Flexibility {
   double of_sheets, of_fastener;
+  double of_shank = 0;  ///< shear and bending of the shank alone, if the formula tells them
 };
 
 /// A published formula for the flexibility of a fastener: relative displacement of the sheets, without their own
@@ -80,7 +81,8 @@ Flexibility boeing(const FastenerGeometry& g) {
 /// unit length / force.
 Flexibility grumman(const FastenerGeometry& g) {
   const double grip = g.t[0] + g.t[1];
-  return {3.7 / (g.t[0] * g.E[0]) + 3.7 / (g.t[1] * g.E[1]), grip * grip / (g.E_f * g.d * g.d * g.d)};
+  const double shank = grip * grip / (g.E_f * g.d * g.d * g.d);
+  return {3.7 / (g.t[0] * g.E[0]) + 3.7 / (g.t[1] * g.E[1]), shank, shank};
 }
 
 /// Bearing of the sheets and of the fastener, its shear 4 (t1 + t2) / (9 G_f A_f) and its bending
@@ -91,7 +93,8 @@ Flexibility tate_rosenfeld(const FastenerGeometry& g) {
   const double shear = 4 * (t1 + t2) / (9 * g.E_f / (2 * (1 + g.nu_f)) * pi * d2 / 4);
   const double bending =
       (t1 * t1 * t1 + 5 * t1 * t1 * t2 + 5 * t1 * t2 * t2 + t2 * t2 * t2) / (40 * g.E_f * pi * d2 * d2 / 64);
-  return {1 / (t1 * g.E[0]) + 1 / (t2 * g.E[1]), 1 / (t1 * g.E_f) + 1 / (t2 * g.E_f) + shear + bending};
+  return {1 / (t1 * g.E[0]) + 1 / (t2 * g.E[1]), 1 / (t1 * g.E_f) + 1 / (t2 * g.E_f) + shear + bending,
+          shear + bending};
 }
 
 /// C = [sum over the sheets of 2.845 / (E t) + c_f (0.5 / E_f + 1 / E_z) t / d^2] (d_head / d)^-0.34 (s / d)^-0.5
@@ -181,18 +184,22 @@ FastenerGeometry read_geometry(const input::Value& law, const FlexibilityFormula
 /// the formula uses them.
 ///
 /// In mode "total" the law has the whole flexibility, for sheets whose holes have nearly rigid springs; in mode
-/// "fastener only" it lacks the bearing of the sheets, which the springs around the holes represent.
+/// "fastener only" it lacks the bearing of the sheets, which the springs around the holes represent; in mode "shear and
+/// bending" that of the shank too, which elastic pins in the holes have.
 LawPointer read_formula_law(const input::Value& law) {
   law.only({"type", "formula", "mode", "shear", "t", "E", "d", "E_f", "nu_f", "E_z", "d_head", "pitch", "row_pitch",
             "rows", "c_f", "one_sided"});
   const auto& formula = read_formula(law);
-  const std::string mode = law.at("mode").choice({"total", "fastener only"});
+  const std::string mode = law.at("mode").choice({"total", "fastener only", "shear and bending"});
   const int n_shear = read_shear(law, formula);
   const FastenerGeometry geometry = read_geometry(law, formula, n_shear);
-  const auto [of_sheets, fastener] = formula.flexibility(geometry);
+  const auto [of_sheets, fastener, shank] = formula.flexibility(geometry);
   const double total = of_sheets + fastener;
-  const bool whole = mode == "total";
-  const double k = 1 / (n_shear * (whole ? total : fastener));
+  const bool whole = mode == "total", shank_alone = mode == "shear and bending";
+  if (shank_alone && shank == 0)
+    law.at("mode").fail(fmt::format("\"shear and bending\", which \"{}\" does not tell apart", formula.name),
+                        "\"total\" or \"fastener only\", or the formula \"tate-rosenfeld\" or \"grumman\"");
+  const double k = 1 / (n_shear * (whole ? total : shank_alone ? shank : fastener));
   return linear_law(k, Source{.text = fmt::format(
                                   "{} in {} shear, {}: {}; k = {:.6g}{}; flexibility{} {:.6g}, of which {:.6g} of the "
                                   "fastener",

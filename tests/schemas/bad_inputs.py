@@ -249,6 +249,7 @@ BAD_INPUTS = [
     ("joint_four_stage_k_stick_zero", "joint_stack", "/laws/riveted/k_stick", 0),
     ("joint_four_stage_F_slip_missing", "joint_stack", "/laws/riveted/F_slip", MISSING),
     ("joint_formula_unknown", "joint_formulas", "/laws/swift/formula", "guess"),
+    ("joint_formula_shear_and_bending_of_swift", "joint_formulas", "/laws/swift/mode", "shear and bending"),
     ("joint_formula_mode_missing", "joint_formulas", "/laws/swift/mode", MISSING),
     ("joint_formula_three_sheets", "joint_formulas", "/laws/swift/t", [1, 2, 3]),
     ("joint_formula_d_zero", "joint_formulas", "/laws/swift/d", 0),

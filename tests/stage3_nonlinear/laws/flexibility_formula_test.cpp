@@ -207,6 +207,11 @@ TEST(FormulaLaw, GivesTheStiffness) {
       test::law_of(law("tate-rosenfeld", R"("mode": "fastener only", "shear": "single", "E_f": 110000, "nu_f": 0.33)"));
   EXPECT_NEAR(1 / stiffness(part), bending + shear + (1 / 2.0 + 1 / 3.0) / 110000, 1e-17);
   EXPECT_FALSE(part->source()->bearing_of_plate);
+  const auto shank = test::law_of(
+      law("tate-rosenfeld", R"("mode": "shear and bending", "shear": "single", "E_f": 110000, "nu_f": 0.33)"));
+  EXPECT_NEAR(1 / stiffness(shank), bending + shear, 1e-17);
+  const auto grumman = test::law_of(law("grumman", R"("mode": "shear and bending", "shear": "single", "E_f": 110000)"));
+  EXPECT_NEAR(1 / stiffness(grumman), 25.0 / (110000 * 125), 1e-17);
   EXPECT_THAT(part->source()->text, HasSubstr("tate-rosenfeld in single shear, fastener only: M. B. Tate"));
 }
 
@@ -248,7 +253,9 @@ INSTANTIATE_TEST_SUITE_P(
                 R"("boeing", "grumman", "tate-rosenfeld")"},
         Refusal{law("swift", R"("shear": "single", "E_f": 1)"), R"(key "mode" is missing)"},
         Refusal{law("swift", R"("mode": "part", "shear": "single", "E_f": 1)"),
-                R"(/mode: "part" is not allowed; allowed: "total", "fastener only")"},
+                R"(/mode: "part" is not allowed; allowed: "total", "fastener only", "shear and bending")"},
+        Refusal{law("boeing", R"("mode": "shear and bending", "shear": "single", "E_f": 1)"),
+                R"(/mode: "shear and bending", which "boeing" does not tell apart; allowed: "total" or "fastener only", or)"},
         Refusal{law("swift", R"("mode": "total", "E_f": 1)"), R"(key "shear" is missing)"},
         Refusal{law("swift", R"("mode": "total", "shear": "triple", "E_f": 1)"),
                 R"(/shear: "triple" is not allowed; allowed: "single", "double")"},
