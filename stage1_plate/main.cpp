@@ -56,6 +56,11 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
   const auto say = [&](const char* code, const std::string& doubt) {
     program::warn(std::cerr, command.name, {code, scene.file + ": " + doubt});
   };
+  for (const auto& name : scene.coupled_laminates)
+    say("laminate-couples",
+        fmt::format("the laminate \"{}\" is not symmetric about its middle: it bends as it stretches, which the plane "
+                    "model prevents",
+                    name));
   const pfem::Mesh& mesh = plate.solution.mesh;
   const double width = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).minCoeff();
   const double thinnest = mesh.thickness.minCoeff(), thickest = mesh.thickness.maxCoeff();

@@ -18,18 +18,6 @@ using pfem::Analysis;
 /// Allowed range of Poisson's ratio of an isotropic body.
 constexpr input::Range poisson_range{.low = -1, .high = 0.5, .low_allowed = false, .high_allowed = true};
 
-/// Strain of free expansion per degree along axis 1 and axis 2, turned to x and y; none if it is not given.
-std::optional<Eigen::Matrix2d> read_expansion(const Value& value, const char* along, const char* across, double angle,
-                                              Analysis analysis) {
-  const auto first = value.find(along), second = value.find(across);
-  if (!first && !second) return std::nullopt;
-  if (!first || !second) value.fail(fmt::format("\"{}\" alone", first ? along : across), "the other one too, or none");
-  if (analysis == Analysis::plane_strain) first->fail("given in plane strain", "only in plane stress");
-  Eigen::Matrix2d turned, expansion = Eigen::Vector2d(first->number(), second->number()).asDiagonal();
-  turned << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-  return turned * expansion * turned.transpose();
-}
-
 Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
   value.only({"E", "nu", "alpha"});
   const auto constants = pfem::isotropic(read_quantity(value.at("E")), value.at("nu").number(poisson_range));
@@ -102,6 +90,17 @@ rim::AngleRange read_arc(const Value& value) {
 
 }  // namespace
 
+std::optional<Eigen::Matrix2d> read_expansion(const Value& value, const char* along, const char* across, double angle,
+                                              Analysis analysis) {
+  const auto first = value.find(along), second = value.find(across);
+  if (!first && !second) return std::nullopt;
+  if (!first || !second) value.fail(fmt::format("\"{}\" alone", first ? along : across), "the other one too, or none");
+  if (analysis == Analysis::plane_strain) first->fail("given in plane strain", "only in plane stress");
+  Eigen::Matrix2d turned, expansion = Eigen::Vector2d(first->number(), second->number()).asDiagonal();
+  turned << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+  return turned * expansion * turned.transpose();
+}
+
 Analysis read_analysis(const Value& root) {
   const bool stress = root.at("analysis").choice({"plane stress", "plane strain"}) == "plane stress";
   return stress ? Analysis::plane_stress : Analysis::plane_strain;
@@ -113,6 +112,13 @@ Materials read_materials(const Value& root) {
   const Value list = root.at("materials");
   for (const auto& [name, value] : list.members()) {
     materials.name.push_back(name);
+    auto& laminate = materials.laminate.emplace_back();
+    if (value.find("plies")) {
+      laminate = read_laminate(value, analysis);
+      materials.elasticity.push_back(laminate->elasticity);
+      materials.expansion.push_back(laminate->expansion);
+      continue;
+    }
     const bool isotropic = value.find("E") || value.find("nu");
     materials.elasticity.push_back(isotropic ? read_isotropic(value, analysis) : read_orthotropic(value, analysis));
     const auto angle = value.find("angle");

@@ -13,11 +13,29 @@
 
 namespace fastjoint::stage1 {
 
+/// A stack of plies as a membrane.
+struct Laminate {
+  Eigen::Matrix3d elasticity;  ///< mean over the thickness, stress
+  std::optional<Eigen::Matrix2d> expansion;
+  double thickness = 0;  ///< of the stack, length
+  double coupling = 0;   ///< largest entry of B over the largest of A and the thickness; 0 of a symmetric stack
+};
+
+/// Strain of free expansion per degree along axis 1 and axis 2, turned to x and y; none if it is not given.
+/// @param along, across Keys. @param angle From x to axis 1, radians.
+[[nodiscard]] std::optional<Eigen::Matrix2d> read_expansion(const input::Value& value, const char* along,
+                                                            const char* across, double angle, pfem::Analysis analysis);
+
+/// Reads {"plies": [{constants, "angles", "thickness"}, ...]}, from the bottom of the stack to its top (Jones, section
+/// 4.2).
+[[nodiscard]] Laminate read_laminate(const input::Value& value, pfem::Analysis analysis);
+
 /// Materials in the order of their names.
 struct Materials {
   std::vector<std::string> name;
   std::vector<Eigen::Matrix3d> elasticity;                ///< for the scene's analysis, stress
   std::vector<std::optional<Eigen::Matrix2d>> expansion;  ///< strain in x and y per degree, if given
+  std::vector<std::optional<Laminate>> laminate;
 };
 
 [[nodiscard]] pfem::Analysis read_analysis(const input::Value& root);

@@ -67,6 +67,28 @@ std::vector<Hole> read_holes(const Value& root, bool is_grid, std::set<std::stri
   return holes;
 }
 
+/// Refuses a thickness of the sheet that is not that of its laminate, and notes laminates that bend as they stretch.
+void check_laminates(const Value& root, const Materials& materials, PlateScene& scene) {
+  constexpr double same = 1e-6, rounding = 1e-9;
+  const auto check = [&](int material, double thickness) {
+    const auto& laminate = materials.laminate[material];
+    if (laminate && std::abs(thickness - laminate->thickness) > same * laminate->thickness)
+      root.at("geometry")
+          .fail(fmt::format("the thickness {:g} of the material \"{}\"", thickness, materials.name[material]),
+                fmt::format("{:.9g}, the sum of its plies", laminate->thickness));
+  };
+  if (const auto* grid = std::get_if<GridGeometry>(&scene.geometry)) {
+    for (Eigen::Index i = 0; i < grid->material.size(); ++i)
+      check(grid->material.reshaped()[i], grid->thickness.reshaped()[i]);
+  } else {
+    const auto& mesh = std::get<MeshGeometry>(scene.geometry).mesh;
+    for (int i = 0; i < mesh.n_elements(); ++i) check(mesh.material[i], mesh.thickness[i]);
+  }
+  for (std::size_t i = 0; i < materials.name.size(); ++i)
+    if (materials.laminate[i] && materials.laminate[i]->coupling > rounding)
+      scene.coupled_laminates.push_back(materials.name[i]);
+}
+
 /// Ratio of the maximum to the minimum modulus in tension over all directions in the plane.
 double modulus_ratio(const Eigen::Matrix3d& elasticity) {
   const Eigen::Matrix3d compliance = elasticity.inverse();
@@ -218,6 +240,7 @@ PlateScene read_scene(const input::Document& document) {
   if (std::ranges::all_of(expansion, [&](const auto& each) { return each == expansion.front(); }))
     scene.expansion = expansion.front();
   scene.geometry = read_geometry(root.at("geometry"), materials);
+  check_laminates(root, materials, scene);
   std::set<std::string> disc_ids;
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
   scene.points = read_points(root, disc_ids);

@@ -115,6 +115,7 @@ struct PlateScene {
   std::vector<Eigen::Matrix3d> elasticity;  ///< elasticity of each material, stress
   std::optional<Eigen::Matrix2d>
       expansion{};  ///< strain in x and y per degree; none if not given, or not the same of all
+  std::vector<std::string> coupled_laminates{};  ///< materials that bend as they stretch, which the model does not
   std::variant<GridGeometry, MeshGeometry> geometry;
   std::vector<Hole> holes;
   std::vector<PointSpring> points;

@@ -98,6 +98,59 @@ def check_unloading(plain):
     assert np.allclose(peaks[2], peaks[0], rtol=1e-7) and np.abs(peaks[3]).max() < 1e-6 * np.abs(peaks[1]).max()
 
 
+def turned(angle):
+    """Rotation of stresses (x, y, xy) from x and y to axes turned by an angle, radians."""
+    c, s = np.cos(angle), np.sin(angle)
+    return np.array([[c * c, s * s, 2 * c * s], [s * s, c * c, -2 * c * s], [-c * s, c * s, c * c - s * s]])
+
+
+def by_plies(groups):
+    """Membrane stiffness over the thickness, and free strain per degree, by rotating each ply's compliance."""
+    A, held, t = np.zeros((3, 3)), np.zeros(3), 0
+    for each in groups:
+        compliance = np.array([[1 / each["E1"], -each["nu12"] / each["E1"], 0], [-each["nu12"] / each["E1"], 1 / each["E2"], 0], [0, 0, 1 / each["G12"]]])
+        for angle in each["angles"]:
+            T = turned(np.radians(angle))
+            Q = np.linalg.inv(T.T @ compliance @ T)  # strains turn as the transpose of the inverse
+            A += each["thickness"] * Q
+            held += each["thickness"] * Q @ T.T @ np.array([each.get("alpha1", 0), each.get("alpha2", 0), 0])
+            t += each["thickness"]
+    return A / t, np.linalg.solve(A, held), t
+
+
+def check_laminates(sheets):
+    """Stacks of plies against classical laminate theory: quasi-isotropic, angle plies, hybrids; what is warned of and refused."""
+    carbon = {"E1": 140e3, "E2": 10e3, "nu12": 0.3, "G12": 5e3, "thickness": 0.125, "alpha1": -0.9e-6, "alpha2": 27e-6}
+    glass = {"E1": 45e3, "E2": 12e3, "nu12": 0.25, "G12": 4.5e3, "thickness": 0.2, "alpha1": 6e-6, "alpha2": 30e-6}
+    quasi = [0, 45, -45, 90]
+    def solved(groups, thickness=None, status=0, **more):
+        _, _, t = by_plies(groups)
+        scene = {"format": "plate", "version": 1, "analysis": "plane stress", "p": 1, "materials": {"stack": {"plies": groups}},
+                 "geometry": {"grid": {"x": [0, 1], "y": [0, 1], "thickness": thickness or t}}, "supports": [{"on": "left", "fix": ["x", "y"]}],
+                 "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}]} | more
+        Path("stack.json").write_text(json.dumps(scene))
+        done = subprocess.run(["stage1_plate", "stack.json", "-o", "stack.h5"], capture_output=True, text=True)
+        assert done.returncode == status, done.stderr
+        return done.stderr
+    for groups in ([carbon | {"angles": quasi + quasi[::-1]}], [carbon | {"angles": [30, -60, -60, 30]}],
+                   [glass | {"angles": [0]}, carbon | {"angles": [20, 20]}, glass | {"angles": [0]}]):
+        assert "laminate-couples" not in solved(groups)
+        elasticity, strain, _ = by_plies(groups)
+        with h5py.File("stack.h5") as f:
+            assert np.allclose(f["elasticity"][0], elasticity, rtol=1e-12, atol=1e-9 * elasticity.max()), (f["elasticity"][0], elasticity)
+            assert np.allclose(f["expansion"][:], [strain[0], strain[1], strain[2] / 2], rtol=1e-10, atol=1e-18), (f["expansion"][:], strain)
+    elasticity, strain, t = by_plies([carbon | {"angles": quasi}])
+    assert np.isclose(elasticity[0, 0], elasticity[1, 1]) and np.isclose(2 * elasticity[2, 2], elasticity[0, 0] - elasticity[0, 1]), "quasi-isotropic"
+    assert "[laminate-couples]" in solved([carbon | {"angles": quasi}]) and '"stack" is not symmetric' in solved([carbon | {"angles": quasi}])
+    plain = {key: value for key, value in carbon.items() if key[:5] != "alpha"}
+    solved([plain | {"angles": [0]}, carbon | {"angles": [0]}])
+    with h5py.File("stack.h5") as f:
+        assert len(f["expansion"]) == 0, "not known of one ply"
+    assert "/geometry: the thickness 1 of the material" in solved([carbon | {"angles": quasi}], thickness=1.0, status=2)
+    assert "negative strain energy" in solved([carbon | {"angles": [0], "nu12": 5}], status=2)
+    assert "a laminate in plane strain" in solved([carbon | {"angles": [0]}], status=2, analysis="plane strain")
+
+
 def main(folder):
     os.environ["PATH"] = os.path.abspath(folder) + os.pathsep + os.environ["PATH"]
     sheets = {sheet: json.loads((EXAMPLE / f"{sheet}.json").read_text()) for sheet in SHEETS}
@@ -107,6 +160,7 @@ def main(folder):
         check_unloading(plain)
         check_plane_strain(sheets, plain)
         check_two_materials(sheets, plain)
+        check_laminates(sheets)
         os.chdir("/")
 
 

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <vector>
+
+#include "common/pfem/material.hpp"
+#include "common/rim/angles.hpp"
+#include "stage1_plate/scene/read_parts.hpp"
+
+namespace fastjoint::stage1 {
+namespace {
+
+using input::Value;
+
+/// A ply of a stack.
+struct Ply {
+  Eigen::Matrix3d elasticity;  ///< stress
+  double thickness;            ///< length
+  std::optional<Eigen::Matrix2d> expansion;
+};
+
+std::vector<Ply> read_plies(const Value& list) {
+  constexpr std::size_t max_plies = 10000;
+  std::vector<Ply> plies;
+  for (const auto& group : list.items(1, max_plies)) {
+    group.only({"E1", "E2", "nu12", "G12", "angles", "thickness", "alpha1", "alpha2"});
+    pfem::OrthotropicConstants c{};
+    c.E1 = read_quantity(group.at("E1"));
+    c.E2 = read_quantity(group.at("E2"));
+    c.nu12 = group.at("nu12").number();
+    c.G12 = read_quantity(group.at("G12"));
+    if (!pfem::is_stable(c, pfem::Analysis::plane_stress))
+      group.fail("these constants give a negative strain energy",
+                 "a positive definite compliance (nu12^2 < E1/E2 in plane stress)");
+    const double thickness = read_quantity(group.at("thickness"));
+    for (const double angle : group.at("angles").numbers(1, max_plies, input::any_number))
+      plies.push_back({pfem::elasticity(c, angle * rim::degree, pfem::Analysis::plane_stress), thickness,
+                       read_expansion(group, "alpha1", "alpha2", angle * rim::degree, pfem::Analysis::plane_stress)});
+  }
+  return plies;
+}
+
+/// Free strain of the laminate, by the resultant of the plies' stresses that hold them: (x, y, engineering xy).
+std::optional<Eigen::Matrix2d> expansion_of(const std::vector<Ply>& plies, const Eigen::Matrix3d& stiffness) {
+  Eigen::Vector3d held = Eigen::Vector3d::Zero();
+  for (const Ply& ply : plies) {
+    if (!ply.expansion) return std::nullopt;
+    const Eigen::Matrix2d& strain = *ply.expansion;
+    held += ply.thickness * ply.elasticity * Eigen::Vector3d(strain(0, 0), strain(1, 1), 2 * strain(0, 1));
+  }
+  const Eigen::Vector3d free = stiffness.inverse() * held;
+  Eigen::Matrix2d strain;
+  strain << free[0], free[2] / 2, free[2] / 2, free[1];
+  return strain;
+}
+
+}  // namespace
+
+Laminate read_laminate(const Value& value, pfem::Analysis analysis) {
+  value.only({"plies"});
+  if (analysis == pfem::Analysis::plane_strain)
+    value.at("plies").fail("a laminate in plane strain", "only in plane stress");
+  const auto plies = read_plies(value.at("plies"));
+  Laminate laminate{};
+  Eigen::Matrix3d stiffness = Eigen::Matrix3d::Zero(), coupling = stiffness;  // A and B of laminate theory
+  for (const Ply& ply : plies) laminate.thickness += ply.thickness;
+  double z = -laminate.thickness / 2;
+  for (const Ply& ply : plies) {
+    stiffness += ply.thickness * ply.elasticity;
+    coupling += ply.thickness * (z + ply.thickness / 2) * ply.elasticity;
+    z += ply.thickness;
+  }
+  laminate.elasticity = stiffness / laminate.thickness;
+  laminate.expansion = expansion_of(plies, stiffness);
+  laminate.coupling = coupling.cwiseAbs().maxCoeff() / (stiffness.maxCoeff() * laminate.thickness);
+  return laminate;
+}
+
+}  // namespace fastjoint::stage1
