@@ -151,6 +151,41 @@ def check_laminates(sheets):
     assert "a laminate in plane strain" in solved([carbon | {"angles": [0]}], status=2, analysis="plane strain")
 
 
+def check_ply_strains():
+    """An open hole in a wide quasi-isotropic sheet: fibres across the hole's side have the strain of the peak, those at 45 degrees and across follow."""
+    carbon = {"E1": 140e3, "E2": 10e3, "nu12": 0.3, "G12": 5e3, "thickness": 0.125, "angles": [0, 45, -45, 90, 90, -45, 45, 0]}
+    lines = [-200, -60, -20, 20, 60, 200]
+    scene = {"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"q": {"plies": [carbon]}}, "p": [6, 7],
+             "geometry": {"grid": {"x": lines, "y": lines, "thickness": 1}}, "external": [{"id": "T", "on": "right", "direction": "x", "kind": "traction"}],
+             "holes": [{"id": "open", "center": [0, 0], "radius": 3}, {"id": "1", "center": [-130, 0], "radius": 3, "spring": {"modulus": 1e4}}],
+             "supports": [{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}]}
+    Path("wide.json").write_text(json.dumps(scene))
+    run("stage1_plate", "wide.json", "-o", "wide.plate.h5")
+    run("stage2_extract", "wide.plate.h5", "-o", "wide.h5")
+    joint = {"format": "joint", "version": 1, "plates": {"s": "wide.h5"}, "laws": {"k": {"type": "linear", "k": 1.0}},
+             "fasteners": [{"id": "1", "between": ["s:1", "ground"], "law": "k"}], "loads": [{"external": "s:T", "force": 40000}]}
+    Path("wide_joint.json").write_text(json.dumps(joint))
+    run("stage3_nonlinear", "wide_joint.json", "-o", "result.h5", "--rim-stresses")
+    script = Path(__file__).resolve().parents[2] / "scripts/ply_strains"
+    printed = subprocess.run([script, "wide_joint.json", "result.h5", "s:open"], capture_output=True, text=True, check=True).stdout
+    found = {tuple(line.split()[2:5:2]): [float(word) for word in line.split()[5:]] for line in printed.splitlines()[1:]}
+    elasticity, _, _ = by_plies([carbon])
+    compliance = np.linalg.inv(elasticity)
+    E, nu = 1 / compliance[0, 0], -compliance[0, 1] / compliance[0, 0]
+    with h5py.File("result.h5") as f:
+        peak = f["plates/s/rim/peak_hoop"][-1][list(f["plates/s/rim/hole"].asstr()).index("open")]
+    assert abs(peak / 300 - 1) < 0.01, peak
+    strain = peak / E
+    assert np.isclose(found["0", "1"][0], strain, rtol=1e-4) and abs(abs(found["0", "1"][1]) - 90) < 1.5, (found, strain)
+    # There the strain along y is -nu of it, so a ply at 45 degrees sees the mean along both its axes and all of it in shear.
+    assert np.isclose(found["45", "12"][0], strain * (1 + nu), rtol=1e-4), (found["45", "12"], strain * (1 + nu))
+    assert np.isclose(found["90", "2"][0], strain, rtol=1e-4)
+    for words, message in ((["wide_joint.json", "result.h5", "s:none"], "no hole s:none"), (["wide_joint.json", "result.h5", "t:open"], "no plate t"),
+                           (["wide_joint.json", "result.h5", "s:open", "--increment", "9"], "allowed: 1 to 1")):
+        done = subprocess.run([script, *words], capture_output=True, text=True)
+        assert done.returncode == 2 and message in done.stderr, done.stderr
+
+
 def main(folder):
     os.environ["PATH"] = os.path.abspath(folder) + os.pathsep + os.environ["PATH"]
     sheets = {sheet: json.loads((EXAMPLE / f"{sheet}.json").read_text()) for sheet in SHEETS}
@@ -161,6 +196,7 @@ def main(folder):
         check_plane_strain(sheets, plain)
         check_two_materials(sheets, plain)
         check_laminates(sheets)
+        check_ply_strains()
         os.chdir("/")
 
 
