@@ -175,7 +175,7 @@ std::vector<PlaneMemory> JointEquations::memories() const {
   for (std::size_t i = 0; i < interfaces.size() && std::ssize(all) < n_planes(); ++i) {
     auto of_interface = interfaces[i].interface->memories(history.empty() ? History() : history[i]);
     any = any || !of_interface.empty();
-    of_interface.resize(interfaces[i].interface->size() / n_directions(), {VectorXd::Zero(n_directions())});
+    of_interface.resize(interfaces[i].interface->size() / n_directions(), {VectorXd::Zero(n_directions()), 0, {}, {}});
     all.insert(all.end(), of_interface.begin(), of_interface.end());
   }
   return any ? all : std::vector<PlaneMemory>();

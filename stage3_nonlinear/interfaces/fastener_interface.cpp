@@ -146,13 +146,13 @@ MatrixXd FastenerInterface::friction_by_force(const VectorXd& F) const {
 
 std::vector<Slider> FastenerInterface::sliders(const History& history, Index plane) const {
   const Index a = place_.n_directions;
-  std::vector<Slider> result(branches_[plane].size(), Slider{PlaneVector::Zero(a)});
+  std::vector<Slider> result(branches_[plane].size(), Slider{PlaneVector::Zero(a), PlaneVector::Zero(a)});
   if (history.size() == 0) return result;
   Index at = 0;
-  for (Index j = 0; j < plane; ++j) at += std::ssize(branches_[j]) * (a + 2);
+  for (Index j = 0; j < plane; ++j) at += std::ssize(branches_[j]) * (2 * a + 1);
   for (Slider& slider : result) {
-    slider = {history.segment(at, a), history[at + a] != 0, history[at + a + 1]};
-    at += a + 2;
+    slider = {history.segment(at, a), history.segment(at + a, a), history[at + 2 * a]};
+    at += 2 * a + 1;
   }
   return result;
 }
@@ -170,11 +170,7 @@ std::optional<RememberedState> FastenerInterface::remembered_state(const VectorX
 RememberedState FastenerInterface::state_from(const std::vector<Slider>& before, const VectorXd& c, Index plane) const {
   const Contact& contact = planes_[plane];
   const double k = contact.stiffness;
-  RememberedState state = remembered(branches_[plane], before, c, k, branch(contact, c).delta * along(c));
-  if (!contact.one_sided || state.F[0] > 0) return state;
-  state = {PlaneVector::Zero(1), c / k, PlaneMatrix::Zero(1, 1), PlaneMatrix::Constant(1, 1, 1 / k), before};
-  for (Slider& slider : state.sliders) slider.moves = false;
-  return state;
+  return remembered(branches_[plane], before, c, k, branch(contact, c).delta * along(c), contact.one_sided);
 }
 
 History FastenerInterface::commit(const VectorXd& c, const History& history) const {
@@ -184,7 +180,7 @@ History FastenerInterface::commit(const VectorXd& c, const History& history) con
     if (branches_[j].empty()) continue;
     for (const Slider& slider : state_from(sliders(history, j), c.segment(j * a, a), j).sliders) {
       next.insert(next.end(), slider.set.begin(), slider.set.end());
-      next.push_back(slider.moves ? 1 : 0);
+      next.insert(next.end(), slider.motion.begin(), slider.motion.end());
       next.push_back(slider.dissipated);
     }
   }
@@ -195,12 +191,12 @@ std::vector<PlaneMemory> FastenerInterface::memories(const History& history) con
   std::vector<PlaneMemory> result;
   if (std::ranges::all_of(branches_, [](const auto& each) { return each.empty(); })) return result;
   for (Index j = 0; j < std::ssize(planes_); ++j) {
-    PlaneMemory& memory = result.emplace_back(PlaneMemory{VectorXd::Zero(place_.n_directions)});
+    PlaneMemory& memory = result.emplace_back(PlaneMemory{VectorXd::Zero(place_.n_directions), 0, {}, {}});
     const auto of_plane = sliders(history, j);
     for (std::size_t b = 0; b < of_plane.size(); ++b) {
       const bool is_slip = branches_[j][b].is_slip;
       if (!is_slip) memory.set = of_plane[b].set;
-      (is_slip ? memory.slips : memory.yields) = of_plane[b].moves;
+      (is_slip ? memory.slip : memory.yield) = of_plane[b].motion;
       memory.dissipated += of_plane[b].dissipated;
     }
   }

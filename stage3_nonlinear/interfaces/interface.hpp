@@ -35,9 +35,9 @@ struct Corner {
 
 /// What a shear plane remembers after an increment.
 struct PlaneMemory {
-  VectorXd set;                        ///< (a) permanent set of its bearing, length
-  double dissipated = 0;               ///< energy that slip and yield have taken so far, force x length
-  bool slips = false, yields = false;  ///< in the last increment
+  VectorXd set;            ///< (a) permanent set of its bearing, length
+  double dissipated = 0;   ///< energy that slip and yield have taken so far, force x length
+  VectorXd slip, yield{};  ///< (a) motion in the last increment, length; 0 or empty: none
 };
 
 /// Kind of an input parameter.

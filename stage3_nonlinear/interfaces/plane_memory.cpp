@@ -2,13 +2,14 @@
 #include "stage3_nonlinear/interfaces/plane_memory.hpp"
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr int max_iterations = 100;
+constexpr int max_iterations = 1000;  // a few, but for curves with sharp bends along x and y
 constexpr double small_residual = 8 * std::numeric_limits<double>::epsilon();
 
 PlaneMatrix identity(Eigen::Index n) { return PlaneMatrix::Identity(n, n); }
@@ -60,16 +61,20 @@ struct BranchState {
   PlaneVector set;
 };
 
-BranchState under(const MemoryBranch& branch, const PlaneVector& before, const PlaneVector& delta) {
+BranchState under(const MemoryBranch& branch, bool one_sided, const PlaneVector& before, const PlaneVector& delta) {
   const Eigen::Index n = delta.size();
-  const Along elastic = radial(branch.elastic, delta - before), back = radial(branch.backstress, before);
+  const auto force = [&](const PlaneVector& stretch) -> Along {
+    if (one_sided && stretch[0] < 0) return {PlaneVector::Zero(1), PlaneMatrix::Zero(1, 1)};
+    return radial(branch.elastic, stretch);
+  };
+  const Along elastic = force(delta - before), back = radial(branch.backstress, before);
   const PlaneVector excess = elastic.value - back.value;
   const double over = excess.norm() - branch.limit;
   const double size = elastic.value.norm() + back.value.norm() + branch.limit;
   if (over <= small_residual * size) return {elastic.value, elastic.slope, before};
   // Gradient by the set; beyond its place before, where the norm of its motion has a kink.
   const auto at = [&](const PlaneVector& s) -> Along {
-    const Along F = radial(branch.elastic, delta - s), X = radial(branch.backstress, s);
+    const Along F = force(delta - s), X = radial(branch.backstress, s);
     const PlaneVector moved = s - before;
     const double length = moved.norm();
     const PlaneVector way = length > 0 ? PlaneVector(moved / length) : PlaneVector(excess.normalized());
@@ -78,9 +83,10 @@ BranchState under(const MemoryBranch& branch, const PlaneVector& before, const P
     return {X.value - F.value + branch.limit * way, H};
   };
   const PlaneVector way = excess.normalized();
-  const double stiffness = way.dot((elastic.slope + back.slope) * way);
+  // Where it has opened, only the backstress moves the slider.
+  const double stiffness = std::max(way.dot((elastic.slope + back.slope) * way), std::numeric_limits<double>::min());
   const PlaneVector s = minimum(at, before + over / stiffness * way, size);
-  const Along F = radial(branch.elastic, delta - s);
+  const Along F = force(delta - s);
   PlaneMatrix H = at(s).slope;
   H.diagonal().array() += std::numeric_limits<double>::min();
   return {F.value, F.slope - F.slope * H.inverse() * F.slope, s};
@@ -89,12 +95,12 @@ BranchState under(const MemoryBranch& branch, const PlaneVector& before, const P
 }  // namespace
 
 RememberedState remembered(const std::vector<MemoryBranch>& branches, const std::vector<Slider>& before,
-                           const PlaneVector& c, double k, const PlaneVector& start) {
+                           const PlaneVector& c, double k, const PlaneVector& start, bool one_sided) {
   const Eigen::Index n = c.size();
   const auto force = [&](const PlaneVector& delta) -> Along {
     Along sum{PlaneVector::Zero(n), PlaneMatrix::Zero(n, n)};
     for (std::size_t b = 0; b < branches.size(); ++b) {
-      const BranchState state = under(branches[b], before[b].set, delta);
+      const BranchState state = under(branches[b], one_sided, before[b].set, delta);
       sum.value += state.F;
       sum.slope += state.dF;
     }
@@ -112,10 +118,11 @@ RememberedState remembered(const std::vector<MemoryBranch>& branches, const std:
   RememberedState result{there.value, (c - there.value) / k, identity(n) - k * inverse, inverse, {}};
   for (std::size_t b = 0; b < branches.size(); ++b) {
     constexpr double rounding = 1e-9;
-    const PlaneVector set = under(branches[b], before[b].set, delta).set;
-    const double moved = (set - before[b].set).norm();
-    const bool moves = moved > rounding * (delta.norm() + set.norm());
-    result.sliders.push_back({set, moves, before[b].dissipated + branches[b].limit * moved});
+    const PlaneVector set = under(branches[b], one_sided, before[b].set, delta).set;
+    PlaneVector motion = set - before[b].set;
+    const double moved = motion.norm();
+    if (!(moved > rounding * (delta.norm() + set.norm()))) motion.setZero();
+    result.sliders.push_back({set, motion, before[b].dissipated + (moved > 0 ? branches[b].limit * moved : 0)});
   }
   return result;
 }

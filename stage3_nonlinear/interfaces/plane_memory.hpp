@@ -15,7 +15,7 @@ using PlaneMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2, 
 /// A slider of a shear plane after an increment.
 struct Slider {
   PlaneVector set;          ///< what it has moved, length
-  bool moves = false;       ///< in the last increment
+  PlaneVector motion;       ///< in the last increment; 0 where that is rounding
   double dissipated = 0.0;  ///< by all of its motion so far, force x length
 };
 
@@ -33,7 +33,9 @@ struct RememberedState {
 ///   elastic energy(delta - s) + backstress energy(s) + limit |s - s before|,
 /// which is convex in delta: so is the joint's, and the solution of an increment is unique.
 /// @param like Law::branches with the clearance. @param start A displacement near the solution, length.
+/// @param one_sided The elastic parts push for positive displacements only; of one direction.
 [[nodiscard]] RememberedState remembered(const std::vector<MemoryBranch>& branches, const std::vector<Slider>& before,
-                                         const PlaneVector& c, double k, const PlaneVector& start);
+                                         const PlaneVector& c, double k, const PlaneVector& start,
+                                         bool one_sided = false);
 
 }  // namespace fastjoint::stage3

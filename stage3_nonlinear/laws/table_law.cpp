@@ -35,20 +35,15 @@ class TableLaw final : public Law {
       F_.push_back(F);
     }
     gsl_interp_init(spline_.get(), x_.data(), F_.data(), x_.size());
-    if (keeps_a_set()) yields_at_ = stretch(F_yield_);
-  }
-
-  /// A stretch beyond yield at which the curve is steeper than the line from no load to yield, along which the law
-  /// unloads; none if it is nowhere.
-  [[nodiscard]] std::optional<double> steeper_beyond_yield() const {
+    if (!keeps_a_set()) return;
+    yields_at_ = stretch(F_yield_);
+    unloads_ = F_yield_ / yields_at_;
     constexpr int parts = 16;
-    constexpr double rounding = 1e-9;
+    constexpr double steeper = 1.01;  // than the curve, so that the set rises with the force
     for (std::size_t i = 0; i + 1 < x_.size(); ++i)
-      for (int part = 0; part <= parts; ++part) {
-        const double x = x_[i] + (x_[i + 1] - x_[i]) * part / parts;
-        if (x > yields_at_ && force_and_slope(x)[1] > (1 - rounding) * F_yield_ / yields_at_) return x;
-      }
-    return std::nullopt;
+      for (int part = 0; part <= parts; ++part)
+        if (const double x = x_[i] + (x_[i + 1] - x_[i]) * part / parts; x > yields_at_)
+          unloads_ = std::max(unloads_, steeper * force_and_slope(x)[1]);
   }
 
   [[nodiscard]] Branch at(double c, double k, double clearance) const override {
@@ -90,10 +85,11 @@ class TableLaw final : public Law {
 
   [[nodiscard]] std::string file() const override { return file_; }
 
-  /// Elastic along the curve up to yield, then along the line from no load to there; the rest is set.
+  /// Elastic along the curve up to yield, then with the slope of the line from no load to there, or the steepest slope
+  /// beyond; the rest is set.
   [[nodiscard]] std::vector<MemoryBranch> branches(double clearance) const override {
     if (!keeps_a_set()) return {};
-    const double k = F_yield_ / yields_at_;
+    const double k = unloads_;
     return {{.elastic =
                  [=, this](double x) {
                    const double stretch = x - clearance;
@@ -106,7 +102,7 @@ class TableLaw final : public Law {
                  [=, this](double set) {
                    const auto excess = [&](double x) {  // set of the curve's point x less this one
                      const auto [F, slope] = force_and_slope(x);
-                     return std::pair(x - F / k - set, 1 - slope / k);
+                     return std::pair(x - yields_at_ - (F - F_yield_) / k - set, std::max(1 - slope / k, 1e-9));
                    };
                    double high = std::max(x_.back(), yields_at_);
                    while (excess(high).first < 0) high *= 2;
@@ -138,7 +134,7 @@ class TableLaw final : public Law {
   std::vector<double> x_, F_;  ///< points with (0, 0): stretch, length; force
   std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline_;
   std::string file_;
-  double F_yield_, yields_at_ = 0;  ///< force, length
+  double F_yield_, yields_at_ = 0, unloads_ = 0;  ///< force, length, force / length
 };
 
 using Fields = std::vector<std::string_view>;
@@ -245,13 +241,7 @@ LawPointer read_table_law(const input::Value& law) {
   if (yield && F_yield > points.back()[1])
     yield->fail(fmt::format("{}", F_yield),
                 fmt::format("at most the largest force of the points, {}", points.back()[1]));
-  auto result = std::make_shared<TableLaw>(points, path, F_yield);
-  if (const auto steeper = yield ? result->steeper_beyond_yield() : std::nullopt)
-    yield->fail(
-        fmt::format("{}, beyond which the curve is steeper, at delta = {:.6g}, than the line from no load to there",
-                    F_yield, *steeper),
-        "a force beyond which the curve is flatter than that line, along which the law unloads");
-  return result;
+  return std::make_shared<TableLaw>(points, path, F_yield);
 }
 
 }  // namespace fastjoint::stage3

@@ -32,6 +32,16 @@ double fixed_place(const CaseScene& its, const PlateModel& plate, int axis) {
   return is_supported || places.disc.rows() == 0 ? from : places.disc.col(axis).mean();
 }
 
+/// Sets the free displacements of boundaries under tractions.
+void expand_tractions(const PlateModel& plate, const Eigen::Matrix2d& strain, const Eigen::Vector2d& fixed,
+                      FreeShape& shape) {
+  for (Index i = 0; i < std::ssize(plate.tractions); ++i) {
+    const int axis = plate.traction_axis[i];
+    if (!plate.is_moment(i))
+      shape.traction[i] = strain(axis, axis) * (plate.places.traction.row(i).mean() - fixed[axis]);
+  }
+}
+
 /// Adds the free expansion of a sheet.
 void expand(const CaseScene& its, const PlateModel& plate, double temperature, FreeShape& shape) {
   if (plate.expansion.size() == 0)
@@ -48,6 +58,7 @@ void expand(const CaseScene& its, const PlateModel& plate, double temperature, F
     const Index disc = plate.discs[i];
     shape.D[disc] += strain.row(plate.axis_of(disc)).dot(plate.places.disc.row(i).transpose() - fixed);
   }
+  expand_tractions(plate, strain, fixed, shape);
   for (Index i = 0; i < plate.n_externals(); ++i) {
     const int axis = plate.external_axis[i];
     shape.De[i] += strain(axis, axis) * (plate.places.external.row(i).mean() - fixed[axis]);
@@ -64,7 +75,8 @@ std::vector<FreeShape> free_shapes(const JointModel& joint, const JointScene& sc
   std::vector<FreeShape> shapes;
   for (const auto& plate : joint.plates) {
     FreeShape& shape =
-        shapes.emplace_back(FreeShape{VectorXd::Zero(plate.n_discs()), VectorXd::Zero(plate.n_externals())});
+        shapes.emplace_back(FreeShape{VectorXd::Zero(plate.n_discs()), VectorXd::Zero(plate.n_externals()),
+                                      VectorXd::Zero(std::ssize(plate.tractions))});
     if (const double temperature = temperature_of(its, plate.name); temperature != 0)
       expand(its, plate, temperature, shape);
   }

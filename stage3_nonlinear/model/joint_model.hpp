@@ -36,7 +36,8 @@ struct PlateDegrees {
 /// the springs of a rim of contact: the force that they transmit is minus the force on its moments.
 /// Displacements of the discs and externals of a sheet without forces, as it lies before the joint is made.
 struct FreeShape {
-  VectorXd D, De;  ///< (m), (e) length
+  VectorXd D, De;       ///< (m), (e) length
+  VectorXd traction{};  ///< (q) mean along each traction, length; 0 of a moment
 };
 
 struct PlateModel {

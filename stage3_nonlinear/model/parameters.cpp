@@ -40,6 +40,8 @@ void set_free_shapes(const JointModel& joint, const std::vector<FreeShape>& shap
   if (std::ranges::any_of(shapes, [](const FreeShape& each) { return each.D.size() == 0 && each.De.size() == 0; }))
     return;  // not set
   all.offset = free_offsets(joint, shapes);
+  all.free_De.clear();
+  for (const auto& shape : shapes) all.free_De.push_back(shape.De);
   const auto loads = loads_of(joint);
   VectorXd given = VectorXd::Zero(std::ssize(loads));
   for (Index i = 0; i < given.size(); ++i)

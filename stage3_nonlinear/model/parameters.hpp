@@ -39,8 +39,9 @@ struct Parameters {
   VectorXd mu, gap;             ///< of each fastener in each of its holes, fastener after fastener; gap: length
   VectorXd load_before = {};    ///< loads at load factor 0, force or length; empty: none
   // At every load factor, by the free shapes of the sheets; empty: none.
-  VectorXd offset = {};      ///< (n a) relative displacements of the planes at which the sheets are free, length
-  VectorXd free_given = {};  ///< each of loads_of: free displacement of an external that is displaced, length
+  VectorXd offset = {};  ///< (n a) relative displacements of the planes at which the sheets are free, length
+  std::vector<VectorXd> free_De = {};  ///< (plates) free displacements of its externals, length; none: not set
+  VectorXd free_given = {};            ///< each of loads_of: free displacement of an external that is displaced, length
 
   /// Loads that the input gives at a load factor.
   [[nodiscard]] VectorXd given_at(double load_factor) const {

@@ -135,6 +135,8 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.traction_arm = plate.traction_arm;
   history.traction_arm.resize(plate.tractions.size());
   history.traction_displacement = rows(&PlateState::traction_displacement, std::ssize(plate.tractions));
+  if (plate.free.traction.size() == history.traction_displacement.cols())
+    history.traction_displacement.rowwise() += plate.free.traction.transpose();
   set_totals(plate, states, at, history);
   history.disc_forces = {of_discs(&PlateState::bearing), of_discs(&PlateState::friction)};
   history.border = plate.border;

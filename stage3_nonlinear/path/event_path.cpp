@@ -245,6 +245,11 @@ LoadPath follow_events(const JointEquations& equations, const PathOptions& optio
   Walk walk(equations, options);
   const ContactCorners corners(equations);
   path.assembled = walk.assemble();
+  if (!walk.settle()) {
+    path.n_increments = 1;
+    path.failure = walk.failure(0, 0);
+    return path;
+  }
   constexpr int intervals = 8;
   std::vector<double> loads;
   for (int i = 1; i <= intervals; ++i) loads.push_back(double(i) / intervals);

@@ -81,19 +81,24 @@ PathStep Walk::step(const SolvedPoint& point) const {
 
 namespace {
 
-/// Adds the events of planes that remember: where they begin to slip or yield, unless that is said of this increment or
-/// of the one before, and where they cease to.
+bool moves(const VectorXd& motion) { return motion.size() > 0 && !motion.isZero(0); }
+
+/// Adds the events of planes that remember: where they begin to slip or yield, or do so the other way, unless that is
+/// said of this increment or of the one before, and where they cease to.
 void add_events(const std::vector<PlaneMemory>& before, const std::vector<PlaneMemory>& now, const LoadPath& path,
                 std::vector<ContactEvent>& events) {
   const auto is_said = [](const std::vector<ContactEvent>& in, const ContactEvent& event) {
     return std::ranges::find(in, event) != in.end();
   };
   for (Index j = 0; j < std::ssize(now); ++j)
-    for (const auto& [moves, kind] :
-         {std::pair(&PlaneMemory::slips, CornerKind::slip), std::pair(&PlaneMemory::yields, CornerKind::yield)}) {
-      const ContactEvent event{j, kind, !(now[j].*moves)};
-      if (now[j].*moves == before[j].*moves || is_said(events, event)) continue;
-      if (event.back || path.steps.empty() || !is_said(path.steps.back().events, event)) events.push_back(event);
+    for (const auto& [motion, kind] :
+         {std::pair(&PlaneMemory::slip, CornerKind::slip), std::pair(&PlaneMemory::yield, CornerKind::yield)}) {
+      const VectorXd &was = before[j].*motion, &is = now[j].*motion;
+      const bool turns = moves(was) && moves(is) && was.dot(is) < 0;
+      const ContactEvent event{j, kind, !moves(is)};
+      if ((moves(is) == moves(was) && !turns) || is_said(events, event)) continue;
+      if (event.back || turns || path.steps.empty() || !is_said(path.steps.back().events, event))
+        events.push_back(event);
     }
 }
 
@@ -116,6 +121,13 @@ bool Walk::record(LoadPath& path, std::vector<ContactEvent> events) {
   const double reached = path.steps.empty() ? 0 : path.steps.back().load_factor;
   path.failure = PathFailure{std::ssize(path.steps), step.load_factor, reached, 0, 0, {}, {}, std::move(unbalanced)};
   return false;
+}
+
+bool Walk::settle() {
+  if (!equations_.remembers() || (equations_.starts_unloaded() && equations_.history.empty())) return true;
+  if (!reach(0)) return false;
+  equations_.commit(here_.c);
+  return true;
 }
 
 PathFailure Walk::failure(Index increment, double load_factor) {

@@ -31,6 +31,9 @@ class Walk {
   bool jump(const Place& from);
   /// Solves the state at no load of a joint with interference; its contact coordinates, (r), if that succeeds.
   std::optional<VectorXd> assemble();
+  /// Solves the state at load factor 0 of a joint that remembers and has loads there, of a case before or by its
+  /// sheets' free shapes, and keeps what it has yielded and slipped; false if that fails.
+  bool settle();
   [[nodiscard]] const Place& here() const { return here_; }
   /// Continues from a solution found elsewhere.
   void put(Place place, int iterations) { here_ = std::move(place), iterations_ = iterations; }

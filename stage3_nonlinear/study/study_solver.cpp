@@ -29,6 +29,7 @@ CaseSolver::CaseSolver(const JointModel& joint, const JointScene& scene, std::si
     : joint_(joint),
       at_(at),
       load_factor_(scene.cases[at].wanted_load_factors().back()),
+      has_path_(scene.cases[at].after || scene.cases[at].wanted_load_factors().size() > 1),
       options_{scene.initial, scene.solver},
       system_(std::move(system)) {
   rims_ = equations_of(scene, at).rims;
@@ -48,6 +49,7 @@ JointEquations CaseSolver::equations_of(const JointScene& scene, std::size_t at)
 
 std::optional<PathStep> CaseSolver::from_middle(const JointEquations& equations, const VectorXd& away) const {
   if (!middle_ || !planes_that_may_snap(equations).empty()) return std::nullopt;  // the solution depends on the path
+  if ((has_path_ || !equations.starts_unloaded()) && equations.remembers()) return std::nullopt;
   Walk walk(equations, options_);
   if ((away.size() > 0 && walk.jump({load_factor_, middle_->c + away})) || walk.jump({load_factor_, middle_->c}))
     return walk.step();
@@ -65,6 +67,7 @@ std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const 
     path = {};
     Walk walk(equations, options);
     (void)walk.assemble();
+    if (!walk.settle()) return std::nullopt;
     for (const double factor : scene.cases[*at].wanted_load_factors())
       if (!walk.reach(factor) || !walk.record(path, {})) return std::nullopt;
     options.start = path.steps.back().c;
@@ -94,8 +97,9 @@ VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& s
     for (const auto& plate : state.plates)
       for (const auto& rim : plate.rims) all[at++] = rim.peak_hoop;
   if (!names_.displacement.empty())
-    for (const auto& plate : state.plates)
-      for (const double each : plate.De) all[at++] = each;
+    for (Index i = 0; i < std::ssize(state.plates); ++i)
+      for (Index e = 0; e < std::ssize(state.plates[i].De); ++e)
+        all[at++] = state.plates[i].De[e] + equations.parameters.free_De[i][e];
   if (!names_.crack.empty())
     for (VectorXd CrackState::*factor : {&CrackState::K_I, &CrackState::K_II})
       for (const auto& plate : state.plates)

@@ -69,6 +69,7 @@ class CaseSolver {
   const JointModel& joint_;
   std::size_t at_;
   double load_factor_;  ///< the last
+  bool has_path_;       ///< the case has other increments or cases before its last
   PathOptions options_;
   std::shared_ptr<const CondensedSystem> system_;
   std::vector<std::shared_ptr<const RimProblem>> rims_;  ///< solved in the middle

@@ -90,6 +90,50 @@ def a_slipped_joint(folder):
         assert '/laws/bolt/k_yield' in done.stderr and '"reversible": true' in done.stderr, done.stderr
 
 
+def turns_and_studies(folder):
+    """A load that turns at once names the yield the other way; a study's samples are runs, with what they remember; events after a case are refused;
+    temperature acts before the loads do."""
+    matrices(folder / "a.h5", springs(3, (0, 1, 3e4), (1, 2, 5e4)), ["1", "2"], [("P", "x")])
+    matrices(folder / "b.h5", springs(2, (0, 1, 2e4), (0, None, 4e4)), ["1", "2"])
+    law = {"type": "bilinear", "k": 2e4, "F_yield": 60, "k_yield": 1e3}
+    base = {"plates": {"a": "a.h5", "b": "b.h5"}, "laws": {"bolt": law}, "fasteners": [{"id": i, "between": [f"a:{i}", f"b:{i}"], "law": "bolt"} for i in "12"]}
+    loads = [{"external": "a:P", "force": 200}]
+    run(folder, base | {"loads": loads, "increments": [1, -1, 1]})
+    event, F = read(folder, "event", "F")
+    assert all("yield" in each and "elastic" not in each for each in event), event
+    cases = [{"name": "up", "loads": loads}, {"name": "down", "loads": [{"external": "a:P", "force": -200}], "after": "up"}]
+    studied = {"format": "study", "version": 1, "sampling": "random", "seed": 1, "samples": 6,
+               "variables": [{"at": "/laws/bolt/F_yield", "distribution": {"type": "uniform", "from": 50, "to": 90}}]}
+    for joint, more in ((base | {"loads": loads, "increments": [1, 0, 0.5]}, {}), (base | {"cases": cases}, {"cases": ["down"]})):
+        (folder / "study.json").write_text(json.dumps(studied | more))
+        (folder / "joint.json").write_text(json.dumps({"format": "joint", "version": 1} | joint))
+        words = [PROGRAMS / "stage3_nonlinear", "joint.json", "--study", "study.json"]
+        subprocess.run([*words, "-o", "study.h5", "--quiet"], cwd=folder, check=True)
+        with h5py.File(folder / "study.h5") as f:
+            samples = f["samples/force"][:]
+        for k in (0, 5):
+            subprocess.run([*words, "--sample", str(k), "-o", "one.json", "--quiet"], cwd=folder, check=True)
+            subprocess.run([PROGRAMS / "stage3_nonlinear", "one.json", "-o", "one.h5", "--quiet"], cwd=folder, check=True)
+            with h5py.File(folder / "one.h5") as f:
+                found = np.abs(f["transferred"][-1, :, 0])
+            assert np.abs(samples[k] - found).max() < 1e-7 * 200 and found.max() > 1, (k, samples[k], found)
+    done = run(folder, base | {"cases": [cases[0], cases[1] | {"increments": "events"}]}, status=2)
+    assert '/cases/1/increments' in done.stderr and '"events" after "up"' in done.stderr, done.stderr
+    for name in "ab":
+        with h5py.File(folder / f"{name}.h5", "r+") as f:
+            f["disc/center"] = np.array([[0.0, 0], [100, 0]])
+            f["external/range"], f["traction/range"] = np.full((len(f.get("external/id", [])), 2), 150.0), np.zeros((0, 2))
+            f["support/range"] = f["support/middle"] = np.zeros((2, 2))
+            f["expansion"] = np.array([1e-4, 1e-4, 0]) if name == "a" else np.zeros(3)
+    warm = {"temperatures": {"a": 100}}
+    seen = []
+    for made in ({"loads": loads, "increments": 1}, {"loads": loads, "increments": [0, 1]}, {"loads": loads, "increments": 50},
+                 {"cases": [{"name": "T", "loads": []} | warm, {"name": "P", "loads": loads, "after": "T"}]}):
+        run(folder, base | made | ({} if "cases" in made else warm))
+        seen.append(read(folder, "F")[0][-1])
+    assert np.abs(np.diff(seen, axis=0)).max() < 1e-9 * 200 and np.abs(seen[0]).max() > 61, seen
+
+
 def two_bars(folder):
     """Two plastic fasteners under a constant force P and a cyclic difference q of their displacements: they shake down where q is small, and
     ratchet by the same step in each cycle where it is large (J. Bree's problem with two bars)."""
@@ -205,7 +249,7 @@ def random_joints(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for each in (a_slipped_joint, two_bars, random_joints):
+        for each in (a_slipped_joint, turns_and_studies, two_bars, random_joints):
             each(Path(name))
     end_if_missed()
 

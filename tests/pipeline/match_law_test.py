@@ -91,13 +91,18 @@ def others(folder):
     holes, _, off, law = numbers(match(folder, "case.json", "a", "--curve", "test.csv"))
     assert off < 1e-9 and law["type"] == "table" and np.allclose(law["delta"], np.array([0.02, 0.05, 0.09]) - holes * np.array([500, 1100, 1600]), rtol=1e-4), law
     for words, message in ((["case.json", "a", "--flexibility", 1e-5], "the holes alone are softer than the target"), (["case.json", "z"], "no fastener z; allowed: a, b, c, d"),
-                           (["case.json", "a"], 'is of the type "linear"'), (["case.json", "a", "--flexibility", -1], "numbers above 0"),
+                           (["case.json", "a"], 'is of the type "linear"'), (["case.json", "a", "--flexibility", -1], "numbers above 0"), (["case.json", "a", "--flexibility", "inf"], "numbers above 0 and below"),
                            (["case.json", "a", "--flexibility", 1, "--pitch", 5], "no more than the hole"), (["none.json", "a"], "none.json")):
         assert message in match(folder, *words, status=2), (words, message)
     (folder / "steep.csv").write_text("0.02,500\n0.03,1500\n")
     assert "the holes alone are softer than the curve" in match(folder, "case.json", "a", "--curve", "steep.csv", status=2)
     (folder / "bad.csv").write_text("0.02,500\n0.01,1500\n")
     assert "both rising" in match(folder, "case.json", "a", "--curve", "bad.csv", status=2)
+    for text in ("{}", "[1]", '{"fasteners": [{"id": "a", "between": ["upper:a", "lower"], "law": "l"}]}', '{"fasteners": [{"id": "a"}]}'):
+        (folder / "odd.json").write_text(text)
+        assert "odd.json: is no joint that stage3_nonlinear reads" in match(folder, "odd.json", "a", "--flexibility", 1, status=2), text
+    (folder / "zero.csv").write_text("0,100\n0.02,500\n")
+    assert "besides 0, 0" in match(folder, "case.json", "a", "--curve", "zero.csv", status=2)
     # Double shear: the middle sheet carries what both planes do; Huth's formula for both planes together.
     joint = json.loads((folder / "case.json").read_text())
     joint["plates"]["back"] = joint["plates"]["lower"]

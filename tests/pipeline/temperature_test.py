@@ -121,6 +121,22 @@ def strips(folder):
         assert np.abs(f["F"][-1]).max() < 1e-8 * bars and max(np.abs(f[f"plates/{name}/rim/peak_hoop"][-1]).max() for name in "ab") < 1e-6
 
 
+def edges(folder):
+    """An edge under traction moves as far as one that moves as one, expansion included."""
+    seen = []
+    for kind in ("rigid", "traction"):
+        scene = {"format": "plate", "version": 1, "analysis": "plane stress", "p": [4, 5], "materials": {"m": {"E": 7e4, "nu": 0.3, "alpha": 2e-5}},
+                 "geometry": {"grid": {"x": [0, 20, 80], "y": [-10, 10], "thickness": 2}}, "disc_directions": ["x", "y"], "supports": [{"on": "left", "fix": ["x", "y"]}],
+                 "holes": [{"id": "1", "center": [10, 0], "radius": 2, "spring": {"modulus": 1e5}}], "external": [{"id": "P", "on": "right", "direction": "x", "kind": kind}]}
+        matrices(folder, scene, "e")
+        joint = {"plates": {"e": "e.h5"}, "laws": {"k": {"type": "linear", "k": 1e-3}}, "fasteners": [{"id": "1", "between": ["e:1", "ground"], "law": "k"}],
+                 "loads": [{"external": "e:P", "force": 1000}], "temperatures": {"e": 50}}
+        run(folder, joint)
+        with h5py.File(folder / "out.h5") as f:
+            seen.append(f["plates/e/De" if kind == "rigid" else "plates/e/traction/displacement"][-1, 0])
+    assert abs(seen[1] / seen[0] - 1) < 1e-3 and seen[0] > 2e-5 * 50 * 80, seen
+
+
 def contact(folder):
     """A shank that expands more than its sheets fills its hole: an interference as the same gap given; orthotropic sheets at an angle."""
     spring = {"compression_only": True, "disk": {"E": 2e5, "nu": 0.3}}
@@ -186,7 +202,7 @@ def refusals(folder):
 
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for each in (by_hand, strips, contact, refusals):
+        for each in (by_hand, strips, edges, contact, refusals):
             each(Path(name))
     end_if_missed()
 

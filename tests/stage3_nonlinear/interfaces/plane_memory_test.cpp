@@ -22,7 +22,7 @@ constexpr const char* table =
     R"({"type": "table", "delta": [0.02, 0.05, 0.1, 0.2, 0.4], "F": [20, 45, 60, 70, 80], "F_yield": 40})";
 
 std::vector<Slider> at_rest(const Law& law, double clearance, Index n) {
-  return std::vector<Slider>(law.branches(clearance).size(), Slider{PlaneVector::Zero(n)});
+  return std::vector<Slider>(law.branches(clearance).size(), Slider{PlaneVector::Zero(n), PlaneVector::Zero(n)});
 }
 
 /// A law under contact coordinates, one after another.
@@ -31,9 +31,10 @@ struct Plane {
   double clearance, k;
   std::vector<MemoryBranch> branches = law->branches(clearance);
   std::vector<Slider> sliders = {};
+  bool one_sided = false;
 
   [[nodiscard]] RememberedState at(const PlaneVector& c) const {
-    return remembered(branches, sliders, c, k, c / (2 * k));
+    return remembered(branches, sliders, c, k, c / (2 * k), one_sided);
   }
 };
 
@@ -118,23 +119,36 @@ TEST_P(PlaneMemoryOf, IsTheLawsOwnCurveFromNoSet) {
 }
 
 TEST_P(PlaneMemoryOf, DoesNotDependOnTheIncrementsAlongALine) {
-  Plane once{test::law_of(GetParam()), 0.01, 500}, often = once;
-  once.sliders = often.sliders = at_rest(*once.law, once.clearance, 1);
-  double from = 0;
-  for (const double to : {90.0, -70.0, 120.0, -130.0, 20.0}) {
-    constexpr int parts = 16;
-    for (int i = 1; i <= parts; ++i)
-      often.sliders = often.at(PlaneVector::Constant(1, from + (to - from) * i / parts)).sliders;
-    const RememberedState state = once.at(PlaneVector::Constant(1, to));
-    once.sliders = state.sliders;
-    EXPECT_NEAR(often.at(PlaneVector::Constant(1, to)).F[0], state.F[0], 1e-9) << to;
-    for (std::size_t b = 0; b < once.sliders.size(); ++b)
-      EXPECT_NEAR(often.sliders[b].dissipated, once.sliders[b].dissipated, 1e-9) << to;
-    from = to;
+  for (const bool one_sided : {false, true}) {
+    Plane once{test::law_of(GetParam()), 0.01, 500}, often = once;
+    once.one_sided = often.one_sided = one_sided;
+    once.sliders = often.sliders = at_rest(*once.law, once.clearance, 1);
+    double from = 0;
+    for (const double to : {90.0, -70.0, 120.0, 5.0, 200.0, -130.0, 20.0}) {
+      constexpr int parts = 16;
+      for (int i = 1; i <= parts; ++i)
+        often.sliders = often.at(PlaneVector::Constant(1, from + (to - from) * i / parts)).sliders;
+      const RememberedState state = once.at(PlaneVector::Constant(1, to));
+      once.sliders = state.sliders;
+      EXPECT_NEAR(often.at(PlaneVector::Constant(1, to)).F[0], state.F[0], 1e-9) << to;
+      if (one_sided) {
+        EXPECT_GE(state.F[0], 0) << to;
+      }
+      for (std::size_t b = 0; b < once.sliders.size(); ++b)
+        EXPECT_NEAR(often.sliders[b].dissipated, once.sliders[b].dissipated, 1e-9) << to << one_sided;
+      from = to;
+    }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Each, PlaneMemoryOf, testing::Values(bilinear, plastic, four_stage, table));
+constexpr const char* straight_table =
+    R"({"type": "table", "delta": [0.1, 0.2, 0.3, 0.4], "F": [20, 40, 60, 66], "F_yield": 40})";
+constexpr const char* steep_table = R"({"type": "table", "delta": [0.3, 0.7, 1.2], "F": [40, 80, 80], "F_yield": 40})";
+constexpr const char* steady_bearing =
+    R"({"type": "four stage", "k_stick": 9000, "F_slip": 20, "slip": 0.01, "k_bearing": 90, "F_yield": 60, "k_yield": 90})";
+INSTANTIATE_TEST_SUITE_P(Each, PlaneMemoryOf,
+                         testing::Values(bilinear, plastic, four_stage, table, straight_table, steep_table,
+                                         steady_bearing));
 
 /// Masing's rule: a bilinear law goes back with its first slope, yields after twice the yield force, and a cycle
 /// between
