@@ -53,6 +53,7 @@ class Search {
     Sample here = *first;
     for (const double load : loads) {
       const auto next = solved(load);
+      if (!next) search_below_limit(here, load);
       if (!next || !between(here, *next, 0)) break;
       walk_.put({next->load, next->c}, 0);
       here = *next;
@@ -61,6 +62,16 @@ class Search {
   }
 
  private:
+  /// Finds the events between a state and the last one that was solved on the way to a load that the joint does not
+  /// reach, such as that just below its limit load.
+  void search_below_limit(const Sample& here, double failed) {
+    const Place last = walk_.here();
+    if (!(last.load_factor > here.load)) return;
+    (void)between(here, {last.load_factor, last.c, corners_.passed(last.c)}, 0);
+    walk_.put(last, 0);
+    found_.failed = failed;
+  }
+
   std::optional<Sample> solved(double load) {
     program::report_share(load);
     if (walk_.reach(load)) return Sample{load, walk_.here().c, corners_.passed(walk_.here().c)};

@@ -119,6 +119,11 @@ def turns_and_studies(folder):
             assert np.abs(samples[k] - found).max() < 1e-7 * 200 and found.max() > 1, (k, samples[k], found)
     done = run(folder, base | {"cases": [cases[0], cases[1] | {"increments": "events"}]}, status=2)
     assert '/cases/1/increments' in done.stderr and '"events" after "up"' in done.stderr, done.stderr
+    # However far the load is beyond what the joint holds, the yields before the last are found.
+    for load in (121, 160, 500, 3000, 1e5):
+        done = run(folder, base | {"laws": {"bolt": law | {"k_yield": 0}}, "loads": [{"external": "a:P", "force": load}], "increments": "events"}, status=4)
+        event, factor = read(folder, "event", "load_factor")
+        assert "limit load reached" in done.stderr and event[0] in ("1 yields", "2 yields") and 90 < factor[0] * load < 119.9, (load, event, factor * load)
     for name in "ab":
         with h5py.File(folder / f"{name}.h5", "r+") as f:
             f["disc/center"] = np.array([[0.0, 0], [100, 0]])
