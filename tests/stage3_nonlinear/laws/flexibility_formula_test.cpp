@@ -254,8 +254,9 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{law("swift", R"("shear": "single", "E_f": 1)"), R"(key "mode" is missing)"},
         Refusal{law("swift", R"("mode": "part", "shear": "single", "E_f": 1)"),
                 R"(/mode: "part" is not allowed; allowed: "total", "fastener only", "shear and bending")"},
-        Refusal{law("boeing", R"("mode": "shear and bending", "shear": "single", "E_f": 1)"),
-                R"(/mode: "shear and bending", which "boeing" does not tell apart; allowed: "total" or "fastener only", or)"},
+        Refusal{
+            law("boeing", R"("mode": "shear and bending", "shear": "single", "E_f": 1)"),
+            R"(/mode: "shear and bending", which "boeing" does not tell apart; allowed: "total" or "fastener only", or)"},
         Refusal{law("swift", R"("mode": "total", "E_f": 1)"), R"(key "shear" is missing)"},
         Refusal{law("swift", R"("mode": "total", "shear": "triple", "E_f": 1)"),
                 R"(/shear: "triple" is not allowed; allowed: "single", "double")"},
