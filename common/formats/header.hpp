@@ -69,7 +69,7 @@ struct Border {
   Eigen::VectorXi is_free{};                     ///< (k) 1 for an edge without supports and loads, else 0
 };
 
-/// Where forces act on a plate; empty in a file before these had it.
+/// Places at which forces act on a plate; empty in a file before these had them.
 struct Places {
   Eigen::MatrixXd disc = Eigen::MatrixXd(0, 2);            ///< (m, 2) x and y of each disc, length
   Eigen::MatrixXd external = Eigen::MatrixXd(0, 2);        ///< (e, 2) least and greatest coordinate along its direction

@@ -13,7 +13,7 @@ namespace fastjoint::program {
 /// One option of a program: used for parsing, for --help and by the test of the table in docs/programs.md.
 struct Option {
   std::string name;   ///< with its dashes, "--p"
-  std::string value;  ///< placeholder of the value in --help, empty for a flag
+  std::string value;  ///< what --help calls its value, empty for a flag
   std::string help;   ///< one line
 };
 

@@ -6,7 +6,7 @@
 
 namespace fastjoint::stage1 {
 
-/// Where discs, externals and supports act on the plate.
+/// Places at which discs, externals and supports act on the plate.
 [[nodiscard]] formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
 
 }  // namespace fastjoint::stage1

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <fmt/format.h>
-
 #include <Eigen/LU>
-#include <algorithm>
 #include <vector>
 
 #include "common/pfem/material.hpp"
@@ -26,14 +23,7 @@ std::vector<Ply> read_plies(const Value& list) {
   std::vector<Ply> plies;
   for (const auto& group : list.items(1, max_plies)) {
     group.only({"E1", "E2", "nu12", "G12", "angles", "thickness", "alpha1", "alpha2"});
-    pfem::OrthotropicConstants c{};
-    c.E1 = read_quantity(group.at("E1"));
-    c.E2 = read_quantity(group.at("E2"));
-    c.nu12 = group.at("nu12").number();
-    c.G12 = read_quantity(group.at("G12"));
-    if (!pfem::is_stable(c, pfem::Analysis::plane_stress))
-      group.fail("these constants give a negative strain energy",
-                 "a positive definite compliance (nu12^2 < E1/E2 in plane stress)");
+    const auto c = read_constants(group, pfem::Analysis::plane_stress);
     const double thickness = read_quantity(group.at("thickness"));
     for (const double angle : group.at("angles").numbers(1, max_plies, input::any_number))
       plies.push_back({pfem::elasticity(c, angle * rim::degree, pfem::Analysis::plane_stress), thickness,

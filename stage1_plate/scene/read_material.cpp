@@ -29,24 +29,8 @@ Eigen::Matrix3d read_isotropic(const Value& value, Analysis analysis) {
 
 Eigen::Matrix3d read_orthotropic(const Value& value, Analysis analysis) {
   value.only({"E1", "E2", "nu12", "G12", "angle", "E3", "nu13", "nu23", "alpha1", "alpha2"});
-  pfem::OrthotropicConstants c{};
-  c.E1 = read_quantity(value.at("E1"));
-  c.E2 = read_quantity(value.at("E2"));
-  c.nu12 = value.at("nu12").number();
-  c.G12 = read_quantity(value.at("G12"));
-  if (analysis == Analysis::plane_strain) {
-    c.E3 = read_quantity(value.at("E3"));
-    c.nu13 = value.at("nu13").number();
-    c.nu23 = value.at("nu23").number();
-  } else {
-    for (const char* key : {"E3", "nu13", "nu23"})
-      if (const auto unused = value.find(key)) unused->fail("given in plane stress", "only in plane strain");
-  }
-  if (!pfem::is_stable(c, analysis))
-    value.fail("these constants give a negative strain energy",
-               "a positive definite compliance (nu12^2 < E1/E2 in plane stress)");
   const auto angle = value.find("angle");
-  return pfem::elasticity(c, angle ? angle->number() * rim::degree : 0, analysis);
+  return pfem::elasticity(read_constants(value, analysis), angle ? angle->number() * rim::degree : 0, analysis);
 }
 
 /// Modulus for a disc in plane stress under uniform pressure, u_r = (1 - nu) p r / E: equation (29).
@@ -89,6 +73,26 @@ rim::AngleRange read_arc(const Value& value) {
 }
 
 }  // namespace
+
+pfem::OrthotropicConstants read_constants(const Value& value, Analysis analysis) {
+  pfem::OrthotropicConstants c{};
+  c.E1 = read_quantity(value.at("E1"));
+  c.E2 = read_quantity(value.at("E2"));
+  c.nu12 = value.at("nu12").number();
+  c.G12 = read_quantity(value.at("G12"));
+  if (analysis == Analysis::plane_strain) {
+    c.E3 = read_quantity(value.at("E3"));
+    c.nu13 = value.at("nu13").number();
+    c.nu23 = value.at("nu23").number();
+  } else {
+    for (const char* key : {"E3", "nu13", "nu23"})
+      if (const auto unused = value.find(key)) unused->fail("given in plane stress", "only in plane strain");
+  }
+  if (!pfem::is_stable(c, analysis))
+    value.fail("these constants give a negative strain energy",
+               "a positive definite compliance (nu12^2 < E1/E2 in plane stress)");
+  return c;
+}
 
 std::optional<Eigen::Matrix2d> read_expansion(const Value& value, const char* along, const char* across, double angle,
                                               Analysis analysis) {

@@ -26,6 +26,9 @@ struct Laminate {
 [[nodiscard]] std::optional<Eigen::Matrix2d> read_expansion(const input::Value& value, const char* along,
                                                             const char* across, double angle, pfem::Analysis analysis);
 
+/// Reads the constants of an orthotropic material, which strains make take energy.
+[[nodiscard]] pfem::OrthotropicConstants read_constants(const input::Value& value, pfem::Analysis analysis);
+
 /// Reads {"plies": [{constants, "angles", "thickness"}, ...]}, from the bottom of the stack to its top (Jones, section
 /// 4.2).
 [[nodiscard]] Laminate read_laminate(const input::Value& value, pfem::Analysis analysis);

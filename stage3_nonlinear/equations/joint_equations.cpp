@@ -171,14 +171,12 @@ void JointEquations::commit(const VectorXd& c) {
 
 std::vector<PlaneMemory> JointEquations::memories() const {
   std::vector<PlaneMemory> all;
-  bool any = false;
+  if (!remembers()) return all;
   for (std::size_t i = 0; i < interfaces.size() && std::ssize(all) < n_planes(); ++i) {
-    auto of_interface = interfaces[i].interface->memories(history.empty() ? History() : history[i]);
-    any = any || !of_interface.empty();
-    of_interface.resize(interfaces[i].interface->size() / n_directions(), {VectorXd::Zero(n_directions()), 0, {}, {}});
+    const auto of_interface = interfaces[i].interface->memories(history.empty() ? History() : history[i]);
     all.insert(all.end(), of_interface.begin(), of_interface.end());
   }
-  return any ? all : std::vector<PlaneMemory>();
+  return all;
 }
 
 VectorXd JointEquations::load_at(double load_factor) const {

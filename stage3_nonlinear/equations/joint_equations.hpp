@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -59,7 +60,9 @@ struct JointEquations {
   /// What the planes remember, (n); empty if no law remembers.
   [[nodiscard]] std::vector<PlaneMemory> memories() const;
   /// True if a law remembers.
-  [[nodiscard]] bool remembers() const { return !memories().empty(); }
+  [[nodiscard]] bool remembers() const {
+    return std::ranges::any_of(contacts, [](const Contact& each) { return each.law->remembers(); });
+  }
   /// True if there is no load at load factor 0.
   [[nodiscard]] bool starts_unloaded() const { return !parameters.starts_loaded(); }
   /// S_ud times the offsets of the planes, the forces of rigid fasteners by the free shapes of the sheets, (r); force.

@@ -189,7 +189,6 @@ History FastenerInterface::commit(const VectorXd& c, const History& history) con
 
 std::vector<PlaneMemory> FastenerInterface::memories(const History& history) const {
   std::vector<PlaneMemory> result;
-  if (std::ranges::all_of(branches_, [](const auto& each) { return each.empty(); })) return result;
   for (Index j = 0; j < std::ssize(planes_); ++j) {
     PlaneMemory& memory = result.emplace_back(PlaneMemory{VectorXd::Zero(place_.n_directions), 0, {}, {}});
     const auto of_plane = sliders(history, j);

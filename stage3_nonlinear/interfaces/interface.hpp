@@ -65,7 +65,7 @@ class Interface {
   [[nodiscard]] virtual Response respond(const VectorXd& c, const History& history) const = 0;
   /// The history once the joint has come to rest at c.
   [[nodiscard]] virtual History commit(const VectorXd& /*c*/, const History& history) const { return history; }
-  /// What its planes remember; empty if none does.
+  /// What each of its planes remembers; empty of an interface without planes.
   [[nodiscard]] virtual std::vector<PlaneMemory> memories(const History& /*history*/) const { return {}; }
   /// Adds a small stiffness where the slopes of a response vanish (docs/theory.md, section 8.5).
   virtual void add_trace(double trace, Response& response) const = 0;

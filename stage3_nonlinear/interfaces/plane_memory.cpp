@@ -83,7 +83,7 @@ BranchState under(const MemoryBranch& branch, bool one_sided, const PlaneVector&
     return {X.value - F.value + branch.limit * way, H};
   };
   const PlaneVector way = excess.normalized();
-  // Where it has opened, only the backstress moves the slider.
+  // The backstress alone moves the slider of a branch that has opened.
   const double stiffness = std::max(way.dot((elastic.slope + back.slope) * way), std::numeric_limits<double>::min());
   const PlaneVector s = minimum(at, before + over / stiffness * way, size);
   const Along F = force(delta - s);

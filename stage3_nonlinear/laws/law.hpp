@@ -100,6 +100,8 @@ class Law {
   /// Branches of a law that keeps what has yielded or slipped; none of an elastic law. From no set they give the law's
   /// own curve.
   [[nodiscard]] virtual std::vector<MemoryBranch> branches(double /*clearance*/) const { return {}; }
+  /// True if it keeps what has yielded or slipped.
+  [[nodiscard]] bool remembers() const { return !branches(0).empty(); }
   [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
   /// Path of the file that holds the law's points, if it has one of its own.
   [[nodiscard]] virtual std::string file() const { return {}; }

@@ -76,7 +76,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
       const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
       const Contact& contact = equations.contacts[j];
       const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
-      if (!step.memories.empty() && !contact.law->branches(contact.clearance).empty()) continue;  // it remembers
+      if (contact.law->remembers()) continue;
       const bool curved =
           !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(step.c, k * gap);
       if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);

@@ -32,7 +32,7 @@ constexpr std::array words{
 
 ContactCorners::ContactCorners(const JointEquations& equations, bool interference_alone)
     : n_planes_(equations.n_planes()) {
-  for (const Contact& plane : equations.contacts) remembers_.push_back(!plane.law->branches(plane.clearance).empty());
+  for (const Contact& plane : equations.contacts) remembers_.push_back(plane.law->remembers());
   for (const PlacedInterface& placed : equations.interfaces) {
     auto corners = placed.interface->corners();
     for (Index entry = 0; entry < std::ssize(corners); ++entry) {

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/case_run.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -53,12 +51,6 @@ FollowedCase CaseRun::follow(std::size_t at, const std::vector<double>& load_fac
   }
   if (before != nullptr) options.start = before->c;
   JointEquations now = equations(at, before);
-  if (before != nullptr && load_factors.empty() && now.remembers())
-    refuse(its.where + "/increments",
-           fmt::format("\"events\" after \"{}\", in which fasteners may have yielded or slipped, so that they do so "
-                       "at other loads now",
-                       scene_.cases[*its.after].name),
-           "a number of increments, a list of load factors, or laws with \"reversible\": true");
   auto [path, increments] = follow_with_results(joint_, now, load_factors, std::move(options), wanted);
   const bool is_needed = std::ranges::any_of(scene_.cases, [&](const auto& other) { return other.after == at; });
   if (is_needed && !path.failure && !path.steps.empty()) {

@@ -95,7 +95,7 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, co
   state.traction_displacement.setConstant(q, std::numeric_limits<double>::infinity());
   const bool has_compliance = !plate.degrees.C.empty() && plate.degrees.C.back().rows() == q;
   if (q > 0 && has_compliance && state.Lambda.isZero(0))
-    state.traction_displacement = plate.degrees.C.back() * state.traction - plate.T.transpose() * u;
+    state.traction_displacement = traction_displacements(plate, u, state.traction);
   state.bearing = on_discs;
   state.friction = VectorXd::Zero(m);
   set_friction(plate, state);
@@ -212,6 +212,10 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
   state.w = vector(w);
   state.added = vector(added);
   if (plate.stress_level) state.loaded = loaded_rims(plate, unit_case_coefficients(plate, state), contacts);
+}
+
+VectorXd traction_displacements(const PlateModel& plate, const VectorXd& u, const VectorXd& f) {
+  return plate.degrees.C.back() * f - plate.T.transpose() * u;
 }
 
 JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step) {

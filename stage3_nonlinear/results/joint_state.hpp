@@ -66,6 +66,10 @@ void load_rims(const PlateModel& plate, std::vector<ContactLoad> contacts, Plate
                                                   const std::vector<ContactLoad>& contacts, const VectorXd& D,
                                                   const VectorXd& load, const VectorXd& Lambda);
 
+/// Mean displacements of the traction boundaries of a plate, (q), length, under the displacements u of its unknowns and
+/// the forces f of its tractions, without what friction cases add.
+[[nodiscard]] VectorXd traction_displacements(const PlateModel& plate, const VectorXd& u, const VectorXd& f);
+
 [[nodiscard]] JointState joint_state(const JointModel& joint, const JointEquations& equations, const PathStep& step);
 
 /// Share of each plane in per cent of the sum over all planes between the same two plates, or a plate and the ground,

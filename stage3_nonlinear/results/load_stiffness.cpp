@@ -38,7 +38,7 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Solv
     const std::string& name = (is_traction ? plate.tractions : plate.externals)[at];
     const double reaction = is_traction ? 0 : plate.S.row(row).dot(u) + plate.T.row(row).dot(f) + friction[first + row];
     const double force = is_displacement ? reaction : rates[i];
-    const double moved = is_traction ? plate.degrees.C.back().row(at).dot(f) - plate.T.col(at).dot(u) : u[row];
+    const double moved = is_traction ? traction_displacements(plate, u, f)[at] : u[row];
     result.push_back({plate.name + ":" + name, at_limit ? 0 : force / moved});
   }
   return result;

@@ -84,10 +84,11 @@ std::vector<DiscRow> disc_rows(const PlateModel& plate) {
 RowForces row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state) {
   const Index n = std::ssize(rows);
   RowForces result{VectorXd::Zero(n), VectorXd(n), VectorXd(n)};
+  PlacedForces forces;
   for (Index i = 0; i < n; ++i) {
     const auto& [axis, at, discs] = rows[i];
+    if (i == 0 || axis != rows[i - 1].axis) forces = forces_along(plate, axis, state);
     for (const Index disc : discs) result.force[i] += state.bearing[disc] + state.friction[disc];
-    const auto forces = forces_along(plate, axis, state);
     // Rounding of the places must not put an edge at the row on its other side.
     const double margin = tolerance(plate, axis) + 1e-9 * std::abs(at);
     result.before[i] = beyond(forces, at - margin);

@@ -296,6 +296,15 @@ std::vector<CaseScene> read_cases(const Value& root, const JointScene& scene) {
       item.at("name").fail(fmt::format("\"{}\" stands twice", cases.back().name), "each name once");
   }
   read_order(items, cases);
+  const bool remembers =
+      std::ranges::any_of(scene.laws, [](const auto& each) { return each.second.law && each.second.law->remembers(); });
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    if (remembers && cases[i].after && cases[i].load_factors.empty())
+      refuse(cases[i].where + "/increments",
+             fmt::format("\"events\" after \"{}\", in which fasteners may have yielded or slipped, so that they do so "
+                         "at other loads now",
+                         cases[*cases[i].after].name),
+             "a number of increments, a list of load factors, or laws with \"reversible\": true");
   return cases;
 }
 
