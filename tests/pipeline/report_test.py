@@ -98,7 +98,10 @@ def check_numbers(folder):
         warnings = list(f["warning/text"].asstr()[:])
     assert [line[1:5] for line in found["Load by rows"] if line[0] == "right"] == lines and len(lines) > 1, lines
     assert [line[1] for line in found.get("Warnings", [[]])[1:]] == warnings
-    assert [line[0] for line in found["Loaded edges"][1:]], found["Loaded edges"]
+    with h5py.File(copy / "cases.h5") as f:
+        edges = [[f"{plate}:{name}", f"{f[f'plates/{plate}/Pe'][row, i]:.6g}", f"{f[f'plates/{plate}/De'][row, i]:.6g}"]
+                 for plate in f["plate/name"].asstr()[:] for i, name in enumerate(f[f"plates/{plate}/external/id"].asstr()[:])]
+    assert found["Loaded edges"][1:] == edges and edges, (found["Loaded edges"], edges)
     assert sum(f"<h2>Sheet {name}</h2>" in text for name in ("top", "left", "right", "bottom")) == 4 and text.count("<svg") == 6
     assert "FS = 1, FF = 1.15 in all of these" in text
     check_geometry(copy / "cases.h5", found)
@@ -209,6 +212,9 @@ def check_hundred(folder):
     text, found = report(folder / "joint.h5", folder / "hundred.html")
     assert len(text) < 1e6 and "a &lt;script&gt; of 100" in text and len(found["Loads of the fasteners"]) == 21, len(text)
     assert len(re.findall(r"<text", text)) > 200 and "Load path" in text
+    with h5py.File(folder / "joint.h5") as f:
+        warnings = [list(each) for each in zip(f["warning/code"].asstr()[:], f["warning/text"].asstr()[:])]
+    assert warnings and found["Warnings"][1:] == warnings, (found["Warnings"], warnings)
     rows = found["Geometry of the fasteners' holes"]
     assert rows[0] == ["hole", "diameter D [mm]", "mean thickness [mm]", "nearest edge e/D", "p/D along x", "p/D along y", "gross area [mm²]", "net area [mm²]"], rows[0]
     assert len(rows) == 41
