@@ -16,6 +16,10 @@ const fastjoint::program::Command command{
         {"--p", "N", "polynomial degree of the matrices; default: the highest that all plates have"},
         {"--all-stresses", "", "print the stresses around the holes at every increment, not at the last alone"},
         {"--rim-stresses", "", "also write the stresses around all holes, one degree apart, at every increment"},
+        {"--distance", "D",
+         "also find the largest hoop stress at this distance from the rim of every hole, where point-stress criteria "
+         "of laminates\n"
+         "judge; with --rim-stresses also the stresses around"},
         {"--csv", "FILE", "also write one line per increment and shear plane"},
         {"--case", "NAME", "solve one of the load cases; default: all"},
         {"--envelope", "FILE",

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <limits>
 #include <ostream>
 #include <utility>
 
@@ -23,6 +24,7 @@
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
+#include "stage3_nonlinear/results/near_peaks.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
 
 namespace fastjoint::stage3 {
@@ -161,18 +163,26 @@ struct SolvedCase {
   std::string summary;  ///< of every increment; empty if not wanted
 };
 
+MoreStresses stresses_wanted(const program::Arguments& arguments) {
+  MoreStresses wanted{arguments.flag("--rim-stresses"), {}};
+  constexpr double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::min();
+  if (arguments.flag("--distance")) wanted.distance = arguments.number("--distance", least, most, 0);
+  return wanted;
+}
+
 /// Solves a load case. @param alone It is the only one, whose increments the summary tells.
 SolvedCase solve_case(const program::Arguments& arguments, const JointScene& scene, CaseRun& cases,
                       CrackErrorEstimate& cracks, std::size_t at, bool alone, std::ostream& log) {
   const CaseScene& its = scene.cases[at];
   const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
-  const bool with_rim_stresses = arguments.flag("--rim-stresses"), with_slopes = arguments.flag("--sensitivities");
-  auto [equations, path, increments, missing] =
-      cases.follow(at, its.load_factors, solving, {scene.solver.tolerance, with_slopes, with_rim_stresses});
+  const MoreStresses wanted = stresses_wanted(arguments);
+  const bool with_slopes = arguments.flag("--sensitivities");
+  auto [equations, path, increments, missing] = cases.follow(
+      at, its.load_factors, solving, {scene.solver.tolerance, with_slopes, wanted.all_around || wanted.distance});
   const JointModel& joint = cases.joint();
   const auto& states = increments.states;
   path.interference = search_interference(equations, solving, path);
-  SolvedCase solved{joint_result(joint, equations, path, increments, with_rim_stresses), {}, {}, {}};
+  SolvedCase solved{joint_result(joint, equations, path, increments, wanted), {}, {}, {}};
   if (missing) {
     solved.result.complete = false;
     solved.failure = fmt::format("{}: case \"{}\" comes after \"{}\", which was not solved", scene.file, its.name,
@@ -181,8 +191,10 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
   }
   const auto errors = cracks.of(joint, at, path, states, solving);
   set_crack_errors(errors, solved.result);
-  for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
-                           rim_warnings(joint, states), crack_warnings(joint, states, errors)})
+  for (const auto& some :
+       {warnings(joint, equations, path), implausible_numbers(scene, joint, path), rim_warnings(joint, states),
+        crack_warnings(joint, states, errors),
+        wanted.distance ? distance_warnings(joint, *wanted.distance) : std::vector<program::Warning>()})
     solved.warnings.insert(solved.warnings.end(), some.begin(), some.end());
   if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, path, increments);
   if (alone) solved.summary = summary(scene, joint, path, states, solved.result, arguments.flag("--all-stresses"));
@@ -203,7 +215,7 @@ void check_solved(const std::vector<std::string>& failures, std::size_t n_cases)
 void run(const program::Arguments& arguments, std::ostream& out, std::ostream& log, program::Timings& timings) {
   if (arguments.flag("--study")) {
     for (const char* option : {"--csv", "--envelope", "--margins", "--totals", "--case", "--sensitivities",
-                               "--rim-stresses", "--all-stresses", "--verbose"})
+                               "--rim-stresses", "--distance", "--all-stresses", "--verbose"})
       if (arguments.flag(option))
         throw InputError(fmt::format("{}: given together with --study; allowed: one of them", option));
     return run_study(arguments, out, log, timings);

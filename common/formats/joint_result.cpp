@@ -11,7 +11,7 @@ using h5::Column;
 
 constexpr const char* format = "joint-result";
 constexpr int major = 1;
-constexpr int minor = 13;
+constexpr int minor = 14;
 
 using V = RimValues;
 using enum Dimension;
@@ -31,6 +31,23 @@ constexpr auto quantities = std::to_array<RimQuantity>({
     {"against_slip", &V::against_slip, angle,
      "part of the contact on which friction acts against the slip that it assumes"},
 });
+
+/// Datasets of the stresses at a distance from the rims.
+template <class File, class Rims, class Near>
+void near_datasets(File& file, const std::string& group, Rims& a, Near& near, Eigen::Index steps, const Units& units) {
+  const std::string stress = unit_of(Dimension::stress, units);
+  const Eigen::Index r = a.hole.size();
+  file(group + "near/distance", near.distance, {}, unit(units, 1, 0), "distance of the circles from the rims");
+  file(group + "near/peak_hoop", near.peak, {steps, r}, stress, "largest hoop stress on the circle");
+  file(group + "near/peak_angle", near.angle, {steps, r}, "deg", "angle of it, counter-clockwise from x");
+  file(group + "near/peak_error", near.error, {steps, r}, stress, "estimated error of it", h5::infinite_too);
+  if (!a.stresses) return;
+  const Eigen::Index k = a.stresses->angle.size();
+  const char* meaning = "stress at this distance outwards from each point";
+  file(group + "near/sigma_rr", near.rr, {steps, k}, stress, std::string("radial ") + meaning, h5::infinite_too);
+  file(group + "near/sigma_tt", near.tt, {steps, k}, stress, std::string("hoop ") + meaning, h5::infinite_too);
+  file(group + "near/sigma_rt", near.rt, {steps, k}, stress, std::string("shear ") + meaning, h5::infinite_too);
+}
 
 template <class File, class Rims>
 void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index steps, const Units& units) {
@@ -62,6 +79,7 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
     file(group + "sigma_tt", around->tt, {steps, n}, stress, "hoop stress at each point");
     file(group + "sigma_rt", around->rt, {steps, n}, stress, "shear stress at each point");
   }
+  if (auto* near = file.part(group + "near/peak_hoop", a.near)) near_datasets(file, group, a, *near, steps, units);
 }
 
 template <class File, class Cracks>

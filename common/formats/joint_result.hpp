@@ -43,6 +43,13 @@ struct RimStresses {
   Eigen::MatrixXd rr, tt, rt;  ///< (steps, k) stress
 };
 
+/// Stresses on circles around the holes of a plate at one distance from their rims, one row per increment.
+struct NearStresses {
+  double distance = 0;                 ///< from the rims, length
+  Eigen::MatrixXd peak, angle, error;  ///< (steps, r) largest hoop stress, its place in degrees, and its error, stress
+  Eigen::MatrixXd rr{}, tt{}, rt{};    ///< (steps, k) at the angles of RimStresses; none without those
+};
+
 /// The holes of a plate, including open ones, at every increment.
 struct RimHistory {
   std::vector<std::string> hole;               ///< (r); empty if the plate's matrices have no stresses at this degree
@@ -52,6 +59,7 @@ struct RimHistory {
   Eigen::VectorXd gross_area{}, net_area{};    ///< (r) of the smaller section across x next to the hole; 0 without one
   std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
   std::optional<RimStresses> stresses{};       ///< if requested
+  std::optional<NearStresses> near{};          ///< if requested
 };
 
 /// Forces of fasteners on the m discs of a plate: resultants on its rims along the discs' directions, force.

@@ -19,6 +19,9 @@ class RimCompliance {
   RimCompliance(const Eigen::Matrix3d& compliance, double radius);
 
   [[nodiscard]] double radius() const { return radius_; }
+  [[nodiscard]] const Eigen::Matrix3d& compliance() const { return compliance_; }
+  /// The two roots with positive imaginary part of Lekhnitskii's equation, of which equal ones have half the digits.
+  [[nodiscard]] const Eigen::Vector2cd& roots() const { return roots_; }
   /// Ratio of the rim's displacements of successive orders that a source at a place causes: a/s in an isotropic sheet
   /// at the distance s; in general the largest 1/|zeta_k| there of Lekhnitskii's coordinates, a (1 - i mu_k) zeta_k / 2
   /// + a (1 + i mu_k) / (2 zeta_k) = x + mu_k y. It is 1 on the rim and inside it.

@@ -75,6 +75,11 @@ void add_plate(formats::PlateHistory& all, formats::PlateHistory& its) {
     for (const auto table : {&formats::RimStresses::rr, &formats::RimStresses::tt, &formats::RimStresses::rt})
       add_rows(stresses.*table, more.*table);
   }
+  using formats::NearStresses;
+  if (all.rims.near && its.rims.near)
+    for (const auto table : {&NearStresses::peak, &NearStresses::angle, &NearStresses::error, &NearStresses::rr,
+                             &NearStresses::tt, &NearStresses::rt})
+      add_rows((*all.rims.near).*table, (*its.rims.near).*table);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "stage3_nonlinear/output/csv_field.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/results/contact_history.hpp"
+#include "stage3_nonlinear/results/near_peaks.hpp"
 #include "stage3_nonlinear/results/row_forces.hpp"
 
 namespace fastjoint::stage3 {
@@ -86,7 +87,7 @@ void set_totals(const PlateModel& plate, const std::vector<JointState>& states, 
 }
 
 formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, Index at,
-                                    bool with_rim_stresses) {
+                                    const MoreStresses& wanted) {
   formats::PlateHistory history;
   history.name = plate.name;
   history.matrices_digest = plate.matrices_digest;
@@ -142,7 +143,10 @@ formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<J
   history.border = plate.border;
   history.cracks = crack_history(plate.cracks, states, at);
   if (plate.stress_level) history.rims = rims_of(plate.stresses);
-  if (plate.stress_level && with_rim_stresses) history.rims.stresses = rim_stresses(history.rims.hole, states, at);
+  if (plate.stress_level && wanted.all_around) history.rims.stresses = rim_stresses(history.rims.hole, states, at);
+  if (plate.stress_level && wanted.distance)
+    history.rims.near =
+        near_stresses(plate, states, at, *wanted.distance, history.rims.stresses ? &*history.rims.stresses : nullptr);
   for (const auto& state : states) {
     const auto& rims = state.plates[at].rims;
     history.rims.values.emplace_back(rims.begin(), rims.end());
@@ -201,7 +205,7 @@ std::string csv_heads(const JointModel& joint) {
 }  // namespace
 
 formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                                  const Increments& increments, bool with_rim_stresses) {
+                                  const Increments& increments, const MoreStresses& wanted) {
   const auto& states = increments.states;
   const Index steps = path.steps.size(), n = joint.n_planes(), a = joint.n_directions();
   formats::JointResult result;
@@ -248,7 +252,7 @@ formats::JointResult joint_result(const JointModel& joint, const JointEquations&
   for (Index d = 0; d < std::ssize(joint.axes); ++d) result.direction.emplace_back(joint.axis_name(d));
   auto contacts = contact_histories(joint, equations, path);
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
-    result.plates.push_back(plate_history(joint.plates[i], states, i, with_rim_stresses));
+    result.plates.push_back(plate_history(joint.plates[i], states, i, wanted));
     result.plates.back().contacts = std::move(contacts[i]);
   }
   return result;

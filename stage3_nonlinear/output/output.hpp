@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,11 +13,16 @@
 
 namespace fastjoint::stage3 {
 
+/// Which stresses besides the peaks at the rims RESULT.h5 has.
+struct MoreStresses {
+  bool all_around = false;           ///< around all holes, one degree apart
+  std::optional<double> distance{};  ///< peaks, and with `all_around` stresses, at this distance from the rims, length
+};
+
 /// The contents of RESULT.h5 for a path, one state per step; the header is left to the caller.
-/// @param with_rim_stresses Also the stresses around all holes, one degree apart.
 [[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations,
                                                 const LoadPath& path, const Increments& increments,
-                                                bool with_rim_stresses);
+                                                const MoreStresses& wanted);
 
 /// The contents of RESULT.h5 for the derivatives of the bearing forces at every step of the path, and of the peaks at
 /// the last.

@@ -139,6 +139,25 @@ std::string highest_peak(const JointModel& joint, const JointState& state) {
   return text;
 }
 
+/// The highest hoop stress at a distance from the rims at the last increment; empty if none is wanted or found.
+std::string highest_near(const formats::JointResult& result, const Units& units) {
+  double highest = 0;
+  std::string text;
+  for (const auto& plate : result.plates) {
+    if (!plate.rims.near || plate.rims.near->peak.rows() == 0) continue;
+    const formats::NearStresses& near = *plate.rims.near;
+    const Index last = near.peak.rows() - 1;
+    for (Index i = 0; i < near.peak.cols(); ++i)
+      if (near.peak(last, i) > highest) {
+        highest = near.peak(last, i);
+        text = fmt::format("{:g} {} from the rims the highest is {:.6g} +- {:.1g} {} at {}:{}, {:.1f} degrees\n",
+                           near.distance, unit(units, 1, 0), highest, near.error(last, i), unit(units, -2, 1),
+                           plate.name, plate.rims.hole[i], near.angle(last, i));
+      }
+  }
+  return text;
+}
+
 /// Column of the summary's table; its unit, if it has one, is printed below the heading.
 struct Column {
   double RimState::*value;
@@ -326,7 +345,7 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
   }
   return text + legend + interference_lines(joint, path, result) +
          stress_tables(joint, path, states, result, all_stresses) + highest_peak(joint, states.back()) +
-         secondary_bending(joint, states.back());
+         highest_near(result, joint.units) + secondary_bending(joint, states.back());
 }
 
 }  // namespace fastjoint::stage3

@@ -58,6 +58,10 @@ class HoopStress {
   /// Angles of the points of TractionWaves, radians, and the hoop stress there.
   [[nodiscard]] const Eigen::VectorXd& angles() const { return angles_; }
   [[nodiscard]] const Eigen::VectorXd& values() const { return values_; }
+  [[nodiscard]] const rim::RimCompliance& sheet() const { return sheet_; }
+  [[nodiscard]] const TractionWaves& tractions() const { return *tractions_; }
+  /// Waves m = 0.. of the sheet's displacements along x and y that are known from the elements, (2, n), length.
+  [[nodiscard]] const Eigen::Matrix2Xcd& displacement_waves() const { return u_; }
 
  private:
   /// Hoop stress by the hoop strain.

@@ -10,6 +10,7 @@
 
 #include "common/count.hpp"
 #include "common/rim/angles.hpp"
+#include "stage3_nonlinear/results/hoop_peak.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -19,11 +20,6 @@ using Eigen::VectorXd;
 
 /// Error if there is only one degree.
 constexpr double unknown = std::numeric_limits<double>::infinity();
-
-/// Half width of the excluded range around a jump of friction, degrees: the point itself and its neighbours.
-constexpr double excluded = 7.5;
-
-double turn(double angle) { return angle - 360 * std::round(angle / 360); }
 
 /// Minimum friction over bearing force of a jump: friction with a peak below 1 % of the bearing stress is ignored, so
 /// that the small component along one axis does not exclude the peak of a force almost along the other. The peak stress
@@ -81,103 +77,6 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
   return opposite > 0.01 * there ? std::vector{direction, direction + 180} : std::vector{direction};
 }
 
-/// Peak of the hoop stress around a rim.
-class PeakSearch {
- public:
-  /// @param jumps Angles at which friction jumps, degrees; points close to them are excluded.
-  PeakSearch(const LoadedRim& rim, const std::vector<double>& jumps) : rim_(rim), jumps_(jumps) {}
-
-  /// Sets the peak, its angle and its error; nothing if all points are excluded.
-  void find(RimState& state) const {
-    const auto tractions = rim_.traction_waves(rim_.degrees[0].tractions);
-    const HoopStress hoop = rim_.hoop(0, rim_.rim.waves, tractions);
-    const auto peak = top(hoop, rim_.kinks);
-    if (!peak) return;
-    state.peak_hoop = peak->value;
-    state.peak_angle = turn(peak->angle / rim::degree);
-    state.peak_error = error(hoop, *peak, tractions);
-    state.against_slip = rim_.against_slip();
-  }
-
- private:
-  struct Peak {
-    double value, angle;  ///< radians
-  };
-
-  /// Largest of all values at the points of HoopStress and at kinks of the tractions; the maximum of the parabola
-  /// through the largest and its neighbours if no kink is near.
-  [[nodiscard]] std::optional<Peak> top(const HoopStress& hoop, const std::vector<double>& kinks) const {
-    const auto &angle = hoop.angles(), &value = hoop.values();
-    const Index n = angle.size();
-    std::optional<Index> best;
-    for (Index i = 0; i < n; ++i)
-      if (is_allowed(angle[i]) && (!best || value[i] > value[*best])) best = i;
-    if (!best) return std::nullopt;
-    Peak peak{value[*best], angle[*best]};
-    const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
-    const bool near_kink =
-        std::ranges::any_of(kinks, [&](double kink) { return std::abs(rim::wrapped(kink - peak.angle)) < 2 * step; });
-    const bool is_top = peak.value >= std::max(before, after);  // false next to an excluded point
-    if (const double curvature = before - 2 * peak.value + after; curvature < 0 && is_top && !near_kink) {
-      const double shift = (before - after) / (2 * curvature);
-      peak = {peak.value - curvature * shift * shift / 2, peak.angle + shift * step};
-    }
-    for (const double kink : kinks)
-      if (is_allowed(kink))
-        if (const double there = hoop.at(kink); there > peak.value) peak = {there, kink};
-    return peak;
-  }
-
-  /// True on the modelled part of the rim, away from jumps of friction.
-  [[nodiscard]] bool is_allowed(double angle) const {
-    const auto& waves = rim_.rim.waves;
-    constexpr double rounding = 1e-9;
-    if (!waves.is_whole() && rim::wrapped(angle, waves.start - rounding) > waves.start + waves.sweep + rounding)
-      return false;
-    return std::ranges::none_of(jumps_,
-                                [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= excluded; });
-  }
-
-  /// Sum of twice the change from the degree below, the extrapolated change by all further orders, from that by the
-  /// last two pairs of orders, and in contact a fraction of the change of the peak by the waves beyond half the order
-  /// (docs/theory.md, section 11.4).
-  [[nodiscard]] double error(const HoopStress& hoop, const Peak& peak,
-                             const std::shared_ptr<const TractionWaves>& tractions) const {
-    const rim::Harmonics& all = rim_.rim.waves;
-    // One wave tells nothing about further ones.
-    if (rim_.degrees.size() < 2 || all.highest < 2 || !std::isfinite(rim_.beyond_half)) return unknown;
-    const auto up_to = [&](int fewer) {
-      rim::Harmonics shape = all;
-      shape.highest = std::max(all.highest - fewer, 1);
-      return rim_.hoop(0, shape, tractions);
-    };
-    const HoopStress without_2 = up_to(2), without_4 = up_to(4);
-    const double by_degree =
-        change(hoop, rim_.hoop(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
-    const double last = change(hoop, without_2, peak.angle), before = change(without_2, without_4, peak.angle);
-    constexpr double fastest = 0.1, slowest = 0.8;  // fall of the changes from one pair of orders to the next
-    const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
-    double by_waves = 0;
-    if (rim_.in_contact)
-      if (const auto other = top(rim_.hoop(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
-        by_waves = std::abs(other->value - peak.value);
-    return 2 * by_degree + last * fall / (1 - fall) + rim_.beyond_half * by_waves;
-  }
-
-  /// Largest difference of two hoop stresses within 45 degrees of an angle.
-  [[nodiscard]] double change(const HoopStress& a, const HoopStress& b, double at) const {
-    constexpr double around = rim::full_turn / 8;
-    double largest = 0;
-    for (Index i = 0; i < a.angles().size(); ++i)
-      if (is_allowed(a.angles()[i]) && std::abs(rim::wrapped(a.angles()[i] - at)) <= around)
-        largest = std::max(largest, std::abs(a.values()[i] - b.values()[i]));
-    return largest;
-  }
-
-  const LoadedRim& rim_;
-  const std::vector<double>& jumps_;
-};
-
 /// Sets the bypass load, its error and the concentrations.
 /// @param forces       Those of all sections of the plate; in a second column those at the degree below, if there is
 /// one.
@@ -227,7 +126,12 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
   const Eigen::Vector2d jumps = (friction.array().abs() > min_jump * bearing.norm()).select(friction, 0);
   state.by_components = !rim.in_contact && jumps[0] != 0 && jumps[1] != 0;
   const auto places = rim.in_contact ? jumps_of_contact(bearing, friction, rim) : jumps_of_sides(jumps);
-  PeakSearch(rim, places).find(state);
+  if (const auto peak = hoop_peak(rim, places)) {
+    state.peak_hoop = peak->value;
+    state.peak_angle = peak->angle;
+    state.peak_error = peak->error;
+    state.against_slip = rim.against_slip();
+  }
   const RimPressure around(rim);
   const double highest = around.pressure.lpNorm<Eigen::Infinity>();
   constexpr double max_fraction = 0.05;  // springs all around have about half on the bearing side, those on it all

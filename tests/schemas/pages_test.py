@@ -187,7 +187,7 @@ def main():
             problems += check(solution_page, solution, labels) + check(matrices_page, matrices, labels)
         (folder / "joint.json").write_text(json.dumps(JOINT))
         result = folder / "joint.h5"
-        must(programs.joint(folder / "joint.json", result, "--case", "pull", "--sensitivities", "--rim-stresses"))
+        must(programs.joint(folder / "joint.json", result, "--case", "pull", "--sensitivities", "--rim-stresses", "--distance", "0.01"))
         problems += check(result_page, result, labels)
         (folder / "study.json").write_text(json.dumps(STUDY))
         study = folder / "study.h5"

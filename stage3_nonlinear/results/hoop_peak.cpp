@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/results/hoop_peak.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "common/rim/angles.hpp"
+#include "stage3_nonlinear/results/near_stress.hpp"
+
+namespace fastjoint::stage3 {
+namespace {
+
+using Eigen::Index;
+
+/// Half width of the excluded range around a jump of friction, degrees: the point itself and its neighbours.
+constexpr double excluded = 7.5;
+
+double turn(double angle) { return angle - 360 * std::round(angle / 360); }
+
+/// Hoop stress on a circle: at equidistant points, and as a function; angles in radians.
+struct Curve {
+  VectorXd angles, values;
+  std::function<double(double)> at;
+};
+
+class PeakSearch {
+ public:
+  PeakSearch(const LoadedRim& rim, const std::vector<double>& jumps, double distance)
+      : rim_(rim), jumps_(jumps), distance_(distance) {}
+
+  [[nodiscard]] std::optional<HoopPeak> find() const {
+    const auto tractions = rim_.traction_waves(rim_.degrees[0].tractions);
+    const Curve hoop = curve(0, rim_.rim.waves, tractions);
+    const auto peak = top(hoop, rim_.kinks);
+    if (!peak) return std::nullopt;
+    return HoopPeak{peak->value, turn(peak->angle / rim::degree), error(hoop, *peak, tractions)};
+  }
+
+ private:
+  struct Peak {
+    double value, angle;  ///< radians
+  };
+
+  /// Hoop stress from the displacements of one degree up to an order.
+  [[nodiscard]] Curve curve(Index degree, const rim::Harmonics& shape,
+                            const std::shared_ptr<const TractionWaves>& tractions) const {
+    const HoopStress on_rim = rim_.hoop(degree, shape, tractions);
+    if (distance_ == 0) return {on_rim.angles(), on_rim.values(), [on_rim](double angle) { return on_rim.at(angle); }};
+    const NearStress near(on_rim, distance_);
+    const auto hoop = [near](double angle) { return near.at(angle)[1]; };
+    return {on_rim.angles(), on_rim.angles().unaryExpr(hoop), hoop};
+  }
+
+  /// Largest of all values at the points and at kinks of the tractions; the maximum of the parabola
+  /// through the largest and its neighbours if no kink is near.
+  [[nodiscard]] std::optional<Peak> top(const Curve& hoop, const std::vector<double>& kinks) const {
+    const auto &angle = hoop.angles, &value = hoop.values;
+    const Index n = angle.size();
+    std::optional<Index> best;
+    for (Index i = 0; i < n; ++i)
+      if (is_allowed(angle[i]) && (!best || value[i] > value[*best])) best = i;
+    if (!best) return std::nullopt;
+    Peak peak{value[*best], angle[*best]};
+    const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
+    const bool near_kink =
+        std::ranges::any_of(kinks, [&](double kink) { return std::abs(rim::wrapped(kink - peak.angle)) < 2 * step; });
+    const bool is_top = peak.value >= std::max(before, after);  // false next to an excluded point
+    if (const double curvature = before - 2 * peak.value + after; curvature < 0 && is_top && !near_kink) {
+      const double shift = (before - after) / (2 * curvature);
+      peak = {peak.value - curvature * shift * shift / 2, peak.angle + shift * step};
+    }
+    for (const double kink : kinks)
+      if (is_allowed(kink))
+        if (const double there = hoop.at(kink); there > peak.value) peak = {there, kink};
+    return peak;
+  }
+
+  /// True on the modelled part of the rim, away from jumps of friction.
+  [[nodiscard]] bool is_allowed(double angle) const {
+    const auto& waves = rim_.rim.waves;
+    constexpr double rounding = 1e-9;
+    if (!waves.is_whole() && rim::wrapped(angle, waves.start - rounding) > waves.start + waves.sweep + rounding)
+      return false;
+    return std::ranges::none_of(jumps_,
+                                [&](double jump) { return std::abs(turn(angle / rim::degree - jump)) <= excluded; });
+  }
+
+  /// Sum of twice the change from the degree below, the extrapolated change by all further orders, from that by the
+  /// last two pairs of orders, and in contact a fraction of the change of the peak by the waves beyond half the order
+  /// (docs/theory.md, section 11.4).
+  [[nodiscard]] double error(const Curve& hoop, const Peak& peak,
+                             const std::shared_ptr<const TractionWaves>& tractions) const {
+    const rim::Harmonics& all = rim_.rim.waves;
+    // One wave tells nothing about further ones.
+    if (rim_.degrees.size() < 2 || all.highest < 2 || !std::isfinite(rim_.beyond_half))
+      return std::numeric_limits<double>::infinity();
+    const auto up_to = [&](int fewer) {
+      rim::Harmonics shape = all;
+      shape.highest = std::max(all.highest - fewer, 1);
+      return curve(0, shape, tractions);
+    };
+    const Curve without_2 = up_to(2), without_4 = up_to(4);
+    const double by_degree = change(hoop, curve(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
+    const double last = change(hoop, without_2, peak.angle), before = change(without_2, without_4, peak.angle);
+    constexpr double fastest = 0.1, slowest = 0.8;  // fall of the changes from one pair of orders to the next
+    const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
+    double by_waves = 0;
+    if (rim_.in_contact)
+      if (const auto other = top(curve(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
+        by_waves = std::abs(other->value - peak.value);
+    return 2 * by_degree + last * fall / (1 - fall) + rim_.beyond_half * by_waves;
+  }
+
+  /// Largest difference of two hoop stresses within 45 degrees of an angle.
+  [[nodiscard]] double change(const Curve& a, const Curve& b, double at) const {
+    constexpr double around = rim::full_turn / 8;
+    double largest = 0;
+    for (Index i = 0; i < a.angles.size(); ++i)
+      if (is_allowed(a.angles[i]) && std::abs(rim::wrapped(a.angles[i] - at)) <= around)
+        largest = std::max(largest, std::abs(a.values[i] - b.values[i]));
+    return largest;
+  }
+
+  const LoadedRim& rim_;
+  const std::vector<double>& jumps_;
+  double distance_;
+};
+
+}  // namespace
+
+std::optional<HoopPeak> hoop_peak(const LoadedRim& rim, const std::vector<double>& jumps, double distance) {
+  return PeakSearch(rim, jumps, distance).find();
+}
+
+}  // namespace fastjoint::stage3
