@@ -73,10 +73,28 @@ struct Reader::Impl {
   }
 
   Dataset open(const std::string& name) const {
+    check_links(name);
     Dataset set(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT));
     if (!set) fail(name, fmt::format("dataset is missing or damaged ({})", last_error()));
     check_own(set, name);
     return set;
+  }
+
+  /// Rejects a path with an external or user-defined link before the library follows it: at its end may be a pipe, at
+  /// which opening waits without end.
+  void check_links(const std::string& name) const {
+    for (auto end = name.find('/');; end = name.find('/', end + 1)) {
+      H5L_info_t link;
+      const bool exists = H5Lget_info(file.get(), name.substr(0, end).c_str(), &link, H5P_DEFAULT) >= 0;
+      if (exists && link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) refuse_foreign(name);
+      if (!exists || end == std::string::npos) return;
+    }
+  }
+
+  [[noreturn]] void refuse_foreign(const std::string& name) const {
+    fail(name,
+         "its values are in another file or dataset (a link, external or virtual storage), expected values in "
+         "this file; read them and write them into it");
   }
 
   /// Rejects a dataset whose values are in other files or datasets. No digest covers those, and a virtual dataset that
@@ -86,9 +104,7 @@ struct Reader::Impl {
     const H5D_layout_t layout = H5Pget_layout(creation.get());
     const bool known = layout == H5D_COMPACT || layout == H5D_CONTIGUOUS || layout == H5D_CHUNKED;
     if (file_of(set.get()) == file_of(file.get()) && known && H5Pget_external_count(creation.get()) == 0) return;
-    fail(name,
-         "its values are in another file or dataset (a link, external or virtual storage), expected values in "
-         "this file; read them and write them into it");
+    refuse_foreign(name);
   }
 
   /// Rejects extents that are too large for the file, before memory is allocated for them.

@@ -15,6 +15,7 @@
 #include <filesystem>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <random>
 
 #include "common/errors.hpp"
@@ -54,13 +55,39 @@ void remove_abandoned(const std::string& target) {
 }
 
 /// Resolves a symbolic link, so that its target is replaced and not the link.
+/// A dangling one has a target too.
 std::string resolved(const std::string& path) {
   std::error_code ignored;
-  return fs::is_symlink(path, ignored) ? fs::weakly_canonical(path, ignored).string() : path;
+  fs::path target = path;
+  constexpr int most_links = 40;  // that of Linux
+  for (int i = 0; i < most_links && fs::is_symlink(target, ignored); ++i) {
+    const fs::path next = fs::read_symlink(target, ignored);
+    target = next.is_absolute() ? next : target.parent_path() / next;
+  }
+  return target.string();
 }
 
 constexpr std::string_view mark = "\nfastjoint xxhash ", earlier_mark = "\nfastjoint digest ";
 constexpr std::size_t seal_size = mark.size() + 16 + 1;
+
+std::uint64_t little_endian(std::string_view bytes) {
+  std::uint64_t value = 0;
+  for (std::size_t i = bytes.size(); i-- > 0;) value = value << 8U | static_cast<unsigned char>(bytes[i]);
+  return value;
+}
+
+/// Where an HDF5 file says that it ends, by its superblock (HDF5 file format specification, section II.A); nullopt for
+/// other files. @param start First bytes of the file.
+std::optional<std::uint64_t> end_of_image(std::string_view start) {
+  constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
+  constexpr std::size_t width = 8, version_at = 8;
+  if (!start.starts_with(signature) || start.size() < 64) return std::nullopt;
+  const int version = start[version_at];
+  const bool is_early = version == 0 || version == 1;
+  if (!is_early && version != 2 && version != 3) return std::nullopt;
+  if (start[is_early ? 13 : 9] != char(width)) return std::nullopt;  // addresses of another size
+  return little_endian(start.substr(version == 0 ? 40 : version == 1 ? 44 : 28, width));
+}
 
 std::ifstream open(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -74,6 +101,11 @@ void check_can_write(const std::string& path) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
     throw FileError(fmt::format("{}: cannot be written: it is not a regular file", path));
+  const auto mode = fs::status(path, ignored).permissions();
+  if (fs::exists(path, ignored) && (mode & fs::perms::owner_write) == fs::perms::none)
+    throw FileError(
+        fmt::format("{}: cannot be written: it is read-only; make it writable, or choose another name", path));
+  if (fs::is_symlink(resolved(path), ignored)) fail(path, ELOOP);
   if (::access(folder_of(resolved(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
@@ -170,6 +202,14 @@ std::string checked_digest(const std::string& path) {
     // A mark at another place shows that bytes were cut off or added.
     if (last.find("\nfastjoint") != last.npos || last.find(" xxhash ") != last.npos)
       throw FileError(fmt::format("{}: is damaged: its digest is not at its end; make it again", path));
+    std::string start(std::min<std::size_t>(size, 64), '\0');
+    in.seekg(0).read(start.data(), static_cast<std::streamsize>(start.size()));
+    // HDF5 cuts off what is beyond its end when it edits a file, so that such bytes were a digest.
+    if (const auto image = end_of_image(start); image && *image < size)
+      throw FileError(
+          fmt::format("{}: is damaged: the {} bytes after the end of its HDF5 data are not their digest; "
+                      "make it again",
+                      path, size - *image));
     return {};
   }
   std::string found = digest(path, n_image);

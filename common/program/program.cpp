@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/program/program.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -79,9 +80,21 @@ void work(const Command& command, const Arguments& arguments, const Body& body, 
   report_times(command, arguments, timings);
 }
 
+/// Leaves out the middle of a text that quotes long input, between characters of UTF-8.
+std::string without_middle(const std::string& text) {
+  constexpr std::size_t half = 1500;
+  if (text.size() <= 3 * half) return text;
+  const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+  std::size_t from = half, to = text.size() - half;
+  while (from > 0 && is_inside(from)) --from;
+  while (to < text.size() && is_inside(to)) ++to;
+  return text.substr(0, from) + " ... " + text.substr(to);
+}
+
 int report(const std::string& program, const char* what, Status status) {
   std::cout.flush();
-  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ") << one_line(what) << "\n";
+  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ")
+            << without_middle(one_line(what)) << "\n";
   return status;
 }
 
@@ -90,20 +103,28 @@ std::string farewell;  // made in advance, since a signal handler may call littl
 /// Removes unfinished files, reports it and ends the program by the default action of the signal.
 void stop(int signal) {
   h5::remove_unfinished();
-  if (::write(STDERR_FILENO, farewell.data(), farewell.size()) >= 0) ::raise(signal);  // restored by SA_RESETHAND
+  if (signal == SIGPIPE || ::write(STDERR_FILENO, farewell.data(), farewell.size()) >= 0)
+    ::raise(signal);  // whose action SA_RESETHAND has restored
   constexpr int status_of_signal = 128;
   ::_exit(status_of_signal + signal);  // needed in the first process of a container, which the signal does not end
 }
 
 void catch_signals(const std::string& program) {
+  ::signal(SIGXFSZ, SIG_IGN);  // a write beyond the limit of file sizes then fails with a reason
   farewell = program + ": error: stopped by a signal; files that it had not finished are as they were before\n";
   struct sigaction action {
   }, before{};
   action.sa_handler = stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND | SA_NODEFER);
-  for (const int signal : {SIGTERM, SIGINT})
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP, SIGQUIT, SIGXCPU, SIGPIPE})
     if (::sigaction(signal, nullptr, &before) == 0 && before.sa_handler != SIG_IGN)  // background jobs ignore it
       ::sigaction(signal, &action, nullptr);
+}
+
+/// Opens /dev/null in place of closed standard streams, whose numbers a file that is written would get otherwise.
+void fill_closed_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0 && ::open("/dev/null", O_RDWR) != stream) std::_Exit(bad_file);
 }
 
 int outcome(const Command& command, int argc, char** argv, const Body& body) {
@@ -180,9 +201,11 @@ std::string one_line(const std::string& text) {
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, FASTJOINT_VERSION); }
 
 void run(const Command& command, int argc, char** argv, const Body& body) {
+  fill_closed_streams();
   linalg::take_better_kernels(argv);
-  const int status = outcome(command, argc, argv, body);
-  std::cout.flush();
+  int status = outcome(command, argc, argv, body);
+  if (!std::cout.flush() && status == done)
+    status = report(command.name, "standard output cannot be written; files are complete", bad_file);
   // _Exit skips the exit handlers of libraries: that of OpenBLAS waits for threads without end if memory is short.
   std::_Exit(status);
 }

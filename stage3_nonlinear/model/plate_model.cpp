@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <limits>
@@ -101,18 +102,34 @@ void check_symmetric(const std::string& file, const char* dataset, const MatrixX
                     file, dataset, row, col, col, row, S(row, col), S(col, row), symmetry_tolerance, largest));
 }
 
-void check_not_negative(const std::string& file, const MatrixXd& S) {
-  if (S.size() == 0) return;
+/// The smallest eigenvalue of a stiffness if it is below zero by more than rounding, else 0.
+double negative_eigenvalue(const MatrixXd& S) {
+  if (S.size() == 0) return 0;
   const double allowed = symmetry_tolerance * S.cwiseAbs().maxCoeff();
   MatrixXd lifted = S;
   lifted.diagonal().array() += allowed;
-  if (matrices::is_positive_definite(lifted)) return;
+  if (matrices::is_positive_definite(lifted)) return 0;
   const double smallest = matrices::symmetric_eigenvalues(S)[0];
-  if (!(smallest >= -allowed))
+  return smallest >= -allowed ? 0 : smallest;
+}
+
+/// Checks the stiffness of the file, and that of the plate with the waves of its rims of contact as unknowns.
+void check_not_negative(const std::string& file, const formats::PlateMatrices& a, const MatrixXd& of_file,
+                        const MatrixXd& S) {
+  const double smallest = negative_eigenvalue(S);
+  if (smallest == 0) return;
+  if (const double own = a.contact.empty() ? smallest : negative_eigenvalue(of_file); own < 0)
     throw FileError(
         fmt::format("{}:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue {:.6g}, expected none "
                     "below zero: the strain energy of a plate is not negative",
-                    file, smallest));
+                    file, own));
+  std::vector<std::string> holes;
+  for (std::size_t i = 0; i < a.contact.size(); ++i)
+    holes.push_back(fmt::format("{} (order {})", a.waves[i].hole, a.waves[i].waves.highest));
+  throw NumericalError(fmt::format(
+      "{}: at this degree the elements do not follow the waves around holes in contact, {}; allowed: a higher "
+      "--p, or a smaller \"waves\" of these holes in the input of stage1_plate",
+      file, fmt::join(holes, ", ")));
 }
 
 MatrixXd stacked(const MatrixXd& discs, const MatrixXd& externals) {
@@ -324,7 +341,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.S = plate.degrees.S.back();
   plate.R = plate.degrees.R.back();
   plate.T = plate.degrees.T.back();
-  check_not_negative(file, plate.S);
+  check_not_negative(file, a, joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]), plate.S);
   plate.friction_hole = a.friction_hole;
   plate.friction_bearing = bearing_sides(a.friction_bearing);
   plate.friction_unit_force = a.friction_unit_force;

@@ -116,7 +116,7 @@ formats::StudyOrigin origin_of(const Study& study, const JointModel& joint, std:
 
 std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& study, bool may_draw, std::ostream& log) {
   if (study.seed) return *study.seed;
-  if (const auto before = StudyBlocks::seed_in(arguments.output)) return std::stoull(*before);
+  if (const auto before = StudyBlocks::seed_in(arguments.output)) return *before;
   if (study.sampling == Sampling::grid) return 0;
   if (!may_draw)
     throw InputError(

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <utility>
 
@@ -41,10 +42,17 @@ StudyBlocks::StudyBlocks(const std::string& output, formats::StudyOrigin origin,
       n_blocks_(int((n_samples + size_ - 1) / size_)),
       n_columns_(n_columns) {}
 
-std::optional<std::string> StudyBlocks::seed_in(const std::string& output) {
+std::optional<std::uint64_t> StudyBlocks::seed_in(const std::string& output) {
   std::error_code none;
-  for (const auto& entry : fs::directory_iterator(folder_of(output), none))
-    if (entry.path().extension() == ".h5") return read_block(entry.path().string()).origin.seed;
+  for (const auto& entry : fs::directory_iterator(folder_of(output), none)) {
+    if (entry.path().extension() != ".h5") continue;
+    const std::string path = entry.path().string(), seed = read_block(path).origin.seed;
+    std::uint64_t value = 0;
+    const auto [end, error] = std::from_chars(seed.data(), seed.data() + seed.size(), value);
+    if (error != std::errc() || end != seed.data() + seed.size())
+      throw FileError(fmt::format("{}: attribute 'seed' is \"{}\", expected a whole number", path, seed));
+    return value;
+  }
   return std::nullopt;
 }
 

@@ -17,7 +17,7 @@ class StudyBlocks {
   StudyBlocks(const std::string& output, formats::StudyOrigin origin, std::uint64_t n_samples, Eigen::Index n_columns);
 
   /// Seed of the existing blocks, if there are any.
-  [[nodiscard]] static std::optional<std::string> seed_in(const std::string& output);
+  [[nodiscard]] static std::optional<std::uint64_t> seed_in(const std::string& output);
 
   [[nodiscard]] int n_blocks() const { return n_blocks_; }
   [[nodiscard]] std::uint64_t first(int block) const { return std::uint64_t(block) * size_; }
