@@ -38,22 +38,6 @@ std::string folder_of(const std::string& path) {
   return parent.empty() ? "." : parent.string();
 }
 
-/// Removes temporary files of killed writers of a target: those that no running process has locked.
-void remove_abandoned(const std::string& target) {
-  const std::string start = fs::path(target).filename().string() + ".";
-  std::error_code unreadable;  // an unreadable folder is left unchanged
-  for (const auto& entry : fs::directory_iterator(folder_of(target), unreadable)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(start) || !name.ends_with(ending) ||
-        name.find_first_not_of("0123456789abcdef", start.size()) != name.size() - ending.size())
-      continue;
-    const int file = ::open(entry.path().c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
-    if (file < 0) continue;
-    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
-    ::close(file);
-  }
-}
-
 /// Resolves a symbolic link, so that its target is replaced and not the link.
 /// A dangling one has a target too.
 std::string resolved(const std::string& path) {
@@ -97,6 +81,21 @@ std::ifstream open(const std::string& path) {
 
 }  // namespace
 
+void remove_abandoned(const std::string& target) {
+  const std::string start = fs::path(target).filename().string() + ".";
+  std::error_code unreadable;  // an unreadable folder is left unchanged
+  for (const auto& entry : fs::directory_iterator(folder_of(target), unreadable)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(start) || !name.ends_with(ending) ||
+        name.find_first_not_of("0123456789abcdef", start.size()) != name.size() - ending.size())
+      continue;
+    const int file = ::open(entry.path().c_str(), O_WRONLY | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC);
+    if (file < 0) continue;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(entry.path().c_str());
+    ::close(file);
+  }
+}
+
 void check_can_write(const std::string& path) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
@@ -114,7 +113,9 @@ bool same_file(const std::string& a, const std::string& b) {
   std::error_code ignored;
   if (fs::equivalent(a, b, ignored)) return true;
   // weakly_canonical leaves a path relative if no part of it exists, hence absolute; full() is empty on failure.
-  const auto full = [&](const std::string& path) { return fs::weakly_canonical(fs::absolute(path, ignored), ignored); };
+  const auto full = [&](const std::string& path) {
+    return fs::weakly_canonical(fs::absolute(resolved(path), ignored), ignored);
+  };
   const fs::path first = full(a);
   return !first.empty() && first == full(b);
 }

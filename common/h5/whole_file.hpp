@@ -36,6 +36,9 @@ void write_whole_file(const std::string& path, std::string_view bytes);
 /// Removes the temporary file that is being written, if any. Async-signal-safe.
 void remove_unfinished() noexcept;
 
+/// Removes temporary files of killed writers of a target: those that no running process has locked.
+void remove_abandoned(const std::string& target);
+
 /// Throws FileError if no file can be written at `path`, to be called before a long computation.
 void check_can_write(const std::string& path);
 

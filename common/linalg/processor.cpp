@@ -55,7 +55,10 @@ void for_each_index(std::size_t n, const std::function<void(std::size_t)>& f) {
   };
   {
     std::vector<std::jthread> workers;
-    for (std::size_t i = 1; i < n_workers; ++i) workers.emplace_back(work);
+    try {
+      for (std::size_t i = 1; i < n_workers; ++i) workers.emplace_back(work);
+    } catch (const std::system_error&) {  // a limit on processes: those that there are do all the work
+    }
     work();
   }
   in_loop = false;

@@ -11,6 +11,7 @@
 #include <limits>
 #include <new>
 #include <string>
+#include <utility>
 
 #include "common/errors.hpp"
 #include "common/linalg/processor.hpp"
@@ -40,10 +41,15 @@ double number(const std::string& path) {
   return in >> value ? value : unlimited;
 }
 
+/// What the limits of this process leave: of its address space, and of what it may write in it (ulimit -v, -d).
 double left_in_address_space() {
-  rlimit limit{};
-  if (getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return unlimited;
-  return static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", "VmSize:", 0);
+  double left = unlimited;
+  for (const auto& [which, used] : {std::pair(RLIMIT_AS, "VmSize:"), std::pair(RLIMIT_DATA, "VmData:")}) {
+    rlimit limit{};
+    if (getrlimit(which, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+      left = std::min(left, static_cast<double>(limit.rlim_cur) - entry("/proc/self/status", used, 0));
+  }
+  return left;
 }
 
 }  // namespace
@@ -98,7 +104,7 @@ void require_memory_to_start() {
   if (block == nullptr || left_in_address_space() < n_threads * of_thread)
     throw InputError(
         fmt::format("starting takes about {} of memory, less than {} are available; allowed: a higher limit (ulimit "
-                    "-v), or a lower OPENBLAS_NUM_THREADS than {}",
+                    "-v, -d), or a lower OPENBLAS_NUM_THREADS than {}",
                     need, need, n_threads));
   linalg::reserve_blas_memory();
 }

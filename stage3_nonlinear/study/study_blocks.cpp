@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/h5/whole_file.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -123,6 +124,8 @@ std::string StudyBlocks::missing() const {
 void StudyBlocks::remove() const {
   std::error_code ignored;
   for (int block = 0; block < n_blocks_; ++block) fs::remove(path(block), ignored);
+  if (fs::remove(folder_, ignored)) return;
+  for (int block = 0; block < n_blocks_; ++block) h5::remove_abandoned(path(block));
   fs::remove(folder_, ignored);
 }
 
