@@ -159,26 +159,32 @@ void read_variable(const Value& value, const json& joint, std::vector<Variable>&
   std::vector<Found> found;
   for (const auto& place : at.is_array() ? at.items(1) : std::vector{at})
     for (auto& each : places_of(place, joint)) found.push_back(std::move(each));
+  std::set<std::string> places;
+  for (const auto& place : found)
+    if (!places.insert(place.pointer).second)
+      at.fail(fmt::format("\"{}\" stands twice", place.pointer), "each place once");
   if (const auto use = value.find("use")) {
     const std::vector<std::string> words{"value", "factor", "offset"};
     variable.use = static_cast<Use>(std::ranges::find(words, use->choice(words)) - words.begin());
   }
   const auto name = value.find("name");
   variable.name = name ? name->text() : found.front().pointer;
-  for (const auto& place : found)
+  const auto add_place = [](const Found& place, Variable& to) {
+    to.places.push_back(place.pointer);
     if (!place.counted.empty())
-      variable.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
-                                             place.is_new ? ", for which the joint itself gives none" : ""));
+      to.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
+                                       place.is_new ? ", for which the joint itself gives none" : ""));
+  };
   read_numbers(value, variable);
   const auto each = value.find("each");
   if (!each || !each->boolean()) {
-    for (auto& place : found) variable.places.push_back(std::move(place.pointer));
+    for (const auto& place : found) add_place(place, variable);
     variables.push_back(std::move(variable));
     return;
   }
   for (const auto& place : found) {
     Variable& own = variables.emplace_back(variable);
-    own.places = {place.pointer};
+    add_place(place, own);
     own.name = !name ? place.pointer : variable.name + " " + (place.words.empty() ? place.pointer : place.words);
   }
 }

@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The kinds of attack. Each class takes the bench, says in `what` what it counts, and `round(random, folder)` does one
 round in an empty folder, raises Fall, and returns how many of them it tried."""
+from damaged_hdf5 import DamagedHdf5
 from damaged_json import DamagedJson
+from killed_studies import KilledStudies
+from kills import Kills
+from scarce import Scarce
+from wild_scenes import WildScenes
 
-KINDS = {"json": DamagedJson}
+KINDS = {"json": DamagedJson, "hdf5": DamagedHdf5, "scenes": WildScenes, "kills": Kills, "scarce": Scarce,
+         "studies": KilledStudies}
