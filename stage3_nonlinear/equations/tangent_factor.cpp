@@ -126,7 +126,7 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
   constexpr int turns = 3, first = 8;
   const double norm = lu_.norm();
   MatrixXd shifted = schur_;
-  shifted.diagonal().array() += shift * std::max(norm, std::numeric_limits<double>::min());
+  shifted.diagonal().array() += shift * (norm > 0 ? norm : 1);  // J is 0 if no fastener of floating sheets bears
   const matrices::Lu lu(std::move(shifted));
   std::mt19937 random(1);
   std::normal_distribution<double> normal;
@@ -155,7 +155,7 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
     break;
   }
   MatrixXd lifted = schur_;
-  lifted.noalias() += std::max(largest, std::numeric_limits<double>::min()) * result.left * result.right.transpose();
+  lifted.noalias() += (largest > 0 ? largest : 1) * result.left * result.right.transpose();
   result.lifted = matrices::Lu(std::move(lifted));
   return result;
 }

@@ -136,9 +136,9 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
   const double highest = around.pressure.lpNorm<Eigen::Infinity>();
   constexpr double max_fraction = 0.05;  // springs all around have about half on the bearing side, those on it all
   if (!rim.in_contact && highest > 0) {
-    state.pulls = bearing.norm() > 1e-9 * largest && around.bearing_fraction(bearing) < max_fraction;
     const auto touched = (around.pressure.array().abs() > 1e-9 * highest).count();
     state.filled = double(touched) > (1 - max_fraction) * double(around.pressure.size());
+    state.pulls = !state.filled && bearing.norm() > 1e-9 * largest && around.bearing_fraction(bearing) < max_fraction;
     if (state.filled) state.pull = std::max(0.0, -around.pressure.minCoeff());
   }
   if (axes.size() == 1) state.across = around.force(1 - axes[0], bearing_area[1 - axes[0]]);
