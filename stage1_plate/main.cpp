@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "common/linalg/processor.hpp"
+#include "common/program/memory.hpp"
 #include "common/program/program.hpp"
 #include "common/program/warning.hpp"
 #include "stage1_plate/run/accuracy.hpp"
@@ -125,7 +126,7 @@ std::optional<stage1::Accuracy> meet_accuracy(const stage1::PlateScene& scene, c
 
 void run(const program::Arguments& arguments, program::Timings& timings) {
   constexpr int max_threads = 256;
-  const int threads = arguments.integer("--threads", 1, max_threads, 1);
+  const int threads = program::threads_that_fit(arguments.integer("--threads", 1, max_threads, 1));
   linalg::set_threads(threads);
   timings.set_threads(threads);
   timings.phase("read");

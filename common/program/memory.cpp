@@ -52,6 +52,9 @@ double left_in_address_space() {
   return left;
 }
 
+/// OpenBLAS reserves this for each thread, and retries without end if it fails, so all of it must be available.
+constexpr double blas_of_thread = 1 << 27;
+
 }  // namespace
 
 double left_in_control_group(const std::string& folder) {
@@ -97,16 +100,20 @@ void require_memory_to_start() {
   constexpr std::size_t start = 16 << 20;
   void* block = ::operator new(start, std::nothrow);
   ::operator delete(block);
-  // OpenBLAS reserves memory for each thread, and retries without end if it fails, so all of it must be available now.
-  constexpr double of_thread = 1 << 27;
   const int n_threads = linalg::blas_threads();
-  const std::string need = bytes_text(start + n_threads * of_thread);
-  if (block == nullptr || left_in_address_space() < n_threads * of_thread)
+  const std::string need = bytes_text(start + n_threads * blas_of_thread);
+  if (block == nullptr || left_in_address_space() < n_threads * blas_of_thread)
     throw InputError(
         fmt::format("starting takes about {} of memory, less than {} are available; allowed: a higher limit (ulimit "
                     "-v, -d), or a lower OPENBLAS_NUM_THREADS than {}",
                     need, need, n_threads));
   linalg::reserve_blas_memory();
+}
+
+int threads_that_fit(int wanted) {
+  constexpr double stack = 1 << 23, arena = 1 << 27;  // each thread has these besides
+  const double left = left_in_address_space() / (blas_of_thread + stack + arena);
+  return left < wanted - 1 ? 1 + static_cast<int>(left) : wanted;
 }
 
 void keep_freed_memory() {

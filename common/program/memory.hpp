@@ -23,6 +23,9 @@ void require_memory(const std::string& what, double need, const std::string& par
 /// Throws InputError if there is too little memory to start: HDF5 crashes if an allocation in it fails.
 void require_memory_to_start();
 
+/// As many of `wanted` threads as the limits of this process have memory for, at least one.
+[[nodiscard]] int threads_that_fit(int wanted);
+
 /// Bytes as text: "63 MB", "1.2 GB".
 [[nodiscard]] std::string bytes_text(double bytes);
 

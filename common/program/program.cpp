@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <charconv>
 #include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <optional>
@@ -141,6 +142,9 @@ int outcome(const Command& command, int argc, char** argv, const Body& body) {
     return report(command.name, e.what(), bad_file);
   } catch (const NumericalError& e) {
     return report(command.name, e.what(), numerical_failure);
+  } catch (const std::filesystem::filesystem_error& e) {
+    const std::string what = fmt::format("{}: cannot be read or written: {}", e.path1().string(), e.code().message());
+    return report(command.name, what.c_str(), bad_file);
   } catch (const std::bad_alloc&) {
     return report(
         command.name,

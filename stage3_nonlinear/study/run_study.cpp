@@ -18,6 +18,7 @@
 #include "common/errors.hpp"
 #include "common/h5/whole_file.hpp"
 #include "common/linalg/processor.hpp"
+#include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/warning.hpp"
 #include "stage3_nonlinear/output/case_warnings.hpp"
@@ -252,7 +253,8 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   timings.phase("read");
   const Slice slice = read_slice(arguments);
   const bool merge_only = arguments.flag("--merge"), one_sample = arguments.flag("--sample");
-  const int threads = arguments.integer("--threads", 1, 1024, int(std::max(1U, std::thread::hardware_concurrency())));
+  const int threads = program::threads_that_fit(
+      arguments.integer("--threads", 1, 1024, int(std::max(1U, std::thread::hardware_concurrency()))));
   linalg::set_threads(threads);
   timings.set_threads(threads);
   const Study study = read_study(arguments);
