@@ -30,7 +30,8 @@ void require_memory_to_start();
 [[nodiscard]] std::string bytes_text(double bytes);
 
 /// Tells the allocator to keep freed memory: returning the pages of large matrices to the system and getting them
-/// zeroed again takes a fifth of a run.
+/// zeroed again takes a fifth of a run. The sheet of 900 holes of `scripts/measure/make_panel 30 30` takes stage 1 30 s
+/// of processor time with this and 36 s without, and 3.5 GB of memory for 3.15 GB; small sheets are the same.
 void keep_freed_memory();
 
 }  // namespace fastjoint::program
