@@ -105,7 +105,12 @@ void check_can_write(const std::string& path) {
     throw FileError(
         fmt::format("{}: cannot be written: it is read-only; make it writable, or choose another name", path));
   if (fs::is_symlink(resolved(path), ignored)) fail(path, ELOOP);
-  if (::access(folder_of(resolved(path)).c_str(), W_OK | X_OK) != 0) fail(path, errno);
+  const std::string folder = folder_of(resolved(path)), name = fs::path(resolved(path)).filename().string();
+  constexpr std::size_t added = 1 + 8 + ending.size();  // by the name of the temporary file
+  if (const long longest = ::pathconf(folder.c_str(), _PC_NAME_MAX);
+      longest > 0 && name.size() + added > std::size_t(longest))
+    fail(path, ENAMETOOLONG);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
 bool same_file(const std::string& a, const std::string& b) {

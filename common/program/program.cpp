@@ -43,6 +43,9 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
     for (const auto& [name, value, help] : command.options)
       if (app.count(name) > 0 && (!value.empty() || app[name]->as<bool>()))
         arguments.options[name] = app[name]->results().back();
+    for (const auto* option : app.get_options())
+      if (option->count() > 0 && option->get_items_expected_max() > 0 && option->results().back().empty())
+        throw InputError(fmt::format("{}: '' is not allowed; allowed: a text that is not empty", option->get_name()));
     return arguments;
   } catch (const CLI::Success& e) {
     app.exit(e, std::cout);

@@ -170,6 +170,25 @@ bool RimProblem::solve_with_friction(const VectorXd& b, State& at) const {
   return false;
 }
 
+/// Solves for coefficients of friction that grow from 0 to that of the rim, each from the solution before.
+bool RimProblem::solve_by_more_friction(const VectorXd& b, VectorXd w, State& at) const {
+  constexpr double least = 1.0 / 512;
+  for (double reached = 0, step = 0.25; reached < 1;) {
+    const double next = std::min(reached + step, 1.0);
+    const RimProblem part = with(contact_.gap(), next * contact_.mu());
+    State there = part.state_with_friction(b, w);
+    if (part.solve_with_friction(b, there)) {
+      w = there.w;
+      reached = next;
+      step *= 2;
+    } else if ((step /= 2) < least) {
+      return false;
+    }
+  }
+  at = state_with_friction(b, w);
+  return solve_with_friction(b, at);
+}
+
 const RimSolution& RimProblem::solve(const VectorXd& c) const {
   if (is_solved_ && last_c_ == c) return last_;
   VectorXd start;
@@ -191,8 +210,9 @@ RimSolution RimProblem::solution(const VectorXd& c, const VectorXd& start) const
   if (contact_.mu() > 0) {
     if (start.size() > 0) at = state_with_friction(b, start);
     if (start.size() == 0 || !solve_with_friction(b, at)) {
-      at = state_with_friction(b, solve_frictionless(b, b).w);
-      result.converged = solve_with_friction(b, at);
+      const VectorXd w = solve_frictionless(b, b).w;
+      at = state_with_friction(b, w);
+      result.converged = solve_with_friction(b, at) || solve_by_more_friction(b, w, at);
     }
     if (at.friction.slips) rhs.rightCols(1) = -waves_->M_tau * at.friction.forces / (area_ * contact_.mu());
     rhs = matrices::Lu(jacobian(at)).solve(std::move(rhs));

@@ -74,6 +74,8 @@ class RimProblem {
   [[nodiscard]] State solve_frictionless(const VectorXd& b, const VectorXd& w) const;
   [[nodiscard]] State state_with_friction(const VectorXd& b, VectorXd w) const;
   [[nodiscard]] bool solve_with_friction(const VectorXd& b, State& at) const;
+  /// @param w Solution without friction. @param at Solution, if there is one.
+  [[nodiscard]] bool solve_by_more_friction(const VectorXd& b, VectorXd w, State& at) const;
   /// Derivative of the residual by w, (n, n), dimensionless.
   [[nodiscard]] MatrixXd jacobian(const State& at) const;
 
