@@ -172,7 +172,7 @@ bool RimProblem::solve_with_friction(const VectorXd& b, State& at) const {
 
 /// Solves for coefficients of friction that grow from 0 to that of the rim, each from the solution before.
 bool RimProblem::solve_by_more_friction(const VectorXd& b, VectorXd w, State& at) const {
-  constexpr double least = 1.0 / 512;
+  constexpr double least = 1.0 / 32;
   for (double reached = 0, step = 0.25; reached < 1;) {
     const double next = std::min(reached + step, 1.0);
     const RimProblem part = with(contact_.gap(), next * contact_.mu());

@@ -5,8 +5,9 @@ from damaged_hdf5 import DamagedHdf5
 from damaged_json import DamagedJson
 from killed_studies import KilledStudies
 from kills import Kills
+from same_answers import SameAnswers
 from scarce import Scarce
 from wild_scenes import WildScenes
 
-KINDS = {"json": DamagedJson, "hdf5": DamagedHdf5, "scenes": WildScenes, "kills": Kills, "scarce": Scarce,
-         "studies": KilledStudies}
+KINDS = {"json": DamagedJson, "hdf5": DamagedHdf5, "scenes": WildScenes, "invariance": SameAnswers, "kills": Kills,
+         "scarce": Scarce, "studies": KilledStudies}
