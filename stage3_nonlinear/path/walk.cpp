@@ -307,11 +307,15 @@ bool Walk::take(const Root& root, double target) {
   const Index planes = equations_.n_plane_rows();
   if (!equations_.rims.empty()) {        // small forces are set to zero if the joint then still balances
     constexpr double max_force = 1e3;    // over the limit of without_rounding
-    constexpr double max_residual = 10;  // over that of a solution
+    constexpr double max_residual = 10;  // over that before, or over rounding
     VectorXd rounded = c;
     rounded.head(planes) = without_rounding(c.head(planes), max_force * scale_);
-    const VectorXd r = equations_.residual(contact_state(equations_, rounded), target);
-    if (is_small(r.lpNorm<Eigen::Infinity>() / max_residual)) c = rounded;
+    const auto imbalance = [&](const VectorXd& at) {
+      return equations_.residual(contact_state(equations_, at), target).lpNorm<Eigen::Infinity>();
+    };
+    constexpr double precision = std::numeric_limits<double>::epsilon();
+    const double before = std::max({imbalance(c), rounding_, precision * scale_});
+    if (imbalance(rounded) <= max_residual * before) c = rounded;
   }
   if (const auto failed = contact_state(equations_, c).failed) {
     if (std::isinf(worst_residual_)) {
