@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <utility>
 #include <vector>
@@ -39,31 +40,65 @@ std::vector<Point> points_of(const PlateMesh& plate, int element, int local_edge
   return points;
 }
 
+/// Things at points, found by a point near them.
+class PointIndex {
+ public:
+  explicit PointIndex(double tolerance) : cell_(4 * tolerance) {}
+
+  void add(const Point& at, std::size_t what) { cells_[cell_of(at)].push_back(what); }
+  /// Everything within the tolerance of a point, and perhaps more around it.
+  [[nodiscard]] std::vector<std::size_t> near(const Point& at) const {
+    std::vector<std::size_t> found;
+    const auto [x, y] = cell_of(at);
+    for (const int i : {-1, 0, 1})
+      for (const int j : {-1, 0, 1})
+        if (const auto its = cells_.find({x + i, y + j}); its != cells_.end())
+          found.insert(found.end(), its->second.begin(), its->second.end());
+    return found;
+  }
+
+ private:
+  using Cell = std::pair<double, double>;
+  [[nodiscard]] Cell cell_of(const Point& at) const { return {std::floor(at.x() / cell_), std::floor(at.y() / cell_)}; }
+
+  double cell_;
+  std::map<Cell, std::vector<std::size_t>> cells_;
+};
+
+/// Extends a piece by another that goes on straight from one of its ends; false if it does not.
+bool goes_on(Piece& a, const Piece& b, double tolerance) {
+  if (a.is_free != b.is_free) return false;
+  for (const bool at_end : {true, false})
+    for (const bool its_start : {true, false}) {
+      const Point &meets = at_end ? a.to : a.from, &other = its_start ? b.from : b.to;
+      if ((meets - other).norm() > tolerance) continue;
+      const Point u = (a.to - a.from).normalized(), v = (b.to - b.from).normalized();
+      if (std::abs(u.x() * v.y() - u.y() * v.x()) > 1e-9) continue;
+      (at_end ? a.to : a.from) = its_start ? b.to : b.from;
+      return true;
+    }
+  return false;
+}
+
 /// Joins pieces that go on straight.
 std::vector<Piece> joined(std::vector<Piece> pieces, double tolerance) {
-  const auto goes_on = [&](Piece& a, const Piece& b) {
-    if (a.is_free != b.is_free) return false;
-    for (const bool at_end : {true, false})
-      for (const bool its_start : {true, false}) {
-        const Point &meets = at_end ? a.to : a.from, &other = its_start ? b.from : b.to;
-        if ((meets - other).norm() > tolerance) continue;
-        const Point u = (a.to - a.from).normalized(), v = (b.to - b.from).normalized();
-        if (std::abs(u.x() * v.y() - u.y() * v.x()) > 1e-9) continue;
-        (at_end ? a.to : a.from) = its_start ? b.to : b.from;
-        return true;
-      }
+  PointIndex ends(tolerance);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    for (const Point& end : {pieces[i].from, pieces[i].to}) ends.add(end, i);
+  std::vector<bool> is_part(pieces.size(), false);  // of another
+  const auto grow = [&](std::size_t i) {
+    for (const Point& end : {pieces[i].from, pieces[i].to})
+      for (const std::size_t k : ends.near(end))
+        if (k != i && !is_part[k] && goes_on(pieces[i], pieces[k], tolerance)) return is_part[k] = true, true;
     return false;
   };
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    for (std::size_t k = i + 1; k < pieces.size();) {
-      if (!goes_on(pieces[i], pieces[k])) {
-        ++k;
-        continue;
-      }
-      pieces.erase(pieces.begin() + std::ptrdiff_t(k));
-      k = i + 1;
-    }
-  return pieces;
+  std::vector<Piece> result;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (is_part[i]) continue;
+    while (grow(i)) continue;
+    result.push_back(pieces[i]);
+  }
+  return result;
 }
 
 }  // namespace
@@ -88,13 +123,13 @@ std::vector<OutlinePiece> outline_of(const PlateScene& scene, const PlateMesh& p
         pieces.push_back({points[i], points[i + 1], !held.contains({element, local})});
     }
   // The faces of a crack lie on each other.
+  const auto middle = [&](std::size_t i) -> Point { return (pieces[i].from + pieces[i].to) / 2; };
+  PointIndex middles(tolerance);
+  for (std::size_t i = 0; i < pieces.size(); ++i) middles.add(middle(i), i);
   std::vector<Piece> outer;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    const Point middle = (pieces[i].from + pieces[i].to) / 2;
-    const bool is_face = std::ranges::any_of(pieces, [&](const Piece& other) {
-      return &other != &pieces[i] && ((other.from + other.to) / 2 - middle).norm() < tolerance;
-    });
-    if (!is_face) outer.push_back(pieces[i]);
+    const auto lies_on = [&](std::size_t k) { return k != i && (middle(k) - middle(i)).norm() < tolerance; };
+    if (std::ranges::none_of(middles.near(middle(i)), lies_on)) outer.push_back(pieces[i]);
   }
   return joined(std::move(outer), tolerance);
 }
