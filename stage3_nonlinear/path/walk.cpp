@@ -36,6 +36,7 @@ bool Walk::is_small(double residual) const {
 }
 
 bool Walk::reach(double target) {
+  guessed_.clear();
   constexpr Index quick = 400;  // up to this number of rows the bound takes less time than a try
   iterations_ = 0;
   if (equations_.n_plane_rows() <= quick) (void)limit(target);
@@ -200,10 +201,11 @@ bool Walk::begin(double target) {
 }
 
 bool Walk::solve_from_guesses(double target) {
-  auto starts = first_guesses(equations_, options_.initial, target);
+  const bool is_new = guessed_.insert(target).second;  // the same guesses would fail as before
+  auto starts = is_new ? first_guesses(equations_, options_.initial, target) : std::vector<VectorXd>();
   starts.insert(here_.load_factor != 0 || !here_.c.isZero(0) ? starts.begin() : starts.end(), here_.c);
   if (const auto place = frictionless_start(starts.front(), target)) starts.insert(starts.begin(), *place);
-  if (may_snap_)  // starts at large coordinates, for a solution that the others do not lead to
+  if (may_snap_ && is_new)  // starts at large coordinates, for a solution that the others do not lead to
     for (const auto& each : first_guesses(equations_, options_.initial, target)) starts.push_back(4 * each);
   return solve_from(starts, target) || (!is_known_beyond_limit(target) && solve_with_lagged_friction(target));
 }

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -96,6 +97,7 @@ class Walk {
   bool may_snap_;        ///< the solution may be one of several
   Place here_;
   int iterations_ = 0;
+  std::set<double> guessed_;  ///< load factors that the first guesses of this increment have been tried at
   std::optional<PathLeft> left_;
   double worst_residual_ = 0;                                      ///< of the best try
   Index worst_row_ = 0;                                            ///< of all unknowns

@@ -3,9 +3,9 @@
 
 attack.py PROGRAMS SECONDS [--seed N] [--only KIND,...] [--rounds N] [--keep FOLDER]
 
-The kinds take turns, each an equal part of the time. Every round has its own seed, from which all its choices come, so
-that `--only KIND --seed N --rounds 1` repeats it. What a fall left is kept in FOLDER/KIND-SEED with its message. Exit
-status 1 if anything fell. Kept inputs under cases/ are run first.
+First all kept cases run; then each other kind has an equal part of the time. Every round has its own seed, from which all
+its choices come, so that `--only KIND --seed N --rounds 1` repeats it. What a fall left is kept in FOLDER/KIND-SEED with
+its message. Exit status 1 if anything fell.
 """
 import argparse
 import random
@@ -31,6 +31,11 @@ def parse():
     return parser.parse_args()
 
 
+def pipes(folder, names):
+    """Those of a folder that are pipes, which cannot be copied."""
+    return [name for name in names if Path(folder, name).is_fifo()]
+
+
 def attack(kind, seed, bench, keep):
     """One round: number of things tried in it, and its fall or None."""
     folder = bench.folder(f"{kind.name}-{seed}")
@@ -39,7 +44,7 @@ def attack(kind, seed, bench, keep):
     except Fall as fall:
         kept = Path(keep) / folder.name
         kept.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copytree(folder, kept, dirs_exist_ok=True, symlinks=True)
+        shutil.copytree(folder, kept, dirs_exist_ok=True, symlinks=True, ignore=pipes)
         (kept / "message.txt").write_text(f"{fall}\n")
         print(f"FALL {kind.name} --seed {seed}: {fall}\n  kept in {kept}", flush=True)
         return 1, fall
@@ -55,12 +60,14 @@ def main():
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(arguments.programs, scratch)
         names = arguments.only.split(",")
+        end = time.monotonic() + arguments.seconds
         for k, name in enumerate(names):
             kind = KINDS[name](bench)
             kind.name = name
-            end = time.monotonic() + arguments.seconds / len(names)
+            its_end = time.monotonic() + max(end - time.monotonic(), 0) / (len(names) - k)
+            wanted = arguments.rounds or (kind.all() if name == "cases" else None)
             tried = rounds = 0
-            while rounds < arguments.rounds if arguments.rounds else time.monotonic() < end:
+            while rounds < wanted if wanted else time.monotonic() < its_end:
                 count, fall = attack(kind, seed + rounds, bench, arguments.keep)
                 tried, rounds, falls = tried + count, rounds + 1, falls + (fall is not None)
             print(f"{name}: {rounds} rounds, {tried} {kind.what}", flush=True)

@@ -4,10 +4,11 @@ round in an empty folder, raises Fall, and returns how many of them it tried."""
 from damaged_hdf5 import DamagedHdf5
 from damaged_json import DamagedJson
 from killed_studies import KilledStudies
+from kept_cases import KeptCases
 from kills import Kills
 from same_answers import SameAnswers
 from scarce import Scarce
 from wild_scenes import WildScenes
 
-KINDS = {"json": DamagedJson, "hdf5": DamagedHdf5, "scenes": WildScenes, "invariance": SameAnswers, "kills": Kills,
-         "scarce": Scarce, "studies": KilledStudies}
+KINDS = {"cases": KeptCases, "json": DamagedJson, "hdf5": DamagedHdf5, "scenes": WildScenes, "invariance": SameAnswers,
+         "kills": Kills, "scarce": Scarce, "studies": KilledStudies}
