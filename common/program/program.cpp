@@ -84,21 +84,10 @@ void work(const Command& command, const Arguments& arguments, const Body& body, 
   report_times(command, arguments, timings);
 }
 
-/// Leaves out the middle of a text that quotes long input, between characters of UTF-8.
-std::string without_middle(const std::string& text) {
-  constexpr std::size_t half = 1500;
-  if (text.size() <= 3 * half) return text;
-  const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
-  std::size_t from = half, to = text.size() - half;
-  while (from > 0 && is_inside(from)) --from;
-  while (to < text.size() && is_inside(to)) ++to;
-  return text.substr(0, from) + " ... " + text.substr(to);
-}
-
 int report(const std::string& program, const char* what, Status status) {
   std::cout.flush();
-  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ")
-            << without_middle(one_line(what)) << "\n";
+  std::cerr << program << ": " << (status == internal_error ? "internal error: " : "error: ") << message_line(what)
+            << "\n";
   return status;
 }
 
@@ -203,6 +192,17 @@ std::string one_line(const std::string& text) {
       line += c;
   }
   return line;
+}
+
+std::string message_line(const std::string& message) {
+  const std::string text = one_line(message);
+  constexpr std::size_t half = 1500;
+  if (text.size() <= 3 * half) return text;
+  const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
+  std::size_t from = half, to = text.size() - half;
+  while (from > 0 && is_inside(from)) --from;
+  while (to < text.size() && is_inside(to)) ++to;
+  return text.substr(0, from) + " ... " + text.substr(to);
 }
 
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, FASTJOINT_VERSION); }

@@ -57,6 +57,9 @@ void check_spare(const char* option, const std::string& path, const std::string&
 /// Escapes line breaks and other control characters, which names in the input may contain, as in JSON.
 [[nodiscard]] std::string one_line(const std::string& text);
 
+/// The same of a message that may quote long input, without the middle of a very long one.
+[[nodiscard]] std::string message_line(const std::string& message);
+
 /// "1 piece", "2 pieces".
 template <class Integer>
 [[nodiscard]] std::string counted(Integer n, const std::string& noun) {

@@ -10,7 +10,7 @@
 namespace fastjoint::program {
 
 void warn(std::ostream& log, const std::string& program, const Warning& warning) {
-  log << fmt::format("{}: warning [{}]: {}\n", program, warning.code, one_line(warning.text));
+  log << fmt::format("{}: warning [{}]: {}\n", program, warning.code, message_line(warning.text));
 }
 
 }  // namespace fastjoint::program

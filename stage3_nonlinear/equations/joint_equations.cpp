@@ -154,11 +154,25 @@ double JointEquations::force_of_clearances() const {
   return force;
 }
 
-double JointEquations::force_of_gaps() const {
+namespace {
+
+/// Largest force of rims by a length of each.
+template <class Length>
+double largest_force(const JointEquations& equations, const Length& length) {
   double force = 0;
-  for (const auto& rim : rims)
-    force = std::max(force, std::max(rim->k(), rim->contact().stiffness()) * std::abs(rim->contact().gap()));
+  for (const auto& rim : equations.rims)
+    force = std::max(force, std::max(rim->k(), rim->contact().stiffness()) * length(rim->contact().gap()));
   return force;
+}
+
+}  // namespace
+
+double JointEquations::force_of_gaps() const {
+  return largest_force(*this, [](double gap) { return std::abs(gap); });
+}
+
+double JointEquations::force_of_interference() const {
+  return largest_force(*this, [](double gap) { return std::max(-gap, 0.0); });
 }
 
 void JointEquations::commit(const VectorXd& c) {

@@ -51,6 +51,8 @@ struct JointEquations {
   /// force.
   [[nodiscard]] double force_of_clearances() const;
   [[nodiscard]] double force_of_gaps() const;
+  /// The same of interference alone, which acts without load, force.
+  [[nodiscard]] double force_of_interference() const;
   /// Largest force that would push the free sheets together, plane by plane, force.
   [[nodiscard]] double force_of_offsets() const;
   /// Derivative of the forces of rigid fasteners by the load factor, (r).

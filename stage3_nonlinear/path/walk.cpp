@@ -15,7 +15,8 @@ namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
   constexpr double of_gaps = 1e-4;  // rounding of their displacements is far below the tolerance times this
   const double load = equations.rigid_forces(load_factor).lpNorm<Eigen::Infinity>();
-  const double scale = std::max(load, (load == 0 ? 1 : of_gaps) * equations.force_of_gaps());
+  const double scale =
+      std::max({load, of_gaps * equations.force_of_gaps(), load == 0 ? equations.force_of_interference() : 0});
   return scale > 0 ? scale : 1;
 }
 
@@ -275,9 +276,16 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
   if (options_.log) options.report = [&](const Root& root) { log_iteration(root, before); };
   Root root = solver(problem, start / scale_, options);
   iterations_ += root.iterations;
-  if (solver == hybridsj_root && root.converged) end_by_newton(problem, root);
+  if (root.converged && (solver == hybridsj_root || is_far_from_balance(root))) end_by_newton(problem, root);
   if (options_.log) *options_.log << fmt::format("    {}\n", text_of(root.ending));
   return root;
+}
+
+bool Walk::is_far_from_balance(const Root& root) const {
+  constexpr double close = 1e-9;
+  const ContactState state = contact_state(equations_, scale_ * root.x);
+  const double largest = state.F.head(equations_.n_plane_rows()).lpNorm<Eigen::Infinity>();
+  return scale_ * root.residual.lpNorm<Eigen::Infinity>() > close * largest;
 }
 
 void Walk::end_by_newton(const RootProblem& problem, Root& root) {

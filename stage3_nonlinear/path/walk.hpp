@@ -70,6 +70,8 @@ class Walk {
   /// Adds one step of Newton's method if it lowers the residual: quasi-Newton updates leave more than rounding even for
   /// a piecewise linear joint.
   static void end_by_newton(const RootProblem& problem, Root& root);
+  /// True if the residual is not small beside the forces of the fasteners, which may be far below those of rigid ones.
+  [[nodiscard]] bool is_far_from_balance(const Root& root) const;
   /// Writes one line to PathOptions::log, with the changes since the iterate before, and replaces that one.
   void log_iteration(const Root& root, std::optional<Root>& before) const;
   [[nodiscard]] bool converged(const Root& root) const {
@@ -107,7 +109,7 @@ class Walk {
 
 /// Reference force of residuals: the largest force of rigid fasteners at a load factor, prescribed displacements
 /// included, but at least a small fraction of JointEquations::force_of_gaps, since the rounding of gaps does not vanish
-/// with the load, and all of it without load; 1 if that is zero.
+/// with the load, and without load the forces of interference; 1 if that is zero.
 [[nodiscard]] double force_scale(const JointEquations& equations, double load_factor);
 
 }  // namespace fastjoint::stage3

@@ -1,0 +1,238 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scene in two guises (guises.py) gives the same answers: S to 1e-8 of its largest entry, or to what its file says that
+rounding may change, and displacements and forces to 1e-6 of the largest.
+"""
+import json
+from collections import Counter
+
+import numpy as np
+
+import any_angle
+import guises
+from bench import Fall
+from chain import Chain, File, Refused, Slow
+from wild_joints import is_contact, random_scene, remembers
+
+SAME_S, SAME_RESULT = 1e-8, 1e-6
+# Warnings with which the solution may be another one in another guise: laws that fall, and friction that holds itself.
+DOUBTFUL = {"several-solutions", "unstable-balance", "self-locking", "limit-load", "rim-sticks"}
+
+
+def _same_mesh(shape, other):
+    return len(shape) == len(other) and np.abs(shape - other).max() <= 1e-9 * shape.max()
+
+
+def _keys(sheet, file):
+    """Names of the displacements that S goes with, externals, then discs."""
+    return [(sheet, "external", name) for name in file["external/id"]] + [
+        (sheet, "disc", hole, axis) for hole, axis in zip(file["disc/hole"], file["disc/direction"])]
+
+
+def _stiffness(file, level):
+    S_ed = file["S_ed"][level]
+    return np.block([[file["S_ee"][level], S_ed], [S_ed.T, file["S_dd"][level]]])
+
+
+def _shape(nodes):
+    """Distances of the nodes of a mesh from their mean, ascending: the same however it is turned, mirrored or numbered."""
+    return np.sort(np.hypot(*(nodes - nodes.mean(axis=0)).T))
+
+
+class Answers:
+    """What the programs say of a scene, in the places of another scene's displacements."""
+
+    def __init__(self, chain, folder, scene):
+        self.sheets, self.result, self.codes = chain.scene(folder, scene)
+        solved = {name: File(folder / f"{name}.h5") for name in scene.plates}
+        self.rounding = {name: float(file["probe/rounding"][0]) for name, file in solved.items()}
+        self.shape = {name: _shape(file["mesh/nodes"]) for name, file in solved.items()}
+
+    def turn(self, guise, original, sheet):
+        """Matrix whose columns are the images of the original's displacements of a sheet among those of this one."""
+        mine = {key: i for name, file in self.sheets.items() for i, key in enumerate(_keys(name, file))}
+        names = _keys(sheet, original.sheets[sheet])
+        images = [guise.image(key) for key in names]
+        own = next(iter(images[0]))[0] if images else sheet
+        Q = np.zeros((len(_keys(own, self.sheets[own])), len(names)))
+        for column, image in enumerate(images):
+            for key, coefficient in image.items():
+                Q[mine[key], column] = coefficient
+        return own, Q
+
+
+def _steps(result):
+    """Rows of the result by (name of case, number in it), and the last row of each case."""
+    rows, last = {}, {}
+    for row, case in enumerate(result["case/of"]):
+        name = result["case/name"][case]
+        rows[name, len([key for key in rows if key[0] == name])] = last[name] = row
+    return rows, last
+
+
+class SameAnswers:
+    def __init__(self, bench):
+        self.chain = Chain(bench)
+        self.tried, self.explained, self.refused = Counter(), Counter(), Counter()
+        self.worst_S, self.worst_result, self.doubtful, self.unlike_end, self.other_mesh = 0.0, 0.0, 0, 0, 0
+
+    @property
+    def what(self):
+        lines = [f"scenes in other guises, S the same to {self.worst_S:.1e} and results to {self.worst_result:.1e}; of "
+                 f"{self.doubtful} scenes the solution is not the only one, {self.unlike_end} ended with status 4 in one guise, "
+                 f"{self.other_mesh} had another mesh"]
+        lines += [f"  {n:5} {name}, in {self.explained[name]} S differs by more than {SAME_S:g} but within its rounding"
+                  for name, n in self.tried.most_common()]
+        return "\n".join(lines + [f"  {n:5} ended with {text}" for text, n in self.refused.most_common()])
+
+    def round(self, random, folder):
+        scene = random_scene(random)
+        choices = [lambda s: guises.in_units(s, random.choice(list(guises.SYSTEMS))), lambda s: guises.renumbered(s, random),
+                   lambda s: guises.moved(s, guises.QUARTER_TURN), lambda s: guises.moved(s, guises.MIRROR)]
+        if any("one_sided" in law for law in scene.joint["laws"].values()):
+            del choices[3]
+        if "cases" in scene.joint:
+            choices.append(lambda s: guises.reordered_cases(s, random))
+        if _is_odd(scene):
+            choices.append(guises.reversed_loads)
+        if _has_no_past(scene):
+            choices.append(guises.halved_increments)
+        pairs = any_angle.loads_in_pairs(scene)
+        if pairs and random.random() < 0.8:
+            scene, choices = pairs, [lambda s: any_angle.turned(s, random.uniform(-180, 180))]
+        try:
+            original = Answers(self.chain, folder / "original", scene)
+        except Refused as refused:
+            self.refused[str(refused)[:80]] += 1
+            return 0
+        except Slow:
+            self.refused["no end within a minute"] += 1
+            return 0
+        if random.random() < 0.2:
+            return self.all_units(scene, original, folder)
+        chosen = random.sample(choices, min(3, len(choices)))
+        for k, make in enumerate(chosen):
+            self.compare(make(scene), original, folder / f"guise{k}")
+        return len(chosen)
+
+    def all_units(self, scene, original, folder):
+        """The scene in all systems of units."""
+        for system in guises.SYSTEMS:
+            self.compare(guises.in_units(scene, system), original, folder / system.replace("/", "-"))
+        return len(guises.SYSTEMS)
+
+    def compare(self, guise, original, folder):
+        folder.mkdir(exist_ok=True)
+        (folder / "guise.txt").write_text(guise.name + "\n")
+        kind = "turned by any angle" if guise.name.startswith("turned by") and "90 " not in guise.name else guise.name
+        self.tried[kind] += 1
+        try:
+            answers = Answers(self.chain, folder, guise.scene)
+        except Refused as refused:
+            if refused.status != 4:
+                raise Fall(f"{guise.name}: refused, but not the original: {refused}") from refused
+            self.unlike_end += 1
+            self.refused[f"{kind}: {refused}"[:110]] += 1
+            return
+        except Slow:
+            self.refused[f"{kind}: no end within a minute"] += 1
+            return
+        turns = {name: answers.turn(guise, original, name) for name in original.sheets}
+        if not all(_same_mesh(original.shape[name], answers.shape[own] / guise.length) for name, (own, _) in turns.items()):
+            self.other_mesh += 1  # where rays of two holes meet a common side, the mesher takes those of the first
+            return
+        for name in original.sheets:
+            self._compare_stiffness(guise, original, answers, name, turns[name], kind)
+        if (set(answers.codes) | set(original.codes)) & DOUBTFUL:
+            self.doubtful += 1
+            return
+        self._compare_results(guise, original, answers, turns)
+
+    def _compare_stiffness(self, guise, original, answers, name, turn, kind):
+        own, Q = turn
+        factor = guise.force / guise.length
+        rounding = original.rounding[name] + answers.rounding[own] / factor
+        for level in range(len(original.sheets[name]["p"])):
+            S = _stiffness(original.sheets[name], level)
+            other = Q.T @ _stiffness(answers.sheets[own], level) @ Q / factor
+            largest = np.abs(S).max(initial=0)
+            difference = np.abs(other - S).max(initial=0)
+            if difference > max(SAME_S * largest, rounding):
+                p = original.sheets[name]["p"][level]
+                raise Fall(f"{guise.name}: S of {name} at p = {p} differs by {difference / largest:.2e} of its largest entry; "
+                           f"rounding may be {rounding / largest:.2e}")
+            if difference > SAME_S * largest:
+                self.explained[kind] += 1
+            elif largest:
+                self.worst_S = max(self.worst_S, difference / largest)
+
+    def _compare_results(self, guise, original, answers, turns):
+        (mine, my_last), (other, other_last) = _steps(original.result), _steps(answers.result)
+        factors = original.result["load_factor"], answers.result["load_factor"]
+        ends_only = mine.keys() != other.keys() or guise.name == "increments halved" or any(
+            abs(factors[0][mine[k]] - factors[1][other[k]]) > 1e-9 for k in mine)  # events are found to 1e-6 or so
+        pairs = [(my_last[name], other_last[name]) for name in my_last] if ends_only else [(mine[k], other[k]) for k in mine]
+        free = "free-within-gaps" in set(original.codes) | set(answers.codes)
+        for a, b in pairs:
+            self._compare_step(guise, original, answers, turns, a, b, free)
+
+    def _compare_step(self, guise, original, answers, turns, a, b, free):
+        factors = {"force": guise.force * guise.sign, "length": guise.length * guise.sign}
+        kinds = [("forces", "force", ("Pe",), ("disc/bearing", "disc/friction"))]
+        kinds += [] if free else [("displacements", "length", ("De",), ("D",))]
+        for what, unit, at_externals, at_discs in kinds:
+            values, others = [], []
+            for name, (own, Q) in turns.items():
+                known = what == "forces" or _is_known(original, name, a)
+                values.append(_vector(original.result, name, at_externals, at_discs, a) * known)
+                others.append(Q.T @ _vector(answers.result, own, at_externals, at_discs, b) / factors[unit] * known)
+            x, y = np.concatenate(values), np.concatenate(others)
+            whole = np.abs(np.concatenate([_vector(original.result, name, at_externals, at_discs, slice(None)).ravel()
+                                           for name in turns])).max(initial=0)
+            applied = max(np.abs(original.result[f"plates/{name}/traction/force"]).max(initial=0) for name in turns)
+            least = 1e-4 * max(whole, applied) if what == "forces" else 1e-4 * whole
+            scale = max(np.abs(x).max(initial=0), least, _rounding_of_forces(original) if what == "forces" else 0) or 1.0
+            ratio = np.abs(x - y).max(initial=0) / scale
+            if not ratio <= SAME_RESULT:
+                raise Fall(f"{guise.name}: {what} of increment {a} differ by {ratio:.2e} of the largest, {scale:.3g}: "
+                           f"{json.dumps([float(v) for v in x])[:300]} and {json.dumps([float(v) for v in y])[:300]}")
+            self.worst_result = max(self.worst_result, ratio)
+
+
+def _rounding_of_forces(original):
+    """Forces below which nothing is known: 1e-8 of stiffnesses times displacements, of which 1e-6 is told apart."""
+    largest = 0.0
+    for name, file in original.sheets.items():
+        moved = [np.abs(original.result[f"plates/{name}/{path}"]).max(initial=0) for path in ("D", "De")]
+        largest = max(largest, np.abs(_stiffness(file, -1)).max(initial=0) * max(moved))
+    return 1e-8 * largest
+
+
+def _is_known(original, name, step):
+    """1 for displacements of externals and of discs that a force holds in place, else 0: a fastener without force lies
+    anywhere within its gaps."""
+    result, of = original.result, f"plates/{name}/"
+    forces = np.abs(result[of + "disc/bearing"][step]) + np.abs(result[of + "disc/friction"][step])
+    every = max(np.abs(result[f"plates/{other}/disc/bearing"]).max(initial=0) for other in original.sheets)
+    holes = original.sheets[name]["disc/hole"]
+    of_hole = {hole: max(f for f, other in zip(forces, holes) if other == hole) for hole in holes}
+    held = [of_hole[hole] > 1e-6 * every for hole in holes]
+    return np.concatenate([np.ones(len(result[of + "De"][step])), np.array(held, float)])
+
+
+def _vector(result, name, at_externals, at_discs, step):
+    """Sums of the datasets of externals, then of discs, at one increment (or several: the last axis)."""
+    of = f"plates/{name}/"
+    parts = [sum(result[of + path][step] for path in paths) for paths in (at_externals, at_discs)]
+    return np.concatenate(parts, axis=-1)
+
+
+def _is_odd(scene):
+    """Whether reversed loads reverse all answers: nothing that bears one way, no friction, no state without loads."""
+    text = json.dumps(scene.joint)
+    plain = not any(word in text for word in ("one_sided", "friction", "temperature", "offset", ":B"))
+    return plain and not any(is_contact(hole) for hole in scene.holes().values())
+
+
+def _has_no_past(scene):
+    """Whether the end does not depend on the way."""
+    return "friction" not in json.dumps(scene.joint) and not any(remembers(law) for law in scene.joint["laws"].values())
