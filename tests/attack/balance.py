@@ -287,8 +287,9 @@ def _check_law(text, law, free, result, step, plane):
         n = law.get("n", 1)
         wanted = np.sign(delta) * law.get("k", law.get("A")) * past ** n
         slope = abs(wanted) * n / past if past > 0 else 0.0
-        if n < 1:  # steep where it begins, so that rounding of delta changes F much
+        if n < 1 and delta:  # steep where it begins, so that rounding of delta changes F much
             scale_of_delta = abs(delta) + free + law.get("delta0", 0.0)
             slope = max(slope, law["A"] * (past + 1e-9 * scale_of_delta) ** n / (past + 1e-9 * scale_of_delta))
     scale = max(np.abs(result["F"][step]).max(), abs(wanted))
-    off(f"plane {plane}, increment {step}: F is not its law {text}", [F], wanted, scale, 1e-12 * slope * abs(delta) + 1e-300)
+    small = 1e-13 * law.get("k", 0.0)  # forces that are set to zero as rounding
+    off(f"plane {plane}, increment {step}: F is not its law {text}", [F], wanted, scale, 1e-12 * slope * abs(delta) + small + 1e-300)
