@@ -100,7 +100,7 @@ void border_datasets(File& file, AnyBorder& a, const Units& units, const std::st
 }
 
 template <class File, class Waves>
-void wave_datasets(File& file, Waves& a, const Units& units) {
+void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& units) {
   using h5::Column;
   const auto column = [&](const char* name, auto member, const std::string& unit, const char* meaning,
                           const h5::Allowed& allowed) {
@@ -109,6 +109,10 @@ void wave_datasets(File& file, Waves& a, const Units& units) {
   file("wave/hole", Column{a, &WaveRim::hole}, {h5::any}, "1",
        "holes around which the elements carry waves: those of contact, whose waves are also loads, then others",
        h5::or_else(""));
+  if constexpr (File::reads)
+    if (std::ssize(a) < n_contact)
+      throw FileError(fmt::format("{}:wave/hole: has {} holes, expected at least the {} of pressure/hole", file.path(),
+                                  a.size(), n_contact));
   column(
       "wave/order", [](auto& rim) -> auto& { return rim.waves.highest; }, "1",
       "number of waves around a whole circle of the shortest wave that the elements carry",
@@ -171,8 +175,9 @@ template void place_datasets(h5::Writer& file, const Places& a, const Units& uni
 template void place_datasets(h5::Reader& file, Places& a, const Units& units, const UnitCases& cases);
 template void border_datasets(h5::Writer& file, const Border& a, const Units& units, const std::string& group);
 template void border_datasets(h5::Reader& file, Border& a, const Units& units, const std::string& group);
-template void wave_datasets(h5::Writer& file, const std::vector<WaveRim>& a, const Units& units);
-template void wave_datasets(h5::Reader& file, std::vector<WaveRim>& a, const Units& units);
+template void wave_datasets(h5::Writer& file, const std::vector<WaveRim>& a, Eigen::Index n_contact,
+                            const Units& units);
+template void wave_datasets(h5::Reader& file, std::vector<WaveRim>& a, Eigen::Index n_contact, const Units& units);
 
 h5::Allowed traction_sides() {
   auto names = side_names;

@@ -134,9 +134,9 @@ void space(File& file, AnySpace& a);
 template <class File, class Contact>
 void contact_datasets(File& file, Contact& a, const Units& units, const std::string& group = "");
 
-/// The datasets of UnitCases::waves.
+/// The datasets of UnitCases::waves. @param n_contact Number of rims of contact, which come first among them.
 template <class File, class Waves>
-void wave_datasets(File& file, Waves& a, const Units& units);
+void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& units);
 
 /// The datasets of a Border, in a group (its name ends with "/") or in the root.
 template <class File, class AnyBorder>

@@ -42,7 +42,7 @@ void name_datasets(File& file, Matrices& a) {
   file("traction/hole", a.traction_hole, {a.n_tractions()}, "1",
        "open hole that each traction presses on, empty for an edge", or_else(""));
   contact_datasets(file, a.contact, a.header.units);
-  wave_datasets(file, a.waves, a.header.units);
+  wave_datasets(file, a.waves, std::ssize(a.contact), a.header.units);
   border_datasets(file, a.border, a.header.units);
   file("friction/hole", a.friction_hole, {any}, "1", "hole of each friction case", or_else(""));
   file("friction/bearing", a.friction_bearing, {a.n_friction_cases()}, "1",

@@ -89,7 +89,7 @@ void hole_datasets(File& file, Solution& a, const std::string& length) {
   file("hole/arc", Column{arcs, [](auto& arc) { return std::tie(arc.item.from, arc.item.to); }}, {std::ssize(arcs), 2},
        "rad", "start and end of each arc on which springs act, counter-clockwise from x");
   contact_datasets(file, a.contact, a.header.units);
-  wave_datasets(file, a.waves, a.header.units);
+  wave_datasets(file, a.waves, std::ssize(a.contact), a.header.units);
   border_datasets(file, a.border, a.header.units);
   if constexpr (File::reads)
     for (const auto& [hole, range] : arcs) a.hole_spring[hole].arcs.push_back(range);

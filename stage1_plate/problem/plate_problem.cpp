@@ -206,7 +206,7 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
 }  // namespace
 
 EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge) {
-  EdgeMoments all{};
+  EdgeMoments all;
   const auto sum_over = [&](const auto& add) {
     for (const auto& side : plate.sets.at(edge)) {
       const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, 2);

@@ -28,9 +28,9 @@ struct TractionCase {
 
 /// An edge, weighted with its thickness.
 struct EdgeMoments {
-  double area;               ///< length^2
-  Eigen::Vector2d centroid;  ///< (2)
-  double arm;                ///< radius of gyration about the centroid, length
+  double area = 0;                                     ///< length^2
+  Eigen::Vector2d centroid = Eigen::Vector2d::Zero();  ///< (2)
+  double arm = 0;                                      ///< radius of gyration about the centroid, length
 };
 [[nodiscard]] EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge);
 

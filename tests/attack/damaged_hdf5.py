@@ -73,7 +73,7 @@ class DamagedHdf5:
         try:
             outcome = self.bench.run(*step.command(), cwd=folder, limits=limits(self.bench), longest=20 if seal else 5)
         except Fall as fall:
-            if not seal and str(fall).startswith(("ended by", "hang")) and falls_in_library(self.bench, step.command(), folder):
+            if not seal and self._is_of_library(str(fall), folder, step):
                 self.counts["library crashes"] += 1
                 return None
             raise
@@ -81,6 +81,13 @@ class DamagedHdf5:
         state.check(outcome, parts)
         self.counts["refused" if outcome.status else "accepted"] += 1
         return outcome
+
+    def _is_of_library(self, text, folder, step):
+        """Whether a fall at damaged bytes without a seal is the HDF5 library's: memory that it takes for a damaged text, a
+        heap that it spoils, which shows later, or a crash or endless loop within it (docs/limits.md)."""
+        spoils_heap = any(word in text for word in ("free():", "malloc():", "corrupted ", "double free"))
+        return (text.startswith("memory:") or "SIGABRT" in text and spoils_heap
+                or text.startswith(("ended by", "hang")) and falls_in_library(self.bench, step.command(), folder))
 
     def _must_agree(self, folder, scenes, step, why):
         if not same_numbers(folder / step.output, scenes.folder / step.output):
@@ -121,9 +128,9 @@ class DamagedHdf5:
         except (ValueError, TypeError, OSError, KeyError, RuntimeError, IndexError, OverflowError, MemoryError, AttributeError):
             return 0
         outcome = self._run(random, folder, step, target, seal=True)
-        if harmless and outcome.status != 0:
+        if harmless and outcome.status != 0 and "/digest: " not in outcome.stderr:  # a joint may name the digest that it wants
             raise Fall(f"an edit that changes no number is refused: {outcome.stderr[-500:]}")
-        if harmless:
+        if harmless and outcome.status == 0:
             self._must_agree(folder, scenes, step, "an edit that changes no number")
         return 1
 

@@ -118,7 +118,10 @@ def falls_in_library(bench, words, folder):
     stop = "python import os, signal, threading; threading.Timer(3, lambda: [os.kill(i.pid, signal.SIGINT) " \
            "for i in gdb.inferiors() if i.pid]).start()"
     gdb = ["gdb", "-batch", "-nx", "-ex", stop, "-ex", "run", "-ex", "bt 60", "--args"]
-    run = subprocess.run([*gdb, bench.programs / words[0], *words[1:]], cwd=folder, env=bench.environment, timeout=120,
-                         stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    try:
+        run = subprocess.run([*gdb, bench.programs / words[0], *words[1:]], cwd=folder, env=bench.environment, timeout=120,
+                             stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
+    except subprocess.TimeoutExpired:
+        return False
     frames = [line for line in run.stdout.splitlines() if line.startswith("#")]
     return "received signal" in run.stdout and any(re.search(r"\bH5[A-Z]\w*|libhdf5", line) for line in frames)
