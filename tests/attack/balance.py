@@ -228,7 +228,7 @@ class Balance:
         result, axes = self.result, [AXES[d] for d in self.result["direction"]]
         places = self._displacements(step)
         size = max(np.abs(result[f"plates/{sheet.name}/D"]).max(initial=0) for sheet in self.sheets)
-        size = max(size, 1e-12 * max(sheet.file["rim/radius"].max(initial=0) if "rim/radius" in sheet.file else 0 for sheet in self.sheets))
+        size = max(size, 1e-5 * max(sheet.file["rim/radius"].max(initial=0) if "rim/radius" in sheet.file else 0 for sheet in self.sheets))
         for plane, (first, second) in enumerate(zip(result["fastener/first"], result["fastener/second"])):
             a, b = places[first][axes], places[second][axes] if second != "ground" else np.zeros(len(axes))
             off(f"plane {plane}, increment {step}: delta is not that of its discs", result["delta_vector"][step, plane],
