@@ -113,7 +113,7 @@ void require_memory_to_start() {
 int threads_that_fit(int wanted) {
   constexpr double stack = 1 << 23, arena = 1 << 27;  // each thread has these besides
   const double left = left_in_address_space() / (blas_of_thread + stack + arena);
-  return left < wanted - 1 ? 1 + static_cast<int>(left) : wanted;
+  return left < wanted - 1 ? 1 + static_cast<int>(std::max(left, 0.0)) : wanted;
 }
 
 void keep_freed_memory() {
