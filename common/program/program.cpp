@@ -195,7 +195,7 @@ std::string one_line(const std::string& text) {
 }
 
 std::string message_line(const std::string& message) {
-  const std::string text = one_line(message);
+  std::string text = one_line(message);
   constexpr std::size_t half = 1500;
   if (text.size() <= 3 * half) return text;
   const auto is_inside = [&](std::size_t at) { return (static_cast<unsigned char>(text[at]) & 0xC0U) == 0x80U; };
