@@ -155,7 +155,9 @@ struct Reader::Impl {
     std::vector<int> values(n);
     const Attribute attribute(H5Aopen(file.get(), name, H5P_DEFAULT));
     const Space space(H5Aget_space(attribute.get()));
-    const bool is_valid = attribute && H5Sget_simple_extent_npoints(space.get()) == n &&
+    const Type type(H5Aget_type(attribute.get()));
+    const bool is_valid = attribute && H5Tget_class(type.get()) == H5T_INTEGER &&
+                          H5Sget_simple_extent_npoints(space.get()) == n &&
                           H5Aread(attribute.get(), H5T_NATIVE_INT, values.data()) >= 0;
     return is_valid ? values : std::vector<int>();
   }

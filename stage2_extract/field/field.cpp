@@ -133,7 +133,7 @@ int field_degree(const PlateSolution& plate, const std::string& file, const Fiel
                  const FieldState& state) {
   const int highest = plate.p[plate.p.size() - 1];
   const int p = request.p != 0 ? request.p : state.p != 0 ? state.p : highest;
-  if (p > highest)
+  if (p < 1 || p > highest)
     throw InputError(fmt::format("--p: {} is {}not allowed; {} has unknowns of the degrees 1 to {}", p,
                                  request.p != 0 ? "" : "the degree of the joint and ", file, highest));
   return p;
