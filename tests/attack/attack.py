@@ -44,7 +44,10 @@ def attack(kind, seed, bench, keep):
     except Fall as fall:
         kept = Path(keep) / folder.name
         kept.parent.mkdir(parents=True, exist_ok=True)
-        shutil.copytree(folder, kept, dirs_exist_ok=True, symlinks=True, ignore=pipes)
+        try:
+            shutil.copytree(folder, kept, dirs_exist_ok=True, symlinks=True, ignore=pipes)
+        except shutil.Error:  # names too long, folders without rights: what could be copied is there
+            pass
         (kept / "message.txt").write_text(f"{fall}\n")
         print(f"FALL {kind.name} --seed {seed}: {fall}\n  kept in {kept}", flush=True)
         return 1, fall
