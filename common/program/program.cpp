@@ -24,6 +24,10 @@ namespace {
 
 enum Status { done = 0, internal_error = 1, invalid_input = 2, bad_file = 3, numerical_failure = 4 };
 
+void require_path(const std::string& option, const std::string& path) {
+  if (path.empty()) throw InputError(fmt::format("{}: '' is not allowed; allowed: a path", option));
+}
+
 /// Empty after --help or --version.
 std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
   Arguments arguments;
@@ -43,9 +47,9 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
     for (const auto& [name, value, help] : command.options)
       if (app.count(name) > 0 && (!value.empty() || app[name]->as<bool>()))
         arguments.options[name] = app[name]->results().back();
-    for (const auto* option : app.get_options())
-      if (option->count() > 0 && option->get_items_expected_max() > 0 && option->results().back().empty())
-        throw InputError(fmt::format("{}: '' is not allowed; allowed: a text that is not empty", option->get_name()));
+    for (const auto& [name, value, help] : command.options)
+      if (value == "FILE" && app.count(name) > 0) require_path(name, app[name]->results().back());
+    if (app.count("--timings") > 0) require_path("--timings", arguments.timings);
     return arguments;
   } catch (const CLI::Success& e) {
     app.exit(e, std::cout);
