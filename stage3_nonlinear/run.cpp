@@ -24,7 +24,6 @@
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
-#include "stage3_nonlinear/results/near_peaks.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
 
 namespace fastjoint::stage3 {

@@ -69,6 +69,9 @@ struct MoreStresses {
                                                            const std::vector<JointState>& states,
                                                            const std::vector<CrackErrors>& errors);
 
+/// Warning about the holes around which the sheet ends, or another hole begins, before a distance.
+[[nodiscard]] std::vector<program::Warning> distance_warnings(const JointModel& joint, double distance);
+
 /// Message for a path with a failure: why and where it ended, and what to check.
 /// @param output File with the increments before.
 [[nodiscard]] std::string failure_message(const JointScene& scene, const CaseScene& its, const JointModel& joint,

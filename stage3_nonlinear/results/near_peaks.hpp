@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "common/formats/joint_result.hpp"
-#include "common/program/warning.hpp"
 #include "stage3_nonlinear/model/joint_model.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
 
@@ -19,8 +18,5 @@ namespace fastjoint::stage3 {
 /// @param around Points of which the stresses are wanted; null for the peaks alone.
 [[nodiscard]] formats::NearStresses near_stresses(const PlateModel& plate, const std::vector<JointState>& states,
                                                   Index at, double distance, const formats::RimStresses* around);
-
-/// Warning about the holes around which the sheet ends, or another hole begins, before a distance.
-[[nodiscard]] std::vector<program::Warning> distance_warnings(const JointModel& joint, double distance);
 
 }  // namespace fastjoint::stage3
