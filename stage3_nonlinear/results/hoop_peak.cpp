@@ -58,12 +58,19 @@ class PeakSearch {
   [[nodiscard]] std::optional<Peak> top(const Curve& hoop, const std::vector<double>& kinks) const {
     const auto &angle = hoop.angles, &value = hoop.values;
     const Index n = angle.size();
-    constexpr double equal =
-        1e-9;  // of two peaks on either side of a line of symmetry the last is taken on any machine
     std::optional<Index> best;
     for (Index i = 0; i < n; ++i)
-      if (is_allowed(angle[i]) && (!best || value[i] > value[*best] - equal * std::abs(value[*best]))) best = i;
+      if (is_allowed(angle[i]) && (!best || value[i] > value[*best])) best = i;
     if (!best) return std::nullopt;
+    // Of equal peaks, such as those on either side of a line of symmetry, the last is taken on any machine.
+    constexpr double equal = 1e-9;
+    constexpr Index apart = 3;
+    for (Index i = n - 1; i > *best + apart; --i)
+      if (is_allowed(angle[i]) && value[i] >= (1 - equal) * value[*best] && *best + n - i > apart &&
+          value[i] >= value[i - 1] && value[i] >= value[(i + 1) % n]) {
+        best = i;
+        break;
+      }
     Peak peak{value[*best], angle[*best]};
     const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
     const bool near_kink =
