@@ -60,8 +60,8 @@ std::uint64_t little_endian(std::string_view bytes) {
   return value;
 }
 
-/// Where an HDF5 file says that it ends, by its superblock (HDF5 file format specification, section II.A); nullopt for
-/// other files. @param start First bytes of the file.
+/// Returns where an HDF5 file says that it ends, by its superblock (HDF5 file format specification, section II.A);
+/// nullopt for other files. @param start First bytes of the file.
 std::optional<std::uint64_t> end_of_image(std::string_view start) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   constexpr std::size_t width = 8, version_at = 8;

@@ -23,7 +23,7 @@ void require_memory(const std::string& what, double need, const std::string& par
 /// Throws InputError if there is too little memory to start: HDF5 crashes if an allocation in it fails.
 void require_memory_to_start();
 
-/// As many of `wanted` threads as the limits of this process have memory for, at least one.
+/// Number of threads, at most `wanted` and at least one, for which the limits of this process have memory.
 [[nodiscard]] int threads_that_fit(int wanted);
 
 /// Bytes as text: "63 MB", "1.2 GB".

@@ -62,7 +62,8 @@ class PeakSearch {
     for (Index i = 0; i < n; ++i)
       if (is_allowed(angle[i]) && (!best || value[i] > value[*best])) best = i;
     if (!best) return std::nullopt;
-    // Of equal peaks, such as those on either side of a line of symmetry, the last is taken on any machine.
+    // The last of equal peaks is taken, such as those on either side of a line of symmetry, so that rounding on another
+    // machine does not choose.
     constexpr double equal = 1e-9;
     constexpr Index apart = 3;
     for (Index i = n - 1; i > *best + apart; --i)
