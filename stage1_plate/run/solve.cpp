@@ -192,9 +192,9 @@ std::string what_is_extreme(const formats::PlateSolution& a) {
   for (const auto& D : a.elasticity)
     softest = std::min(softest, D.diagonal().minCoeff()), stiffest = std::max(stiffest, D.diagonal().maxCoeff());
   return fmt::format(
-      "the most slender element, {}, is {:.3g} times as long as it is short, moduli are {:.3g} to {:.3g}; allowed: "
-      "more "
-      "even cells, supports or springs that hold the sheet well, nu further from 0.5 in plane strain, or a lower p",
+      "the most slender element, {}, is {:.3g} times as long as it is short, moduli are {:.3g} to {:.3g}; "
+      "allowed: more even cells, supports or springs that hold the sheet well, nu further from 0.5 in plane strain, or "
+      "a lower p",
       at, slender, softest, stiffest);
 }
 

@@ -118,7 +118,7 @@ void check_not_negative(const std::string& file, const formats::PlateMatrices& a
                         const MatrixXd& S) {
   const double smallest = negative_eigenvalue(S);
   if (smallest == 0) return;
-  if (const double own = a.contact.empty() ? smallest : negative_eigenvalue(of_file); own < 0)
+  if (const double own = a.contact.empty() ? smallest : negative_eigenvalue(of_file); own != 0)
     throw FileError(
         fmt::format("{}:S_dd: the stiffness matrix [S_dd S_de; S_ed S_ee] has the eigenvalue {:.6g}, expected none "
                     "below zero: the strain energy of a plate is not negative",

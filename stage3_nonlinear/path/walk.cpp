@@ -324,8 +324,8 @@ bool Walk::take(const Root& root, double target) {
       return equations_.residual(contact_state(equations_, at), target).lpNorm<Eigen::Infinity>();
     };
     constexpr double precision = std::numeric_limits<double>::epsilon();
-    const double before = std::max({imbalance(c), rounding_, precision * scale_});
-    if (imbalance(rounded) <= max_residual * before) c = rounded;
+    if (rounded != c && imbalance(rounded) <= max_residual * std::max({imbalance(c), rounding_, precision * scale_}))
+      c = rounded;
   }
   if (const auto failed = contact_state(equations_, c).failed) {
     if (std::isinf(worst_residual_)) {

@@ -92,6 +92,15 @@ class Bench:
         """The same for a run that has to succeed."""
         return self.run(*words, cwd=cwd, may_fail=False, **options)
 
+    def finish(self, process, what):
+        """Waits for a process that was started and returns what it said on stderr; raises Fall for a hang."""
+        try:
+            return process.communicate(timeout=LONGEST * (10 if self.sanitized else 1))[1]
+        except subprocess.TimeoutExpired:
+            process.kill()
+            process.communicate()
+            raise Fall(f"{what}: hang") from None
+
     @staticmethod
     def _wait(process, deadline):
         """Exit status, negative for a signal, and resources of a process; SIGKILL when its time is over."""

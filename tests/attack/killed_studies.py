@@ -6,7 +6,6 @@ import json
 import os
 import shutil
 import signal
-import subprocess
 import time
 
 import h5py
@@ -78,12 +77,7 @@ class Life:
 
     def end(self, run, what, killed=()):
         """Waits for a run, which ends well or by a signal that it was sent."""
-        try:
-            _, said = run.communicate(timeout=200 if self.bench.sanitized else 20)
-        except subprocess.TimeoutExpired:
-            run.kill()
-            run.communicate()
-            raise Fall(f"{what}: hang") from None
+        said = self.bench.finish(run, what)
         if run.returncode != 0 and -run.returncode not in killed:
             raise Fall(f"{what}: exit status {run.returncode}\n  {said[-500:]}")
 

@@ -40,12 +40,7 @@ class Spot:
         """Exit status, negative for a signal, of a run whose streams a shell redirects, and what came to stderr."""
         run = subprocess.Popen(["sh", "-c", CLOSED + redirection, "sh", *words], cwd=self.folder, env=self.bench.environment,
                                stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        try:
-            _, words_said = run.communicate(timeout=200 if self.bench.sanitized else 20)
-        except subprocess.TimeoutExpired:
-            run.kill()
-            run.communicate()
-            raise Fall(f"hang: {' '.join(words)} {redirection}") from None
+        words_said = self.bench.finish(run, f"{' '.join(words)} {redirection}")
         return run.returncode, words_said.decode(errors="replace")
 
     def as_nobody(self):
