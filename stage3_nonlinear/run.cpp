@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <limits>
 #include <ostream>
 #include <utility>
 
@@ -164,7 +163,7 @@ struct SolvedCase {
 
 MoreStresses stresses_wanted(const program::Arguments& arguments) {
   MoreStresses wanted{arguments.flag("--rim-stresses"), {}};
-  constexpr double most = std::numeric_limits<double>::max(), least = std::numeric_limits<double>::min();
+  constexpr double least = 1e-30, most = 1e30;  // as lengths of the input
   if (arguments.flag("--distance")) wanted.distance = arguments.number("--distance", least, most, 0);
   return wanted;
 }

@@ -28,7 +28,11 @@ def parse():
     parser.add_argument("--only", default=",".join(KINDS), help="kinds of attack, of " + ", ".join(KINDS))
     parser.add_argument("--rounds", type=int, help="rounds of each kind instead of the time")
     parser.add_argument("--keep", default="attack-falls", help="folder of what fell")
-    return parser.parse_args()
+    arguments = parser.parse_args()
+    for name in arguments.only.split(","):
+        if name not in KINDS:
+            parser.error(f"--only: '{name}' is no kind of attack; allowed: {', '.join(KINDS)}")
+    return arguments
 
 
 def pipes(folder, names):
