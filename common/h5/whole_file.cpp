@@ -66,7 +66,7 @@ std::optional<std::uint64_t> end_of_image(std::string_view start) {
   constexpr std::string_view signature = "\x89HDF\r\n\x1a\n";
   constexpr std::size_t width = 8, version_at = 8;
   if (!start.starts_with(signature) || start.size() < 64) return std::nullopt;
-  const int version = start[version_at];
+  const int version = static_cast<unsigned char>(start[version_at]);
   const bool is_early = version == 0 || version == 1;
   if (!is_early && version != 2 && version != 3) return std::nullopt;
   if (start[is_early ? 13 : 9] != char(width)) return std::nullopt;  // addresses of another size

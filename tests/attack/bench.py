@@ -44,6 +44,10 @@ class Bench:
                             "PATH": f"{self.programs}:{os.environ['PATH']}", "PYTHON": sys.executable,
                             "ASAN_OPTIONS": "detect_leaks=0:allocator_may_return_null=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
 
+    def of_round(self, n):
+        """Number of things to try in a round: n, of sanitized programs, which are slow, a tenth."""
+        return max(1, n // 10) if self.sanitized else n
+
     def folder(self, name):
         """An empty folder for one round."""
         path = self.scratch / name

@@ -39,7 +39,7 @@ class DamagedHdf5:
         how = random.choice([self._sealed, self._sealed, self._unsealed, self._edited, self._edited, self._edited, self._strange])
         tried = 0
         with kept_whole(folder, lambda: self.mutant):
-            for _ in range(MUTANTS if how != self._strange else 10):
+            for _ in range(self.bench.of_round(MUTANTS if how != self._strange else 10)):
                 target = folder / name
                 self._clear(folder, target, scenes)
                 tried += how(random, folder, scenes, target, step)

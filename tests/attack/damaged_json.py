@@ -41,13 +41,14 @@ class DamagedJson:
         name = random.choice({"plate": scenes.plates, "joint": scenes.joints, "study": scenes.studies}[kind])
         text = (scenes.folder / name).read_text()
         with kept_whole(folder):
-            for _ in range(MUTANTS):
+            mutants = self.bench.of_round(MUTANTS)
+            for _ in range(mutants):
                 (folder / "mutant.json").write_bytes(mutant(random, text))
                 self._try(kind, "mutant.json", folder, random)
                 if (folder / "fallen").exists():
                     raise Fall("a name in the input was run as a command")
             self._try(kind, random.choice(STRANGE), folder, random)
-        return MUTANTS + 1
+        return mutants + 1
 
     @staticmethod
     def _lay_traps(folder):

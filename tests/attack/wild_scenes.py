@@ -99,7 +99,7 @@ class WildScenes:
         return "\n".join(lines)
 
     def round(self, random, folder):
-        scenes = 1 if self.chain.bench.sanitized else SCENES
+        scenes = self.chain.bench.of_round(SCENES)
         for k in range(scenes):
             place = folder / f"scene{k}"
             self.one(random_scene(random), place)
