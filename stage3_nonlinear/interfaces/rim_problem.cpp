@@ -12,7 +12,7 @@ namespace fastjoint::stage3 {
 namespace {
 
 constexpr double rounding = 1e-14;
-constexpr int max_steps = 100, max_halvings = 40;
+constexpr int max_steps = 100, max_halvings = 20;
 
 }  // namespace
 
@@ -150,24 +150,27 @@ MatrixXd RimProblem::jacobian(const State& at) const {
   return J;
 }
 
-/// Newton's method with steps that are halved until the residual falls.
+/// Newton's method with steps that are halved until the residual falls. A residual that is nearly rounding falls by
+/// whole steps or not at all.
 bool RimProblem::solve_with_friction(const VectorXd& b, State& at) const {
+  constexpr double near = 1e-12;
+  const auto scale = [&] { return at.w.norm() + b.norm() + std::abs(contact_.gap()); };
   for (int i = 0; i < max_steps; ++i) {
-    const double before = at.residual.norm(), scale = at.w.norm() + b.norm() + std::abs(contact_.gap());
-    if (before <= rounding * scale) return true;
+    const double before = at.residual.norm();
+    if (before <= rounding * scale()) return true;
     const VectorXd step = -matrices::Lu(jacobian(at)).solve(at.residual);
+    const int halvings = before > near * scale() ? max_halvings : 0;
     double length = 1;
     State there = state_with_friction(b, at.w + step);
     const auto falls = [&] { return there.residual.norm() < (1 - 0.1 * length) * before; };
-    for (int j = 0; j < max_halvings && !falls(); ++j) {
+    for (int j = 0; j < halvings && !falls(); ++j) {
       length /= 2;
       there = state_with_friction(b, at.w + length * step);
     }
-    constexpr double near = 1e-12;  // the residual may be rounding only
-    if (!falls()) return before <= near * scale;
+    if (!falls()) break;
     at = std::move(there);
   }
-  return false;
+  return at.residual.norm() <= near * scale();
 }
 
 /// Solves for coefficients of friction that grow from 0 to that of the rim, each from the solution before.

@@ -125,6 +125,23 @@ VectorXd newton_step(const RootProblem& problem, const Root& root) {
   return -problem.jacobian(root.x).partialPivLu().solve(root.residual);
 }
 
+/// Tells that an iteration goes on in a circle: the norm of the residual has stayed the same for many iterations, which
+/// steps across corners do not do for long.
+class Standstill {
+ public:
+  bool is_reached(double norm) {
+    constexpr double same = 1e-3;
+    constexpr int many = 25;
+    n_same_ = std::abs(norm - norm_) <= same * norm_ ? n_same_ + 1 : 0;
+    norm_ = norm;
+    return n_same_ >= many;
+  }
+
+ private:
+  double norm_ = 0;
+  int n_same_ = 0;
+};
+
 }  // namespace
 
 const char* text_of(Ending ending) {
@@ -155,8 +172,8 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
   };
   report();
   double min_norm = std::numeric_limits<double>::infinity();
-  while (!(root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) &&
-         root.iterations < options.max_iterations) {
+  Standstill standstill;
+  while (!(root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance) && root.iterations < options.max_iterations) {
     ++root.iterations;
     min_norm = std::min(min_norm, root.residual.norm());
     const VectorXd step = newton_step(problem, root);
@@ -168,7 +185,12 @@ Root newton_root(const RootProblem& problem, const VectorXd& start, const RootOp
     }
     root = *std::move(there);
     report();
+    if (standstill.is_reached(root.residual.norm())) {
+      root.ending = Ending::no_progress;
+      break;
+    }
   }
+  root.converged = root.residual.lpNorm<Eigen::Infinity>() <= options.tolerance;
   if (root.converged) root.ending = Ending::converged;
   return root;
 }

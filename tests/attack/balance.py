@@ -16,14 +16,15 @@ AXES = {"x": 0, "y": 1}
 
 
 def off(what, found, wanted, scale, rounding=0.0, allowed=ALLOWED):
-    """Raises Fall if two arrays differ by more than `allowed` of `scale` and the given rounding; returns the ratio."""
+    """Raises Fall if two arrays differ by more than `allowed` of `scale` and the given rounding; returns the ratio
+    beyond the rounding."""
     difference = np.abs(np.asarray(found, float) - wanted)
     limit = allowed * scale + rounding
     bad = difference > limit
     if np.any(bad) or not np.all(np.isfinite(difference)):
         at = np.unravel_index(np.argmax(np.where(np.isfinite(difference), difference, np.inf)), difference.shape)
         raise Fall(f"{what}: off by {difference[at]:.3g} at {tuple(map(int, at))}, of {scale:.3g}; allowed {np.max(limit):.3g}")
-    return float(np.max(difference, initial=0) / scale) if scale else 0.0
+    return float(np.max(difference - rounding, initial=0) / scale) if scale else 0.0
 
 
 def check_finite(result, matrices):
@@ -292,5 +293,5 @@ def _check_law(text, law, free, result, step, plane):
             scale_of_delta = abs(delta) + free + law.get("delta0", 0.0)
             slope = max(slope, law["A"] * (past + 1e-9 * scale_of_delta) ** n / (past + 1e-9 * scale_of_delta))
     scale = max(np.abs(result["F"][step]).max(), abs(wanted))
-    small = 1e-13 * law.get("k", 0.0)  # forces that are set to zero as rounding
+    small = 1e-13 * law.get("k", law.get("A", 0.0) if law.get("n") == 1 else 0.0)  # forces that are set to zero as rounding
     off(f"plane {plane}, increment {step}: F is not its law {text}", [F], wanted, scale, 1e-12 * slope * abs(delta) + small + 1e-300)
