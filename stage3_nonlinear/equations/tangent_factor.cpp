@@ -137,7 +137,7 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
     x = schur_.transpose() * (schur_ * x).eval();
     largest = std::sqrt(x.norm());
   }
-  const double max_null = tolerance * std::max(largest, 1.0);
+  const double size = std::max(largest, 1.0), max_null = tolerance * size;
   NullSpace result;
   for (Index k = std::min<Index>(first, n);; k = std::min(2 * k, n)) {
     const MatrixXd start = MatrixXd::NullaryExpr(n, k, [&] { return normal(random); });
@@ -155,7 +155,7 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
     break;
   }
   MatrixXd lifted = schur_;
-  lifted.noalias() += (largest > 0 ? largest : 1) * result.left * result.right.transpose();
+  lifted.noalias() += size * result.left * result.right.transpose();
   result.lifted = matrices::Lu(std::move(lifted));
   return result;
 }

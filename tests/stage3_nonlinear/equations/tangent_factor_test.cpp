@@ -76,6 +76,16 @@ TEST(TangentFactor, HasNoStretchWhereTheMatrixIsSingular) {
   EXPECT_LT(TangentFactor(J, rims).rcond(), 1e-15);
 }
 
+/// A tangent whose one entry is rounding, of either sign.
+TEST(TangentFactor, SolvesByLeastSquaresWhereAllIsRounding) {
+  for (const double entry : {-1.8e-13, 1.8e-13, 0.0}) {
+    const auto [x, free] =
+        TangentFactor(MatrixXd::Constant(1, 1, entry), {}).solve_singular(MatrixXd::Ones(1, 1), 1e-10);
+    EXPECT_LT(x.norm(), 1e-12) << entry;
+    EXPECT_NEAR(free.norm(), 1, 1e-12) << entry;
+  }
+}
+
 /// Tangents of joints in contact, with friction too.
 TEST_F(ContactJoint, HaveTangentsThatAreSolvedRimByRim) {
   for (int i = 0; i < 40; ++i) {

@@ -90,6 +90,17 @@ TEST(Newton, SaysThatAConvexFunctionHasNoLeastValue) {
   EXPECT_EQ(root.ending, Ending::unbounded);
 }
 
+/// Steps of a wrong derivative, which lower the residual by 1e-4 each: it would take 2e5 of them.
+TEST(Newton, EndsWhereTheResidualStandsStill) {
+  const RootProblem stiff{[](const VectorXd& x) -> VectorXd { return x; },
+                          [](const VectorXd&) -> Eigen::MatrixXd { return VectorXd::Constant(1, 1e4); },
+                          {}};
+  const Root root = newton_root(stiff, VectorXd::Constant(1, 1), options);
+  EXPECT_FALSE(root.converged);
+  EXPECT_EQ(root.ending, Ending::no_progress);
+  EXPECT_LT(root.iterations, 30);
+}
+
 TEST_P(Solves, LetsExceptionsOut) {
   const RootProblem throwing{
       [](const VectorXd&) -> VectorXd { throw std::runtime_error("from inside"); }, rosenbrock.jacobian, {}};
