@@ -184,8 +184,9 @@ bool RimProblem::solve_by_more_friction(const VectorXd& b, VectorXd w, State& at
       w = there.w;
       reached = next;
       step *= 2;
-    } else if ((step /= 2) < least) {
-      return false;
+    } else {
+      step /= 2;
+      if (step < least) return false;
     }
   }
   at = state_with_friction(b, w);

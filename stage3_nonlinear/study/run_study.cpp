@@ -224,16 +224,22 @@ void solve_blocks(const StudyBlocks& blocks, int first, int end, bool quiet, Sam
     log << fmt::format("{}: {} of {} blocks of samples were there already\n", program_name, there, end - first);
 }
 
-void check_all_there(const StudyBlocks& blocks) {
-  if (const std::string missing = blocks.missing(); !missing.empty())
-    throw InputError(fmt::format("{}: lacks samples {}; allowed: all of them (run the slices that make them)",
-                                 blocks.folder(), missing));
+/// A merge removes the blocks after it has written the study, so that a study that is there may be whole.
+void check_all_there(const StudyBlocks& blocks, const std::string& output) {
+  const std::string missing = blocks.missing();
+  if (missing.empty()) return;
+  const std::string may_be_made =
+      std::filesystem::exists(output)
+          ? fmt::format("; {} is there: another merge may have made it of these samples, and removed them", output)
+          : "";
+  throw InputError(fmt::format("{}: lacks samples {}; allowed: all of them (run the slices that make them){}",
+                               blocks.folder(), missing, may_be_made));
 }
 
 /// Writes STUDY.h5 from all blocks, and returns the summary.
 std::string merge(const Study& study, const StudyContext& context, const StudyBlocks& blocks,
                   formats::StudyOrigin origin, const std::string& output, program::Timings& timings) {
-  check_all_there(blocks);
+  check_all_there(blocks, output);
   timings.phase("statistics");
   auto result = study_statistics(context, blocks);
   const std::string& name = study.scene.name.empty() ? study.joint.name : study.scene.name;
@@ -270,7 +276,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   StudyNames names = study_names(joint, study.scene);
   const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, names.size());
   blocks.check();
-  if (merge_only) check_all_there(blocks);
+  if (merge_only) check_all_there(blocks, arguments.output);
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
   const auto cases = studied_cases(study);

@@ -159,6 +159,8 @@ def same_bytes(folder):
         assert f"its samples are of {name}" in said, said
     run(folder, joint, study, "--merge", output="sliced.h5")
     assert (folder / "sliced.h5").read_bytes() == truth and not (folder / "sliced.h5.parts").exists()
+    said = run(folder, joint, study, "--merge", output="sliced.h5", status=2)
+    assert "sliced.h5 is there: another merge may have made it" in said, said
     run(folder, joint, study, "--slice", "1/2", output="sliced.h5")
     row_of_pins(folder, 3, 7.1e4, "contact", contact=True)
     said = run(folder, joint, study, output="sliced.h5", status=2)
