@@ -254,9 +254,9 @@ void envelope_datasets(File& file, Tables& all, Eigen::Index steps) {
     const std::string group = "envelope/" + a.quantity + "/";
     file(group + "of", a.of, {any}, "1", "shear plane, plate:hole, plate:external or plate:tip");
     const Eigen::Index k = std::ssize(a.of);
-    file(group + "largest", a.largest, {k}, a.unit, "largest value over all increments of all cases");
+    file(group + "largest", a.largest, {k}, a.unit, "largest value over all increments of all cases", h5::infinite_too);
     file(group + "largest_at", a.largest_at, {k}, "1", "row where it stands", h5::integers(0, int(steps) - 1));
-    file(group + "smallest", a.smallest, {k}, a.unit, "smallest value");
+    file(group + "smallest", a.smallest, {k}, a.unit, "smallest value", h5::infinite_too);
     file(group + "smallest_at", a.smallest_at, {k}, "1", "row where it stands", h5::integers(0, int(steps) - 1));
   }
 }

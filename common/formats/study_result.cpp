@@ -12,27 +12,32 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   const Eigen::Index n = std::ssize(a.of);
   file(group + "of", a.of, {n}, "1", "fastener, hole, external or crack tip that each number is of");
   file(group + "middle", a.middle, {n}, a.unit,
-       "of the joint with every variable in its middle; infinite if not solved");
-  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved");
-  file(group + "deviation", a.deviation, {n}, a.unit, "standard deviation of the samples that were solved");
+       "of the joint with every variable in its middle; infinite if not solved", h5::infinite_too);
+  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved", h5::infinite_too);
+  file(group + "deviation", a.deviation, {n}, a.unit, "standard deviation of the samples that were solved",
+       h5::infinite_too);
   file(group + "by_sensitivities", a.by_sensitivities, {n}, a.unit,
        "standard deviation by the sensitivities in the middle alone: the root of the sum of squares; infinite if not "
-       "known");
-  file(group + "quantile", a.quantile, {n, 4}, a.unit, "quantiles of 5, 50, 95 and 99 %");
+       "known",
+       h5::infinite_too);
+  file(group + "quantile", a.quantile, {n, 4}, a.unit, "quantiles of 5, 50, 95 and 99 %", h5::infinite_too);
   file(group + "quantile_low", a.low, {n, 4}, a.unit,
-       "lower limit of their 95 % confidence intervals, for any distribution");
-  file(group + "quantile_high", a.high, {n, 4}, a.unit, "upper limit of their 95 % confidence intervals");
+       "lower limit of their 95 % confidence intervals, for any distribution", h5::infinite_too);
+  file(group + "quantile_high", a.high, {n, 4}, a.unit, "upper limit of their 95 % confidence intervals",
+       h5::infinite_too);
   file(group + "sensitivity", a.sensitivity, {n, v}, "1",
-       "change with each variable in the middle, in the units of both; infinite if not known");
+       "change with each variable in the middle, in the units of both; infinite if not known", h5::infinite_too);
   file(group + "rank_correlation", a.correlation, {n, v}, "1", "Spearman's rank correlation with each variable");
   file(group + "governs", a.governs, {n}, "1", "fraction of the solved samples in which it is the largest");
   if (a.closed.size() > 0)
     file(group + "closed", a.closed, {n}, "1",
          "fraction of the solved samples in which the crack closes at its tip, K_I < 0");
-  file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none");
+  file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none", h5::infinite_too);
   file(group + "exceeds", a.exceeds, {n}, "1", "fraction of the solved samples above the limit");
-  file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");
-  file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval");
+  file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval",
+       h5::infinite_too);
+  file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval",
+       h5::infinite_too);
 }
 
 }  // namespace
@@ -49,9 +54,9 @@ void write(const std::string& path, const StudyResult& a, const std::function<vo
   const Eigen::Index v = std::ssize(a.variable);
   file("variables/name", a.variable, {v}, "1", "variables of the study");
   file("variables/place", a.place, {v}, "1", "JSON pointers of each into the joint, parted by spaces");
-  file("variables/middle", a.middle, {v}, "1", "value in the middle, in the variable's own unit");
-  file("variables/mean", a.mean, {v}, "1", "mean of all samples");
-  file("variables/deviation", a.deviation, {v}, "1", "standard deviation of all samples");
+  file("variables/middle", a.middle, {v}, "1", "value in the middle, in the variable's own unit", h5::infinite_too);
+  file("variables/mean", a.mean, {v}, "1", "mean of all samples", h5::infinite_too);
+  file("variables/deviation", a.deviation, {v}, "1", "standard deviation of all samples", h5::infinite_too);
   file("statistics/n_status", a.n_status, {4}, "1",
        "number of samples that were 0 solved, 1 refused, 2 not solved, 3 out of balance");
   for (const auto& group : a.groups) group_datasets(file, group, v);

@@ -96,7 +96,7 @@ void Writer::attribute(const std::string& name, int value) { impl_->integer_attr
 
 template <class Scalar>
 void Writer::put(const std::string& name, const Shape& shape, const std::vector<std::span<const Scalar>>& parts,
-                 const std::string& unit, const std::string& meaning) {
+                 const std::string& unit, const std::string& meaning, bool may_be_infinite) {
   const auto n = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
   std::size_t n_given = 0;
   std::vector<const void*> data;
@@ -115,19 +115,24 @@ void Writer::put(const std::string& name, const Shape& shape, const std::vector<
   } else if constexpr (std::is_same_v<Scalar, int>) {
     impl_->dataset(name, shape, H5T_STD_I32LE, H5T_NATIVE_INT, data, unit, meaning);
   } else {
-    for (const auto& part : parts)
-      if (Eigen::Map<const Eigen::ArrayXd>(part.data(), std::ssize(part)).isNaN().any())
-        throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
+    for (const auto& part : parts) {
+      const Eigen::Map<const Eigen::ArrayXd> entries(part.data(), std::ssize(part));
+      if (entries.isNaN().any()) throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
+      if (!may_be_infinite && entries.isInf().any())
+        throw NumericalError(fmt::format(
+            "{}: {} would hold a number beyond 1.8e308; the input has numbers that are far too large or small",
+            impl_->path, name));
+    }
     impl_->dataset(name, shape, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, data, unit, meaning);
   }
 }
 
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const double>>&,
-                          const std::string&, const std::string&);
+                          const std::string&, const std::string&, bool);
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const int>>&,
-                          const std::string&, const std::string&);
+                          const std::string&, const std::string&, bool);
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const std::string>>&,
-                          const std::string&, const std::string&);
+                          const std::string&, const std::string&, bool);
 
 template <class Scalar>
 void Writer::make_rows(const std::string& name, const Shape& shape, const std::string& unit,

@@ -114,7 +114,9 @@ TEST_F(HandMade, DegreesAscend) {
 
 TEST_F(HandMade, ErrorsAreNotNegative) {
   const auto write_error = [&](double error) {
-    write([&](h5::Writer& file) { file("S_dd_error", Eigen::Matrix2d::Constant(error).eval(), {2, 2}, "", ""); });
+    write([&](h5::Writer& file) {
+      file("S_dd_error", Eigen::Matrix2d::Constant(error).eval(), {2, 2}, "", "", h5::infinite_too);
+    });
   };
   write_error(-1);
   refused(":S_dd_error: holds -1, expected numbers >= 0");

@@ -84,6 +84,15 @@ TEST(Hdf5, ANaNIsNeverWritten) {
       ThrowsMessage<NumericalError>(HasSubstr("x would hold a NaN")));
 }
 
+TEST(Hdf5, AnInfiniteNumberIsWrittenOnlyWhereItIsRead) {
+  const test::TemporaryFolder folder;
+  Writer file(folder.path("a.h5"), "sample", 1, 0);
+  const std::vector<double> x{1, -std::numeric_limits<double>::infinity()};
+  file("allowed", x, {any}, "1", "", infinite_too);
+  EXPECT_THAT([&] { file("x", x, {any}, "1", ""); },
+              ThrowsMessage<NumericalError>(HasSubstr("x would hold a number beyond 1.8e308; the input has")));
+}
+
 TEST_F(WrongFile, Kinds) {
   EXPECT_THAT(message(), HasSubstr("a.h5: cannot be opened: No such file or directory"));
   path_ = folder_.write("a.h5", "not HDF5");
@@ -139,7 +148,7 @@ TEST_F(WrongFile, UnitsAreNotComparedWhenToldSo) {
 
 TEST_F(WrongFile, EntriesThatAreNotAllowed) {
   Writer file(path_, "sample", 1, 0);
-  file("x", std::vector<double>{1, infinite, -1}, {any}, "1", "");
+  file("x", std::vector<double>{1, infinite, -1}, {any}, "1", "", infinite_too);
   file("i", std::vector<int>{2, 4, 4}, {any}, "1", "");
   file("words", std::vector<std::string>{"x", "z"}, {any}, "1", "");
   file.commit();

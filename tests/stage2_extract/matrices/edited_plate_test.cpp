@@ -189,11 +189,5 @@ TEST_F(EditedPlate, RimsThatAreNotArcsOfTheirCircle) {
   refused([](auto& a) { a.hole_rim[0].sides.pop_back(); }, "hole/rim: the sides of hole \"a\"");
 }
 
-TEST_F(EditedPlate, InfiniteNumbers) {
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  refused([](auto& a) { a.cases[1].T(0, 0) = infinite; }, "p3/T: holds inf, expected finite numbers");
-  refused([](auto& a) { a.hole_spring[0].arcs[0].to = infinite; }, "hole/arc: holds inf");
-}
-
 }  // namespace
 }  // namespace fastjoint
