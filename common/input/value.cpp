@@ -234,6 +234,7 @@ std::string Value::text() const {
 std::string Value::choice(const std::vector<std::string>& allowed) const {
   if (is_string() && std::find(allowed.begin(), allowed.end(), json_->get_ref<const std::string&>()) != allowed.end())
     return json_->get<std::string>();
+  if (allowed.empty()) not_allowed("nothing, since the file names none");
   not_allowed(fmt::format("\"{}\"", fmt::join(allowed, "\", \"")));
 }
 

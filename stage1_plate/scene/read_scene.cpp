@@ -185,10 +185,12 @@ void read_p(const Value& root, PlateScene& scene) {
   scene.p_high = range[1].integer(scene.p_low, pfem::highest_p);
 }
 
+/// Names of the edges that can be held or loaded, which those of cracks cannot.
 std::vector<std::string> edge_names(const PlateScene& scene) {
   if (std::holds_alternative<GridGeometry>(scene.geometry)) return {"left", "right", "bottom", "top"};
   std::vector<std::string> names;
-  for (const auto& [name, edges] : std::get<MeshGeometry>(scene.geometry).edges) names.push_back(name);
+  for (const auto& [name, edges] : std::get<MeshGeometry>(scene.geometry).edges)
+    if (std::ranges::find(scene.cracks, name, &Crack::on) == scene.cracks.end()) names.push_back(name);
   return names;
 }
 
