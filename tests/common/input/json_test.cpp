@@ -136,6 +136,7 @@ TEST(Value, OtherKinds) {
   EXPECT_THAT(message("\"\"", [](const Value& v) { (void)v.text(); }), HasSubstr("not empty"));
   EXPECT_THAT(message("1", [](const Value& v) { (void)v.boolean(); }), HasSubstr("true or false"));
   EXPECT_THAT(message("\"z\"", [](const Value& v) { (void)v.choice({"x", "y"}); }), HasSubstr(R"("x", "y")"));
+  EXPECT_THAT(message("\"z\"", [](const Value& v) { (void)v.choice({}); }), HasSubstr("allowed: nothing, since"));
   EXPECT_THAT(message(R"({"": 1})", [](const Value& v) { (void)v.members(); }), HasSubstr("a key is empty"));
 }
 
