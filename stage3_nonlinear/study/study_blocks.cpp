@@ -28,7 +28,11 @@ formats::StudyBlock read_block(const std::string& path) {
   try {
     return formats::read_study_block(path);
   } catch (const FileError& e) {
-    throw FileError(fmt::format("{}; remove this block, and its samples are solved again", e.what()));
+    // A run removes the blocks after it has written the study.
+    throw FileError(fmt::format("{}; {}", e.what(),
+                                fs::exists(path)
+                                    ? "remove this block, and its samples are solved again"
+                                    : "another run may have made the same study meanwhile, and removed it"));
   }
 }
 
