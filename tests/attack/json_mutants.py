@@ -54,7 +54,7 @@ def retype(random, tree):
 
 
 def swap(random, tree):
-    a, b = some(random, tree), some(random, tree)
+    a, b = (some(random, tree, lambda place: place.key not in COSTLY) for _ in range(2))
     first, second = copy.deepcopy(a.value), copy.deepcopy(b.value)
     a.put(second)
     b.put(first)
