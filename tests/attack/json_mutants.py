@@ -98,6 +98,7 @@ def lengthen(random, tree):
                  place.value and place.key not in COSTLY | LONG_LISTS_ARE_VALID)
     if place:
         item = dump(random.choice(place.value))
+        item = item if len(item) < 100 else "0"  # 1e5 long texts do not fit into memory
         place.put(Token("[" + ", ".join(random.choice([[item] * 100000, map(str, range(100000)), ["{}"] * 100000])) + "]"))
 
 

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A scene in two guises (guises.py) gives the same answers: S to 1e-8 of its largest entry, or to what its file says that
-rounding may change, and displacements and forces to 1e-6 of the largest.
+rounding may change, and displacements and forces to 1e-6 of the largest. Contact is judged at points of a rim that are
+counted from the x axis: turned by any angle, a rim of few waves has others. A joint of four waves then changed by 1.6e-6 of
+its largest force, which was 0.46 N (2.4e-4) off that of 32 waves, and with 32 waves by 5e-8; turned ones are held to 1e-5.
 """
 import json
 from collections import Counter
@@ -13,7 +15,7 @@ from bench import Fall
 from chain import Chain, File, Refused, Slow
 from wild_joints import is_contact, random_scene, remembers
 
-SAME_S, SAME_RESULT = 1e-8, 1e-6
+SAME_S, SAME_RESULT, SAME_TURNED_RESULT = 1e-8, 1e-6, 1e-5
 # Warnings with which the solution may be another one in another guise: laws that fall, and friction that holds itself.
 DOUBTFUL = {"several-solutions", "unstable-balance", "self-locking", "limit-load", "rim-sticks"}
 
@@ -123,7 +125,7 @@ class SameAnswers:
     def compare(self, guise, original, folder):
         folder.mkdir(exist_ok=True)
         (folder / "guise.txt").write_text(guise.name + "\n")
-        kind = "turned by any angle" if guise.name.startswith("turned by") and "90 " not in guise.name else guise.name
+        kind = "turned by any angle" if _is_by_any_angle(guise) else guise.name
         self.tried[kind] += 1
         try:
             answers = Answers(self.chain, folder, guise.scene)
@@ -192,10 +194,14 @@ class SameAnswers:
             least = 1e-4 * max(whole, applied) if what == "forces" else 1e-4 * whole
             scale = max(np.abs(x).max(initial=0), least, _rounding_of_forces(original) if what == "forces" else 0) or 1.0
             ratio = np.abs(x - y).max(initial=0) / scale
-            if not ratio <= SAME_RESULT:
+            if not ratio <= (SAME_TURNED_RESULT if _is_by_any_angle(guise) else SAME_RESULT):
                 raise Fall(f"{guise.name}: {what} of increment {a} differ by {ratio:.2e} of the largest, {scale:.3g}: "
                            f"{json.dumps([float(v) for v in x])[:300]} and {json.dumps([float(v) for v in y])[:300]}")
             self.worst_result = max(self.worst_result, ratio)
+
+
+def _is_by_any_angle(guise):
+    return guise.name.startswith("turned by") and "90 " not in guise.name
 
 
 def _rounding_of_forces(original):
@@ -208,15 +214,16 @@ def _rounding_of_forces(original):
 
 
 def _is_known(original, name, step):
-    """1 for displacements of externals and of discs that a force holds in place, else 0: a fastener without force lies
-    anywhere within its gaps."""
+    """1 for displacements of discs that a force holds in place, and of externals of sheets with such a disc or force, else
+    0: a fastener without force lies anywhere within its gaps, and so does a sheet."""
     result, of = original.result, f"plates/{name}/"
     forces = np.abs(result[of + "disc/bearing"][step]) + np.abs(result[of + "disc/friction"][step])
     every = max(np.abs(result[f"plates/{other}/disc/bearing"]).max(initial=0) for other in original.sheets)
     holes = original.sheets[name]["disc/hole"]
     of_hole = {hole: max(f for f, other in zip(forces, holes) if other == hole) for hole in holes}
     held = [of_hole[hole] > 1e-6 * every for hole in holes]
-    return np.concatenate([np.ones(len(result[of + "De"][step])), np.array(held, float)])
+    loaded = any(held) or np.abs(result[of + "Pe"][step]).max(initial=0) > 1e-6 * every
+    return np.concatenate([np.full(len(result[of + "De"][step]), float(loaded)), np.array(held, float)])
 
 
 def _vector(result, name, at_externals, at_discs, step):
