@@ -79,6 +79,23 @@ void find_rims(const PlateScene& scene, PlateMesh& plate) {
   }
 }
 
+/// Refuses sections next to a hole that are too short to be the cut across the sheet with the hole, whose net area
+/// would be nothing or less.
+void check_sections(const PlateScene& scene, const PlateMesh& plate) {
+  for (const auto& section : plate.sections) {
+    double gross = 0;
+    for (const auto& side : section.sides)
+      gross += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, plate.edges, side, 1).ds.sum();
+    const auto direction = rim::unit_vector(rim::signed_axis_named(section.side));
+    const double hole = rim::bearing(plate.mesh, plate.edges, plate.rims[section.hole], direction).area;
+    if (!(gross > (1 + rim::same_place) * hole))
+      reject(scene, "/geometry/mesh/sections",
+             fmt::format("the section of hole \"{}\" on its side {} has an area of {:.6g}, and the hole takes {:.6g}",
+                         scene.holes[section.hole].id, section.side, gross, hole),
+             "all edges of a cut through the sheet");
+  }
+}
+
 /// Finds the vertex of every point spring, shape (points). Throws InputError with the nearest vertex if there is none.
 std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
   constexpr double same = 1e-9;  // relative to the plate's size
@@ -108,6 +125,7 @@ PlateMesh make_mesh(const PlateScene& scene) {
                    [](const auto& a, const auto& b) { return a.hole < b.hole; });
   check_elements(scene, plate);
   find_rims(scene, plate);
+  check_sections(scene, plate);
   plate.point_nodes = find_point_nodes(scene, plate.mesh);
   return plate;
 }

@@ -128,6 +128,13 @@ TEST(MeshSections, EdgesAreChecked) {
                 "the first is at x = 20"));
 }
 
+TEST(MeshSections, AreWiderThanTheirHole) {
+  EXPECT_THAT(
+      message(scene(section("a", "+x", "[1, 2]"))),
+      HasSubstr("/geometry/mesh/sections: the section of hole \"a\" on its side +x has an area of 10, and the hole "
+                "takes 10; allowed: all edges of a cut through the sheet"));
+}
+
 /// Digits of a file's writer may differ in the last places.
 TEST(MeshSections, RoundOffIsAllowed) {
   std::string json = scene(section("a", "+x", "[1, 2], [2, 3]"));
