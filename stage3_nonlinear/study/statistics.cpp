@@ -62,7 +62,7 @@ Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t f
           max_k >= n ? 1 : beta_quantile(1 - beyond_limit, max_k + 1, n - max_k)};
 }
 
-double Moments::deviation() const { return n_ < 2 ? 0 : std::sqrt(squares_ / double(n_ - 1)); }
+double Moments::deviation() const { return n_ < 2 ? 0 : or_infinite(std::sqrt(squares_ / double(n_ - 1))); }
 
 Selection::Selection(const std::vector<std::uint64_t>& ranks) {
   for (const std::uint64_t rank : ranks) targets_.push_back({rank, 0, 0});

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace fastjoint::stage3 {
@@ -26,7 +28,7 @@ struct Proportion {
 };
 [[nodiscard]] Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t failed);
 
-/// Mean and deviation of a stream of numbers (Welford 1962).
+/// Mean and deviation of a stream of numbers (Welford 1962); infinite where they are beyond what a number holds.
 class Moments {
  public:
   void add(double x) {
@@ -34,11 +36,14 @@ class Moments {
     mean_ += before / double(++n_);
     squares_ += before * (x - mean_);
   }
-  [[nodiscard]] double mean() const { return mean_; }
+  [[nodiscard]] double mean() const { return or_infinite(mean_); }
   /// The deviation of a sample: the sum of squares over n - 1.
   [[nodiscard]] double deviation() const;
 
  private:
+  /// A difference of numbers that overflows makes sums NaN.
+  static double or_infinite(double x) { return std::isnan(x) ? std::numeric_limits<double>::infinity() : x; }
+
   std::uint64_t n_ = 0;
   double mean_ = 0, squares_ = 0;
 };

@@ -172,9 +172,9 @@ class Statistics {
       Gathered& each = all_[g][i];
       group.mean[i] = each.moments.mean(), group.deviation[i] = each.moments.deviation();
       group.sensitivity.row(i) = has_middle ? sensitivity_of(a_, kind, i) : Eigen::RowVectorXd::Constant(v, infinite);
-      group.by_sensitivities[i] = group.sensitivity.row(i).allFinite()
-                                      ? group.sensitivity.row(i).cwiseProduct(result_.deviation.transpose()).norm()
-                                      : infinite;
+      const Eigen::RowVectorXd slope = group.sensitivity.row(i), deviation = result_.deviation.transpose();
+      group.by_sensitivities[i] =  // a deviation may be infinite, also of a variable without influence
+          slope.allFinite() ? (slope.array() == 0).select(0, slope.cwiseProduct(deviation)).norm() : infinite;
       const auto ranks = ranks_of(each.ranked);
       each.ranked.clear();
       for (Index k = 0; k < v; ++k) group.correlation(i, k) = rank_correlation(ranks, variables_[k].ranked);

@@ -117,5 +117,12 @@ TEST(RankCorrelation, IsOneOfAnyRisingFunctionAndCountsTiesByTheirMean) {
   EXPECT_EQ(rank_correlation(ranks_of({1, 1, 1}), ranks_of({1, 2, 3})), 0);
 }
 
+TEST(Moments, AreInfiniteBeyondWhatANumberHolds) {
+  Moments moments;
+  for (const double x : {1e308, -1e308, 1e308}) moments.add(x);
+  EXPECT_TRUE(std::isinf(moments.mean()));
+  EXPECT_TRUE(std::isinf(moments.deviation()));
+}
+
 }  // namespace
 }  // namespace fastjoint::stage3::study_test
