@@ -324,8 +324,7 @@ bool Walk::take(const Root& root, double target) {
       return equations_.residual(contact_state(equations_, at), target).lpNorm<Eigen::Infinity>();
     };
     constexpr double precision = std::numeric_limits<double>::epsilon();
-    if (rounded != c && imbalance(rounded) <= max_residual * std::max(imbalance(c), precision * scale_))
-      c = rounded;
+    if (rounded != c && imbalance(rounded) <= max_residual * std::max(imbalance(c), precision * scale_)) c = rounded;
   }
   if (const auto failed = contact_state(equations_, c).failed) {
     if (std::isinf(worst_residual_)) {
