@@ -13,7 +13,7 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   file(group + "of", a.of, {n}, "1", "fastener, hole, external or crack tip that each number is of");
   file(group + "middle", a.middle, {n}, a.unit,
        "of the joint with every variable in its middle; infinite if not solved", h5::infinite_too);
-  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved", h5::infinite_too);
+  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved");
   file(group + "deviation", a.deviation, {n}, a.unit, "standard deviation of the samples that were solved",
        h5::infinite_too);
   file(group + "by_sensitivities", a.by_sensitivities, {n}, a.unit,
@@ -34,10 +34,8 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
          "fraction of the solved samples in which the crack closes at its tip, K_I < 0");
   file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none", h5::infinite_too);
   file(group + "exceeds", a.exceeds, {n}, "1", "fraction of the solved samples above the limit");
-  file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval",
-       h5::infinite_too);
-  file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval",
-       h5::infinite_too);
+  file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");
+  file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval");
 }
 
 }  // namespace
@@ -54,7 +52,7 @@ void write(const std::string& path, const StudyResult& a, const std::function<vo
   const Eigen::Index v = std::ssize(a.variable);
   file("variables/name", a.variable, {v}, "1", "variables of the study");
   file("variables/place", a.place, {v}, "1", "JSON pointers of each into the joint, parted by spaces");
-  file("variables/middle", a.middle, {v}, "1", "value in the middle, in the variable's own unit", h5::infinite_too);
+  file("variables/middle", a.middle, {v}, "1", "value in the middle, in the variable's own unit");
   file("variables/mean", a.mean, {v}, "1", "mean of all samples", h5::infinite_too);
   file("variables/deviation", a.deviation, {v}, "1", "standard deviation of all samples", h5::infinite_too);
   file("statistics/n_status", a.n_status, {4}, "1",

@@ -17,8 +17,8 @@ namespace fastjoint::h5 {
 ///
 /// Writer and Reader have the same interface, so that one function template lists the datasets of a format for both.
 /// Groups are created as needed. Equal calls give equal bytes. Arrays are row-major in the file: a matrix A is stored
-/// with shape (rows, cols). Throws NumericalError for a NaN, and for an infinite number where a
-/// reader refuses it; FileError for other failures.
+/// with shape (rows, cols). Throws NumericalError for a NaN, and for an infinite number where a reader refuses it;
+/// FileError for other failures.
 class Writer {
  public:
   static constexpr bool reads = false;

@@ -102,6 +102,13 @@ CosineBearing cosine_bearing(const Eigen::Vector2d& n, const Eigen::Vector2d& d)
   return {cosine, (d - cosine * n).normalized()};
 }
 
+double section_area(const pfem::Mesh& mesh, const pfem::Edges& edges, const Section& section) {
+  double area = 0;
+  for (const auto& side : section.sides)
+    area += mesh.thickness[side.element] * pfem::side_rule(mesh, edges, side, 1).ds.sum();
+  return area;
+}
+
 Bearing bearing(const pfem::Mesh& mesh, const pfem::Edges& edges, const Rim& rim, const Eigen::Vector2d& d) {
   Bearing sum;
   const Eigen::Vector2d across = d.reverse().cwiseAbs();

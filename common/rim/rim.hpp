@@ -76,6 +76,9 @@ struct Section {
   std::vector<pfem::Side> sides;  ///< sides of the elements on the hole's side of the cut
 };
 
+/// Area of the elements' side of a section, length^2.
+[[nodiscard]] double section_area(const pfem::Mesh& mesh, const pfem::Edges& edges, const Section& section);
+
 /// True if the line at an angle, radians counter-clockwise from x, is along the axis.
 [[nodiscard]] bool is_along(double angle, Axis axis);
 

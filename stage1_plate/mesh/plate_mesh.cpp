@@ -83,9 +83,7 @@ void find_rims(const PlateScene& scene, PlateMesh& plate) {
 /// would be nothing or less.
 void check_sections(const PlateScene& scene, const PlateMesh& plate) {
   for (const auto& section : plate.sections) {
-    double gross = 0;
-    for (const auto& side : section.sides)
-      gross += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, plate.edges, side, 1).ds.sum();
+    const double gross = rim::section_area(plate.mesh, plate.edges, section);
     const auto direction = rim::unit_vector(rim::signed_axis_named(section.side));
     const double hole = rim::bearing(plate.mesh, plate.edges, plate.rims[section.hole], direction).area;
     if (!(gross > (1 + rim::same_place) * hole))

@@ -40,14 +40,13 @@ void describe_rims(const formats::PlateSolution& plate, const pfem::Edges& edges
 /// Sets hole, side, gross and net area of the sections.
 void describe_sections(const formats::PlateSolution& plate, const pfem::Edges& edges, formats::PlateStresses& a) {
   const Eigen::Index s = plate.sections.size();
-  a.gross_area = Eigen::VectorXd::Zero(s);
+  a.gross_area.resize(s);
   a.net_area.resize(s);
   for (Eigen::Index i = 0; i < s; ++i) {
     const auto& section = plate.sections[i];
     a.section_hole.push_back(plate.hole_id[section.hole]);
     a.section_side.push_back(section.side);
-    for (const auto& side : section.sides)
-      a.gross_area[i] += plate.mesh.thickness[side.element] * pfem::side_rule(plate.mesh, edges, side, 1).ds.sum();
+    a.gross_area[i] = rim::section_area(plate.mesh, edges, section);
     const auto& rim = plate.hole_rim[section.hole];
     const auto direction = rim::unit_vector(rim::signed_axis_named(section.side));
     a.net_area[i] = a.gross_area[i] - rim::bearing(plate.mesh, edges, rim, direction).area;
