@@ -324,7 +324,10 @@ bool Walk::take(const Root& root, double target) {
       return equations_.residual(contact_state(equations_, at), target).lpNorm<Eigen::Infinity>();
     };
     constexpr double precision = std::numeric_limits<double>::epsilon();
-    if (rounded != c && imbalance(rounded) <= max_residual * std::max(imbalance(c), precision * scale_)) c = rounded;
+    // Rounding of one wide gap may be far above that of the forces elsewhere, which the sheets amplify.
+    constexpr double negligible = 1e-13;
+    const double rounding = std::max(std::min(rounding_, negligible * scale_), precision * scale_);
+    if (rounded != c && imbalance(rounded) <= max_residual * std::max(imbalance(c), rounding)) c = rounded;
   }
   if (const auto failed = contact_state(equations_, c).failed) {
     if (std::isinf(worst_residual_)) {
