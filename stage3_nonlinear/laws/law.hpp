@@ -122,9 +122,9 @@ using TestPoints = std::vector<std::array<double, 2>>;
 
 /// Reads points in the order of the file.
 ///
-/// The text file has two columns, separated by commas, semicolons or tabs, with decimal points; a first line of two
-/// names, empty lines and text after a '#' are skipped. Throws InputError with file, line, what was found and what is
-/// allowed; FileError if the file cannot be read.
+/// The text file has two columns, separated by commas, semicolons or tabs, with decimal points, delta before F unless a
+/// first line of names says otherwise; empty lines and text after a '#' are skipped. Throws InputError with file, line,
+/// what was found and what is allowed; FileError if the file cannot be read.
 [[nodiscard]] TestPoints read_points(const std::string& path);
 
 /// Root of a rising function of one variable between low and high, where it is <= 0 and >= 0: Newton's method within a

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gsl/gsl_interp.h>
 
 #include <algorithm>
-#include <charconv>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <new>
-#include <optional>
-#include <ranges>
 #include <string_view>
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/input/csv.hpp"
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 
@@ -137,45 +137,35 @@ class TableLaw final : public Law {
   double F_yield_, yields_at_ = 0, unloads_ = 0;  ///< force, length, force / length
 };
 
-using Fields = std::vector<std::string_view>;
-
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // spreadsheets write one
 constexpr const char* columns = "two columns, delta and F, parted by a comma, semicolon or tab";
 
-std::string_view trimmed(std::string_view text) {
-  constexpr const char* blank = " \t\r";
-  const auto first = text.find_first_not_of(blank);
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(blank) - first + 1);
+double checked(std::string_view cell, const std::string& place) {
+  const auto value = input::csv_number(cell);
+  if (!value || !std::isfinite(*value) || *value < 0)
+    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: a number >= 0 with a decimal point", place, cell));
+  return *value;
 }
 
-Fields split(std::string_view line) {
-  const char separator = line.find(';') != line.npos ? ';' : line.find('\t') != line.npos ? '\t' : ',';
-  Fields fields;
-  for (const auto field : std::views::split(line, separator)) fields.push_back(trimmed({field.begin(), field.end()}));
-  return fields;
-}
-
-std::optional<double> number(std::string_view field) {
-  double value = 0;
-  if (field.size() > 1 && field[0] == '+' && field[1] != '-') field.remove_prefix(1);  // from_chars knows no plus
-  const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-  if (error != std::errc() || end != field.data() + field.size()) return std::nullopt;
-  return value;
-}
-
-/// Tells whether a line holds two names; a field that begins like a number is a mistyped number, not a name.
-bool is_header(const Fields& fields) {
-  return std::ranges::all_of(fields, [](std::string_view field) {
-    return !field.empty() && !number(field) && std::string_view("0123456789+-.").find(field.front()) == field.npos;
+/// Tells whether a row holds two names; a cell that begins like a number is a mistyped number, not a name.
+bool is_header(const std::vector<std::string>& cells) {
+  return std::ranges::all_of(cells, [](std::string_view cell) {
+    return !cell.empty() && !input::csv_number(cell) &&
+           std::string_view("0123456789+-.").find(cell.front()) == cell.npos;
   });
 }
 
-double checked(std::string_view field, const std::string& place) {
-  const auto value = number(field);
-  if (!value || !std::isfinite(*value) || *value < 0)
-    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: a number >= 0 with a decimal point", place, field));
-  return *value;
+/// Columns of delta and F by a header whose cells may name units too: "delta [mm]". Columns of unknown names could be
+/// in either order, and F over delta rises as delta over F does.
+std::array<std::size_t, 2> places_in(const std::vector<std::string>& header, const std::string& place) {
+  const auto is = [&](std::size_t i, std::string_view name) {
+    const std::string_view cell = header[i];
+    return cell.substr(0, cell.find_first_of(" ([/")) == name;
+  };
+  if (is(0, "delta") && is(1, "F")) return {0, 1};
+  if (is(0, "F") && is(1, "delta")) return {1, 0};
+  throw InputError(
+      fmt::format("{}: columns '{}' and '{}'; allowed: \"delta\" and \"F\", with units or without, or no names", place,
+                  header[0], header[1]));
 }
 
 /// Points given in the law itself, not in a file.
@@ -192,23 +182,19 @@ TestPoints points_of(const input::Value& law) {
 }  // namespace
 
 TestPoints read_points(const std::string& path) {
-  const std::string text = input::read_text_file(path);
-  std::string_view rest = text;
-  if (rest.starts_with(byte_order_mark)) rest.remove_prefix(byte_order_mark.size());
   TestPoints points;
   bool first = true;
-  for (int n_line = 1; !rest.empty(); ++n_line) {
-    const auto end = std::min(rest.find('\n'), rest.size());
-    const auto line = trimmed(rest.substr(0, std::min(end, rest.find('#'))));
-    rest.remove_prefix(std::min(end + 1, rest.size()));
-    if (line.empty()) continue;
-    const std::string place = fmt::format("{}:{}", path, n_line);
-    const Fields fields = split(line);
-    if (fields.size() != 2)
-      throw InputError(
-          fmt::format("{}: {} in '{}'; allowed: {}", place, program::counted(fields.size(), "column"), line, columns));
-    if (!std::exchange(first, false) || !is_header(fields))
-      points.push_back({checked(fields[0], place), checked(fields[1], place)});
+  std::array<std::size_t, 2> at{0, 1};
+  for (const auto& [line, cells] : input::read_csv(path)) {
+    if (cells.size() == 1 && cells[0].empty()) continue;
+    const std::string place = fmt::format("{}:{}", path, line);
+    if (cells.size() != 2)
+      throw InputError(fmt::format("{}: {} in '{}'; allowed: {}", place, program::counted(cells.size(), "column"),
+                                   fmt::join(cells, ","), columns));
+    if (std::exchange(first, false) && is_header(cells))
+      at = places_in(cells, place);
+    else
+      points.push_back({checked(cells[at[0]], place), checked(cells[at[1]], place)});
   }
   if (points.empty()) throw InputError(fmt::format("{}: no points; allowed: {}", path, columns));
   return points;

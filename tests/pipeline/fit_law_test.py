@@ -58,6 +58,7 @@ def check_what_is_printed():
     assert '  "fitted": {"type": "cubic", "delta": [1, 2, 3], "F": [1, 1.8, 2.4]}\n' in out, out
     assert fit(ROOT_LAW, "--law", "power", "--quiet") == ("", "")
     assert fit(ROOT_LAW, "--law", "power") == fit(ROOT_LAW, "--law", "power")
+    assert fit("delta,F\n1,3\n2,4\n4,5\n5,7\n", "--law", "cubic") == fit('"F [N]","delta"\n3,1\n4,2\n5,4\n7,5\n', "--law", "cubic")
     Path("line\nbreak.csv").write_text("1,1\n")
     assert call("line\nbreak.csv", "--law", "power", status=2)[1].startswith(r"fit_law: error: line\nbreak.csv: forces"), \
         "a message is one line"
@@ -69,6 +70,8 @@ def check_what_is_refused():
             ("0,0\n1,2\n2,3\n", 2, ": forces > 0 at 2 different delta > 0; allowed: at 3 or more of them"),
             ("0,0\n1,-2\n", 2, f":2: '-2' is not allowed; {number}"),
             ("delta,F\n1,2\n\n# pause\n1,2 N\n", 2, f":5: '2 N' is not allowed; {number}"),
+            ("slip,load\n1,2\n", 2, ":1: columns 'slip' and 'load'; allowed: \"delta\" and \"F\", with units or without, or "
+             "no names"),
             ("1,2\n1,2,3\n", 2, f":2: 3 columns in '1,2,3'; {columns} a comma, semicolon or tab"),
             ("the force was measured\n", 2, f":1: 1 column in 'the force was measured'; {columns} a comma, semicolon or tab"),
             ("# nothing\ndelta,F\n", 2, f": no points; {columns} a comma, semicolon or tab"),

@@ -128,6 +128,7 @@ TEST_F(PointsOfATest, OfAnySeparatorHeaderAndComment) {
   EXPECT_THAT(read("delta, F\n0, 0\n 0.1 , 200 \n0.25,350"), points);
   EXPECT_THAT(read("\xEF\xBB\xBF\"delta [mm]\";\"F [N]\"\r\n0;0\r\n0.1;200\r\n0.25;350\r\n"), points);
   EXPECT_THAT(read("+0,+0\n+0.1,+200\n+2.5E-01,+350\n"), points);
+  EXPECT_THAT(read("F [N], delta [mm]\n0,0\n200,0.1\n350,0.25"), points);
   EXPECT_THAT(read("# bolt 7\n\n0,0 # start\n0.1,200\n  # pause\n0.25,350\n"), points);
 }
 
@@ -148,7 +149,15 @@ TEST_F(PointsOfATest, RefusesWithFileAndLine) {
   EXPECT_THAT(refusal("0,1;200\n"), EndsWith("test.csv:1: '0,1' is not allowed; " + number));
   EXPECT_THAT(refusal("0.0l,2oo\n1,2\n"), EndsWith("test.csv:1: '0.0l' is not allowed; " + number));
   EXPECT_THAT(refusal("# two headers\ndelta,F\nmm,N\n"), EndsWith("test.csv:3: 'mm' is not allowed; " + number));
+  EXPECT_THAT(refusal(std::string("0.1,2\n0.2,3\0", 12)),
+              EndsWith("test.csv: a byte of value 0 at line 2, column 6; allowed: text"));
   EXPECT_THAT(refusal("delta,\n"), EndsWith("test.csv:1: 'delta' is not allowed; " + number));
+}
+
+TEST_F(PointsOfATest, RefusesNamesThatDoNotTellWhichIsWhich) {
+  const std::string names = "allowed: \"delta\" and \"F\", with units or without, or no names";
+  EXPECT_THAT(refusal("load,slip\n1,2\n"), EndsWith("test.csv:1: columns 'load' and 'slip'; " + names));
+  EXPECT_THAT(refusal("delta,delta\n1,2\n"), EndsWith("test.csv:1: columns 'delta' and 'delta'; " + names));
 }
 
 TEST_F(PointsOfATest, RefusesOtherThanTwoColumns) {
