@@ -18,6 +18,7 @@ constexpr const char* format = "plate-matrices";
 constexpr int major = 1;
 constexpr int minor = 11;
 constexpr const char* per_case = "per unit of the case";
+const h5::Allowed or_none = h5::Allowed{.text = "numbers >= 0", .low = 0}.or_else(0);
 
 template <class File, class Matrices>
 void name_datasets(File& file, Matrices& a) {
@@ -26,7 +27,7 @@ void name_datasets(File& file, Matrices& a) {
   file("disc/hole", a.disc_hole, {any}, "1", "hole or point of each disc, once for each direction of motion");
   file("disc/direction", a.disc_direction, {a.n_discs()}, "1", "direction of each disc, x or y");
   file("disc/modulus", a.disc_modulus, {a.n_discs()}, unit(a.header.units, -3, 1),
-       "modulus of the distributed springs between disc and sheet, 0 where there are none", or_else(0));
+       "modulus of the distributed springs between disc and sheet, 0 where there are none", or_none);
   file("external/id", a.external_id, {any}, "1", "external boundaries that move as one", or_else(""));
   file("external/direction", a.external_direction, {a.n_externals()}, "1", "x or y, for each external", or_else("x"));
   file("traction/id", a.traction_id, {any}, "1", traction_boundaries, or_else(""));
@@ -97,10 +98,10 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index
   const Eigen::Index l = a.p.size(), r = a.rim_hole.size();
   if (File::reads && l == 0 && r == 0) return;
   file("rim/center", a.rim_center, {r, 2}, length, "x and y of each hole's centre");
-  file("rim/radius", a.rim_radius, {r}, length, "radius of each hole");
-  file("rim/thickness", a.rim_thickness, {r}, length, "mean thickness of the sheet at the rim", or_else(0));
+  file("rim/radius", a.rim_radius, {r}, length, "radius of each hole", h5::positive);
+  file("rim/thickness", a.rim_thickness, {r}, length, "mean thickness of the sheet at the rim", or_none);
   file("rim/modulus", a.rim_modulus, {r, 2}, unit(units, -2, 1),
-       "mean modulus in tension of the sheet at the rim, along x and along y", or_else(0));
+       "mean modulus in tension of the sheet at the rim, along x and along y", or_none);
   file("rim/bearing_area", a.bearing_area, {r, 2}, area, "projected area of the rim for bearing along x and along y",
        h5::positive);
   const Eigen::Index n_cases = l > 0 ? all_cases : 0;

@@ -73,21 +73,31 @@ struct Reader::Impl {
   }
 
   Dataset open(const std::string& name) const {
-    check_links(name);
+    if (!has(name)) fail(name, "dataset is missing");
     Dataset set(H5Dopen2(file.get(), name.c_str(), H5P_DEFAULT));
-    if (!set) fail(name, fmt::format("dataset is missing or damaged ({})", last_error()));
+    if (!set) fail(name, fmt::format("dataset is damaged ({})", last_error()));
     check_own(set, name);
     return set;
   }
 
-  /// Rejects a path with an external or user-defined link before the library follows it: at its end may be a pipe, at
-  /// which opening waits without end.
-  void check_links(const std::string& name) const {
+  /// Tells whether the file has a dataset or group. Rejects paths with links that do not end in the file.
+  [[nodiscard]] bool has(const std::string& name) const {
+    const Properties own_links(
+        H5Pcreate(H5P_LINK_ACCESS));  // at an external one's end may be a pipe, which waits forever
+    H5Pset_elink_cb(
+        own_links.get(), [](const char*, const char*, const char*, const char*, unsigned*, hid_t, void*) { return -1; },
+        nullptr);
     for (auto end = name.find('/');; end = name.find('/', end + 1)) {
+      const std::string part = name.substr(0, end);
+      const htri_t exists = H5Lexists(file.get(), part.c_str(), H5P_DEFAULT);
+      if (exists < 0) fail(name, fmt::format("is damaged ({})", last_error()));
+      if (exists == 0) return false;
       H5L_info_t link;
-      const bool exists = H5Lget_info(file.get(), name.substr(0, end).c_str(), &link, H5P_DEFAULT) >= 0;
-      if (exists && link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) refuse_foreign(name);
-      if (!exists || end == std::string::npos) return;
+      if (H5Lget_info(file.get(), part.c_str(), &link, H5P_DEFAULT) < 0) fail(name, "is a damaged link");
+      if (link.type != H5L_TYPE_HARD && link.type != H5L_TYPE_SOFT) refuse_foreign(name);
+      if (H5Oexists_by_name(file.get(), part.c_str(), own_links.get()) <= 0)
+        fail(name, fmt::format("\"{}\" leads to nothing in this file (a damaged object or a link elsewhere)", part));
+      if (end == std::string::npos) return true;
     }
   }
 
@@ -112,11 +122,13 @@ struct Reader::Impl {
     constexpr double max_ratio = 1032;  // highest compression ratio of deflate
     const Type type(H5Dget_type(set.get()));
     const Properties creation(H5Dget_create_plist(set.get()));
-    auto bytes = double(H5Tget_size(type.get()));
-    for (const hsize_t extent : extents) bytes *= double(extent);
+    double entries = 1;
+    for (const hsize_t extent : extents) entries *= double(extent);
+    const double bytes = entries * double(H5Tget_size(type.get()));
     // Chunks may be compressed, and fill values need no bytes.
     const bool is_plain = H5Pget_layout(creation.get()) != H5D_CHUNKED && H5Dget_storage_size(set.get()) > 0;
-    if (bytes > (is_plain ? 1 : max_ratio) * size)
+    const bool is_text = H5Tget_class(type.get()) == H5T_STRING;  // which takes more memory than bytes of the file
+    if (bytes > (is_plain ? 1 : max_ratio) * size || (is_text && entries * sizeof(std::string) > max_ratio * size))
       fail(name,
            fmt::format("claims {:.3g} bytes, shape ({}), more than a file of {:.0f} bytes can hold; it is damaged",
                        bytes, fmt::join(extents, ", "), size));
@@ -227,12 +239,7 @@ const std::string& Reader::digest() const { return impl_->digest; }
 
 void Reader::compare_units(bool compare) { impl_->compare_units = compare; }
 
-bool Reader::has(const std::string& dataset) const {
-  for (auto end = dataset.find('/');; end = dataset.find('/', end + 1)) {
-    if (H5Lexists(impl_->file.get(), dataset.substr(0, end).c_str(), H5P_DEFAULT) <= 0) return false;
-    if (end == std::string::npos) return true;
-  }
-}
+bool Reader::has(const std::string& dataset) const { return impl_->has(dataset); }
 
 void Reader::attribute(const std::string& name, std::string& text) const {
   text = read_text_attribute(impl_->file.get(), name.c_str()).value_or(text);

@@ -100,8 +100,9 @@ void check_can_write(const std::string& path) {
   std::error_code ignored;
   if (fs::exists(path, ignored) && !fs::is_regular_file(path, ignored))
     throw FileError(fmt::format("{}: cannot be written: it is not a regular file", path));
-  const auto mode = fs::status(path, ignored).permissions();
-  if (fs::exists(path, ignored) && (mode & fs::perms::owner_write) == fs::perms::none)
+  const auto mode = fs::status(path, ignored).permissions();  // the system lets root write to read-only files
+  if (fs::exists(path, ignored) &&
+      ((mode & fs::perms::owner_write) == fs::perms::none || ::access(path.c_str(), W_OK) != 0))
     throw FileError(
         fmt::format("{}: cannot be written: it is read-only; make it writable, or choose another name", path));
   if (fs::is_symlink(resolved(path), ignored)) fail(path, ELOOP);

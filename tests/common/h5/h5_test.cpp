@@ -114,7 +114,7 @@ TEST_F(WrongFile, Versions) {
 TEST_F(WrongFile, ShapesUnitsTypes) {
   write_sample(path_);
   EXPECT_THAT(message([](const Reader& f) { read<VectorXd>(f, "absent", {any}); }),
-              HasSubstr("a.h5:absent: dataset is missing or damaged"));
+              HasSubstr("a.h5:absent: dataset is missing"));
   EXPECT_THAT(message([](const Reader& f) {
                 read<MatrixXd>(f, "group/A", {3, any}, "N/mm");
               }),
@@ -204,6 +204,45 @@ TEST_F(WrongFile, ValuesThatAreNotInTheFile) {
   write_sample(folder_.path("b.h5"));
   EXPECT_THAT(refused([](hid_t, hid_t file) { H5Lcreate_external("b.h5", "v", file, "v", H5P_DEFAULT, H5P_DEFAULT); }),
               HasSubstr(message));
+}
+
+/// A link on the way to a dataset, be it external or to nothing, is refused where the dataset is optional too.
+TEST_F(WrongFile, LinksThatDoNotEndInTheFile) {
+  write_sample(folder_.path("b.h5"));
+  const auto refused = [&](const std::function<void(hid_t)>& link) {
+    write_sample(path_);
+    const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    H5Ldelete(file, "group", H5P_DEFAULT);
+    link(file);
+    H5Fclose(file);
+    return message([](const Reader& f) { (void)f.has("group/A"); });
+  };
+  EXPECT_THAT(refused([](hid_t file) { H5Lcreate_external("b.h5", "group", file, "group", H5P_DEFAULT, H5P_DEFAULT); }),
+              HasSubstr("a.h5:group/A: its values are in another file or dataset"));
+  const std::string nothing = "a.h5:group/A: \"group\" leads to nothing in this file";
+  EXPECT_THAT(refused([](hid_t file) {
+                H5Lcreate_external("b.h5", "group", file, "other", H5P_DEFAULT, H5P_DEFAULT);
+                H5Lcreate_soft("other", file, "group", H5P_DEFAULT, H5P_DEFAULT);
+              }),
+              HasSubstr(nothing));
+  EXPECT_THAT(refused([](hid_t file) { H5Lcreate_soft("group", file, "group", H5P_DEFAULT, H5P_DEFAULT); }),
+              HasSubstr(nothing));
+  EXPECT_EQ(refused([](hid_t) {}), "no error") << "an optional group that is not there";
+}
+
+/// A text of one byte in the file takes 32 in memory.
+TEST_F(WrongFile, TextsThatTakeMoreMemoryThanTheFileGives) {
+  write_sample(path_);
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  H5Ldelete(file, "v", H5P_DEFAULT);
+  const hsize_t n = hsize_t{1} << 21;
+  const hid_t space = H5Screate_simple(1, &n, nullptr), type = H5Tcopy(H5T_C_S1);
+  H5Dclose(H5Dcreate2(file, "v", type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+  H5Tclose(type);
+  H5Sclose(space);
+  H5Fclose(file);
+  EXPECT_THAT(message([](const Reader& f) { read<std::vector<std::string>>(f, "v", {some}); }),
+              HasSubstr("a.h5:v: claims 2.1e+06 bytes, shape (2097152), more than a file of"));
 }
 
 /// Nothing is allocated for an extent that the file cannot hold, be its values left out or its header damaged.
