@@ -77,6 +77,8 @@ void write_field(const program::Arguments& arguments, stage2::FieldSolver& solve
 /// Reads and checks the options of a field, before a large file is read.
 stage2::FieldRequest field_request(const program::Arguments& arguments) {
   constexpr int max_increments = 1000000;
+  if (arguments.flag("--field") && arguments.flag("--loads-only"))
+    throw InputError("--loads-only: given together with --field; allowed: one of them");
   stage2::FieldRequest request = {arguments.text("--field"), arguments.text("--plate"),
                                   arguments.integer("--increment", 1, max_increments, 0),
                                   arguments.integer("--p", 1, pfem::highest_p, 0)};

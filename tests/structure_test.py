@@ -12,11 +12,11 @@ STAGES = {
         "scene": ["input", "pfem", "rim", ""],
         "mesh": ["pfem", "rim", ""],
         "problem": ["pfem", "plate", "rim", ""],
-        "run": ["formats", "linalg", "matrices", "plate", "program", "rim", ""],
+        "run": ["formats", "linalg", "matrices", "pfem", "plate", "program", "rim", ""],
         "": ["linalg", "program"],
     },
     "stage2_extract": {
-        "matrices": ["formats", "matrices", ""],
+        "matrices": ["formats", "matrices", "pfem", ""],
         "field": ["formats", "pfem", "plate", "program", ""],
         "": ["formats", "h5", "matrices", "program", ""],
     },

@@ -66,7 +66,9 @@ MatrixXd PlateStates::work() const {
 }
 
 Eigen::VectorXd PlateStates::rounding() const {
-  return std::numeric_limits<double>::epsilon() * (skeleton_.cwiseAbs2() * factor_.diagonal_);
+  const Eigen::VectorXd& K_cc = factor_.diagonal_of_K_cc_;
+  return std::numeric_limits<double>::epsilon() *
+         (skeleton_.cwiseAbs2() * factor_.diagonal_ + border_.leftCols(K_cc.size()).cwiseAbs2() * K_cc);
 }
 
 MatrixXd PlateStates::boundary_coefficients(int element) const {

@@ -23,7 +23,7 @@ class PlateStates {
   /// Work of the loads of each state on the displacements of each, shape (k, k).
   [[nodiscard]] Eigen::MatrixXd work() const;
   /// Bound of the change of each state's energy by rounding of the plate's stiffness, (k): the machine precision times
-  /// the sum over the skeleton of the diagonal entry times the square of the displacement.
+  /// the sum over the skeleton and the controlled displacements of the diagonal entry times the displacement's square.
   [[nodiscard]] Eigen::VectorXd rounding() const;
 
   [[nodiscard]] Eigen::Index size() const { return skeleton_.rows(); }

@@ -157,4 +157,12 @@ std::vector<int> count_free(const pfem::Numbering& numbering, const Eigen::Matri
   return n_free;
 }
 
+std::vector<double> spring_stiffnesses(const PlateStiffness& plate) {
+  std::vector<double> all;
+  for (const auto& each : plate.elements.classes)
+    for (const auto& rim : each.rims) all.push_back(rim.terms.stiffness);
+  for (const auto& tie : plate.ties) all.push_back(tie.stiffness);
+  return all;
+}
+
 }  // namespace fastjoint::plate

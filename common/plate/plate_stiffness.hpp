@@ -91,4 +91,7 @@ struct PlateStiffness {
   std::vector<PointTie> ties;
 };
 
+/// Stiffness of the springs of all points and of each side of a rim, force / length.
+[[nodiscard]] std::vector<double> spring_stiffnesses(const PlateStiffness& plate);
+
 }  // namespace fastjoint::plate

@@ -114,7 +114,7 @@ struct RigidStiffness {
   }
 };
 
-constexpr double min_stiffness = 1e-10;  // relative to the stiffest motion; rounding is about 1e-16
+constexpr double min_stiffness = 1e-13;  // relative to the stiffest motion; rounding is about 1e-16
 
 std::string words(const Part& part, const Eigen::Vector3d& a) {
   constexpr double pure = 1e-6;

@@ -11,6 +11,22 @@
 namespace fastjoint::stage1 {
 namespace {
 
+/// Throws InputError if the springs of contact are so much stiffer or softer than the sheet around them that its
+/// numbers do not resolve where they touch: a rim on springs of 1e6 times E over the radius is that of a rigid pin.
+void check_modulus(const PlateScene& scene, const PlateMesh& plate, int hole) {
+  constexpr double softest = 1e-5, stiffest = 1e6;
+  const double modulus = scene.holes[hole].sprung().modulus, radius = scene.holes[hole].radius;
+  for (const auto& side : plate.rims[hole].sides) {
+    const Eigen::Matrix3d compliance = scene.elasticity[plate.mesh.material[side.element]].inverse();
+    const double E = compliance.diagonal().head<2>().cwiseInverse().maxCoeff(), ratio = modulus * radius / E;
+    if (ratio < softest || ratio > stiffest)
+      reject(scene, fmt::format("/holes/{}/spring", hole),
+             fmt::format("springs of contact of modulus {:.6g} are {:.3g} times E / radius of the sheet, {:.6g}",
+                         modulus, ratio, E / radius),
+             fmt::format("{:g} to {:g} times", softest, stiffest));
+  }
+}
+
 /// Throws InputError if the rim of a hole in contact is in several pieces or of several thicknesses.
 void check_contact(const PlateScene& scene, const PlateMesh& plate, int hole, std::size_t n_pieces) {
   const auto fail = [&](const std::string& found, const char* allowed) {
@@ -51,7 +67,7 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     auto& waves = all.emplace_back();
     const bool in_contact = hole.spring && hole.spring->compression_only;
     const auto pieces = rim::open_pieces(rim::side_angles(plate.mesh, plate.edges, plate.rims[i]));
-    if (in_contact) check_contact(scene, plate, i, pieces.size());
+    if (in_contact) check_contact(scene, plate, i, pieces.size()), check_modulus(scene, plate, i);
     rim::Harmonics shape{rim::max_harmonics};
     if (!pieces.empty()) shape.start = pieces[0].from, shape.sweep = pieces[0].to - pieces[0].from;
     const bool is_linked = hole.spring && hole.spring->link > 0;

@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/errors.hpp"
+#include "common/pfem/extremes.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/run/hoop_error.hpp"
 #include "stage1_plate/run/solve.hpp"
@@ -20,6 +22,17 @@ constexpr double max_wave_tolerance = 1e-2;
 
 bool has_free_rings(const PlateScene& scene, const Hole& hole) {
   return std::holds_alternative<GridGeometry>(scene.geometry) && !hole.has_rings;
+}
+
+std::unique_ptr<plate::PlateFactor> factorised(const PlateScene& scene, const PlateMesh& plate,
+                                               const PlateProblem& problem, const plate::Skeleton& skeleton, int p,
+                                               bool with_hoop) {
+  try {
+    return std::make_unique<plate::PlateFactor>(problem, skeleton, p, with_hoop);
+  } catch (const NumericalError& e) {
+    throw NumericalError(fmt::format("{}: {}: {}", scene.file, e.what(),
+                                     pfem::extremes(plate.mesh, scene.elasticity, plate::spring_stiffnesses(problem))));
+  }
 }
 
 /// Integrates once, then raises the degree until the targets are reached, at most to the scene's highest.
@@ -47,8 +60,8 @@ void raise_degree(Accuracy& model) {
     const auto alone = Eigen::VectorXi::Constant(1, p);
     require_memory(model.scene.file, p, memory_need(problem, skeleton, alone));
     if (p == model.scene.p_low) integrate(model.scene, plate, problem);
-    const plate::PlateFactor K(problem, skeleton, p, with_hoop);
-    auto cases = solve_degree(problem, K, p).cases;
+    const auto K = factorised(model.scene, plate, problem, skeleton, p, with_hoop);
+    auto cases = solve_degree(problem, *K, p).cases;
     levels.S.push_back(std::move(cases.S));
     levels.R.push_back(std::move(cases.R));
     levels.C.push_back(std::move(cases.C_t));
@@ -56,8 +69,8 @@ void raise_degree(Accuracy& model) {
       model.hoop_error = hoop_error(waves, cases.W, below, problem.unknowns.n_controlled(), levels.C.back().cols());
     below = std::move(cases.W);
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
-    model.errors =
-        matrices::relative_errors(levels, degrees, K.diagonal_of_K_cc(), matrices::max_rate_of(model.scene.elasticity));
+    model.errors = matrices::relative_errors(levels, degrees, K->diagonal_of_K_cc(),
+                                             matrices::max_rate_of(model.scene.elasticity));
     model.scene.p_high = p;
     if (model.is_reached()) return;
   }

@@ -11,6 +11,7 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/linalg/processor.hpp"
+#include "common/pfem/extremes.hpp"
 #include "common/plate/cracks.hpp"
 #include "common/plate/plate_states.hpp"
 #include "common/plate/sections.hpp"
@@ -175,29 +176,6 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
   });
 }
 
-/// What can make the stiffness of a sheet badly conditioned: the most slender element, and the range of the moduli.
-std::string what_is_extreme(const formats::PlateSolution& a) {
-  double slender = 1, softest = std::numeric_limits<double>::infinity(), stiffest = 0;
-  int at = 0;
-  for (int i = 0; i < a.mesh.n_elements(); ++i) {
-    double shortest = std::numeric_limits<double>::infinity(), longest = 0;
-    for (int side = 0; side < 4; ++side) {
-      const double length =
-          (a.mesh.nodes.col(a.mesh.quads(side, i)) - a.mesh.nodes.col(a.mesh.quads((side + 1) % 4, i))).norm();
-      shortest = std::min(shortest, length);
-      longest = std::max(longest, length);
-    }
-    if (longest / shortest > slender) slender = longest / shortest, at = i;
-  }
-  for (const auto& D : a.elasticity)
-    softest = std::min(softest, D.diagonal().minCoeff()), stiffest = std::max(stiffest, D.diagonal().maxCoeff());
-  return fmt::format(
-      "the most slender element, {}, is {:.3g} times as long as it is short, moduli are {:.3g} to {:.3g}; "
-      "allowed: more even cells, supports or springs that hold the sheet well, nu further from 0.5 in plane strain, or "
-      "a lower p",
-      at, slender, softest, stiffest);
-}
-
 SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, program::Timings& timings) {
   timings.phase("mesh");
   const PlateMesh plate = make_mesh(scene);
@@ -214,7 +192,8 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   try {
     solve_cases(problem, skeleton, solution);
   } catch (const NumericalError& e) {
-    throw NumericalError(fmt::format("{}: {}: {}", scene.file, e.what(), what_is_extreme(solution)));
+    throw NumericalError(fmt::format("{}: {}: {}", scene.file, e.what(),
+                                     pfem::extremes(plate.mesh, scene.elasticity, plate::spring_stiffnesses(problem))));
   }
   for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
   return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns), plate.moved_lines};

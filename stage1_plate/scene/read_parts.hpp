@@ -51,7 +51,7 @@ struct Materials {
 /// Range of quantities in any unit, within which the products and squares in the programs do not overflow.
 inline constexpr double smallest = 1e-30, largest = 1e30;
 /// Lower bound of spring stiffness, which no formula divides by.
-inline constexpr double softest_spring = 1e-300;
+inline constexpr double softest_spring = input::smallest_number;
 
 /// Reads a length, a modulus or a stiffness: a number from `low` to largest.
 [[nodiscard]] double read_quantity(const input::Value& value, double low = smallest);

@@ -201,25 +201,6 @@ int degree(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? value : 0;
 }
 
-/// Throws InputError if the springs of contact are so much stiffer or softer than the sheet that its numbers do not
-/// resolve where they touch: a rim on springs of 1e6 times E over the radius is that of a rigid pin.
-void check_contact_moduli(const Value& root, const PlateScene& scene) {
-  constexpr double softest = 1e-5, stiffest = 1e6;
-  for (std::size_t i = 0; i < scene.holes.size(); ++i) {
-    const auto& spring = scene.holes[i].spring;
-    const double radius = scene.holes[i].radius;
-    if (!spring || !spring->compression_only) continue;
-    for (const auto& D : scene.elasticity) {
-      const double E = D.inverse().diagonal().head<2>().cwiseInverse().maxCoeff(), ratio = spring->modulus * radius / E;
-      if (ratio >= softest && ratio <= stiffest) continue;
-      root.at("holes").items(1)[i].at("spring").fail(
-          fmt::format("springs of contact of modulus {:.6g} are {:.3g} times E / radius of the sheet, {:.6g}",
-                      spring->modulus, ratio, E / radius),
-          fmt::format("{:g} to {:g} times", softest, stiffest));
-    }
-  }
-}
-
 }  // namespace
 
 double read_quantity(const Value& value, double low) {
@@ -264,7 +245,6 @@ PlateScene read_scene(const input::Document& document) {
   check_laminates(root, materials, scene);
   std::set<std::string> disc_ids;
   scene.holes = read_holes(root, std::holds_alternative<GridGeometry>(scene.geometry), disc_ids);
-  check_contact_moduli(root, scene);
   scene.points = read_points(root, disc_ids);
   scene.cracks = read_cracks(root, scene);
   const auto discs = root.find("disc_directions");

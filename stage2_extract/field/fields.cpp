@@ -8,6 +8,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
+#include "common/pfem/extremes.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -87,6 +88,7 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
 
 FieldSolver::FieldSolver(const PlateSolution& plate, const std::string& file)
     : plate_(plate),
+      file_(file),
       edges_(pfem::find_edges(plate.mesh)),
       stiffness_(stiffness_of(plate, edges_, file)),
       skeleton_(stiffness_) {}
@@ -95,7 +97,13 @@ double FieldSolver::factor_bytes(int p) const { return plate::factor_bytes(stiff
 
 void FieldSolver::factorise(int p) {
   factor_.reset();  // frees its memory before the next factorisation
-  factor_ = std::make_unique<plate::PlateFactor>(stiffness_, skeleton_, p, false);
+  try {
+    factor_ = std::make_unique<plate::PlateFactor>(stiffness_, skeleton_, p, false);
+  } catch (const NumericalError& e) {
+    throw NumericalError(
+        fmt::format("{}: {}: {}", file_, e.what(),
+                    pfem::extremes(plate_.mesh, plate_.elasticity, plate::spring_stiffnesses(stiffness_))));
+  }
   n_free_ = stiffness_.unknowns.n_free[p];
 }
 

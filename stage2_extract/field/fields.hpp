@@ -52,6 +52,7 @@ class FieldSolver {
 
  private:
   const formats::PlateSolution& plate_;
+  std::string file_;
   pfem::Edges edges_;
   plate::PlateStiffness stiffness_;
   plate::Skeleton skeleton_;

@@ -10,6 +10,7 @@
 
 #include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
+#include "common/pfem/extremes.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -20,7 +21,10 @@ using formats::PlateSolution;
 /// Upper bound of all errors: far above the rounding of good scenes (1e-15 to 1e-11, see the tests), far below any
 /// modelling error.
 constexpr double max_error = 1e-7;
-/// Lower bound of a reference value, relative to that of the springs alone, so that rounding passes the checks.
+/// Upper bound of the change of S by rounding, above which S is none.
+constexpr double max_rounding = 1e-3;
+/// Lower bound of a reference value, relative to that of the springs or the sheet alone, so that rounding passes the
+/// checks.
 constexpr double min_scale = 1e-5;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
@@ -28,6 +32,15 @@ double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 /// Reference stiffness for errors of S: its largest entry, or a fraction of the springs' stiffness if S is nearly zero.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), min_scale * largest(plate.held_stiffness));
+}
+
+/// Rounding of S relative to its largest entry, or to a fraction of the sheet's stiffness if S is zero. Stiff springs
+/// are no reference: they make the rounding, not S.
+double rounding_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
+  double stiffest = 0;
+  for (const auto& D : plate.elasticity) stiffest = std::max(stiffest, D.diagonal().maxCoeff());
+  const double of_sheet = min_scale * stiffest * plate.mesh.thickness.maxCoeff();
+  return ratio(plate.probe.rounding, largest(S) > 0 ? largest(S) : of_sheet);
 }
 
 /// Reference value for errors of the first `n_waves` rows of W by displacements: the largest entry, or a fraction of
@@ -180,20 +193,23 @@ double largest(const Eigen::MatrixXd& A) { return A.size() == 0 ? 0 : A.cwiseAbs
 Checks check(const PlateSolution& plate, const formats::PlateMatrices& a) {
   const PlateCases& level = plate.cases.back();  // highest p
   const double scale = scale_of(plate, level.S);
+  std::vector<double> springs(plate.held_stiffness.begin(), plate.held_stiffness.end());
+  for (const auto& point : plate.points) springs.push_back(point.stiffness);
   return {energy(plate, level.S),
           reciprocity(plate, level),
           negative_eigenvalue(level.S, scale),
           negative_compliance(plate, level),
           equilibrium(plate, a, level),
-          ratio(plate.probe.rounding, scale)};
+          rounding_of(plate, level.S),
+          pfem::extremes(plate.mesh, plate.elasticity, springs)};
 }
 
 void require_good(const Checks& checks, const std::string& file) {
-  const auto fail = [&](const char* what, double value) {
+  const auto fail = [&](const char* what, double value, double allowed = max_error) {
     throw NumericalError(
-        fmt::format("{}: {} is {:.1e} of the largest entry, allowed {:.0e}; the plate's stiffness is too "
-                    "badly conditioned (check moduli, thicknesses and element shapes)",
-                    file, what, value, max_error));
+        fmt::format("{}: {} is {:.1e} of the largest entry, allowed {:.0e}; the plate's stiffness is too badly "
+                    "conditioned: {}",
+                    file, what, value, allowed, checks.extremes));
   };
   if (checks.negative_eigenvalue) fail("smallest eigenvalue of S", *checks.negative_eigenvalue);
   if (checks.negative_compliance) fail("smallest eigenvalue of C, Q or A/K - C", *checks.negative_compliance);
@@ -201,6 +217,7 @@ void require_good(const Checks& checks, const std::string& file) {
   if (!(checks.reciprocity.value_or(0) < max_error)) fail("error of reciprocity", checks.reciprocity.value_or(0));
   if (!(checks.equilibrium.value_or(0) < max_error))
     fail("error of global equilibrium", checks.equilibrium.value_or(0));
+  if (!(checks.rounding < max_rounding)) fail("the change of S by rounding", checks.rounding, max_rounding);
 }
 
 std::string report(const Checks& checks) {

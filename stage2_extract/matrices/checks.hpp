@@ -35,13 +35,14 @@ struct Checks {
   std::optional<double> negative_eigenvalue;  ///< smallest eigenvalue of S, if it is below the allowed negative value
   std::optional<double> negative_compliance;  ///< the same for the compliances of loaded waves
   std::optional<double> equilibrium;          ///< resultant along free translations; empty if supports prevent them
-  double rounding = 0;  ///< bound of the change of S by rounding, estimated by stage 1; part of the error of S
+  double rounding = 0;        ///< bound of the change of S by rounding, estimated by stage 1; part of the error of S
+  std::string extremes = {};  ///< of the plate, which may be why a check fails
 };
 
 /// @param a As in free_translations.
 [[nodiscard]] Checks check(const formats::PlateSolution& plate, const formats::PlateMatrices& a);
 
-/// Throws NumericalError with the name of the file and of the failed check.
+/// Throws NumericalError with the name of the file and of the failed check, and what of the plate may have caused it.
 void require_good(const Checks& checks, const std::string& file);
 
 /// The checks as a line of the summary.

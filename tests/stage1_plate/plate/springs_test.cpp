@@ -63,7 +63,7 @@ TEST(Springs, ArcsThatMakeTheCircleAddUp) {
     return std::pair(K_ff(plate), plate.problem.K_cc);
   };
   const auto whole = test::make_plate(scene(R"("modulus": 1e6)"));
-  const auto none = test::make_plate(scene(R"("modulus": 1e-300)"));  // the plate alone
+  const auto none = test::make_plate(scene(R"("modulus": 1e-100)"));  // the plate alone
   const auto a = stiffness("[-33, 71]"), b = stiffness("[71, 327]");
   const Eigen::MatrixXd sum = a.first + b.first - K_ff(none);
   EXPECT_LT((sum - K_ff(whole)).norm(), 1e-13 * sum.norm());

@@ -215,6 +215,36 @@ TEST(Checks, RoundingIsEstimatedWhereItCounts) {
   }
 }
 
+/// A point spring many times as stiff as the sheet leaves rounding of its own size in S, which the estimate says; where
+/// it is all there is of S, nothing is extracted.
+TEST(Checks, StiffPointsAreRounding) {
+  const auto sheet = [](double stiffness, double scale) {
+    return test::extract(fmt::format(
+        R"({{"format": "plate", "version": 1, "analysis": "plane stress", "materials": {{"a": {{"E": {}, "nu": 0.3}}}},
+        "geometry": {{"grid": {{"x": [0, {}, {}], "y": [0, {}], "thickness": {}}}}},
+        "points": [{{"id": "1", "at": [{}, {}], "stiffness": {}}}, {{"id": "2", "at": [{}, {}], "stiffness": {}}}],
+        "supports": [{{"on": "left", "fix": ["x", "y"]}}], "disc_directions": ["x"], "p": [1, 3]}})",
+        7e4 / scale / scale, 2 * scale, 4 * scale, scale, 0.1 * scale, 2 * scale, scale, stiffness / scale, 4 * scale,
+        scale, stiffness / scale));
+  };
+  for (const double stiffness : {1e5, 1e11, 1e14}) {
+    const auto result = sheet(stiffness, 1);
+    const auto& S = result.matrices.S_dd.back();
+    double worst = 0;
+    for (const double scale : {1e-3, 1e3, 1 / 25.4, 0.3, 7.0})
+      worst = std::max(worst, (sheet(stiffness, scale).matrices.S_dd.back() * scale - S).lpNorm<Eigen::Infinity>() /
+                                  S.lpNorm<Eigen::Infinity>());
+    EXPECT_LT(worst, result.checks.rounding) << stiffness;
+    EXPECT_EQ(result.checks.rounding > 1e-6, stiffness > 1e13);
+    EXPECT_NO_THROW(stage2::require_good(result.checks, "f.h5"));
+  }
+  for (const double stiffness : {1e18, 1e20})  // S is wrong, or taken for a sheet without stiffness
+    EXPECT_THAT([&] { stage2::require_good(sheet(stiffness, 1).checks, "f.h5"); },
+                ThrowsMessage<NumericalError>(
+                    AllOf(HasSubstr("f.h5: the change of S by rounding is "),
+                          HasSubstr(fmt::format("springs {} to {}; allowed", stiffness, stiffness)))));
+}
+
 /// The checks can fail: each of them on a solution that is spoilt in the digit that it looks at.
 TEST(Checks, SpoiltSolutionsAreFound) {
   const auto good = test::solve(test::make_plate(floating));
