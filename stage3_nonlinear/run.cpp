@@ -216,6 +216,9 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
                                "--rim-stresses", "--distance", "--all-stresses", "--verbose"})
       if (arguments.flag(option))
         throw InputError(fmt::format("{}: given together with --study; allowed: one of them", option));
+    for (const char* option : {"--slice", "--merge", "--threads", "--p"})
+      if (arguments.flag("--sample") && arguments.flag(option))
+        throw InputError(fmt::format("{}: given together with --sample; allowed: one of them", option));
     return run_study(arguments, out, log, timings);
   }
   for (const char* option : {"--sample", "--slice", "--merge", "--threads"})

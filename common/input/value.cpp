@@ -26,6 +26,9 @@ using nlohmann::json;
 /// stack.
 constexpr int max_depth = 100;
 
+/// Characters that would end strings in other files, or lines of the summary.
+bool is_control(unsigned char c) { return c < 0x20 || c == 0x7f; }
+
 /// Parser callback that checks strings, the depth and duplicate keys, of which the parser would silently keep the last.
 struct Watch {
   const std::string& file;
@@ -38,10 +41,10 @@ struct Watch {
     if (opens && depth >= max_depth)
       throw InputError(fmt::format("{}: /{}: arrays and objects are nested more than {} deep; allowed: at most {}",
                                    file, key, max_depth, max_depth));
-    if (value.is_string() && value.get_ref<const std::string&>().find('\0') != std::string::npos)
+    if (value.is_string() && std::ranges::any_of(value.get_ref<const std::string&>(), is_control))
       throw InputError(
-          fmt::format("{}: the string {} holds the character \\u0000, which would end it in other files; "
-                      "allowed: any other character",
+          fmt::format("{}: the string {} holds a control character, such as the end of a line; allowed: any "
+                      "other character",
                       file, value.dump()));
     if (event == json::parse_event_t::object_start) open.emplace_back();
     if (event == json::parse_event_t::object_end) open.pop_back();
@@ -107,14 +110,20 @@ std::string read_text_file(const std::string& path) {
   std::ostringstream text;
   text << in.rdbuf();
   if (!in) throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  return text.str();
+  return std::move(text).str();
+}
+
+void check_is_text(const std::string& file, const std::string& text) {
+  constexpr std::size_t mark_size = 4;  // an encoding shows in the first bytes
+  const auto zero = text.find('\0');
+  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || zero < mark_size)
+    throw InputError(fmt::format("{}: is encoded in UTF-16; save it as UTF-8", file));
+  if (zero != std::string::npos)
+    throw InputError(fmt::format("{}: a byte of value 0 at {}; allowed: text", file, line_and_column(text, zero + 1)));
 }
 
 Document parse(const std::string& file, const std::string& text) {
-  constexpr std::size_t mark_size = 4;  // an encoding shows in the first bytes
-  if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") ||
-      text.substr(0, mark_size).find('\0') != std::string::npos)
-    throw InputError(fmt::format("{}: is encoded in UTF-16; save it as UTF-8", file));
+  check_is_text(file, text);
   try {
     Watch watch{file};
     auto root = std::make_shared<json>(json::parse(text, std::ref(watch), true, true));
@@ -203,6 +212,10 @@ double Value::number(const Range& range) const {
   const bool above = range.low_allowed ? x >= range.low : x > range.low;
   const bool below = range.high_allowed ? x <= range.high : x < range.high;
   if (!std::isfinite(x) || !above || !below) not_allowed(words(range));
+  if (x != 0 && !(std::abs(x) >= smallest_number && std::abs(x) <= largest_number))
+    not_allowed(fmt::format("{} from {} to {}, in other units",
+                            range.low >= 0 && !range.low_allowed ? "a number" : "0, or a size", smallest_number,
+                            largest_number));
   return x;
 }
 
@@ -216,8 +229,9 @@ int Value::integer(int low, int high) const {
   // JSON Schema accepts 8.0 as an integer, so it is one here.
   const double x = is_number() ? json_->get<double>() : std::numeric_limits<double>::quiet_NaN();
   if (!(x >= low && x <= high && x == std::floor(x)))
-    not_allowed(high == std::numeric_limits<int>::max() ? fmt::format("an integer >= {}", low)
-                                                        : fmt::format("an integer from {} to {}", low, high));
+    not_allowed(high == std::numeric_limits<int>::max() && !(x > high)
+                    ? fmt::format("an integer >= {}", low)
+                    : fmt::format("an integer from {} to {}", low, high));
   return static_cast<int>(x);
 }
 

@@ -22,6 +22,9 @@ struct Document {
 /// Contents of a regular file. Throws FileError with the path and the reason.
 [[nodiscard]] std::string read_text_file(const std::string& path);
 
+/// Throws InputError if the file holds UTF-16, or bytes of value 0, after which the libraries that read it would stop.
+void check_is_text(const std::string& file, const std::string& text);
+
 /// Throws InputError naming the file, line and column of the first mistake.
 [[nodiscard]] Document parse(const std::string& file, const std::string& text);
 
@@ -35,6 +38,9 @@ struct Range {
 inline constexpr Range any_number{};
 inline constexpr Range positive{.low = 0, .low_allowed = false};
 inline constexpr Range not_negative{.low = 0};
+
+/// Sizes of numbers other than 0 in any input, in any unit: products of three of them stay within what a double holds.
+inline constexpr double smallest_number = 1e-100, largest_number = 1e100;
 
 /// A JSON value and its place in the document. Every accessor is strict: a value that is not allowed throws InputError
 /// with the file, the JSON pointer, what was found and what is allowed.

@@ -194,6 +194,7 @@ std::vector<Index> level_planes(const JointEquations& equations, const VectorXd&
     const Index a = equations.n_directions();
     const bool open = state.F.segment(j * a, a).isZero(0);
     const Contact& contact = equations.contacts[j];
+    if (contact.law->rises() && std::isinf(contact.law->max_force()) && failed != j) continue;  // soft, without limit
     const double length = c.segment(j * a, a).norm();
     // A law that rises again after a horizontal piece, as after a slip, is no limit.
     const bool rises_again = std::ranges::any_of(std::array{1.5, 3.0, 10.0, 100.0}, [&](double further) {

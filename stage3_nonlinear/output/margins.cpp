@@ -210,7 +210,13 @@ class Margins {
       left_out_["it has no section across x"].push_back(hole.name);
       return;
     }
-    if (has_fastener && check_->kind == CheckKind::shear_out) require_border(hole);
+    if (has_fastener && check_->kind == CheckKind::shear_out) {
+      require_border(hole);
+      if (t == 0) {  // as in files before format 1.4
+        left_out_["its thickness is not known"].push_back(hole.name);
+        return;
+      }
+    }
     switch (check_->kind) {
       case CheckKind::bearing:
         if (has_fastener) add(hole.name, "F_br d t", force, [&](Index step) { return bearing(hole, step, d); });

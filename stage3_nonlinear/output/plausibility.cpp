@@ -202,6 +202,13 @@ std::vector<program::Warning> implausible_numbers(const JointScene& scene, const
                       fastener.where_gap(), hole.gap, joint.name(hole), radius,
                       by_sheet ? "; if it is intended, give its \"hole_diameter\" too" : ""));
     }
+    for (const auto& [x, y] : scene.fasteners[plane.fastener].offset)
+      if (constexpr double max_offset = 0.25; std::hypot(x, y) > max_offset * radius)
+        gaps.emplace_back(
+            std::hypot(x, y) / radius,
+            fmt::format("{}/offset: a hole of radius {:.6g} is {:.6g} from its place in the free sheet: it "
+                        "may be in another unit of length",
+                        where, radius, std::hypot(x, y)));
     if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
       distances.emplace_back(
           apart / radius,

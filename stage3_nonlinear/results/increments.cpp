@@ -8,8 +8,14 @@
 #include "common/errors.hpp"
 
 namespace fastjoint::stage3 {
-std::optional<Imbalance> imbalance(const JointState& state, double tolerance) {
+std::optional<Imbalance> imbalance(const JointEquations& equations, const PathStep& step, const JointState& state,
+                                   double tolerance) {
   const double allowed = std::max(1e-8, 10 * tolerance);
+  // Rounding of wide gaps, of which the other sums are a part, may be far above the load. A load factor may be
+  // rounding.
+  const double load = equations.rigid_forces(std::max(1.0, std::abs(step.load_factor))).lpNorm<Eigen::Infinity>();
+  const double left = step.residual * step.scale / std::max(load, step.F.lpNorm<Eigen::Infinity>());
+  if (load > 0 && left > allowed) return Imbalance{"the load", left, allowed};
   const auto [worst, what] =
       std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
                 std::pair(state.plates_out_of_balance.value_or(0), "a sheet")});
@@ -50,7 +56,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
   StateSlopes slopes;
   options.each = [&](SolvedPoint point, const PathStep& step) -> std::optional<Imbalance> {
     JointState state = joint_state(joint, equations, step);
-    if (auto found = imbalance(state, wanted.tolerance)) return found;
+    if (auto found = imbalance(equations, step, state, wanted.tolerance)) return found;
     if (errors.are_known()) F_error.push_back(errors.at(point, state));
     all.stiffness.push_back(tangent_stiffness(joint, point));
     if (wanted.sensitivities) {

@@ -33,8 +33,9 @@ struct Increments {
 };
 
 /// Part of a state that is out of balance by more than 1e-8 of the largest force and more than ten times the solver's
-/// tolerance, if there is one.
-[[nodiscard]] std::optional<Imbalance> imbalance(const JointState& state, double tolerance);
+/// tolerance, or the load, if rounding of the gaps is as large a part of it.
+[[nodiscard]] std::optional<Imbalance> imbalance(const JointEquations& equations, const PathStep& step,
+                                                 const JointState& state, double tolerance);
 
 /// Follows a joint and keeps the results of each increment. The path ends at an imbalance, since rounding errors would
 /// then act as loads.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/study/sampled_joint.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -31,9 +33,13 @@ void turn_path(json& path, const std::filesystem::path& from, const std::filesys
 }  // namespace
 
 SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study, JointScene scene)
-    : root_(std::make_shared<json>(*joint.root)), document_{joint.file, joint.text, root_}, scene_(std::move(scene)) {
+    : root_(std::make_shared<json>(*joint.root)),
+      document_{joint.file, joint.text, root_},
+      study_(study.file),
+      scene_(std::move(scene)) {
   for (const auto& variable : study.variables) {
     use_.push_back(variable.use);
+    where_.push_back(variable.where);
     auto& targets = targets_.emplace_back();
     for (const auto& place : variable.places) {
       const json::json_pointer pointer(place);
@@ -62,7 +68,7 @@ void SampledJoint::put(const std::vector<double>& values) {
                            : use_[i] == Use::factor ? before * values[i]
                                                     : before + values[i];
       if (!std::isfinite(value))
-        throw InputError(document_.file + ": a number of the sample is too large; allowed: finite numbers");
+        throw InputError(where_[i] + ": a number of the sample is too large; allowed: finite numbers");
       constexpr double max_integer = 1e15;
       if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
         *number = static_cast<std::int64_t>(value);
@@ -73,7 +79,11 @@ void SampledJoint::put(const std::vector<double>& values) {
 
 const JointScene& SampledJoint::scene(const std::vector<double>& values) {
   put(values);
-  read_again(document_, parts_, scene_);
+  try {
+    read_again(document_, parts_, scene_);
+  } catch (const InputError& e) {
+    throw InputError(fmt::format("{}: a sample is not allowed: {}", study_, e.what()));
+  }
   return scene_;
 }
 

@@ -127,8 +127,8 @@ std::vector<double> read_grid(const Value& grid) {
   for (int i = 0; i < n; ++i) {
     const double fraction = n == 1 ? 0 : double(i) / (n - 1);
     levels.push_back(i + 1 == n && n > 1 ? to
-                     : by_logarithm      ? from * std::pow(to / from, fraction)
-                                         : from + fraction * (to - from));
+                     : by_logarithm      ? std::pow(from, 1 - fraction) * std::pow(to, fraction)
+                                         : std::lerp(from, to, fraction));
   }
   return levels;
 }

@@ -90,7 +90,7 @@ SampleNumbers StudySolver::nothing(SampleStatus status) const {
 VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
   VectorXd all(names_.size());
   const JointState state = joint_state(joint_, equations, step);
-  if (imbalance(state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
+  if (imbalance(equations, step, state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
   all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
   Index at = joint_.n_planes();
   if (!names_.peak.empty())

@@ -92,7 +92,7 @@ TEST_F(ExitStatus, HolesThatDoNotFit) {
 
 TEST_F(ExitStatus, MessagesAreOneLineWhateverTheNames) {
   plate(replaced(center("[2.3, 0]", "[3.9, 0]"), R"("id": "1")", R"("id": "one\n\ttwo")"), 2,
-        HasSubstr(R"(hole "one\n\u0009two" of radius 0.15)"));
+        HasSubstr(R"(the string "one\n\ttwo" holds a control character)"));
 }
 
 TEST_F(ExitStatus, PlateThatNothingHolds) {

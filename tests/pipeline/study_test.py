@@ -241,7 +241,7 @@ def bad_studies(folder):
             ({"variables": [{"at": "/laws/pin/type", **uniform(0, 1)}]}, "leads to no number of the joint"),
             ({"variables": [{"at": "/fasteners/00/clearance", **uniform(0, 1)}]}, "leads to no number of the joint"),
             ({"variables": [{"at": "/fasteners/7/clearance", **uniform(0, 1)}]}, "leads to no number of the joint"),
-            ({"variables": [{"at": "/laws/pin/k", "use": "factor", "values": [1e307]}], "samples": 1, "sampling": "random"}, "too large"),
+            ({"variables": [{"at": "/laws/pin/k", "use": "factor", "values": [1e99]}], "samples": 1, "sampling": "random"}, "/laws/pin/k: "),
             ({"variables": [{"at": "/fasteners/0/clearence", **uniform(0, 1)}]}, "unknown key"),
             ({"outputs": ["peaks"], "variables": [{"at": "/plates", **uniform(0, 1)}]}, "allowed: JSON pointers"),
             ({"variables": [{"at": "/laws/pin/k"}]}, "one of \"values\", \"grid\", \"table\" and \"distribution\""),
@@ -250,7 +250,7 @@ def bad_studies(folder):
             ({"variables": [good["variables"][0] | {"use": "factor"}]}, "no number at"),
             ({"variables": [{"at": "/laws/pin/k", "distribution": {"type": "uniform", "from": 2, "to": 1}}]}, "/distribution/to: 1"),
             ({"sampling": "grid"}, "not all variables have levels"),
-            ({"variables": [{"at": "/laws/pin/k", "table": {"file": "table.csv", "column": "b"}}]}, "table.csv: line 1: no column \"b\"; allowed: a"),
+            ({"variables": [{"at": "/laws/pin/k", "table": {"file": "table.csv", "column": "b"}}]}, "table.csv:1: no column \"b\"; allowed: a"),
             ({"variables": [{"at": "/laws/pin/k", "table": {"file": "table.csv", "column": "a"}}]}, "5; allowed: up to the 2 rows"),
             ({"limits": {"force": 0}}, "/limits/force: 0")):
         (folder / "table.csv").write_text("a\n1000\n2000\n")
@@ -264,7 +264,7 @@ def bad_studies(folder):
     assert "no plate's matrices hold stresses" in run(folder, joint, good | {"outputs": ["peaks"]}, status=2)
     (folder / "table.csv").write_text("a\n1000\nx\n")
     said = run(folder, joint, {"variables": [{"at": "/laws/pin/k", "table": {"file": "table.csv", "column": "a"}}]}, status=2)
-    assert "table.csv: line 3: \"x\" in column \"a\"" in said, said
+    assert "table.csv:3: \"x\" in column \"a\"" in said, said
 
 
 def rare_friction(folder):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/input/value.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <functional>
@@ -59,18 +60,26 @@ TEST(Json, SaysWhatToDoAboutCommonMistakes) {
   says("{\"a\": NaN}", "allowed: a number, a text or key in double quotes, true, false");
   says("{\"a\": .5}", "allowed: a number");
   says("{\"a\": \"\xe4\"}", "a character is not UTF-8; save the file as UTF-8");
+  EXPECT_THAT(message("{\"a\": 1e150}", [](const Value& v) { (void)v.at("a").number(); }),
+              HasSubstr("/a: 1e+150 is not allowed; allowed: 0, or a size from 1e-100 to 1e+100, in other units"));
+  EXPECT_THAT(message("{\"a\": 6e-309}", [](const Value& v) { (void)v.at("a").number(positive); }),
+              HasSubstr("/a: 6e-309 is not allowed; allowed: a number from 1e-100 to 1e+100, in other units"));
   says("{\"a\": 1e999}", "'1e999' is too large; allowed: numbers up to 1.8e308");
   const std::string sixteen("{\0\"\0a\0", 7);
   says("\xff\xfe" + sixteen, "is encoded in UTF-16; save it as UTF-8");
   says(sixteen, "is encoded in UTF-16; save it as UTF-8");
+  says(std::string("{\"a\": 1}\n\0{\"b\"", 14), "a byte of value 0 at line 2, column 1; allowed: text");
   EXPECT_EQ(message("\xef\xbb\xbf{\"a\": 1}", nothing), "no error") << "the mark of UTF-8";
 }
 
-TEST(Json, RefusesACharacterThatEndsStringsElsewhere) {
-  const char* what = "\\u0000, which would end it in other files; allowed: any other character";
-  EXPECT_THAT(message(R"({"a": "x\u0000y"})", nothing),
-              AllOf(HasSubstr(R"(the string "x\u0000y" holds the character )"), HasSubstr(what)));
-  EXPECT_THAT(message(R"({"x\u0000": 1})", nothing), HasSubstr(what));
+TEST(Json, RefusesCharactersThatEndStringsOrLinesElsewhere) {
+  const char* what = "holds a control character, such as the end of a line; allowed: any other character";
+  for (const char* character : {R"(\u0000)", R"(\n)", R"(\u001b)", R"(\u007f)"}) {
+    EXPECT_THAT(message(fmt::format(R"({{"a": "x{}y"}})", character), nothing),
+                AllOf(HasSubstr("the string \"x"), HasSubstr(what)));
+    EXPECT_THAT(message(fmt::format(R"({{"x{}": 1}})", character), nothing), HasSubstr(what));
+  }
+  EXPECT_EQ(message(R"({"a": "\u00e4 \u0020"})", nothing), "no error");
 }
 
 TEST(Json, DuplicateKeysAreRefusedAtEveryDepth) {

@@ -178,8 +178,8 @@ TEST(Formula, SingleShearDoesNotTellTheSheetsApart) {
 TEST(Formula, IsTheSumOfItsParts) {
   for_all([](const Formula& formula, const Geometry& g) {
     auto rigid_sheets = g, rigid_fastener = g;
-    rigid_sheets.E = rigid_sheets.E_z = {1e300, 1e300};
-    rigid_fastener.E_f = 1e300;
+    rigid_sheets.E = rigid_sheets.E_z = {1e90, 1e90};
+    rigid_fastener.E_f = 1e90;
     const double c = total(formula, g), fastener = of_fastener(formula, g);
     EXPECT_GT(fastener, 0);
     EXPECT_NEAR(total(formula, rigid_sheets), fastener, rounding * c);
