@@ -94,7 +94,8 @@ void check_sections(const PlateScene& scene, const PlateMesh& plate) {
   }
 }
 
-/// Finds the vertex of every point spring, shape (points). Throws InputError with the nearest vertex if there is none.
+/// Finds the vertex of every point spring, shape (points). Throws InputError with the nearest vertex if there is none,
+/// or for one of two at that place.
 std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mesh) {
   constexpr double same = 1e-9;  // relative to the plate's size
   const double size = (mesh.nodes.rowwise().maxCoeff() - mesh.nodes.rowwise().minCoeff()).norm();
@@ -108,6 +109,9 @@ std::vector<int> find_point_nodes(const PlateScene& scene, const pfem::Mesh& mes
              fmt::format("({:.9g}, {:.9g}) is not a vertex of the mesh", at.x(), at.y()),
              fmt::format("vertices of the mesh; the nearest is ({:.17g}, {:.17g})", mesh.nodes(0, nearest),
                          mesh.nodes(1, nearest)));
+    if (((mesh.nodes.colwise() - at).colwise().norm().array() <= same * size).count() > 1)
+      reject(scene, fmt::format("/points/{}/at", i),
+             fmt::format("({:.9g}, {:.9g}) is on both faces of a crack", at.x(), at.y()), "a vertex beside cracks");
     nodes.push_back(nearest);
   }
   return nodes;

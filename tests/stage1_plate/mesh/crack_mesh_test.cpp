@@ -170,5 +170,19 @@ TEST(StressIntensities, DoNotDependOnThePath) {
     EXPECT_LT((by_layer[layer] - by_layer[0]).lpNorm<Eigen::Infinity>(), 1e-6 * by_layer[0].lpNorm<Eigen::Infinity>());
 }
 
+TEST(CrackMesh, RefusesAPointOnBothFaces) {
+  const auto with_point_at = [](const char* at) {
+    return test::message_of([&] {
+      return stage1::make_mesh(scene(square, hole,
+                                     fmt::format(R"({{"id": "c", "from": [-4, 2], "to": [4, 2]}}],
+          "points": [{{"id": "p", "at": [{}], "stiffness": 1}})",
+                                                 at)));
+    });
+  };
+  EXPECT_THAT(with_point_at("2, 2"),
+              HasSubstr("/points/0/at: (2, 2) is on both faces of a crack; allowed: a vertex beside cracks"));
+  EXPECT_EQ(with_point_at("2, -2"), "no error");
+}
+
 }  // namespace
 }  // namespace fastjoint::crack_mesh_test
