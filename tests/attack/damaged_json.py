@@ -60,13 +60,14 @@ class DamagedJson:
         (folder / "loop").symlink_to("loop")
         (folder / "dangling").symlink_to("nowhere")
 
-    def _run(self, folder, words, output, random, also=()):
-        """One run under all rules, and whether it did its work. `also` are names that it may write besides."""
+    def _run(self, folder, words, output, random, also=(), writes=True):
+        """One run under all rules, and whether it did its work. `also` are names that it may write besides, or, where it does not
+        write its output, alone."""
         state = Folder(folder, output, random.random() < 0.5)
         outcome = self.bench.run(*words, "-o", output, cwd=folder, limits=limits(self.bench))
         named = [*words[1:], *(path.name for path in folder.iterdir()), *OTHER_FILES]
         check_words(outcome, named)
-        state.check(outcome, also)
+        state.check(outcome, also, writes)
         return outcome.status == 0
 
     def _try(self, kind, name, folder, random):
@@ -104,13 +105,12 @@ class DamagedJson:
         options = random.choice([[], [], [], ["--sample", "0"], ["--slice", "1/2"], ["--merge"], ["--threads", "2"]])
         output = "output.json" if "--sample" in options else "output.h5"
         words = ["stage3_nonlinear", STUDIED, "--study", name, *options]
+        parts = ["output.h5.parts"]
         if "--slice" in options:  # leaves blocks and no output
-            outcome = self.bench.run(*words, "-o", output, cwd=folder, limits=limits(self.bench))
-            if outcome.status == 0:
-                words, options = [*words[:-2], "--slice", "2/2"], []
-                self.bench.run(*words, "-o", output, cwd=folder, limits=limits(self.bench))
+            if self._run(folder, words, output, random, parts, writes=False):
+                self._run(folder, [*words[:-1], "2/2"], output, random, parts, writes=False)
             words = [*words[:4], "--merge"]
-        self.accepted += self._run(folder, words, output, random, also=["output.h5.parts"])
+        self.accepted += self._run(folder, words, output, random, parts)
 
 
 def name_of_solution(text, plate):
