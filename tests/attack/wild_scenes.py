@@ -5,9 +5,10 @@ import re
 import shutil
 from collections import Counter
 
-from balance import Balance, check_laws
+from balance import Balance
 from bench import ROOT, Fall
 from chain import Chain, Refused, Slow
+from force_laws import check_laws
 from wild_joints import is_contact, random_scene
 
 SCENES = 6  # of a round
