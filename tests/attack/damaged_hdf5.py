@@ -10,10 +10,11 @@ import shutil
 
 import h5py
 
-from bench import Fall
-from hdf5_bytes import SEAL, SIGNATURE, falls_in_library, damaged, same_numbers, unsealed
+from bench import MOST_MEMORY, Fall
+from hdf5_bytes import SEAL, SIGNATURE, damaged, same_numbers, unsealed
 from hdf5_edits import CONTENT
 from hdf5_layouts import LAYOUT, names, rewritten
+from hdf5_library import falls_in_library
 from small_scene import kept_whole, limits, small_scenes
 from written_files import Folder, check_words
 
@@ -84,10 +85,9 @@ class DamagedHdf5:
 
     def _is_of_library(self, text, folder, step):
         """Whether a fall at damaged bytes without a seal is the HDF5 library's: memory that it takes for a damaged text, a
-        heap that it spoils, which shows later, or a crash or endless loop within it (docs/limits.md)."""
-        spoils_heap = any(word in text for word in ("free():", "malloc():", "corrupted ", "double free"))
-        return (text.startswith("memory:") or "SIGABRT" in text and spoils_heap
-                or text.startswith(("ended by", "hang")) and falls_in_library(self.bench, step.command(), folder))
+        heap that it spoils, or a crash or endless loop within it (docs/limits.md)."""
+        faults = "memory:", "ended by", "hang", "fault seen by a sanitizer"
+        return text.startswith(faults) and falls_in_library(self.bench, step.command(), folder, MOST_MEMORY)
 
     def _must_agree(self, folder, scenes, step, why):
         if not same_numbers(folder / step.output, scenes.folder / step.output):
@@ -146,5 +146,5 @@ class DamagedHdf5:
             target.write_bytes(random.choice(texts))
         else:
             target.symlink_to(random.choice(links) if target.parent == folder else "../fifo")
-        self._run(random, folder, step, target, seal=False)
+        self._run(random, folder, step, target, seal=target.is_symlink())  # what is no file is not for HDF5 to open
         return 1
