@@ -59,7 +59,7 @@ def attempt(name, seed, folder, keep, what):
     """What a part of an attack returns, or None if it falls."""
     try:
         return what()
-    except Exception as fall:  # pylint: disable=broad-except
+    except Exception as fall:
         keep_fall(name, seed, folder, keep, fall)
         return None
 
