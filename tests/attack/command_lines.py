@@ -40,7 +40,7 @@ def option(random, options):
     """An option with one of its values, seldom another one or none, as one word or as two."""
     name = random.choice(sorted(options))
     values = options[name]
-    value = random.choice(WILD) if random.random() < 0.15 else random.choice(values) if values else None
+    value = random.choice(WILD + [""] * 10) if random.random() < 0.15 else random.choice(values) if values else None
     if value is None or values and random.random() < 0.05:
         return [name]
     return [f"{name}={value}"] if random.random() < 0.3 else [name, value]

@@ -23,7 +23,7 @@ MUTANTS = 40  # of one round
 
 class DamagedHdf5:
     def __init__(self, bench):
-        self.bench = bench
+        self.bench, self.scenes = bench, small_scenes(bench)
         self.mutant = b""
         self.counts = {"accepted": 0, "refused": 0, "library crashes": 0}
 
@@ -33,7 +33,7 @@ class DamagedHdf5:
 
     def round(self, random, folder):
         """Mutants of one file, all damaged in one way, each read by the same step."""
-        scenes = small_scenes(self.bench)
+        scenes = self.scenes
         scenes.lay_out(folder)
         self._lay_traps(folder)
         name, step = random.choice(scenes.steps[random.choice(["plate", "matrices", "result", "block"])])

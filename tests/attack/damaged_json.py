@@ -30,7 +30,7 @@ OTHER_FILES = ["output", ".h5", ".csv", "/dev/", "/proc/", ": cannot be opened: 
 
 class DamagedJson:
     def __init__(self, bench):
-        self.bench = bench
+        self.bench, self.scenes = bench, small_scenes(bench)
         self.accepted = 0
 
     @property
@@ -39,7 +39,7 @@ class DamagedJson:
 
     def round(self, random, folder):
         """Mutants of one kind; every other one stands beside an earlier output, which a failure must leave."""
-        scenes = small_scenes(self.bench)
+        scenes = self.scenes
         scenes.lay_out(folder)
         self._lay_traps(folder)
         return random.choice([self._texts] * 4 + [self._tables, self._command_lines])(random, folder, scenes)
