@@ -3,10 +3,10 @@
 
 attack.py PROGRAMS SECONDS [--seed N] [--only KIND,...] [--rounds N] [--keep FOLDER]
 
-First all kept cases run; then each other kind has an equal part of the time, and at least one round. Every round has its
-own seed, from which all its choices come, so that `--only KIND --seed N --rounds 1` repeats it. What a fall left is kept in
-FOLDER/KIND-SEED with its message; an exception of the attack itself is a fall too, and the other rounds go on. Exit status 1
-if anything fell.
+First all kept cases run; then each other kind has an equal part of the time, and at least one round. Every round has
+its own seed, from which all its choices come, so that `--only KIND --seed N --rounds 1` repeats it. What a fall left is
+kept in FOLDER/KIND-SEED with its message; an exception of the attack itself is a fall too, and the other rounds go on.
+Exit status 1 if anything fell.
 """
 import argparse
 import shutil
@@ -42,7 +42,7 @@ def pipes(folder, names):
 
 
 def keep_fall(name, seed, folder, keep, fall):
-    """Reports a fall, or an exception of the attack itself with where it was raised, and keeps what is in the folder."""
+    """Reports a fall, or an exception of the attack itself with its traceback, and keeps what is in the folder."""
     message = str(fall) if isinstance(fall, Fall) else "".join(traceback.format_exception(fall))
     kept = Path(keep) / f"{name}-{seed}"
     kept.mkdir(parents=True, exist_ok=True)
@@ -65,8 +65,8 @@ def attempt(name, seed, folder, keep, what):
 
 
 def rounds_of(kind, name, seed, bench, arguments, end):
-    """Rounds of one kind until a moment, or as many as wanted, at least one; and while nothing is tried, for which a scene
-    may not serve, up to 10. Returns how many there were, how many things were tried in them, and how many fell."""
+    """Rounds of one kind until a moment, or as many as wanted, at least one; up to 10 while nothing could be tried.
+    Returns how many there were, how many things were tried in them, and how many fell."""
     wanted = arguments.rounds or (kind.all() if name == "cases" else None)
     rounds = tried = falls = 0
     while rounds < wanted if wanted else rounds == 0 or time.monotonic() < end or tried == 0 and rounds < 10:
@@ -86,7 +86,8 @@ def all_of(name, seed, bench, arguments, end):
     rounds, tried, falls = rounds_of(kind, name, seed, bench, arguments, end)
     print(f"{name}: {rounds} rounds, {tried} {kind.what}", flush=True)
     if hasattr(kind, "check_counts"):  # each of what it counts is allowed, but not many
-        falls += attempt(f"{name}-counts", seed, bench.folder("counts"), arguments.keep, lambda: kind.check_counts() or 0) is None
+        folder, checked = bench.folder("counts"), lambda: kind.check_counts() or True
+        falls += attempt(f"{name}-counts", seed, folder, arguments.keep, checked) is None
     return rounds, falls
 
 

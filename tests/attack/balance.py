@@ -14,8 +14,8 @@ AXES = {"x": 0, "y": 1}
 
 
 def off(what, found, wanted, scale, rounding=0.0, allowed=ALLOWED):
-    """Raises Fall if two arrays differ by more than `allowed` of `scale` and the given rounding, or if either of these is no
-    number that could be exceeded; returns the ratio beyond the rounding."""
+    """Raises Fall if two arrays differ by more than `allowed` of `scale` and the given rounding, or if these are no
+    numbers that could be exceeded; returns the ratio beyond the rounding."""
     difference = np.abs(np.asarray(found, float) - wanted)
     limit = allowed * scale + rounding
     if not np.all(np.isfinite(limit)):
@@ -168,13 +168,14 @@ class Balance:
             self._check_totals(sheet, step, axis, loads, fasteners, scale, rounding.sum())
 
     def _check_reactions(self, sheet, step, outside, scale, rounding):
-        """Supports take what the matrices leave of the forces that they give at the displacements; where discs do not move
-        along an axis, the matrices do not have what holds them."""
+        """Supports take what the matrices leave of the forces that they give at the displacements; where discs do not
+        move along an axis, the matrices do not have what holds them."""
         for axis in set(sheet.axis[sheet.e:]):
             of_friction, of_tractions = sheet.resultants(axis)
-            others = of_friction @ self._of(sheet, "Lambda", step) + of_tractions @ self._of(sheet, "traction/force", step)
-            off(f"{sheet.name}, increment {step}, {'xy'[axis]}: reaction", self._of(sheet, "total/by_supports", step)[axis],
-                -outside[sheet.axis == axis].sum() - others, scale, rounding)
+            friction, f = self._of(sheet, "Lambda", step), self._of(sheet, "traction/force", step)
+            wanted = -outside[sheet.axis == axis].sum() - of_friction @ friction - of_tractions @ f
+            by_supports = self._of(sheet, "total/by_supports", step)[axis]
+            off(f"{sheet.name}, increment {step}, {'xy'[axis]}: reaction", by_supports, wanted, scale, rounding)
 
     def _of_gaps(self, sheet):
         """What rounding leaves of the forces that closing the gaps of contact would take."""

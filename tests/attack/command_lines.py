@@ -1,24 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Command lines for valid inputs: options in any number, repeated, contradictory, without a value, with an empty or a wild one,
-and words that nobody expects."""
+"""Command lines for valid inputs: options in any number, repeated, contradictory, without a value, with an empty or a
+wild one, and words that nobody expects."""
 
 # Values of the options of each program, None for one without; the first ones are valid.
 STAGE1 = {"--p": ["2", "1..3", "8", "0", "3..1", "1..", "9"], "--accuracy": ["1e-2", "1", "1e-10", "0", "1e-11", "2"],
           "--peak-accuracy": ["1e-1", "1", "1e-6", "1e-7", "0"], "--threads": ["2", "1", "256", "0", "257"],
           "--timings": ["times.json"], "--quiet": None}
-STAGE2 = {"--loads-only": None, "--field": ["external:P=0.01", "joint_laws.h5", "external:nobody=1", "external:P", "=", "P=1"],
-          "--plate": ["strap", "base", "nobody"], "--increment": ["1", "3", "0", "99"], "--p": ["1", "3", "2", "9"],
-          "--timings": ["times.json"], "--quiet": None}
+STAGE2 = {"--loads-only": None, "--plate": ["strap", "base", "nobody"], "--increment": ["1", "3", "0", "99"],
+          "--field": ["external:P=0.01", "joint_laws.h5", "external:nobody=1", "external:P", "=", "P=1"],
+          "--p": ["1", "3", "2", "9"], "--timings": ["times.json"], "--quiet": None}
 STAGE3 = {"--p": ["1", "3", "2", "9", "1..3"], "--all-stresses": None, "--rim-stresses": None, "--csv": ["t.csv"],
           "--distance": ["0.5", "1e-30", "1e30", "0", "1e-31", "100"], "--case": ["pull", "more", "warm", "nobody"],
           "--envelope": ["e.csv", "t.csv"], "--margins": ["m.csv", "t.csv"], "--totals": ["o.csv", "t.csv"],
-          "--sensitivities": None, "--verbose": None, "--threads": ["2", "1", "0", "257"], "--timings": ["times.json", "t.csv"],
-          "--study": ["study_random.json", "study_grid.json", "joint_laws.json"], "--slice": ["1/2", "2/2", "0/2", "3/2", "1/0", "1"],
-          "--merge": None, "--sample": ["0", "2", "3", "-1"], "--quiet": None}
-WILD = ["", " ", "-1", "nan", "inf", "1e999", "0x1", "1,5", "1 ", "+1", "\u0661", "x" * 5000, "\n", "\x1b[2J", "--", "-", "--quiet",
-        "-o", "%s%n", "1e", "2147483648", "99999999999999999999", "a-folder", "none/x", "/dev/null", "*"]
-STRANGE = ["", "-", "--", "---", "-x", "--bogus", "--bogus=1", "-o", "--output", "--help=1", "--quiet=maybe", "--quiet=false", "-p", "=",
-           "--=", "joint_bolt.json", "none.json", "@file", "--outp", "-oother.h5", "--p2", "\xff", "a" * 100000]
+          "--sensitivities": None, "--verbose": None, "--threads": ["2", "1", "0", "257"],
+          "--timings": ["times.json", "t.csv"], "--study": ["study_random.json", "study_grid.json", "joint_laws.json"],
+          "--slice": ["1/2", "2/2", "0/2", "3/2", "1/0", "1"], "--merge": None,
+          "--sample": ["0", "2", "3", "-1"], "--quiet": None}
+WILD = ["", " ", "-1", "nan", "inf", "1e999", "0x1", "1,5", "1 ", "+1", "\u0661", "x" * 5000, "\n", "\x1b[2J", "--",
+        "-", "--quiet", "-o", "%s%n", "1e", "2147483648", "99999999999999999999", "a-folder", "none/x", "/dev/null",
+        "*"]
+STRANGE = ["", "-", "--", "---", "-x", "--bogus", "--bogus=1", "-o", "--output", "--help=1", "--quiet=maybe",
+           "--quiet=false", "-p", "=", "--=", "joint_bolt.json", "none.json", "@file", "--outp", "-oother.h5", "--p2",
+           "\xff", "a" * 100000]
 OUTPUT = "output.h5"
 
 

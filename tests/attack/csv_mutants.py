@@ -1,14 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Damage to CSV files of numbers, which have a heading of names: as spreadsheets, editors and copies do it.
 
-A mutant takes a random generator and the lines of a file, and returns its bytes with what must come of it: SAME, the numbers
-as before or a refusal, REFUSED, or ANY of both.
+A mutant takes a random generator and the lines of a file, and returns its bytes with what must come of it: SAME, the
+numbers as before or a refusal, REFUSED, or ANY of both.
 """
 from json_mutants import of_bytes
 
 SAME, REFUSED, ANY = "same", "refused", "any"
-NO_NUMBERS = ["", "-", "x", "nan", "NaN", "inf", "-Infinity", "1e400", "0x10", "1_000", "--1", "1 2", "1/2", "1.2.3", "\uff11",
-              "=1+1", "1e", "0.01 mm", "\x00", "1\x00"]
+NO_NUMBERS = ["", "-", "x", "nan", "NaN", "inf", "-Infinity", "1e400", "0x10", "1_000", "--1", "1 2", "1/2", "1.2.3",
+              "\uff11", "=1+1", "1e", "0.01 mm", "\x00", "1\x00"]
 
 
 def rows_of(lines):
@@ -95,9 +95,10 @@ def null_byte(random, lines):
 def headings(random, lines):
     """A heading of other names, of one name twice, of none; or no row below it."""
     names = [name.strip() for name in lines[0].split(",")]
-    heading = random.choice([", ".join(names[::-1]), ", ".join(names[:1] * 2), "", ",", "a" * 10**6, "x, y, z", lines[1]])
-    return random.choice([("\n".join([heading, *lines[1:]]).encode(), ANY), (lines[0].encode(), REFUSED), (b"", REFUSED),
-                          (b"\n" * 1000, REFUSED)])
+    turned, twice = ", ".join(names[::-1]), ", ".join(names[:1] * 2)
+    heading = random.choice([turned, twice, "", ",", "a" * 10**6, "x, y, z", lines[1]])
+    without_rows = random.choice([lines[0].encode(), b"", b"\n" * 1000]), REFUSED
+    return random.choice([("\n".join([heading, *lines[1:]]).encode(), ANY), without_rows])
 
 
 def large(random, lines):
@@ -112,8 +113,8 @@ def any_bytes(random, lines):
     return of_bytes(random, "\n".join(lines)), ANY
 
 
-MUTANTS = [blank_lines, line_ends, quotes, byte_order_mark, decimal_commas, decimal_commas, surplus, surplus, lacking, no_number,
-           no_number, null_byte, headings, large, any_bytes, any_bytes]
+MUTANTS = [blank_lines, line_ends, quotes, byte_order_mark, decimal_commas, decimal_commas, surplus, surplus, lacking,
+           no_number, no_number, null_byte, headings, large, any_bytes, any_bytes]
 
 
 def mutant(random, text):

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Damaged plates, joints, studies and the tables that they read: refused with one line that names the file, or solved to the
-end by all stages, whose results hold no NaN; after a failure everything is as it was before. And command lines of any words
-for files that are not damaged."""
+"""Damaged plates, joints, studies and the tables that they read: refused with one line that names the file, or solved
+to the end by all stages, whose results hold no NaN; after a failure everything is as it was before. And command lines
+of any words for files that are not damaged."""
 import json
 import os
 import shutil
@@ -20,7 +20,7 @@ from written_files import Folder, check_words, check_written
 MUTANTS = 60    # of one round
 TABLES = {"t.csv", "e.csv", "m.csv", "o.csv", "times.json"}  # that a command line may ask for
 OPTIONS = [[], [], [], ["--quiet"], ["--sensitivities"], ["--rim-stresses"], ["--verbose"], ["--all-stresses"],
-           ["--csv", "t.csv"], ["--totals", "t.csv"], ["--envelope", "t.csv"], ["--margins", "t.csv"]]
+           ["--distance", "0.5"], ["--distance", "1e-30", "--rim-stresses"], ["--case", "pull"], ["--csv", "t.csv"], ["--totals", "t.csv"], ["--envelope", "t.csv"], ["--margins", "t.csv"]]
 # What a mutant may also be: no regular file at all.
 STRANGE = ["a-folder", "empty", "binary", "fifo", "loop", "dangling", "/dev/null", "/dev/zero", "/dev/full", "/proc/self/environ",
            "missing.json", "a-folder/missing.json", "x" * 300, "y/" * 2500 + "z", "plate_strap.h5", "rivet.csv", "study.csv"]
@@ -107,15 +107,13 @@ class DamagedJson:
         why = must_be_refused(words, options)
         if why and outcome.status not in (2, 3):
             raise Fall(f"{words}: exit status {outcome.status}, though {why}")
-        for path in folder.iterdir():
-            if path.name in given - before and path.suffix == (".csv" if path.name in TABLES else ".h5") and outcome.status == 0:
-                self._check_new(path, words)
+        for name in set(os.listdir(folder)) & given - before if outcome.status == 0 else ():
+            self._check_new(folder / name, words)
 
     @staticmethod
     def _check_new(path, words):
-        """A file that a command line has made is one of HDF5 or a table, but for fields, samples and odd names of outputs."""
-        others = "--field", "--sample", "-ot.csv"
-        if path.is_file() and (path.suffix == ".csv" or not any(word.startswith(others) for word in words)):
+        """A file that a command line has made: tables, and outputs of HDF5, which fields and samples are not."""
+        if path.name in TABLES or not any(word.startswith(("--field", "--sample")) for word in words):
             check_written(path)
 
     @staticmethod
@@ -129,8 +127,8 @@ class DamagedJson:
         (folder / "dangling").symlink_to("nowhere")
 
     def _run(self, folder, words, output, random, also=(), writes=True):
-        """One run under all rules, and whether it did its work. `also` are names that it may write besides, or, where it does not
-        write its output, alone."""
+        """One run under all rules, and whether it did its work. `also` are names that it may write besides, or alone
+        where it does not write its output."""
         state = Folder(folder, output, random.random() < 0.5)
         outcome = self.bench.run(*words, "-o", output, cwd=folder, limits=limits(self.bench))
         named = [*words[1:], *(path.name for path in folder.iterdir()), *OTHER_FILES]
@@ -144,7 +142,8 @@ class DamagedJson:
         {"plate": self._try_plate, "joint": self._try_joint, "study": self._try_study}[kind](name, folder, random)
 
     def _try_plate(self, name, folder, random):
-        options = random.choice([[], [], [], ["--p", "2"], ["--accuracy", "1e-3"]])
+        options = random.choice([[], [], [], ["--p", "2"], ["--accuracy", "1e-3"], ["--peak-accuracy", "1e-2"],
+                                 ["--accuracy", "1e-10", "--peak-accuracy", "1e-6"]])
         if not self._run(folder, ["stage1_plate", name, *options], "output.h5", random):
             return
         self.accepted += 1

@@ -6,8 +6,8 @@ from collections import Counter
 from bench import Fall
 
 LEAST = 100  # scenes from which on shares are judged
-# Largest share of each end. Of 234 random scenes 8 were refused and none was slow, of 118 guises none ended in another way,
-# 6 had a doubtful solution and none another mesh.
+# Largest share of each end. Of 234 random scenes 8 were refused and none was slow; of 118 guises none ended in another
+# way, 6 had a doubtful solution and none another mesh.
 MOST = {"refused": 0.1, "slow": 0.01, "another end": 0.01, "doubtful": 0.3, "another mesh": 0.1}
 # Of cracks that no mesh of the cells follows (docs/limits.md).
 OF_CRACKS = "which cannot be moved through it", "is folded", "edges of the crack that have"

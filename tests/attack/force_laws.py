@@ -36,5 +36,7 @@ def _check_law(text, law, free, result, step, plane):
             scale_of_delta = abs(delta) + free + law.get("delta0", 0.0)
             slope = max(slope, law["A"] * (past + 1e-9 * scale_of_delta) ** n / (past + 1e-9 * scale_of_delta))
     scale = max(np.abs(result["F"][step]).max(), abs(wanted))
-    small = 1e-13 * law.get("k", law.get("A", 0.0) if law.get("n") == 1 else 0.0)  # forces that are set to zero as rounding
-    off(f"plane {plane}, increment {step}: F is not its law {text}", [F], wanted, scale, 1e-12 * slope * abs(delta) + small + 1e-300)
+    # Forces that are set to zero as rounding:
+    small = 1e-13 * law.get("k", law.get("A", 0.0) if law.get("n") == 1 else 0.0)
+    rounding = 1e-12 * slope * abs(delta) + small + 1e-300
+    off(f"plane {plane}, increment {step}: F is not its law {text}", [F], wanted, scale, rounding)

@@ -141,8 +141,9 @@ def claim(random, file, path):
 
 def claim_text(random, file, path):
     """Texts of fixed length, which all together no small file holds, and of which nothing was ever written."""
-    rows, dtype = random.choice([2**20, 2**26, 2**28, 2**31]), random.choice(["S1", "S8", "S1000", h5py.string_dtype("utf-8", 2)])
-    put(file, path, shape=(rows,), dtype=dtype, **random.choice([{}, {"chunks": (64,)}, {"maxshape": (None,)}]))
+    dtype = random.choice(["S1", "S8", "S1000", h5py.string_dtype("utf-8", 2)])
+    shape = (random.choice([2**20, 2**26, 2**28, 2**31]),)
+    put(file, path, shape=shape, dtype=dtype, **random.choice([{}, {"chunks": (64,)}, {"maxshape": (None,)}]))
     return False
 
 
@@ -152,4 +153,5 @@ def remove(random, file, path):
     return False
 
 
-CONTENT = [entries] * 6 + [near] * 4 + [permute] * 3 + [reshape] * 4 + [retype] * 4 + [claim] * 2 + [claim_text, remove, remove]
+CONTENT = [entries] * 6 + [near] * 4 + [permute] * 3 + [reshape] * 4 + [retype] * 4 + [claim] * 2 + [claim_text] + \
+          [remove] * 2

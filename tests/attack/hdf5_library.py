@@ -26,13 +26,14 @@ run
 bt 60
 """
 # Frames that stand above the one that is to blame: of the C and C++ libraries, of sanitizers, and what has no name.
-OF_OTHERS = re.compile(r"libc\.so|libstdc\+\+|ld-linux|linux-vdso|libgcc|libasan|/sysdeps/|\./(malloc|string|nptl|stdlib|io|libio|debug)/|"
-                       r"__asan|__interceptor|__sanitizer|__ubsan|in \?\? \(\)$")
+OF_OTHERS = re.compile(r"libc\.so|libstdc\+\+|ld-linux|linux-vdso|libgcc|libasan|/sysdeps/|"
+                       r"\./(malloc|string|nptl|stdlib|io|libio|debug)/|__asan|"
+                       r"__interceptor|__sanitizer|__ubsan|in \?\? \(\)$")
 OF_LIBRARY = re.compile(r"\bH5[A-Z]\w*|libhdf5|libsz|libz\.so|libaec")
 
 
 def falls_in_library(bench, words, folder, memory):
-    """Whether the run, repeated under the debugger, ends by a signal, is busy after two seconds, or has come to hold much
+    """Whether the run, repeated under the debugger, ends by a signal, is busy after a while, or has come to hold much
     memory within the HDF5 library. Without gdb nobody knows: False."""
     script = WATCH % {"seconds": 20 if bench.sanitized else 2, "memory": memory // 2}
     return bool(shutil.which("gdb")) and any(_stops_in_library(bench, words, folder, script) for _ in range(TRIES))
@@ -42,9 +43,9 @@ def _stops_in_library(bench, words, folder, script):
     (folder / ".gdb").write_text(script)
     environment = bench.environment | {"ASAN_OPTIONS": bench.environment["ASAN_OPTIONS"] + ":abort_on_error=1"}
     try:
-        run = subprocess.run(["gdb", "-batch", "-nx", "-x", ".gdb", "--args", bench.programs / words[0], *words[1:]], cwd=folder,
-                             env=environment, timeout=120, stdin=subprocess.DEVNULL, capture_output=True, text=True,
-                             errors="replace", check=False)
+        gdb = ["gdb", "-batch", "-nx", "-x", ".gdb", "--args"]
+        run = subprocess.run([*gdb, bench.programs / words[0], *words[1:]], cwd=folder, env=environment, timeout=120,
+                             stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace", check=False)
     except subprocess.TimeoutExpired:
         return False
     finally:

@@ -74,7 +74,8 @@ class Kills:
         late = random.choice([0, random.uniform(0, 3e-4), random.uniform(0, 3e-2)])
         n_changes, before = random.randint(1, 2 * len(job.outputs)), left_behind(folder)
         deaf = {"preexec_fn": lambda: [signal.signal(number, signal.SIG_IGN) for number in ignores]} if ignores else {}
-        process = self.bench.start(*job.words, *quiet, cwd=folder, env=with_signals_left(self.bench.environment), **deaf)
+        environment = with_signals_left(self.bench.environment)
+        process = self.bench.start(*job.words, *quiet, cwd=folder, env=environment, **deaf)
         writes = at_write and wait_for_changes(process, folder, n_changes, late)
         if not at_write:
             wait_for(process, moment)
@@ -103,7 +104,7 @@ class Kills:
             raise Fall(f"{what}: ends by a signal that it was to ignore")
 
     def _check_caught(self, status, words, what):
-        """A run that has begun to write, and so catches signals, tells of the one that ends it; a pipe may have no reader."""
+        """A run that has begun to write, and so catches signals, tells of the one that ends it, but of SIGPIPE."""
         self.caught += -status in CAUGHT
         if -status in CAUGHT and -status != signal.SIGPIPE and WORDS not in words:
             raise Fall(f"{what}: says nothing of it\n  {words}")
@@ -122,8 +123,8 @@ def wait_for(process, seconds):
 
 
 def wait_for_changes(process, folder, n, late):
-    """Waits for the n-th change of the names in a folder, then `late` seconds, or for the end of the run; says whether the
-    change came first."""
+    """Waits for the n-th change of the names in a folder, then `late` seconds, or for the end of the run; says whether
+    the change came first."""
     names = names_in(folder)
     while process.poll() is None and n > 0:
         now = names_in(folder)

@@ -82,8 +82,8 @@ class SameAnswers:
     def what(self):
         ends = self.guises.counts
         lines = [f"scenes in other guises, S the same to {self.worst_S:.1e} and results to {self.worst_result:.1e}; of "
-                 f"{ends['doubtful']} the solution is not the only one, {ends['another end']} ended with status 4 in one guise, "
-                 f"{ends['another mesh']} had another mesh; of {self.originals.tried} scenes"]
+                 f"{ends['doubtful']} the solution is not the only one, {ends['another end']} ended with status 4 in "
+                 f"one guise, {ends['another mesh']} had another mesh; of {self.originals.tried} scenes"]
         lines += [f"  {n:5} {name}, in {self.explained[name]} S differs by more than {SAME_S:g} but within its rounding"
                   for name, n in self.tried.most_common()]
         return "\n".join(lines + self.originals.lines() + self.guises.lines())
@@ -132,7 +132,7 @@ class SameAnswers:
         return len(guises.SYSTEMS)
 
     def must_end_alike(self, guise, folder, refused):
-        """Of a scene that is refused with status 4: counts a guise that is solved, unless its solution is one of several."""
+        """Of a scene that is refused with status 4: counts a guise that is solved, unless its codes are doubtful."""
         self.guises.tried += 1
         try:
             answers = Answers(self.chain, folder, guise.scene)
@@ -160,7 +160,8 @@ class SameAnswers:
             return
         turns = {name: answers.turn(guise, original, name) for name in original.sheets}
         if not all(_same_mesh(original.shape[name], answers.shape[own] / guise.length) for name, (own, _) in turns.items()):
-            self.guises.count("another mesh", "another mesh")  # where rays of two holes meet a common side, the mesher takes those of the first
+            # Where rays of two holes meet a common side, the mesher takes those of the first.
+            self.guises.count("another mesh", "another mesh")
             return
         for name in original.sheets:
             self._compare_stiffness(guise, original, answers, name, turns[name], kind)

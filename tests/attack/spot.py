@@ -48,7 +48,7 @@ class Spot:
         return run.returncode, words_said.decode(errors="replace")
 
     def as_nobody(self):
-        """Options that start a run as a user without rights, who owns the folder; Skipped where that is not possible."""
+        """Options that start a run as a user without rights, who owns the folder; Skipped where that is impossible."""
         if os.geteuid() != 0:
             return {}
         for path in [self.folder, *self.folder.rglob("*")]:

@@ -96,7 +96,8 @@ class WildScenes:
     def what(self):
         """What was tried, and a table of the failures with a message by their first words."""
         lines = [f"wild scenes, {self.solved} solved, worst imbalance {self.worst:.1e} of the largest force"]
-        lines += self.ends.lines() + ["  warnings: " + ", ".join(f"{code} {n}" for code, n in sorted(self.warned.items()))]
+        lines += self.ends.lines()
+        lines += ["  warnings: " + ", ".join(f"{code} {n}" for code, n in sorted(self.warned.items()))]
         return "\n".join(lines)
 
     def round(self, random, folder):

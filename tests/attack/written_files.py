@@ -19,8 +19,8 @@ INFINITE_TOO = {"joint-result": r"F_error|sensitivity/.*|envelope/.*|margin/(all
                                 r"plates/[^/]+/(crack/K_I+_error|row/after)",
                 "study-result": r"statistics/[^/]+/(quantile_(high|low)|quantile|deviation)|variables/(mean|deviation)"}
 # Columns of tables that have names, which may be "nan"; all others have numbers.
-NAMED = {"fastener", "first", "second", "event", "joint", "case", "plate", "direction", "of", "at", "quantity", "unit", "check",
-         "formula", "inputs", "largest in case", "smallest in case"}
+NAMED = {"fastener", "first", "second", "event", "joint", "case", "plate", "direction", "of", "at", "quantity", "unit",
+         "check", "formula", "inputs", "largest in case", "smallest in case"}
 LONGEST_LINE = 8000  # characters of a message: names of files and places fit, what an input holds of any length does not
 EARLIER = b"what was there before"
 
