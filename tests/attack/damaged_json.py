@@ -20,7 +20,8 @@ from written_files import Folder, check_words, check_written
 MUTANTS = 60    # of one round
 TABLES = {"t.csv", "e.csv", "m.csv", "o.csv", "times.json"}  # that a command line may ask for
 OPTIONS = [[], [], [], ["--quiet"], ["--sensitivities"], ["--rim-stresses"], ["--verbose"], ["--all-stresses"],
-           ["--distance", "0.5"], ["--distance", "1e-30", "--rim-stresses"], ["--case", "pull"], ["--csv", "t.csv"], ["--totals", "t.csv"], ["--envelope", "t.csv"], ["--margins", "t.csv"]]
+           ["--distance", "0.5"], ["--distance", "1e-30", "--rim-stresses"], ["--case", "pull"],
+           ["--csv", "t.csv"], ["--totals", "t.csv"], ["--envelope", "t.csv"], ["--margins", "t.csv"]]
 # What a mutant may also be: no regular file at all.
 STRANGE = ["a-folder", "empty", "binary", "fifo", "loop", "dangling", "/dev/null", "/dev/zero", "/dev/full", "/proc/self/environ",
            "missing.json", "a-folder/missing.json", "x" * 300, "y/" * 2500 + "z", "plate_strap.h5", "rivet.csv", "study.csv"]

@@ -142,7 +142,7 @@ def claim(random, file, path):
 def claim_text(random, file, path):
     """Texts of fixed length, which all together no small file holds, and of which nothing was ever written."""
     dtype = random.choice(["S1", "S8", "S1000", h5py.string_dtype("utf-8", 2)])
-    shape = (random.choice([2**20, 2**26, 2**28, 2**31]),)
+    shape = (random.choice([2**20, 2**25, 5 * 10**7, 2**26, 2**28, 2**31]),)
     put(file, path, shape=shape, dtype=dtype, **random.choice([{}, {"chunks": (64,)}, {"maxshape": (None,)}]))
     return False
 
