@@ -80,11 +80,12 @@ def rounds_of(kind, name, seed, bench, arguments, end):
 
 def all_of(name, seed, bench, arguments, end):
     """One kind of attack from its making to what it has counted; returns its numbers of rounds and of falls."""
+    start = time.monotonic()
     kind = attempt(name, seed, bench.scratch, arguments.keep, lambda: KINDS[name](bench))
     if kind is None:
         return 0, 1
     rounds, tried, falls = rounds_of(kind, name, seed, bench, arguments, end)
-    print(f"{name}: {rounds} rounds, {tried} {kind.what}", flush=True)
+    print(f"{name}: {rounds} rounds in {time.monotonic() - start:.0f} s, {tried} {kind.what}", flush=True)
     if hasattr(kind, "check_counts"):  # each of what it counts is allowed, but not many
         folder, checked = bench.folder("counts"), lambda: kind.check_counts() or True
         falls += attempt(f"{name}-counts", seed, folder, arguments.keep, checked) is None

@@ -35,7 +35,7 @@ OF_LIBRARY = re.compile(r"\bH5[A-Z]\w*|libhdf5|libsz|libz\.so|libaec")
 def falls_in_library(bench, words, folder, memory):
     """Whether the run, repeated under the debugger, ends by a signal, is busy after a while, or has come to hold much
     memory within the HDF5 library. Without gdb nobody knows: False."""
-    script = WATCH % {"seconds": 20 if bench.sanitized else 2, "memory": memory // 2}
+    script = WATCH % {"seconds": 6 if bench.sanitized else 2, "memory": memory // 2}
     return bool(shutil.which("gdb")) and any(_stops_in_library(bench, words, folder, script) for _ in range(TRIES))
 
 
