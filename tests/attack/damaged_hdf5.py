@@ -72,7 +72,8 @@ class DamagedHdf5:
         self.mutant = target.read_bytes() if not target.is_symlink() else b""
         state = Folder(folder, step.output, random.random() < 0.3)
         try:
-            outcome = self.bench.run(*step.command(), cwd=folder, limits=limits(self.bench), longest=20 if seal else 5)
+            longest = 20 if seal else 2 if self.bench.sanitized else 5  # which sanitized programs have ten times
+            outcome = self.bench.run(*step.command(), cwd=folder, limits=limits(self.bench), longest=longest)
         except Fall as fall:
             if not seal and self._is_of_library(str(fall), folder, step):
                 self.counts["library crashes"] += 1
