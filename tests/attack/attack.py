@@ -3,20 +3,21 @@
 
 attack.py PROGRAMS SECONDS [--seed N] [--only KIND,...] [--rounds N] [--keep FOLDER]
 
-First all kept cases run; then each other kind has an equal part of the time. Every round has its own seed, from which all
-its choices come, so that `--only KIND --seed N --rounds 1` repeats it. What a fall left is kept in FOLDER/KIND-SEED with
-its message. Exit status 1 if anything fell.
+First all kept cases run; then each other kind has an equal part of the time, and at least one round. Every round has
+its own seed, from which all its choices come, so that `--only KIND --seed N --rounds 1` repeats it. What a fall left is
+kept in FOLDER/KIND-SEED with its message; an exception of the attack itself is a fall too, and the other rounds go on.
+Exit status 1 if anything fell.
 """
 import argparse
-import random
 import shutil
 import sys
 import tempfile
 import time
+import traceback
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
-from bench import Bench, Fall  # noqa: E402
+from bench import Bench, Choices, Fall  # noqa: E402
 from kinds import KINDS  # noqa: E402
 
 
@@ -40,45 +41,70 @@ def pipes(folder, names):
     return [name for name in names if Path(folder, name).is_fifo()]
 
 
-def attack(kind, seed, bench, keep):
-    """One round: number of things tried in it, and its fall or None."""
-    folder = bench.folder(f"{kind.name}-{seed}")
+def keep_fall(name, seed, folder, keep, fall):
+    """Reports a fall, or an exception of the attack itself with its traceback, and keeps what is in the folder."""
+    message = str(fall) if isinstance(fall, Fall) else "".join(traceback.format_exception(fall))
+    kept = Path(keep) / f"{name}-{seed}"
+    kept.mkdir(parents=True, exist_ok=True)
     try:
-        return kind.round(random.Random(seed), folder), None
-    except Fall as fall:
-        kept = Path(keep) / folder.name
-        kept.parent.mkdir(parents=True, exist_ok=True)
-        try:
-            shutil.copytree(folder, kept, dirs_exist_ok=True, symlinks=True, ignore=pipes)
-        except shutil.Error:  # names too long, folders without rights: what could be copied is there
-            pass
-        (kept / "message.txt").write_text(f"{fall}\n")
-        print(f"FALL {kind.name} --seed {seed}: {fall}\n  kept in {kept}", flush=True)
-        return 1, fall
-    finally:
+        shutil.copytree(folder, kept, dirs_exist_ok=True, symlinks=True, ignore=pipes)
+    except OSError:  # names too long, folders without rights: what could be copied is there
+        pass
+    (kept / "message.txt").write_text(f"{message}\n", errors="backslashreplace")
+    text = f"FALL {name} --seed {seed}: {message}\n  kept in {kept}"
+    print(text.encode(errors="backslashreplace").decode(), flush=True)
+
+
+def attempt(name, seed, folder, keep, what):
+    """What a part of an attack returns, or None if it falls."""
+    try:
+        return what()
+    except Exception as fall:
+        keep_fall(name, seed, folder, keep, fall)
+        return None
+
+
+def rounds_of(kind, name, seed, bench, arguments, end):
+    """Rounds of one kind until a moment, or as many as wanted, at least one; up to 10 while nothing could be tried.
+    Returns how many there were, how many things were tried in them, and how many fell."""
+    wanted = arguments.rounds or (kind.all() if name == "cases" else None)
+    rounds = tried = falls = 0
+    while rounds < wanted if wanted else rounds == 0 or time.monotonic() < end or tried == 0 and rounds < 10:
+        folder = bench.folder(f"{name}-{seed + rounds}")
+        choices = Choices(seed + rounds)
+        count = attempt(name, seed + rounds, folder, arguments.keep, lambda: kind.round(choices, folder))
         shutil.rmtree(folder, ignore_errors=True)
+        rounds, tried, falls = rounds + 1, tried + (1 if count is None else count), falls + (count is None)
+    return rounds, tried, falls
+
+
+def all_of(name, seed, bench, arguments, end):
+    """One kind of attack from its making to what it has counted; returns its numbers of rounds and of falls."""
+    start = time.monotonic()
+    kind = attempt(name, seed, bench.scratch, arguments.keep, lambda: KINDS[name](bench))
+    if kind is None:
+        return 0, 1
+    rounds, tried, falls = rounds_of(kind, name, seed, bench, arguments, end)
+    print(f"{name}: {rounds} rounds in {time.monotonic() - start:.0f} s, {tried} {kind.what}", flush=True)
+    if hasattr(kind, "check_counts"):  # each of what it counts is allowed, but not many
+        folder, checked = bench.folder("counts"), lambda: kind.check_counts() or True
+        falls += attempt(f"{name}-counts", seed, folder, arguments.keep, checked) is None
+    return rounds, falls
 
 
 def main():
     arguments = parse()
     seed = arguments.seed if arguments.seed is not None else int(time.time()) % 10**6 * 1000
     print(f"seed {seed}", flush=True)
-    falls = 0
+    names, rounds, falls = arguments.only.split(","), [], 0
     with tempfile.TemporaryDirectory() as scratch:
         bench = Bench(arguments.programs, scratch)
-        names = arguments.only.split(",")
         end = time.monotonic() + arguments.seconds
         for k, name in enumerate(names):
-            kind = KINDS[name](bench)
-            kind.name = name
             its_end = time.monotonic() + max(end - time.monotonic(), 0) / (len(names) - k)
-            wanted = arguments.rounds or (kind.all() if name == "cases" else None)
-            tried = rounds = 0
-            while rounds < wanted if wanted else time.monotonic() < its_end:
-                count, fall = attack(kind, seed + rounds, bench, arguments.keep)
-                tried, rounds, falls = tried + count, rounds + 1, falls + (fall is not None)
-            print(f"{name}: {rounds} rounds, {tried} {kind.what}", flush=True)
-    print(f"{falls} falls" if falls else "nothing fell")
+            n, fallen = all_of(name, seed, bench, arguments, its_end)
+            rounds, falls = [*rounds, f"{name} {n}"], falls + fallen
+    print(f"rounds: {', '.join(rounds)}; {falls or 'nothing'} fell")
     return int(falls > 0)
 
 

@@ -4,8 +4,6 @@
 Each check raises Fall with what is off. Forces are compared with the largest of their increment, to 1e-8 and what the
 rounding of displacements times stiffnesses leaves.
 """
-import json
-
 import numpy as np
 
 from bench import Fall
@@ -16,10 +14,12 @@ AXES = {"x": 0, "y": 1}
 
 
 def off(what, found, wanted, scale, rounding=0.0, allowed=ALLOWED):
-    """Raises Fall if two arrays differ by more than `allowed` of `scale` and the given rounding; returns the ratio
-    beyond the rounding."""
+    """Raises Fall if two arrays differ by more than `allowed` of `scale` and the given rounding, or if these are no
+    numbers that could be exceeded; returns the ratio beyond the rounding."""
     difference = np.abs(np.asarray(found, float) - wanted)
     limit = allowed * scale + rounding
+    if not np.all(np.isfinite(limit)):
+        raise Fall(f"{what}: allowed {np.max(limit):.3g}, of {scale:.3g}: nothing could be off")
     bad = difference > limit
     if np.any(bad) or not np.all(np.isfinite(difference)):
         at = np.unravel_index(np.argmax(np.where(np.isfinite(difference), difference, np.inf)), difference.shape)
@@ -85,14 +85,19 @@ class Sheet:
 
     def _check_columns(self, moved, axis):
         """Along an axis without supports what discs and externals take is the load with the opposite sign."""
+        of_friction, of_tractions = self.resultants(axis)
+        largest = np.abs(self.file["friction/resultant"]).max(initial=0) or 1
+        off(f"{self.name}: R is out of balance", moved @ self.R, -of_friction, largest)
+        off(f"{self.name}: T is out of balance", moved @ self.T, -of_tractions, 1)
+
+    def resultants(self, axis):
+        """Forces along an axis of every friction and of every traction of amount 1."""
         file = self.file
         friction = np.array(["xy".index(bearing[1]) for bearing in file["friction/bearing"]], int)
         along, across = file["friction/resultant"], file["friction/resultant_across"]
-        wanted = np.where(friction == axis, along, across) if len(friction) else along
-        off(f"{self.name}: R is out of balance", moved @ self.R, -wanted, np.abs(along).max(initial=0) or 1)
+        of_friction = np.where(friction == axis, along, across) if len(friction) else along
         axes, across = self.traction_axis, file["traction/resultant_across"]
-        wanted = np.where(axes == axis, 1.0, np.where(axes < 0, 0.0, across)) if len(axes) else across
-        off(f"{self.name}: T is out of balance", moved @ self.T, -wanted, 1)
+        return of_friction, np.where(axes == axis, 1.0, np.where(axes < 0, 0.0, across)) if len(axes) else across
 
     def check_rotation(self, p):
         """A floating sheet whose discs move along x and y turns without forces, as far as its elements can follow."""
@@ -154,12 +159,23 @@ class Balance:
         where = f"{sheet.name}, increment {step}"
         if not self._couples(sheet):
             self._note(off(f"{where}: forces are not those of the matrices", outside, given, scale, rounding))
+            self._check_reactions(sheet, step, outside, scale, rounding.sum())
         on_sheet = np.concatenate([self._of(sheet, "Pe", step), bearing + by_friction])
         for axis in 0, 1:
             loads = on_sheet[:sheet.e][sheet.axis[:sheet.e] == axis].sum() + f[sheet.traction_axis == axis].sum()
             loads += self._across(sheet, f, axis)
             fasteners = on_sheet[sheet.e:][sheet.axis[sheet.e:] == axis].sum()
             self._check_totals(sheet, step, axis, loads, fasteners, scale, rounding.sum())
+
+    def _check_reactions(self, sheet, step, outside, scale, rounding):
+        """Supports take what the matrices leave of the forces that they give at the displacements; where discs do not
+        move along an axis, the matrices do not have what holds them."""
+        for axis in set(sheet.axis[sheet.e:]):
+            of_friction, of_tractions = sheet.resultants(axis)
+            friction, f = self._of(sheet, "Lambda", step), self._of(sheet, "traction/force", step)
+            wanted = -outside[sheet.axis == axis].sum() - of_friction @ friction - of_tractions @ f
+            by_supports = self._of(sheet, "total/by_supports", step)[axis]
+            off(f"{sheet.name}, increment {step}, {'xy'[axis]}: reaction", by_supports, wanted, scale, rounding)
 
     def _of_gaps(self, sheet):
         """What rounding leaves of the forces that closing the gaps of contact would take."""
@@ -213,8 +229,6 @@ class Balance:
         where = f"{sheet.name}, increment {step}, {'xy'[axis]}"
         off(f"{where}: applied force", self._of(sheet, "total/applied", step)[axis], loads, scale)
         off(f"{where}: force of fasteners", self._of(sheet, "total/by_fasteners", step)[axis], fasteners, scale)
-        by_supports = self._of(sheet, "total/by_supports", step)[axis]
-        off(f"{where}: reaction", by_supports, -loads - fasteners, scale)
         if axis in sheet.unsupported and np.any(sheet.axis == axis):
             self._note(off(f"{where}: out of balance without supports", loads + fasteners, 0, scale, rounding))
 
@@ -262,36 +276,3 @@ class Balance:
 
     def _note(self, ratio):
         self.worst = max(self.worst, ratio)
-
-
-def check_laws(scene, result):
-    """F is the law of delta, for laws that are lines or powers and have no past."""
-    laws = {name: law for name, law in scene.joint["laws"].items()}
-    planes = iter(range(len(result["fastener/id"])))
-    for fastener in scene.joint["fasteners"]:
-        n = len(fastener["between"]) - 1
-        names = [fastener["law"]] * n if isinstance(fastener["law"], str) else fastener["law"]
-        clearance = fastener.get("clearance", 0.0)
-        for k, plane in zip(range(n), planes):
-            law, free = laws[names[k]], clearance if not isinstance(clearance, list) else clearance[k]
-            if law["type"] not in ("linear", "power"):
-                continue
-            for step in range(len(result["load_factor"])):
-                _check_law(json.dumps(law), law, free, result, step, plane)
-
-
-def _check_law(text, law, free, result, step, plane):
-    delta, F = result["delta"][step, plane], result["F"][step, plane]
-    if law.get("one_sided") and delta < 0:
-        wanted = slope = 0.0
-    else:
-        past = max(abs(delta) - free - law.get("delta0", 0.0), 0.0)
-        n = law.get("n", 1)
-        wanted = np.sign(delta) * law.get("k", law.get("A")) * past ** n
-        slope = abs(wanted) * n / past if past > 0 else 0.0
-        if n < 1 and delta:  # steep where it begins, so that rounding of delta changes F much
-            scale_of_delta = abs(delta) + free + law.get("delta0", 0.0)
-            slope = max(slope, law["A"] * (past + 1e-9 * scale_of_delta) ** n / (past + 1e-9 * scale_of_delta))
-    scale = max(np.abs(result["F"][step]).max(), abs(wanted))
-    small = 1e-13 * law.get("k", law.get("A", 0.0) if law.get("n") == 1 else 0.0)  # forces that are set to zero as rounding
-    off(f"plane {plane}, increment {step}: F is not its law {text}", [F], wanted, scale, 1e-12 * slope * abs(delta) + small + 1e-300)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where attacks run the programs: every run is held to what no input and no machine may make it do."""
 import os
+import random
 import resource
 import shutil
 import signal
@@ -18,6 +19,14 @@ MOST_MEMORY = 4 << 30       # bytes
 
 class Fall(Exception):
     """A program did what it must not do; the message says what."""
+
+
+class Choices(random.Random):
+    """The choices of one round: random numbers from its seed, which is `seed_of_round`."""
+
+    def __init__(self, seed):
+        super().__init__(seed)
+        self.seed_of_round = seed
 
 
 @dataclass

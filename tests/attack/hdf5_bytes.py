@@ -2,8 +2,6 @@
 """Damage to the bytes of HDF5 files, as disks, copies and broken programs do it; what two files hold alike."""
 import random as generators
 import re
-import shutil
-import subprocess
 
 import h5py
 import numpy as np
@@ -108,23 +106,3 @@ def content(file):
             result["/" + name] = value.tobytes() if item.dtype.kind in "if" else np.asarray(value).tolist()
     file.visititems(visit)
     return result
-
-
-def falls_in_library(bench, words, folder):
-    """Whether the run, repeated under a debugger, ends by a signal or is busy after a while within the HDF5 library. What
-    this does at damaged bytes depends on what its memory holds, so that a run may have to be repeated more than once.
-    Without gdb nobody knows: False."""
-    return bool(shutil.which("gdb")) and any(_ends_in_library(bench, words, folder) for _ in range(6))
-
-
-def _ends_in_library(bench, words, folder):
-    stop = "python import os, signal, threading; threading.Timer(2, lambda: [os.kill(i.pid, signal.SIGINT) " \
-           "for i in gdb.inferiors() if i.pid]).start()"
-    gdb = ["gdb", "-batch", "-nx", "-ex", "set disable-randomization off", "-ex", stop, "-ex", "run", "-ex", "bt 60", "--args"]
-    try:
-        run = subprocess.run([*gdb, bench.programs / words[0], *words[1:]], cwd=folder, env=bench.environment, timeout=120,
-                             stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace")
-    except subprocess.TimeoutExpired:
-        return False
-    frames = [line for line in run.stdout.splitlines() if line.startswith("#")]
-    return "received signal" in run.stdout and any(re.search(r"\bH5[A-Z]\w*|libhdf5", line) for line in frames)

@@ -139,10 +139,19 @@ def claim(random, file, path):
     return False
 
 
+def claim_text(random, file, path):
+    """Texts of fixed length, which all together no small file holds, and of which nothing was ever written."""
+    dtype = random.choice(["S1", "S8", "S1000", h5py.string_dtype("utf-8", 2)])
+    shape = (random.choice([2**20, 2**25, 5 * 10**7, 2**26, 2**28, 2**31]),)
+    put(file, path, shape=shape, dtype=dtype, **random.choice([{}, {"chunks": (64,)}, {"maxshape": (None,)}]))
+    return False
+
+
 def remove(random, file, path):
     """A dataset, or the group around it."""
     del file[path.rsplit("/", 1)[0] if "/" in path and random.random() < 0.3 else path]
     return False
 
 
-CONTENT = [entries] * 6 + [near] * 4 + [permute] * 3 + [reshape] * 4 + [retype] * 4 + [claim] * 2 + [remove] * 2
+CONTENT = [entries] * 6 + [near] * 4 + [permute] * 3 + [reshape] * 4 + [retype] * 4 + [claim] * 2 + [claim_text] + \
+          [remove] * 2

@@ -21,6 +21,22 @@ def link(random, file, path):
     return False
 
 
+def group_link(random, file, path):
+    """A link in place of a group with all that is in it. Nothing there can be edited any more: h5py would follow the
+    link, and wait for a pipe."""
+    around = path.split("/")[:-1]
+    if not around:
+        return link(random, file, path)
+    group_path = "/".join(around[:random.randint(1, len(around))])
+    files = ["fifo", "elsewhere.h5", "a-folder", "missing.h5", "/dev/zero", file.filename.rsplit("/", 1)[-1]]
+    outside = h5py.ExternalLink(random.choice(files), random.choice(["/x", "/" + group_path]))
+    within = h5py.SoftLink(random.choice(["/nothing", "/" + group_path, "/"]))
+    target = random.choice([outside, outside, outside, within, within, file["/"]])
+    del file[group_path]
+    file[group_path] = target
+    return False
+
+
 def moved(random, file, path):
     """The dataset under another name, with a soft or hard link, or a copy, in its place: all is there."""
     file.move(path, "moved_away")
@@ -200,5 +216,5 @@ def rewritten(random, source, target):
     return True
 
 
-LAYOUT = [link] * 3 + [moved, group, group] + [virtual] * 2 + [external, filtered, filtered] + [unknown_filter] * 2 + \
-         [layout] * 2 + [attribute] * 5 + [strangers]
+LAYOUT = [link] * 3 + [group_link] * 2 + [moved, group, group] + [virtual] * 2 + [external] + \
+         [filtered] * 2 + [unknown_filter] * 2 + [layout] * 2 + [attribute] * 5 + [strangers]

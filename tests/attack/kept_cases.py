@@ -12,18 +12,16 @@ LONGEST = 120.0  # seconds of one line
 
 
 class KeptCases:
-    """One round is one case, one after another; after the last they begin again."""
+    """One round is one case, which its seed chooses: seeds that follow each other go through all of them."""
 
     def __init__(self, bench):
         self.bench = bench
         self.folders = sorted(path.parent for path in CASES.glob("*/case.json"))
-        self.next = 0
 
     what = "kept cases"
 
-    def round(self, _random, folder):
-        case = self.folders[self.next % len(self.folders)]
-        self.next += 1
+    def round(self, random, folder):
+        case = self.folders[random.seed_of_round % len(self.folders)]
         place = folder / case.name
         shutil.copytree(case, place)
         for step in json.loads((case / "case.json").read_text())["steps"]:

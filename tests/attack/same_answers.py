@@ -13,6 +13,7 @@ import any_angle
 import guises
 from bench import Fall
 from chain import Chain, File, Refused, Slow
+from ends import Ends, first_words
 from wild_joints import is_contact, random_scene, remembers
 
 SAME_S, SAME_RESULT, SAME_TURNED_RESULT = 1e-8, 1e-6, 1e-5
@@ -74,17 +75,22 @@ def _steps(result):
 class SameAnswers:
     def __init__(self, bench):
         self.chain = Chain(bench)
-        self.tried, self.explained, self.refused = Counter(), Counter(), Counter()
-        self.worst_S, self.worst_result, self.doubtful, self.unlike_end, self.other_mesh = 0.0, 0.0, 0, 0, 0
+        self.tried, self.explained, self.originals, self.guises = Counter(), Counter(), Ends(), Ends()
+        self.worst_S, self.worst_result = 0.0, 0.0
 
     @property
     def what(self):
+        ends = self.guises.counts
         lines = [f"scenes in other guises, S the same to {self.worst_S:.1e} and results to {self.worst_result:.1e}; of "
-                 f"{self.doubtful} scenes the solution is not the only one, {self.unlike_end} ended with status 4 in one guise, "
-                 f"{self.other_mesh} had another mesh"]
+                 f"{ends['doubtful']} the solution is not the only one, {ends['another end']} ended with status 4 in "
+                 f"one guise, {ends['another mesh']} had another mesh; of {self.originals.tried} scenes"]
         lines += [f"  {n:5} {name}, in {self.explained[name]} S differs by more than {SAME_S:g} but within its rounding"
                   for name, n in self.tried.most_common()]
-        return "\n".join(lines + [f"  {n:5} ended with {text}" for text, n in self.refused.most_common()])
+        return "\n".join(lines + self.originals.lines() + self.guises.lines())
+
+    def check_counts(self):
+        self.originals.check()
+        self.guises.check()
 
     def round(self, random, folder):
         scene = random_scene(random)
@@ -101,13 +107,16 @@ class SameAnswers:
         pairs = any_angle.loads_in_pairs(scene)
         if pairs and random.random() < 0.8:
             scene, choices = pairs, [lambda s: any_angle.turned(s, random.uniform(-180, 180))]
+        self.originals.tried += 1
         try:
             original = Answers(self.chain, folder / "original", scene)
         except Refused as refused:
-            self.refused[str(refused)[:80]] += 1
+            self.originals.refused(refused, scene)
+            if refused.status == 4:
+                self.must_end_alike(random.choice(choices)(scene), folder / "guise", refused)
             return 0
         except Slow:
-            self.refused["no end within a minute"] += 1
+            self.originals.slow()
             return 0
         if random.random() < 0.2:
             return self.all_units(scene, original, folder)
@@ -122,30 +131,42 @@ class SameAnswers:
             self.compare(guises.in_units(scene, system), original, folder / system.replace("/", "-"))
         return len(guises.SYSTEMS)
 
+    def must_end_alike(self, guise, folder, refused):
+        """Of a scene that is refused with status 4: counts a guise that is solved, unless its codes are doubtful."""
+        self.guises.tried += 1
+        try:
+            answers = Answers(self.chain, folder, guise.scene)
+        except (Refused, Slow):
+            return
+        if not set(answers.codes) & DOUBTFUL:
+            self.guises.count("another end", f"{guise.name} solved, the original not: {first_words(refused)}")
+
     def compare(self, guise, original, folder):
         folder.mkdir(exist_ok=True)
         (folder / "guise.txt").write_text(guise.name + "\n")
         kind = "turned by any angle" if _is_by_any_angle(guise) else guise.name
         self.tried[kind] += 1
+        self.guises.tried += 1
         try:
             answers = Answers(self.chain, folder, guise.scene)
         except Refused as refused:
             if refused.status != 4:
                 raise Fall(f"{guise.name}: refused, but not the original: {refused}") from refused
-            self.unlike_end += 1
-            self.refused[f"{kind}: {refused}"[:110]] += 1
+            name = "doubtful" if set(original.codes) & DOUBTFUL else "another end"
+            self.guises.count(name, f"{kind}, the original not: {first_words(refused)}")
             return
         except Slow:
-            self.refused[f"{kind}: no end within a minute"] += 1
+            self.guises.slow(f"{kind}: ")
             return
         turns = {name: answers.turn(guise, original, name) for name in original.sheets}
         if not all(_same_mesh(original.shape[name], answers.shape[own] / guise.length) for name, (own, _) in turns.items()):
-            self.other_mesh += 1  # where rays of two holes meet a common side, the mesher takes those of the first
+            # Where rays of two holes meet a common side, the mesher takes those of the first.
+            self.guises.count("another mesh", "another mesh")
             return
         for name in original.sheets:
             self._compare_stiffness(guise, original, answers, name, turns[name], kind)
         if (set(answers.codes) | set(original.codes)) & DOUBTFUL:
-            self.doubtful += 1
+            self.guises.count("doubtful", "a solution that is not the only one")
             return
         self._compare_results(guise, original, answers, turns)
 

@@ -11,7 +11,7 @@ import subprocess
 
 from bench import Fall
 from tiny_runs import check_whole, left_behind
-from spot import name_of, with_path
+from spot import Skipped, name_of, with_path
 
 MEGABYTE = 2**20
 LEAST_STACK = 2**18  # bytes; systems give 2^23
@@ -32,7 +32,7 @@ def starts(spot, job, limits):
 
 
 def limited(spot, job, limits, what):
-    """Runs a job under limits and holds it and its files."""
+    """Runs a job under limits and holds it and its files; Skipped if not even the libraries could be loaded."""
     old = spot.old(job)
     try:
         status = spot.run(*job.words, limits=limits).status
@@ -42,14 +42,15 @@ def limited(spot, job, limits, what):
         if starts(spot, job, limits):
             raise
         status = None
-    if status == 0 or status is None or status > 1:
-        spot.end(job, status, old, what)
+    spot.end(job, status, old, what)
+    if status is None:
+        raise Skipped("the program could not be loaded")
 
 
 def memory(spot):
     """Addresses or data, from a megabyte to plenty."""
     if spot.bench.sanitized:
-        return
+        raise Skipped("sanitizers reserve memory without end")
     which = spot.random.choice(["AS", "DATA"])
     n = int(MEGABYTE * spot.random.choice([2**spot.random.uniform(0, 10), spot.random.uniform(60, 320)]))
     job = spot.job()
@@ -71,6 +72,8 @@ def open_files(spot):
 
 def size_of_files(spot):
     """Files up to a size that may fall within what a run writes: a message, not the signal SIGXFSZ."""
+    if spot.bench.sanitized:
+        raise Skipped("the OpenMP of sanitized programs keeps a file of its own in shared memory")
     job = spot.job()
     most = max(len(whole) for whole in job.outputs.values() if whole is not None)
     n = spot.random.choice([0, 1, spot.random.randint(1, 1000), spot.random.randint(1, most + 100), most - 1, most, most + 1])
@@ -87,9 +90,9 @@ def size_of_files(spot):
 
 def threads(spot):
     """No more threads than a few: fewer work, or a line says why none do."""
+    if spot.bench.sanitized:
+        raise Skipped("sanitized programs do not start without threads")
     rights = spot.as_nobody()
-    if rights is None or spot.bench.sanitized:
-        return
     job, n = spot.job("stage1", "study", "stage3"), spot.random.randint(0, 4)
     words = [*job.words, "--threads", "8"] if job.name != "stage3" else job.words
     old = spot.old(job)
@@ -112,9 +115,10 @@ def processor_time(spot):
 
 
 def mount(folder, options, flags=0):
-    """Mounts a small disk of memory; False where that is not allowed."""
+    """Mounts a small disk of memory; Skipped where that is not allowed."""
     libc = ctypes.CDLL(None, use_errno=True)
-    return libc.mount(b"tmpfs", os.fsencode(folder), b"tmpfs", flags, options.encode()) == 0
+    if libc.mount(b"tmpfs", os.fsencode(folder), b"tmpfs", flags, options.encode()) != 0:
+        raise Skipped(f"no disk could be mounted: {os.strerror(ctypes.get_errno())}")
 
 
 def full_disk(spot):
@@ -130,8 +134,7 @@ def full_disk(spot):
     most = len(job.outputs[name] or bytes(300))
     few_pages, few_files = f"size={spot.random.randint(4096, most + 20000)}", f"nr_inodes={spot.random.randint(2, 4)}"
     limit = few_pages if spot.random.random() < 0.7 else few_files
-    if not mount(disk, limit):
-        return
+    mount(disk, limit)
     try:
         old = b"before" if spot.random.random() < 0.5 else None
         if old:
@@ -154,8 +157,7 @@ def full_disk_of_study(spot, job, disk):
     remount = 32  # MS_REMOUNT
     disk.mkdir()
     size = spot.random.randint(4096, 80000)
-    if not mount(disk, f"size={size}"):
-        return
+    mount(disk, f"size={size}")
     try:
         words = with_path(job.words, "-o", "disk/study.h5")
         status = spot.run(*words).status

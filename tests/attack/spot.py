@@ -13,6 +13,10 @@ NOBODY = 65534  # a user without rights, as whom runs are started whose rights m
 CLOSED = 'exec "$@" '  # of a shell, in front of redirections
 
 
+class Skipped(Exception):
+    """Something could not be denied here, so that nothing was tried; the message says why."""
+
+
 @dataclass
 class Spot:
     """A folder for one run; `chain` has its inputs, `other` those of a sheet whose files have other bytes."""
@@ -44,14 +48,16 @@ class Spot:
         return run.returncode, words_said.decode(errors="replace")
 
     def as_nobody(self):
-        """Options that start a run as a user without rights, who owns the folder; None where that is not possible."""
+        """Options that start a run as a user without rights, who owns the folder; Skipped where that is impossible."""
         if os.geteuid() != 0:
             return {}
         for path in [self.folder, *self.folder.rglob("*")]:
             os.chown(path, NOBODY, NOBODY, follow_symlinks=False)
         can = subprocess.run([self.bench.programs / "stage1_plate", "--version"], user=NOBODY, group=NOBODY, extra_groups=[],
                              capture_output=True, check=False) if os.access(self.bench.programs, os.X_OK) else None
-        return {"user": NOBODY, "group": NOBODY, "extra_groups": []} if can and can.returncode == 0 else None
+        if not can or can.returncode != 0:
+            raise Skipped("a user without rights may not run the programs")
+        return {"user": NOBODY, "group": NOBODY, "extra_groups": []}
 
     def end(self, job, status, old, what):
         """Holds the files of a run that ended by itself: whole, new if it says so, nothing left behind, inputs as before."""

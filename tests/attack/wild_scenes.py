@@ -5,9 +5,11 @@ import re
 import shutil
 from collections import Counter
 
-from balance import Balance, check_laws
+from balance import Balance
 from bench import ROOT, Fall
 from chain import Chain, Refused, Slow
+from ends import Ends
+from force_laws import check_laws
 from wild_joints import is_contact, random_scene
 
 SCENES = 6  # of a round
@@ -88,13 +90,13 @@ class WildScenes:
     def __init__(self, bench):
         self.chain = Chain(bench)
         self.codes = documented_codes()
-        self.refused, self.warned, self.solved, self.worst = Counter(), Counter(), 0, 0.0
+        self.ends, self.warned, self.solved, self.worst = Ends(), Counter(), 0, 0.0
 
     @property
     def what(self):
         """What was tried, and a table of the failures with a message by their first words."""
         lines = [f"wild scenes, {self.solved} solved, worst imbalance {self.worst:.1e} of the largest force"]
-        lines += [f"  {n:5} ended with {text}" for text, n in self.refused.most_common()]
+        lines += self.ends.lines()
         lines += ["  warnings: " + ", ".join(f"{code} {n}" for code, n in sorted(self.warned.items()))]
         return "\n".join(lines)
 
@@ -108,13 +110,14 @@ class WildScenes:
 
     def one(self, scene, place):
         """One scene; what is left in its folder is kept if it falls."""
+        self.ends.tried += 1
         try:
             matrices, result, codes = self.chain.scene(place, scene)
         except Refused as refused:
-            self._count(refused, any(plate.get("cracks") for plate in scene.plates.values()))
+            self.ends.refused(refused, scene)
             return
         except Slow:
-            self.refused["no end within a minute"] += 1
+            self.ends.slow()
             return
         if not int(result.attributes["complete"]):
             raise Fall("status 0 of a result that is not complete")
@@ -125,17 +128,8 @@ class WildScenes:
         check_laws(scene, result)
         self.worst = max(self.worst, balance.worst)
 
-    def _count(self, refused, has_cracks):
-        """Status 4 is allowed with a message; scenes are valid, so that 2 and 3 are not, but for cracks that no mesh of the
-        cells follows (docs/limits.md)."""
-        of_cracks = "which cannot be moved through it", "is folded", "edges of the crack that have"
-        if refused.status != 4 and not (has_cracks and any(words in refused.line for words in of_cracks)):
-            raise Fall(f"a valid scene is refused: {refused}")
-        if "NaN" in refused.line:
-            raise Fall(f"a failure of numbers instead of a message: {refused}")
-        words = re.sub(r"[-+]?\d[-+.e\d]*", "#", refused.line.split(": error: ")[1])
-        words = re.sub(r"^\S+: ", "", words)
-        self.refused[f"{refused.program}: {words[:60]}"] += 1
+    def check_counts(self):
+        self.ends.check()
 
     def _check_warnings(self, scene, codes, result):
         self.warned.update(codes)

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the programs leave behind: result files without NaN, infinite numbers only where schemas/*.md say so, nothing
 unfinished, and after a failure what was there before."""
+import csv
 import re
+import sys
 from functools import cache
 
 import h5py
@@ -16,6 +18,9 @@ PAGES = {"plate-solution": "plate-solution.md", "plate-matrices": "plate-matrice
 INFINITE_TOO = {"joint-result": r"F_error|sensitivity/.*|envelope/.*|margin/(allowable|applied)|stiffness/tangent|"
                                 r"plates/[^/]+/(crack/K_I+_error|row/after)",
                 "study-result": r"statistics/[^/]+/(quantile_(high|low)|quantile|deviation)|variables/(mean|deviation)"}
+# Columns of tables that have names, which may be "nan"; all others have numbers.
+NAMED = {"fastener", "first", "second", "event", "joint", "case", "plate", "direction", "of", "at", "quantity", "unit",
+         "check", "formula", "inputs", "largest in case", "smallest in case"}
 LONGEST_LINE = 8000  # characters of a message: names of files and places fit, what an input holds of any length does not
 EARLIER = b"what was there before"
 
@@ -61,9 +66,24 @@ def check_written(path):
         return check_hdf5(path)
     if path.stat().st_size == 0:
         raise Fall(f"{path.name} is empty")
-    if path.suffix in (".vtu", ".csv") and re.search(rb"(?<![\w\"/])-?nan(?![\w\"/])", path.read_bytes(), re.I):
+    if path.suffix == ".csv":
+        check_table(path)
+    elif path.suffix == ".vtu" and re.search(rb"(?<![\w\"/])-?nan(?![\w\"/])", path.read_bytes(), re.I):
         raise Fall(f"{path.name} holds NaN")
     return None, {}
+
+
+def check_table(path):
+    """Raises Fall for a NaN in a table, or a line with other cells than its heading."""
+    csv.field_size_limit(sys.maxsize)  # names may be long
+    with open(path, encoding="utf-8", errors="surrogateescape", newline="") as file:
+        heading, *lines = csv.reader(file)
+    for number, cells in enumerate(lines, 2):
+        if len(cells) != len(heading):
+            raise Fall(f"{path.name}: row {number} has {len(cells)} cells, its heading {len(heading)}")
+        for name, cell in zip(heading, cells):
+            if name not in NAMED and "nan" in cell.lower():
+                raise Fall(f"{path.name}: row {number}, {name}: {cell}")
 
 
 class Folder:
@@ -80,13 +100,17 @@ class Folder:
     def _names(self):
         return {path.name for path in self.folder.iterdir()}
 
-    def check(self, outcome, others=()):
-        """`others` are names that the run may also leave: tables, and blocks of a study."""
+    def check(self, outcome, others=(), writes=True):
+        """`others` are names that the run may also leave: tables, and blocks of a study. A slice of a study leaves its
+        blocks, and not `writes` the output."""
         new = self._names() - self.before - set(others) - {self.output.name}
         if new:
             raise Fall(f"exit status {outcome.status} left {', '.join(sorted(new))}")
+        for path in (self.folder / name for name in others):
+            if path.is_file():
+                check_written(path)
         kept = self.earlier and self.output.exists() and self.output.read_bytes() == EARLIER
-        if outcome.status == 0:
+        if outcome.status == 0 and writes:
             if kept or not self.output.exists():
                 raise Fall("exit status 0 without an output")
             return check_written(self.output)
