@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
@@ -54,6 +55,9 @@ void space(File& file, AnySpace& a) {
 template void space(h5::Writer& file, const pfem::Space& a);
 template void space(h5::Reader& file, pfem::Space& a);
 
+const h5::Allowed angles{
+    .text = "angles up to a full turn", .low = std::numeric_limits<double>::min(), .high = (1 + 1e-9) * rim::full_turn};
+
 template <class File, class Contact>
 void contact_datasets(File& file, Contact& a, const Units& units, const std::string& group) {
   using h5::Column;
@@ -70,7 +74,7 @@ void contact_datasets(File& file, Contact& a, const Units& units, const std::str
          "where the rim that the model has begins, counter-clockwise from x", {});
   column(
       "pressure/sweep", [](auto& rim) -> auto& { return rim.pressures.sweep; }, "rad", "angle that this rim covers",
-      h5::positive);
+      angles);
   column("pressure/modulus", &ContactRim::modulus, unit(units, -3, 1), "modulus of the springs", h5::positive);
   column("pressure/radius", &ContactRim::radius, unit(units, 1, 0), "radius of the hole", h5::positive);
   column("pressure/area", &ContactRim::area, unit(units, 2, 0), "area of this rim", h5::positive);
@@ -120,8 +124,7 @@ void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& un
   column("wave/start", [](auto& rim) -> auto& { return rim.waves.start; }, "rad",
          "where the rim that the model has begins, counter-clockwise from x", {});
   column(
-      "wave/sweep", [](auto& rim) -> auto& { return rim.waves.sweep; }, "rad", "angle that this rim covers",
-      h5::positive);
+      "wave/sweep", [](auto& rim) -> auto& { return rim.waves.sweep; }, "rad", "angle that this rim covers", angles);
   column("wave/radius", &WaveRim::radius, unit(units, 1, 0), "radius of the hole", h5::positive);
   column("wave/area", &WaveRim::area, unit(units, 2, 0), "area of this rim", h5::positive);
   column("wave/modulus", &WaveRim::modulus, unit(units, -3, 1), "modulus of the springs, 0 of an open hole",

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/h5/reader.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 
 #include "common/errors.hpp"
@@ -62,6 +67,37 @@ std::string shape_text(const Shape& shape) {
 
 }  // namespace
 
+namespace {
+
+/// A file that is held open.
+class OpenFile {
+ public:
+  explicit OpenFile(const std::string& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) throw FileError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
+    std::error_code none;
+    path_ = fmt::format("/proc/self/fd/{}", descriptor_);
+    if (!fs::exists(path_, none)) path_ = path;  // a system without /proc
+  }
+  ~OpenFile() { ::close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  /// A path at which it can be read even if another file takes its name meanwhile.
+  [[nodiscard]] const std::string& path() const { return path_; }
+  /// True if it is what a path leads to now.
+  [[nodiscard]] bool is_at(const std::string& path) const {
+    struct stat here {
+    }, there{};
+    return ::fstat(descriptor_, &here) == 0 && ::stat(path.c_str(), &there) == 0 && here.st_dev == there.st_dev &&
+           here.st_ino == there.st_ino;
+  }
+
+ private:
+  int descriptor_;
+  std::string path_;
+};
+
+}  // namespace
+
 struct Reader::Impl {
   std::string path, digest;
   double size = 0;  ///< size of the file, bytes
@@ -70,6 +106,23 @@ struct Reader::Impl {
 
   [[noreturn]] void fail(const std::string& dataset, const std::string& what) const {
     throw FileError(fmt::format("{}:{}: {}", path, dataset, what));
+  }
+
+  /// Opens the file after a check of its digest; false if another file has taken its name meanwhile, which the library
+  /// may have opened. The library itself opens no file that has lost its name.
+  bool open_file(const std::string& format) {
+    const OpenFile open(path);
+    digest = checked_digest(open.path(), path);
+    size = double(fs::file_size(open.path()));
+    const Properties access(H5Pcreate(H5P_FILE_ACCESS));
+    H5Pset_file_locking(access.get(), false, true);  // locks fail on read-only and network file systems
+    const bool is_hdf5 = H5Fis_hdf5(path.c_str()) > 0;
+    if (is_hdf5) file = File(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.get()));
+    const std::string reason = last_error();
+    if (!open.is_at(path)) return false;
+    if (!is_hdf5) throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", path, format));
+    if (!file) throw FileError(fmt::format("{}: is damaged or truncated: {}", path, reason));
+    return true;
   }
 
   Dataset open(const std::string& name) const {
@@ -220,14 +273,7 @@ Reader::Reader(std::string path, const std::string& format, int major) : impl_(s
   impl_->path = std::move(path);
   if (std::error_code none; fs::exists(impl_->path, none) && !fs::is_regular_file(impl_->path, none))
     throw FileError(fmt::format("{}: is not a regular file", impl_->path));
-  impl_->digest = checked_digest(impl_->path);
-  impl_->size = double(fs::file_size(impl_->path));
-  if (H5Fis_hdf5(impl_->path.c_str()) <= 0)
-    throw FileError(fmt::format("{}: is not an HDF5 file (expected a '{}' file)", impl_->path, format));
-  const Properties access(H5Pcreate(H5P_FILE_ACCESS));
-  H5Pset_file_locking(access.get(), false, true);  // locks fail on read-only and network file systems
-  impl_->file = File(H5Fopen(impl_->path.c_str(), H5F_ACC_RDONLY, access.get()));
-  if (!impl_->file) throw FileError(fmt::format("{}: is damaged or truncated: {}", impl_->path, last_error()));
+  while (!impl_->open_file(format)) impl_->file = File();
   impl_->check_version(format, major);
 }
 

@@ -193,7 +193,7 @@ std::string digest(const std::string& path, std::size_t n) {
 
 std::string seal(const std::string& digest) { return fmt::format("{}{}\n", mark, digest); }
 
-std::string checked_digest(const std::string& path) {
+std::string checked_digest(const std::string& path, const std::string& name) {
   auto in = open(path);
   const std::size_t size = in.seekg(0, std::ios::end).tellg();
   const std::size_t n_last = std::min(size, 4 * seal_size), n_image = size - std::min(size, seal_size);
@@ -204,11 +204,11 @@ std::string checked_digest(const std::string& path) {
     throw FileError(
         fmt::format("{}: has the digest of an earlier version of this program, which misses some damage; "
                     "make it again, or take it unchecked by h5repack {} NEW.h5",
-                    path, path));
+                    name, name));
   if (!end.starts_with(mark)) {
     // A mark at another place shows that bytes were cut off or added.
     if (last.find("\nfastjoint") != last.npos || last.find(" xxhash ") != last.npos)
-      throw FileError(fmt::format("{}: is damaged: its digest is not at its end; make it again", path));
+      throw FileError(fmt::format("{}: is damaged: its digest is not at its end; make it again", name));
     std::string start(std::min<std::size_t>(size, 64), '\0');
     in.seekg(0).read(start.data(), static_cast<std::streamsize>(start.size()));
     // HDF5 cuts off what is beyond its end when it edits a file, so that such bytes were a digest.
@@ -216,12 +216,12 @@ std::string checked_digest(const std::string& path) {
       throw FileError(
           fmt::format("{}: is damaged: the {} bytes after the end of its HDF5 data are not their digest; "
                       "make it again",
-                      path, size - *image));
+                      name, size - *image));
     return {};
   }
   std::string found = digest(path, n_image);
   if (end != seal(found))
-    throw FileError(fmt::format("{}: is damaged: its bytes do not match their digest; make it again", path));
+    throw FileError(fmt::format("{}: is damaged: its bytes do not match their digest; make it again", name));
   return found;
 }
 

@@ -56,6 +56,7 @@ void check_can_write(const std::string& path);
 /// Digest in the seal of the file at `path`; empty for a file without a seal (hand-made or edited), which is accepted.
 /// Throws FileError if the bytes do not match the seal, or if the seal is of an earlier version, whose digest misses
 /// some damage. It must be called before HDF5 reads the file: flipped bits in its structures make the library crash.
-[[nodiscard]] std::string checked_digest(const std::string& path);
+/// @param name Of the file, for messages.
+[[nodiscard]] std::string checked_digest(const std::string& path, const std::string& name);
 
 }  // namespace fastjoint::h5

@@ -49,8 +49,12 @@ std::optional<Arguments> parse(const Command& command, int argc, char** argv) {
     for (const auto& [name, value, help] : command.options)
       if (app.count(name) > 0 && (!value.empty() || app[name]->as<bool>()))
         arguments.options[name] = app[name]->results().back();
-    for (const auto& [name, value, help] : command.options)
-      if (value == "FILE" && app.count(name) > 0) require_path(name, app[name]->results().back());
+    for (const auto& [name, value, help] : command.options) {
+      if (value.empty() || app.count(name) == 0) continue;
+      if (arguments.text(name).empty())  // a variable of the shell that is not set
+        throw InputError(fmt::format("{}: '' is not allowed; allowed: {}", name, value));
+      if (value == "FILE") require_path(name, arguments.text(name));
+    }
     require_path("-o", arguments.output);
     if (app.count("--timings") > 0) require_path("--timings", arguments.timings);
     return arguments;

@@ -258,7 +258,7 @@ def bad_studies(folder):
         assert words in said, (words, said)
     for option, words in (("--slice=3/2", "i from 1 to n"), ("--slice= 1/2", "i from 1 to n"), ("--slice=1/2x", "i from 1 to n"), ("--sample=5", "--sample: '5' is not allowed; allowed: an integer from 0 to 4"), ("--csv=x.csv", "given together with --study")):
         assert words in run(folder, joint, good, option, status=2)
-    assert "i from 1 to n" in run(folder, joint, good, "--slice", "", status=2), "a variable of the shell that is not set"
+    assert "--slice: '' is not allowed; allowed: I/N" in run(folder, joint, good, "--slice", "", status=2), "a variable of the shell that is not set"
     assert "given together with --merge" in run(folder, joint, good, "--slice", "1/2", "--merge", status=2)
     subprocess.run([PROGRAMS / "stage2_extract", "two.plate.h5", "-o", "two.h5", "--loads-only", "--quiet"], cwd=folder, check=True)
     assert "no plate's matrices hold stresses" in run(folder, joint, good | {"outputs": ["peaks"]}, status=2)
