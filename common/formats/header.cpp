@@ -152,7 +152,7 @@ void expansion_dataset(File& file, Expansion& a) {
   file("expansion", a, {h5::any}, "1/degree", "free strain x, y and xy, of the tensor, per degree of temperature");
   if constexpr (File::reads)
     if (a.size() != 0 && a.size() != 3)
-      throw FileError(fmt::format("expansion: holds {} numbers, expected 3, or none", a.size()));
+      throw FileError(fmt::format("{}:expansion: holds {} numbers, expected 3, or none", file.path(), a.size()));
 }
 template void expansion_dataset(h5::Writer& file, const Eigen::VectorXd& a);
 template void expansion_dataset(h5::Reader& file, Eigen::VectorXd& a);

@@ -237,7 +237,8 @@ def random_sheet(random, layout, floats, left_out=()):
     if not layout.meshes and uniform and "E" in materials["a"] and chance(random, 0.25) and used:
         _cracks(random, sheet, lines_x, lines_y, more[1])
     if chance(random, 0.08) and not layout.half and not layout.meshes and not sheet.get("cracks"):
-        sheet["points"] = [{"id": "point", "at": [lines_x[-1], lines_y[-1]], "stiffness": E * thickness * power(random, -2, 2)}]
+        stiffness = E * thickness * power(random, -2, random.choice([2, 2, 10]))  # the stiffest leaves rounding in S
+        sheet["points"] = [{"id": "point", "at": [lines_x[-1], lines_y[-1]], "stiffness": stiffness}]
         sheet["external"] = [e for e in sheet["external"] if e["kind"] != "rigid"]
     if chance(random, 0.4):
         sheet["space"] = random.choice(["trunk", "product"])
