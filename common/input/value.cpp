@@ -206,13 +206,15 @@ std::vector<Value> Value::items(std::size_t min, std::size_t max) const {
   return result;
 }
 
+bool has_allowed_size(double x) { return x == 0 || (std::abs(x) >= smallest_number && std::abs(x) <= largest_number); }
+
 double Value::number(const Range& range) const {
   if (!is_number()) not_allowed(words(range));
   const double x = json_->get<double>();
   const bool above = range.low_allowed ? x >= range.low : x > range.low;
   const bool below = range.high_allowed ? x <= range.high : x < range.high;
   if (!std::isfinite(x) || !above || !below) not_allowed(words(range));
-  if (x != 0 && !(std::abs(x) >= smallest_number && std::abs(x) <= largest_number))
+  if (!has_allowed_size(x))
     not_allowed(fmt::format("{} from {} to {}, in other units",
                             range.low >= 0 && !range.low_allowed ? "a number" : "0, or a size", smallest_number,
                             largest_number));

@@ -41,6 +41,7 @@ inline constexpr Range not_negative{.low = 0};
 
 /// Sizes of numbers other than 0 in any input, in any unit: products of three of them stay within what a double holds.
 inline constexpr double smallest_number = 1e-100, largest_number = 1e100;
+[[nodiscard]] bool has_allowed_size(double x);
 
 /// A JSON value and its place in the document. Every accessor is strict: a value that is not allowed throws InputError
 /// with the file, the JSON pointer, what was found and what is allowed.

@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
+#include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
 #include "common/pfem/extremes.hpp"
+#include "common/pfem/numbering.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -34,13 +37,57 @@ double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
   return std::max(largest(S), min_scale * largest(plate.held_stiffness));
 }
 
-/// Rounding of S relative to its largest entry, or to a fraction of the sheet's stiffness if S is zero. Stiff springs
-/// are no reference: they make the rounding, not S.
+/// Displacement along an axis at a point by rigid motions of the sheet: along x, along y, and rotation by 1 / size.
+Eigen::RowVector3d rigid_motions(int axis, const Eigen::Vector2d& at, double size) {
+  return axis == 0 ? Eigen::RowVector3d(1, 0, -at.y() / size) : Eigen::RowVector3d(0, 1, at.x() / size);
+}
+
+/// True if all displacements of externals and discs are rigid motions that supports allow. The sheet then has no
+/// stiffness: as if one disc alone holds it.
+bool moves_rigidly(const PlateSolution& plate) {
+  constexpr double rounding = 1e-9;
+  const auto e = std::ssize(plate.external_direction), m = std::ssize(plate.disc_direction);
+  const double size = (plate.mesh.nodes.rowwise().maxCoeff() - plate.mesh.nodes.rowwise().minCoeff()).norm();
+  Eigen::MatrixX3d controlled = Eigen::MatrixX3d::Zero(e + m, 3);
+  std::vector<Eigen::RowVector3d> held;  // combinations of the motions that are 0: at supports, along externals
+  std::vector<bool> found(e, false);
+  for (int node = 0; node < plate.mesh.n_nodes(); ++node)
+    for (int axis = 0; axis < 2; ++axis) {
+      const Eigen::RowVector3d u = rigid_motions(axis, plate.mesh.nodes.col(node), size);
+      const int dof = plate.unknown(axis, node);
+      if (dof == pfem::fixed_dof) held.push_back(u);
+      if (!pfem::is_controlled(dof) || pfem::controlled_index(dof) >= e) continue;
+      const int i = pfem::controlled_index(dof);
+      if (found[i])
+        held.emplace_back(u - controlled.row(i));
+      else
+        controlled.row(i) = u, found[i] = true;
+    }
+  for (Eigen::Index i = 0; i < m; ++i) {
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();
+    if (const int hole = index_of(plate.hole_id, plate.disc_hole[i]); hole < count_of(plate.hole_id))
+      at = plate.hole_rim[hole].center;
+    for (const auto& point : plate.points)
+      if (point.disc == i) at = plate.mesh.nodes.col(point.vertex);
+    controlled.row(e + i) = rigid_motions(rim::coordinate(rim::axis_named(plate.disc_direction[i])), at, size);
+  }
+  Eigen::MatrixX3d constraints = Eigen::MatrixX3d::Zero(std::max<Eigen::Index>(std::ssize(held), 3), 3);
+  for (Eigen::Index i = 0; i < std::ssize(held); ++i) constraints.row(i) = held[i];
+  const auto svd = matrices::singular_values(constraints);
+  const auto free = svd.V.rightCols((svd.values.array() <= rounding * std::max(1.0, svd.values[0])).count());
+  const Eigen::MatrixXd moved = controlled * free;
+  return moved.cols() > 0 && matrices::singular_values(moved).rank(rounding) == e + m;
+}
+
+/// Rounding of S relative to its largest entry. Stiff springs are no reference: they make the rounding, not S. Where S
+/// is zero because nothing resists, the reference is a fraction of the sheet's stiffness; where rounding is all that is
+/// left of S, it is infinitely larger.
 double rounding_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
+  if (S.size() == 0 || largest(S) > 0) return ratio(plate.probe.rounding, largest(S));
+  if (!moves_rigidly(plate)) return std::numeric_limits<double>::infinity();
   double stiffest = 0;
   for (const auto& D : plate.elasticity) stiffest = std::max(stiffest, D.diagonal().maxCoeff());
-  const double of_sheet = min_scale * stiffest * plate.mesh.thickness.maxCoeff();
-  return ratio(plate.probe.rounding, largest(S) > 0 ? largest(S) : of_sheet);
+  return ratio(plate.probe.rounding, min_scale * stiffest * plate.mesh.thickness.maxCoeff());
 }
 
 /// Reference value for errors of the first `n_waves` rows of W by displacements: the largest entry, or a fraction of

@@ -175,6 +175,13 @@ double JointEquations::force_of_interference() const {
   return largest_force(*this, [](double gap) { return std::max(-gap, 0.0); });
 }
 
+double JointEquations::force_of_sets() const {
+  double force = 0;
+  const auto all = memories();
+  for (std::size_t j = 0; j < all.size(); ++j) force = std::max(force, contacts[j].stiffness * all[j].set.norm());
+  return force;
+}
+
 void JointEquations::commit(const VectorXd& c) {
   history.resize(interfaces.size());
   for (std::size_t i = 0; i < interfaces.size(); ++i) {

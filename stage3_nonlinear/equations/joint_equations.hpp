@@ -53,6 +53,8 @@ struct JointEquations {
   [[nodiscard]] double force_of_gaps() const;
   /// The same of interference alone, which acts without load, force.
   [[nodiscard]] double force_of_interference() const;
+  /// Largest force that would take the permanent set of a plane, 0 without memory.
+  [[nodiscard]] double force_of_sets() const;
   /// Largest force that would push the free sheets together, plane by plane, force.
   [[nodiscard]] double force_of_offsets() const;
   /// Derivative of the forces of rigid fasteners by the load factor, (r).

@@ -105,6 +105,8 @@ class Law {
   [[nodiscard]] virtual std::optional<Source> source() const { return std::nullopt; }
   /// Path of the file that holds the law's points, if it has one of its own.
   [[nodiscard]] virtual std::string file() const { return {}; }
+  /// Units of delta and F that this file names; empty: none.
+  [[nodiscard]] virtual std::array<std::string, 2> units() const { return {}; }
   /// Warnings about the parameters, without file and place.
   [[nodiscard]] virtual std::vector<program::Warning> doubts() const { return {}; }
 };
@@ -125,7 +127,8 @@ using TestPoints = std::vector<std::array<double, 2>>;
 /// The text file has two columns, separated by commas, semicolons or tabs, with decimal points, delta before F unless a
 /// first line of names says otherwise; empty lines and text after a '#' are skipped. Throws InputError with file, line,
 /// what was found and what is allowed; FileError if the file cannot be read.
-[[nodiscard]] TestPoints read_points(const std::string& path);
+/// @param units Takes the units of delta and F that the first line names.
+[[nodiscard]] TestPoints read_points(const std::string& path, std::array<std::string, 2>* units = nullptr);
 
 /// Root of a rising function of one variable between low and high, where it is <= 0 and >= 0: Newton's method within a
 /// shrinking bracket, bisection where it leaves the bracket.

@@ -25,9 +25,10 @@ class TableLaw final : public Law {
  public:
   /// @param points (0, 0) and at least two more: delta rises, F does not fall.
   /// @param F_yield Force from which it keeps a set; infinite: none.
-  TableLaw(const TestPoints& points, std::string file, double F_yield)
+  TableLaw(const TestPoints& points, std::string file, std::array<std::string, 2> units, double F_yield)
       : spline_(gsl_interp_alloc(gsl_interp_steffen, points.size()), &gsl_interp_free),
         file_(std::move(file)),
+        units_(std::move(units)),
         F_yield_(F_yield) {
     if (!spline_) throw std::bad_alloc();
     for (const auto& [delta, F] : points) {
@@ -84,6 +85,7 @@ class TableLaw final : public Law {
   }
 
   [[nodiscard]] std::string file() const override { return file_; }
+  [[nodiscard]] std::array<std::string, 2> units() const override { return units_; }
 
   /// Elastic along the curve up to yield, then with the slope of the line from no load to there, or the steepest slope
   /// beyond; the rest is set.
@@ -134,6 +136,7 @@ class TableLaw final : public Law {
   std::vector<double> x_, F_;  ///< points with (0, 0): stretch, length; force
   std::unique_ptr<gsl_interp, decltype(&gsl_interp_free)> spline_;
   std::string file_;
+  std::array<std::string, 2> units_;
   double F_yield_, yields_at_ = 0, unloads_ = 0;  ///< force, length, force / length
 };
 
@@ -141,8 +144,10 @@ constexpr const char* columns = "two columns, delta and F, parted by a comma, se
 
 double checked(std::string_view cell, const std::string& place) {
   const auto value = input::csv_number(cell);
-  if (!value || !std::isfinite(*value) || *value < 0)
-    throw InputError(fmt::format("{}: '{}' is not allowed; allowed: a number >= 0 with a decimal point", place, cell));
+  if (!value || !input::has_allowed_size(*value) || *value < 0)
+    throw InputError(
+        fmt::format("{}: '{}' is not allowed; allowed: a number >= 0 with a decimal point{}", place, cell,
+                    value && std::isfinite(*value) && *value > 0 ? ", 0 or of a size from 1e-100 to 1e+100" : ""));
   return *value;
 }
 
@@ -154,15 +159,29 @@ bool is_header(const std::vector<std::string>& cells) {
   });
 }
 
-/// Columns of delta and F by a header whose cells may name units too: "delta [mm]". Columns of unknown names could be
-/// in either order, and F over delta rises as delta over F does.
-std::array<std::size_t, 2> places_in(const std::vector<std::string>& header, const std::string& place) {
-  const auto is = [&](std::size_t i, std::string_view name) {
-    const std::string_view cell = header[i];
-    return cell.substr(0, cell.find_first_of(" ([/")) == name;
-  };
-  if (is(0, "delta") && is(1, "F")) return {0, 1};
-  if (is(0, "F") && is(1, "delta")) return {1, 0};
+/// Places of the columns of delta and F, and their units.
+struct Columns {
+  std::array<std::size_t, 2> at{0, 1};
+  std::array<std::string, 2> units{};
+};
+
+/// Columns by a header whose cells may name units too: "delta [mm]". Columns of unknown names could be in either order,
+/// and F over delta rises as delta over F does.
+Columns columns_of(const std::vector<std::string>& header, const std::string& place) {
+  constexpr const char* ends = " ([/";
+  Columns found;
+  for (const bool swapped : {false, true}) {
+    found.at = {swapped ? 1U : 0U, swapped ? 0U : 1U};
+    bool fits = true;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::string_view cell = header[found.at[i]];
+      const auto end = std::min(cell.find_first_of(ends), cell.size());
+      fits = fits && cell.substr(0, end) == std::array{"delta", "F"}[i];
+      const auto first = cell.find_first_not_of(ends, end), last = cell.find_last_not_of(" )]");
+      found.units[i] = first == cell.npos ? "" : std::string(cell.substr(first, last + 1 - first));
+    }
+    if (fits) return found;
+  }
   throw InputError(
       fmt::format("{}: columns '{}' and '{}'; allowed: \"delta\" and \"F\", with units or without, or no names", place,
                   header[0], header[1]));
@@ -181,10 +200,10 @@ TestPoints points_of(const input::Value& law) {
 
 }  // namespace
 
-TestPoints read_points(const std::string& path) {
+TestPoints read_points(const std::string& path, std::array<std::string, 2>* units) {
   TestPoints points;
   bool first = true;
-  std::array<std::size_t, 2> at{0, 1};
+  Columns found;
   for (const auto& [line, cells] : input::read_csv(path)) {
     if (cells.size() == 1 && cells[0].empty()) continue;
     const std::string place = fmt::format("{}:{}", path, line);
@@ -192,11 +211,12 @@ TestPoints read_points(const std::string& path) {
       throw InputError(fmt::format("{}: {} in '{}'; allowed: {}", place, program::counted(cells.size(), "column"),
                                    fmt::join(cells, ","), columns));
     if (std::exchange(first, false) && is_header(cells))
-      at = places_in(cells, place);
+      found = columns_of(cells, place);
     else
-      points.push_back({checked(cells[at[0]], place), checked(cells[at[1]], place)});
+      points.push_back({checked(cells[found.at[0]], place), checked(cells[found.at[1]], place)});
   }
   if (points.empty()) throw InputError(fmt::format("{}: no points; allowed: {}", path, columns));
+  if (units) *units = found.units;
   return points;
 }
 
@@ -206,7 +226,8 @@ LawPointer read_table_law(const input::Value& law) {
   const auto file = law.find("file");
   const auto path = file ? (std::filesystem::path(law.file()).parent_path() / file->text()).string() : std::string();
   if (file) law.only({"type", "file", "F_yield", "one_sided"});
-  auto points = file ? read_points(path) : points_of(law);
+  std::array<std::string, 2> units;
+  auto points = file ? read_points(path, &units) : points_of(law);
   const auto& place = file ? *file : law;
   if (points[0][0] != 0) points.insert(points.begin(), {0, 0});
   if (points[0][1] > 0)
@@ -227,7 +248,7 @@ LawPointer read_table_law(const input::Value& law) {
   if (yield && F_yield > points.back()[1])
     yield->fail(fmt::format("{}", F_yield),
                 fmt::format("at most the largest force of the points, {}", points.back()[1]));
-  return std::make_shared<TableLaw>(points, path, F_yield);
+  return std::make_shared<TableLaw>(points, path, units, F_yield);
 }
 
 }  // namespace fastjoint::stage3

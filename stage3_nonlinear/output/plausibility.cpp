@@ -250,6 +250,16 @@ std::vector<program::Warning> implausible_numbers(const JointScene& scene, const
   result.insert(result.end(), diameters.begin(), diameters.end());
   result.insert(result.end(), formulas.begin(), formulas.end());
   add_worst(result, "units-mixed", movements);
+  for (const auto& [name, law] : scene.laws) {
+    const std::array<std::string, 2> own{joint.units.length, joint.units.force}, found = law.law->units();
+    for (std::size_t i = 0; i < 2; ++i)
+      if (!own[i].empty() && !found[i].empty() && own[i] != found[i])
+        result.push_back(
+            {"units-mixed",
+             fmt::format("{}: its first line names the unit \"{}\", the joint's is \"{}\": numbers are taken "
+                         "as they are, and none is converted",
+                         law.law->file(), found[i], own[i])});
+  }
   return result;
 }
 

@@ -223,9 +223,8 @@ std::string failure_message(const JointScene& scene, const CaseScene& its, const
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} {}", scene.file,
         increment, failure.unbalanced->what, failure.unbalanced->by, failure.unbalanced->allowed, kept,
         failure.unbalanced->what == "the load"
-            ? "Rounding of the gaps, clearances and offsets is as large as the load: check them and the load, and "
-              "their "
-              "units"
+            ? "Rounding of the gaps, clearances and offsets is too large beside the load: check them and the load, and "
+              "their units"
             : "Rounding errors act as loads there: check that fasteners or supports fix each plate in the direction of "
               "its load; for matrices made by hand check that R_df and R_ef sum to -friction/resultant, T_d and T_e to "
               "-1, along the other axis to -friction/resultant_across and -traction/resultant_across");

@@ -13,10 +13,10 @@
 
 namespace fastjoint::stage3 {
 double force_scale(const JointEquations& equations, double load_factor) {
-  constexpr double of_gaps = 1e-4;  // rounding of their displacements is far below the tolerance times this
+  constexpr double of_gaps = 1e-4;  // rounding of their displacements and of sets is far below the tolerance times this
   const double load = equations.rigid_forces(load_factor).lpNorm<Eigen::Infinity>();
-  const double scale =
-      std::max({load, of_gaps * equations.force_of_gaps(), load == 0 ? equations.force_of_interference() : 0});
+  const double scale = std::max({load, of_gaps * std::max(equations.force_of_gaps(), equations.force_of_sets()),
+                                 load == 0 ? equations.force_of_interference() : 0});
   return scale > 0 ? scale : 1;
 }
 

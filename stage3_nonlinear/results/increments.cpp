@@ -11,11 +11,17 @@ namespace fastjoint::stage3 {
 std::optional<Imbalance> imbalance(const JointEquations& equations, const PathStep& step, const JointState& state,
                                    double tolerance) {
   const double allowed = std::max(1e-8, 10 * tolerance);
-  // Rounding of wide gaps, of which the other sums are a part, may be far above the load. A load factor may be
-  // rounding.
-  const double load = equations.rigid_forces(std::max(1.0, std::abs(step.load_factor))).lpNorm<Eigen::Infinity>();
-  const double left = step.residual * step.scale / std::max(load, step.F.lpNorm<Eigen::Infinity>());
-  if (load > 0 && left > allowed) return Imbalance{"the load", left, allowed};
+  // Rounding of wide gaps may be far above all that acts: the largest force of the state, or of the path where the load
+  // factor is about 0.
+  double largest = step.F.lpNorm<Eigen::Infinity>();
+  for (const double factor : {0.0, 1.0, step.load_factor})
+    largest = std::max(largest, equations.rigid_forces(factor).lpNorm<Eigen::Infinity>());
+  for (const auto& plate : state.plates)
+    for (const VectorXd* forces : {&plate.Pe, &plate.traction})
+      largest = std::max(largest, forces->lpNorm<Eigen::Infinity>());
+  const double left = step.residual * step.scale / largest;
+  if (largest > 0 && equations.rigid_forces(1).norm() > 0 && left > allowed)
+    return Imbalance{"the load", left, allowed};
   const auto [worst, what] =
       std::max({std::pair(state.out_of_balance, "a row"), std::pair(state.fasteners_out_of_balance, "a fastener"),
                 std::pair(state.plates_out_of_balance.value_or(0), "a sheet")});

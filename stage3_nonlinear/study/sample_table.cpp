@@ -5,11 +5,11 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "common/errors.hpp"
 #include "common/input/csv.hpp"
+#include "common/input/value.hpp"
 #include "common/program/program.hpp"
 
 namespace fastjoint::stage3 {
@@ -42,9 +42,11 @@ std::vector<double> read_column(const std::string& path, const std::string& colu
                       "decimal point",
                       path, line, program::counted(cells.size(), "column"), n_columns));
     const auto value = input::csv_number(cells[at]);
-    if (!value || !std::isfinite(*value))
-      throw InputError(fmt::format("{}:{}: \"{}\" in column \"{}\"; allowed: a finite number with a decimal point",
-                                   path, line, cells[at], column));
+    if (!value || !input::has_allowed_size(*value))
+      throw InputError(
+          fmt::format("{}:{}: \"{}\" in column \"{}\"; allowed: a number with a decimal point, 0 or of a size "
+                      "from 1e-100 to 1e+100",
+                      path, line, cells[at], column));
     values.push_back(*value);
   }
   return values;

@@ -160,7 +160,8 @@ def _loads(random, plates, F, stretch, may_displace):
 
 
 def _increments(random, remembering_past):
-    kinds = [1, 2, 3, [0.5, 1], [1, 0.5, 1], [0.3, 1, 0, -0.6, 1], [-1, 1]] + ([] if remembering_past else ["events"])
+    kinds = [1, 2, 3, [0.5, 1], [1, 0.5, 1], [0.3, 1, 0, -0.6, 1], [-1, 1],
+             [1, -0.5, 10 ** random.uniform(-17, -3), 0.7]] + ([] if remembering_past else ["events"])
     return random.choice(kinds)
 
 

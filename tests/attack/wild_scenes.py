@@ -31,8 +31,10 @@ def _falls(scene):
 
 
 def _may_pass_by(scene):
-    """Whether a fastener may unload while loads grow: by gaps, interference, yield or temperature."""
-    return len(scene.joint["fasteners"]) > 1 or any("gap" in f for f in scene.joint["fasteners"]) or "temperatures" in json.dumps(scene.joint)
+    """Whether a fastener may unload while loads grow: by gaps, interference, offsets, yield or temperature."""
+    joint = scene.joint
+    return (len(joint["fasteners"]) > 1 or any("gap" in f or "offset" in f for f in joint["fasteners"])
+            or "temperatures" in json.dumps(joint))
 
 
 def _has_friction(scene):
@@ -67,7 +69,7 @@ CAUSES = {
     "friction-off-axes": _has_friction,
     "friction-turns": lambda s: _has_friction(s) and _falls(s),
     "friction-unlikely": lambda s: False,
-    "gap-unlikely": lambda s: any("gap" in f or "clearance" in f for f in s.joint["fasteners"]),
+    "gap-unlikely": lambda s: any("gap" in f or "clearance" in f or "offset" in f for f in s.joint["fasteners"]),
     "hole-diameter-unlike": lambda s: False,
     "hole-filled": lambda s: any("clearance" in f for f in s.joint["fasteners"]),
     "holes-apart": lambda s: False,

@@ -145,6 +145,8 @@ TEST_F(PointsOfATest, RefusesWithFileAndLine) {
   EXPECT_THAT(refusal("nan,nan\n"), EndsWith("test.csv:1: 'nan' is not allowed; " + number));
   EXPECT_THAT(refusal("0,inf\n"), EndsWith("test.csv:1: 'inf' is not allowed; " + number));
   EXPECT_THAT(refusal("0,1e999\n"), EndsWith("test.csv:1: '1e999' is not allowed; " + number));
+  EXPECT_THAT(refusal("0,1e-105\n"),
+              EndsWith("test.csv:1: '1e-105' is not allowed; " + number + ", 0 or of a size from 1e-100 to 1e+100"));
   EXPECT_THAT(refusal("0,1 N\n"), EndsWith("test.csv:1: '1 N' is not allowed; " + number));
   EXPECT_THAT(refusal("0,1;200\n"), EndsWith("test.csv:1: '0,1' is not allowed; " + number));
   EXPECT_THAT(refusal("0.0l,2oo\n1,2\n"), EndsWith("test.csv:1: '0.0l' is not allowed; " + number));
@@ -152,6 +154,18 @@ TEST_F(PointsOfATest, RefusesWithFileAndLine) {
   EXPECT_THAT(refusal(std::string("0.1,2\n0.2,3\0", 12)),
               EndsWith("test.csv: a byte of value 0 at line 2, column 6; allowed: text"));
   EXPECT_THAT(refusal("delta,\n"), EndsWith("test.csv:1: 'delta' is not allowed; " + number));
+}
+
+TEST_F(PointsOfATest, HaveTheUnitsOfTheirNames) {
+  const auto units = [&](const std::string& header) {
+    std::array<std::string, 2> found;
+    (void)read_points(folder_.write("test.csv", header + "\n1,2\n"), &found);
+    return found;
+  };
+  EXPECT_THAT(units("delta [mm], F [N]"), ElementsAre("mm", "N"));
+  EXPECT_THAT(units("F / kN, delta (in)"), ElementsAre("in", "kN"));
+  EXPECT_THAT(units("delta[1e-3 mm],F"), ElementsAre("1e-3 mm", ""));
+  EXPECT_THAT(units("1,2"), ElementsAre("", ""));
 }
 
 TEST_F(PointsOfATest, RefusesNamesThatDoNotTellWhichIsWhich) {

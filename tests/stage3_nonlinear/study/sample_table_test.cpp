@@ -36,7 +36,8 @@ TEST_F(SampleTable, HasAColumnByItsName) {
 }
 
 TEST_F(SampleTable, IsRefusedWhereARowCouldMeanAnotherNumber) {
-  const std::string number = "in column \"F\"; allowed: a finite number with a decimal point";
+  const std::string number =
+      "in column \"F\"; allowed: a number with a decimal point, 0 or of a size from 1e-100 to 1e+100";
   EXPECT_THAT(refusal("F\n1000,5\n"),
               EndsWith("t.csv:2: 2 columns below 1 of names; allowed: as many, parted as the names "
                        "are, numbers with a decimal point"));
@@ -46,6 +47,7 @@ TEST_F(SampleTable, IsRefusedWhereARowCouldMeanAnotherNumber) {
   EXPECT_THAT(refusal("\nF\n1\n"), EndsWith("t.csv:1: no column \"F\"; allowed: "));
   EXPECT_THAT(refusal("F,F\n1,2\n"), EndsWith("t.csv:1: column \"F\" stands twice; allowed: each name once"));
   EXPECT_THAT(refusal("F\n\"1\n"), EndsWith("t.csv:2: a quote that is not closed; allowed: closed on its line"));
+  EXPECT_THAT(refusal("F\n1e200\n"), EndsWith("t.csv:2: \"1e200\" " + number));
   EXPECT_THAT(refusal("F\ninf\n"), EndsWith("t.csv:2: \"inf\" " + number));
   EXPECT_THAT(refusal("F\n"), EndsWith("t.csv: no row; allowed: a line of names, then at least one of numbers"));
 }
