@@ -9,6 +9,7 @@
 #include <map>
 
 #include "common/count.hpp"
+#include "common/errors.hpp"
 #include "common/linalg/processor.hpp"
 
 namespace fastjoint::pfem {
@@ -135,6 +136,12 @@ const ElementStiffness::Table& ElementStiffness::table(int n_points) const {
 
 Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen::Matrix3d& D, double thickness,
                                              const Box& box) const {
+  // A fold would be halved without end in sight, and give no number.
+  const auto positive = [](double det) {
+    if (!(det > 0)) throw NumericalError("an element is folded: its Jacobian is not positive everywhere");
+    return det;
+  };
+  positive(map.jacobian(box.middle[0], box.middle[1]).determinant());
   const auto [degree, steeper] = geometric_degree(map, box);
   constexpr double min_half = 1e-4;  // half a side of a part; the stiffness of smaller ones is below rounding
   if (degree == highest_geometric_degree && box.half[steeper] > min_half) {
@@ -154,7 +161,7 @@ Eigen::MatrixXd ElementStiffness::operator()(const ElementMap& map, const Eigen:
   Eigen::MatrixXd Nx(n, n_points), Ny(n, n_points);  // derivatives by x and y, times the root of the weight
   for (Eigen::Index q = 0; q < n_points; ++q) {
     const Eigen::Matrix2d J = map.jacobian(table.xi[q], table.eta[q]);
-    const double det = J.determinant();
+    const double det = positive(J.determinant());
     const Eigen::Matrix2d to_physical = J.inverse() * std::sqrt(table.w[q] * det * thickness);
     Nx.col(q) = table.shape.dN_dxi.col(q) * to_physical(0, 0) + table.shape.dN_deta.col(q) * to_physical(1, 0);
     Ny.col(q) = table.shape.dN_dxi.col(q) * to_physical(0, 1) + table.shape.dN_deta.col(q) * to_physical(1, 1);

@@ -74,7 +74,11 @@ plate::PlateStiffness stiffness_of(const PlateSolution& a, const pfem::Edges& ed
   const plate::SprungMesh sprung = sprung_mesh(a, edges, K.unknowns);
   plate::count_rim_cases(sprung, K.unknowns);
   K.elements = plate::classify_elements(sprung, K.numbering, K.unknowns);
-  K.elements.stiffness = pfem::integrate(K.elements.congruent, a.mesh, edges, a.elasticity, a.space, K.numbering.p);
+  try {
+    K.elements.stiffness = pfem::integrate(K.elements.congruent, a.mesh, edges, a.elasticity, a.space, K.numbering.p);
+  } catch (const NumericalError& e) {
+    throw FileError(fmt::format("{}:mesh: {}; make the file again", file, e.what()));
+  }
   for (const auto& point : a.points) {
     const int axis = rim::coordinate(K.unknowns.disc_direction[point.disc]);
     K.ties.push_back(

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
 #include "common/pfem/material.hpp"
 #include "common/pfem/mesh.hpp"
@@ -266,6 +267,15 @@ TEST(Stiffness, IntegrationIsExactDownToTheSmallestJacobianThatIsAccepted) {
   }
   const Mesh thin = sector(std::numbers::pi / 2, 1.0002);
   EXPECT_NEAR(jacobian_ratio(ElementMap(thin, find_edges(thin), 0)), 1.2e-3, 1e-4);
+}
+
+/// Parts of a fold were halved down to the smallest, seven seconds of an element, and the stiffness was no number.
+TEST(Stiffness, OfAFoldedElementIsNone) {
+  for (const double moved : {1.02, 1.2, 2.0}) {
+    const Mesh mesh = folding(moved);
+    EXPECT_THROW((void)ElementStiffness(Space::product, 8)(ElementMap(mesh, find_edges(mesh), 0), D, 1), NumericalError)
+        << moved;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Degrees, StiffnessP, testing::Combine(test::both_spaces(), testing::Range(1, 9)),
