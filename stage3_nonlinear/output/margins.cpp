@@ -204,25 +204,19 @@ class Margins {
     };
     const auto& fastened = joint_.plates[hole.plate].holes;
     const bool has_fastener = index_of(fastened, s.rim_hole[hole.rim]) < count_of(fastened);
-    const bool has_section = n_sections(s, s.rim_hole[hole.rim]) > 0,
-               needs_section = check_->kind == CheckKind::tension || check_->kind == CheckKind::bearing_bypass;
-    if (needs_section && !has_section) {
-      left_out_["it has no section across x"].push_back(hole.name);
-      return;
-    }
-    if (has_fastener && check_->kind == CheckKind::shear_out) {
-      require_border(hole);
-      if (t == 0) {  // as in files before format 1.4
-        left_out_["its thickness is not known"].push_back(hole.name);
-        return;
-      }
-    }
+    const bool needs_section = check_->kind == CheckKind::tension || check_->kind == CheckKind::bearing_bypass,
+               shears_out = check_->kind == CheckKind::shear_out && has_fastener;
+    if (shears_out) require_border(hole);
+    const char* lacks = needs_section && n_sections(s, s.rim_hole[hole.rim]) == 0 ? "it has no section across x"
+                        : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
+                                               : nullptr;
+    if (lacks != nullptr) return left_out_[lacks].push_back(hole.name);
     switch (check_->kind) {
       case CheckKind::bearing:
         if (has_fastener) add(hole.name, "F_br d t", force, [&](Index step) { return bearing(hole, step, d); });
         break;
       case CheckKind::shear_out:
-        if (has_fastener)
+        if (shears_out)
           add(hole.name, "2 F_su t (e - d cos 40 / 2)", force, [&](Index step) { return shear_out(hole, step, d, t); });
         break;
       case CheckKind::tension:

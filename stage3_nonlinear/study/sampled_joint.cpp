@@ -39,7 +39,6 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
       scene_(std::move(scene)) {
   for (const auto& variable : study.variables) {
     use_.push_back(variable.use);
-    where_.push_back(variable.where);
     auto& targets = targets_.emplace_back();
     for (const auto& place : variable.places) {
       const json::json_pointer pointer(place);
@@ -68,7 +67,7 @@ void SampledJoint::put(const std::vector<double>& values) {
                            : use_[i] == Use::factor ? before * values[i]
                                                     : before + values[i];
       if (!std::isfinite(value))
-        throw InputError(where_[i] + ": a number of the sample is too large; allowed: finite numbers");
+        throw InputError(study_ + ": a number of the sample is too large; allowed: finite numbers");
       constexpr double max_integer = 1e15;
       if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
         *number = static_cast<std::int64_t>(value);

@@ -35,7 +35,6 @@ class SampledJoint {
   input::Document document_;
   std::string study_;  ///< file, for messages
   std::vector<Use> use_;
-  std::vector<std::string> where_;            ///< each variable is given, for messages
   std::vector<std::vector<Target>> targets_;  ///< of each variable
   SceneParts parts_;
   JointScene scene_;

@@ -179,6 +179,12 @@ def left_out(folder):
         matrices(folder, scene, name)
     done, found, _ = solve(folder, [{"check": "tension", "F_tu": 1}])
     assert 'check "tension" is not made for a:1, b:1: it has no section across x' in done.stderr and not found, done.stderr
+    lap(folder, 1.8 * D)
+    with h5py.File(folder / "b.h5", "a") as file:  # as before version 1.4; the margin was NaN
+        del file["rim/thickness"]
+    done, found, _ = solve(folder, [{"check": "shear-out", "F_su": 260}])
+    assert 'check "shear-out" is not made for b:1: its thickness is not known' in done.stderr, done.stderr
+    assert list(found) == [("shear-out", "a:1")], found
 
 
 def main():
