@@ -28,8 +28,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr const char* program_name = "stage3_nonlinear";
-
 using program::check_spare;
 
 constexpr std::array table_options{"--csv", "--envelope", "--margins", "--totals"};

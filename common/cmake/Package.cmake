@@ -1,7 +1,8 @@
-# A Debian package: cmake --preset package && cmake --build --preset package && cpack --preset package
+# A Debian package: cmake --preset release && cmake --build --preset package && cpack --preset package
 # An archive to unpack anywhere, with its libraries: the same by the preset "archive".
 # The manual pages and the completions of bash are made from what the programs say with --help.
-find_program(HELP2MAN help2man REQUIRED)
+find_program(HELP2MAN help2man)
+set(CMAKE_SKIP_INSTALL_ALL_DEPENDENCY ON)  # a package needs no tests
 
 set(purpose_stage1_plate "solve one sheet of a riveted or bolted joint")
 set(purpose_stage2_extract "extract stiffness, friction and stresses from a solved sheet")
@@ -13,12 +14,12 @@ foreach(program stage1_plate stage2_extract stage3_nonlinear)
     COMMAND ${HELP2MAN} --no-info --name ${purpose_${program}} --output ${page} $<TARGET_FILE:${program}>)
   list(APPEND pages ${page})
   list(APPEND programs $<TARGET_FILE:${program}>)
-  install(FILES ${completions} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program})
+  install(FILES ${completions} DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME ${program} OPTIONAL)
 endforeach()
 add_custom_command(OUTPUT ${completions} DEPENDS ${programs} common/cmake/bash_completion VERBATIM
   COMMAND ${PROJECT_SOURCE_DIR}/common/cmake/bash_completion ${programs} > ${completions})
-add_custom_target(pages ALL DEPENDS ${pages} ${completions})
-install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+add_custom_target(pages DEPENDS ${pages} ${completions})
+install(FILES ${pages} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 OPTIONAL)
 
 if(FASTJOINT_BUNDLE)
   set(CPACK_GENERATOR TGZ)

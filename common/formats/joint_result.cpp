@@ -9,9 +9,7 @@ namespace {
 using h5::any;
 using h5::Column;
 
-constexpr const char* format = "joint-result";
-constexpr int major = 1;
-constexpr int minor = 14;
+const h5::Format result_format{"joint-result", 1, 14};
 
 using V = RimValues;
 using enum Dimension;
@@ -295,7 +293,7 @@ void memory_datasets(File& file, Result& a, Eigen::Index steps, Eigen::Index row
 }
 
 template <class File, class Result>
-void datasets(File& file, Result& a) {
+void result_datasets(File& file, Result& a) {
   header(file, a.header);
   const Units& units = a.header.units;
   const std::string length = unit(units, 1, 0), force = unit(units, 0, 1);
@@ -356,15 +354,15 @@ std::string unit_of(Dimension dimension, const Units& units) {
 }
 
 void write(const std::string& path, const JointResult& a) {
-  h5::Writer file(path, format, major, minor);
-  datasets(file, a);
+  h5::Writer file(path, result_format);
+  result_datasets(file, a);
   file.commit();
 }
 
 JointResult read_joint_result(const std::string& path) {
-  h5::Reader file(path, format, major);
+  h5::Reader file(path, result_format);
   JointResult a;
-  datasets(file, a);
+  result_datasets(file, a);
   return a;
 }
 

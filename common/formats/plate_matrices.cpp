@@ -14,9 +14,7 @@ using h5::any;
 using h5::Column;
 using h5::or_else;
 
-constexpr const char* format = "plate-matrices";
-constexpr int major = 1;
-constexpr int minor = 11;
+const h5::Format matrices_format{"plate-matrices", 1, 11};
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed or_none = h5::Allowed{.text = "numbers >= 0", .low = 0}.or_else(0);
 
@@ -135,7 +133,7 @@ void crack_datasets(File& file, Cracks& a, Eigen::Index n_p, Eigen::Index n_case
 }
 
 template <class File, class Matrices>
-void datasets(File& file, Matrices& a) {
+void matrices_datasets(File& file, Matrices& a) {
   header(file, a.header);
   space(file, a.space);
   file.attribute("plate_digest", a.plate_digest);
@@ -148,20 +146,20 @@ void datasets(File& file, Matrices& a) {
 }  // namespace
 
 std::string write(const std::string& path, const PlateMatrices& a) {
-  h5::Writer file(path, format, major, minor);
-  datasets(file, a);
+  h5::Writer file(path, matrices_format);
+  matrices_datasets(file, a);
   return file.commit();
 }
 
 PlateMatrices read_plate_matrices(const std::string& path) {
-  h5::Reader file(path, format, major);
+  h5::Reader file(path, matrices_format);
   if (file.has("rim/sigma_tt") || file.has("B_d"))
     throw FileError(
         fmt::format("{}: was written before version 1.8, with stresses at points; run stage1_plate and "
                     "stage2_extract again",
                     path));
   PlateMatrices a;
-  datasets(file, a);
+  matrices_datasets(file, a);
   return a;
 }
 

@@ -16,9 +16,7 @@ using Eigen::Index;
 using h5::any;
 using h5::Column;
 
-constexpr const char* format = "plate-solution";
-constexpr int major = 5;
-constexpr int minor = 3;
+const h5::Format solution_format{"plate-solution", 5, 3};
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
@@ -199,7 +197,7 @@ void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Ind
 }
 
 template <class File, class Solution>
-void datasets(File& file, Solution& a) {
+void solution_datasets(File& file, Solution& a) {
   header(file, a.header);
   const Units& units = a.header.units;
   const std::string length = unit(units, 1, 0), force = unit(units, 0, 1);
@@ -238,15 +236,15 @@ void datasets(File& file, Solution& a) {
 }  // namespace
 
 void write(const std::string& path, const PlateSolution& a) {
-  h5::Writer file(path, format, major, minor);
-  datasets(file, a);
+  h5::Writer file(path, solution_format);
+  solution_datasets(file, a);
   file.commit();
 }
 
 PlateSolution read_plate_solution(const std::string& path) {
-  h5::Reader file(path, format, major);
+  h5::Reader file(path, solution_format);
   PlateSolution a;
-  datasets(file, a);
+  solution_datasets(file, a);
   check_consistent(path, a);
   return a;
 }

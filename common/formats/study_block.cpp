@@ -4,11 +4,10 @@
 namespace fastjoint::formats {
 namespace {
 
-constexpr const char* format = "study-block";
-constexpr int major = 1, minor = 0;
+const h5::Format block_format{"study-block", 1, 0};
 
 template <class File, class Block>
-void datasets(File& file, Block& a) {
+void block_datasets(File& file, Block& a) {
   file.attribute("generator", a.origin.generator);
   file.attribute("joint", a.origin.joint);
   file.attribute("study", a.origin.study);
@@ -27,15 +26,15 @@ void datasets(File& file, Block& a) {
 }  // namespace
 
 void write(const std::string& path, const StudyBlock& block) {
-  h5::Writer file(path, format, major, minor);
-  datasets(file, block);
+  h5::Writer file(path, block_format);
+  block_datasets(file, block);
   file.commit();
 }
 
 StudyBlock read_study_block(const std::string& path) {
-  h5::Reader file(path, format, major);
+  h5::Reader file(path, block_format);
   StudyBlock block;
-  datasets(file, block);
+  block_datasets(file, block);
   return block;
 }
 

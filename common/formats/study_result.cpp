@@ -4,8 +4,7 @@
 namespace fastjoint::formats {
 namespace {
 
-constexpr const char* format = "study-result";
-constexpr int major = 1, minor = 1;
+const h5::Format study_format{"study-result", 1, 1};
 
 void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   const std::string group = "statistics/" + a.name + "/";
@@ -41,7 +40,7 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
 }  // namespace
 
 void write(const std::string& path, const StudyResult& a, const std::function<void(h5::Writer&)>& samples) {
-  h5::Writer file(path, format, major, minor);
+  h5::Writer file(path, study_format);
   header(file, a.header);
   file("study", a.origin.study, {}, "1", "JSON text of the study");
   file.attribute("seed", a.origin.seed);

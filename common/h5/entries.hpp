@@ -17,6 +17,12 @@
 
 namespace fastjoint::h5 {
 
+/// A kind of file and its version: readers take any minor version of their major one.
+struct Format {
+  std::string name;
+  int major, minor;
+};
+
 /// Extents of a dataset.
 using Shape = std::vector<Eigen::Index>;
 /// Placeholders for the first extent of an expected shape: any extent, or any extent but 0.

@@ -234,19 +234,20 @@ struct Reader::Impl {
     return name.empty() ? "the earlier stage" : name;
   }
 
-  void check_version(const std::string& format, int major) const {
+  void check_format(const Format& format) const {
     const std::string found = read_text_attribute(file.get(), "format").value_or("");
-    if (found != format)
+    if (found != format.name)
       throw FileError(
           found.empty()
               ? fmt::format("{}: is not a file of fastjoint (it has no attribute 'format'), expected a '{}' file", path,
-                            format)
-              : fmt::format("{}: is a '{}' file, expected '{}'", path, found, format));
+                            format.name)
+              : fmt::format("{}: is a '{}' file, expected '{}'", path, found, format.name));
     const auto version = integers("version", 2);
     if (version.empty()) throw FileError(fmt::format("{}: attribute 'version' is not [major, minor]", path));
-    if (version[0] != major)
+    if (version[0] != format.major)
       throw FileError(fmt::format("{}: format version {}.{}, this program reads {}.x; {}", path, version[0], version[1],
-                                  major, version[0] > major ? "use a newer program" : "run " + maker() + " again"));
+                                  format.major,
+                                  version[0] > format.major ? "use a newer program" : "run " + maker() + " again"));
   }
 
   template <class Scalar>
@@ -268,13 +269,13 @@ struct Reader::Impl {
   }
 };
 
-Reader::Reader(std::string path, const std::string& format, int major) : impl_(std::make_unique<Impl>()) {
+Reader::Reader(std::string path, const Format& format) : impl_(std::make_unique<Impl>()) {
   take_over_error_reporting();
   impl_->path = std::move(path);
   if (std::error_code none; fs::exists(impl_->path, none) && !fs::is_regular_file(impl_->path, none))
     throw FileError(fmt::format("{}: is not a regular file", impl_->path));
-  while (!impl_->open_file(format)) impl_->file = File();
-  impl_->check_version(format, major);
+  while (!impl_->open_file(format.name)) impl_->file = File();
+  impl_->check_format(format);
 }
 
 Reader::~Reader() = default;

@@ -22,7 +22,7 @@ class Reader {
  public:
   static constexpr bool reads = true;
 
-  Reader(std::string path, const std::string& format, int major);
+  Reader(std::string path, const Format& format);
   ~Reader();
 
   [[nodiscard]] const std::string& path() const;

@@ -75,15 +75,14 @@ struct Writer::Impl {
   }
 };
 
-Writer::Writer(const std::string& path, const std::string& format, int major, int minor)
-    : impl_(std::make_unique<Impl>(path)) {
+Writer::Writer(const std::string& path, const Format& format) : impl_(std::make_unique<Impl>(path)) {
   take_over_error_reporting();
   const Properties access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_file_locking(access.get(), false, true);  // the file is already locked by WholeFile
   impl_->file = File(H5Fcreate(impl_->target.unfinished_path().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.get()));
   if (!impl_->file) impl_->fail("file");
-  attribute("format", format);
-  impl_->integer_attribute("version", {major, minor}, false);
+  attribute("format", format.name);
+  impl_->integer_attribute("version", {format.major, format.minor}, false);
 }
 
 Writer::~Writer() = default;

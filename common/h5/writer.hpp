@@ -23,7 +23,7 @@ class Writer {
  public:
   static constexpr bool reads = false;
 
-  Writer(const std::string& path, const std::string& format, int major, int minor);
+  Writer(const std::string& path, const Format& format);
   ~Writer();
 
   void attribute(const std::string& name, const std::string& text);

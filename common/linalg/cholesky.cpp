@@ -11,7 +11,6 @@
 #include "common/errors.hpp"
 
 namespace fastjoint::linalg {
-namespace {
 
 struct Context {
   cholmod_common c{};
@@ -31,6 +30,8 @@ struct Free {
   void operator()(auto* p) const noexcept { FreeFn(&p, c); }
 };
 using Factor = std::unique_ptr<cholmod_factor, Free<cholmod_free_factor>>;
+
+namespace {
 
 /// Number of entries of each of the first n columns in the first n rows.
 std::vector<int> entries_in_block(const Eigen::SparseMatrix<double>& lower, Eigen::Index n) {

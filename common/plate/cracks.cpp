@@ -18,7 +18,6 @@ namespace fastjoint::plate {
 namespace {
 
 using Complex = std::complex<double>;
-constexpr Complex i{0, 1};
 
 /// Kolosov's potentials of a field at one point: phi, phi', phi'', psi, psi'.
 struct Potentials {
@@ -82,6 +81,7 @@ Isotropic isotropic(const Eigen::Matrix3d& D) {
 
 TipField dual_field(Mode mode, const Isotropic& material, const Eigen::Vector2d& x) {
   const Complex z{x.x(), x.y()};
+  constexpr Complex i{0, 1};
   return field(mode == Mode::I ? powers(z, -0.5, 1, 1.5) : powers(z, -0.5, i, -0.5 * i), material, z);
 }
 

@@ -21,7 +21,7 @@ using NodePair = std::pair<int, int>;
 NodePair sorted(int a, int b) { return std::minmax(a, b); }
 
 /// A path in order, from one end to the other.
-struct Line {
+struct CrackLine {
   std::vector<int> nodes;
   bool starts_inside, ends_inside;  ///< true for a tip
 };
@@ -52,8 +52,8 @@ std::vector<int> in_order(const PlateScene& scene, const CrackPath& path) {
   return nodes;
 }
 
-Line line_of(const PlateScene& scene, const PlateMesh& plate, const CrackPath& path) {
-  Line line{in_order(scene, path), true, true};
+CrackLine line_of(const PlateScene& scene, const PlateMesh& plate, const CrackPath& path) {
+  CrackLine line{in_order(scene, path), true, true};
   std::map<NodePair, int> n_elements;
   std::set<int> on_border;
   for (int edge = 0; edge < plate.edges.size(); ++edge) {
@@ -118,7 +118,7 @@ std::vector<pfem::Side> left_of(const pfem::Mesh& mesh, const std::multimap<int,
 }
 
 /// Doubles the nodes of a line but its tips, in the elements to its left, and gives arcs their new ends.
-void double_nodes(const Line& line, pfem::Mesh& mesh) {
+void double_nodes(const CrackLine& line, pfem::Mesh& mesh) {
   const auto elements = elements_at_nodes(mesh);
   std::map<int, int> twin;
   std::vector<Eigen::Vector2d> added;
@@ -289,7 +289,7 @@ void check_apart(const PlateScene& scene, const pfem::Mesh& mesh, const std::vec
 }
 
 /// The tips of a line.
-std::vector<OpenTip> tips_of(const PlateScene& scene, const pfem::Mesh& mesh, const CrackPath& path, const Line& line) {
+std::vector<OpenTip> tips_of(const PlateScene& scene, const pfem::Mesh& mesh, const CrackPath& path, const CrackLine& line) {
   const Crack& crack = scene.cracks[path.crack];
   const auto at = [&](std::size_t i) -> Eigen::Vector2d { return mesh.nodes.col(line.nodes[i]); };
   const std::size_t last = line.nodes.size() - 1;
@@ -317,7 +317,7 @@ void open_cracks(const PlateScene& scene, const std::vector<CrackPath>& paths, P
   if (paths.empty()) return;
   std::vector<OpenTip> tips;
   for (const auto& path : paths) {
-    const Line line = line_of(scene, plate, path);
+    const CrackLine line = line_of(scene, plate, path);
     for (auto& tip : tips_of(scene, plate.mesh, path, line)) tips.push_back(std::move(tip));
     double_nodes(line, plate.mesh);
     plate.edges = pfem::find_edges(plate.mesh);

@@ -16,9 +16,6 @@ namespace {
 
 using Point = Eigen::Vector2d;
 
-/// Tolerance of equal places, relative to the plate's size.
-constexpr double same = 1e-9;
-
 double size_of(const GridGeometry& grid) {
   return std::hypot(grid.x.back() - grid.x.front(), grid.y.back() - grid.y.front());
 }

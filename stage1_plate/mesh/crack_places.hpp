@@ -9,6 +9,9 @@
 
 namespace fastjoint::stage1 {
 
+/// Distance of places that count as one, relative to the plate's size.
+inline constexpr double same = 1e-9;
+
 /// A tip of a crack in a grid.
 struct TipPlace {
   Eigen::Vector2d at;

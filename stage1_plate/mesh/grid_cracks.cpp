@@ -18,8 +18,6 @@ using Point = Eigen::Vector2d;
 
 /// Ratio of the sizes of neighbouring elements away from a tip.
 constexpr double growth = 3.5;
-/// Tolerance of equal places, relative to the plate's size.
-constexpr double same = 1e-9;
 
 class Planner {
  public:

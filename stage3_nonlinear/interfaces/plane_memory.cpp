@@ -9,7 +9,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr int max_iterations = 1000;  // a few, but for curves with sharp bends along x and y
+constexpr int max_plane_iterations = 1000;  // a few, but for curves with sharp bends along x and y
 constexpr double small_residual = 8 * std::numeric_limits<double>::epsilon();
 
 PlaneMatrix identity(Eigen::Index n) { return PlaneMatrix::Identity(n, n); }
@@ -34,7 +34,7 @@ Along radial(const RadialFunction& function, const PlaneVector& v) {
 /// gradient.
 template <class Function>
 PlaneVector minimum(Function at, PlaneVector x, double size) {
-  for (int i = 0; i < max_iterations; ++i) {
+  for (int i = 0; i < max_plane_iterations; ++i) {
     const Along here = at(x);
     if (here.value.norm() <= small_residual * size) break;
     PlaneMatrix H = here.slope;

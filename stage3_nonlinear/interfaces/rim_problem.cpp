@@ -11,8 +11,8 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr double rounding = 1e-14;
-constexpr int max_steps = 100, max_halvings = 20;
+constexpr double rim_rounding = 1e-14;
+constexpr int max_pressure_steps = 100, max_step_halvings = 20;
 
 }  // namespace
 
@@ -105,20 +105,20 @@ RimProblem::State RimProblem::frictionless_state(const VectorXd& b, VectorXd s) 
 RimProblem::State RimProblem::solve_frictionless(const VectorXd& b, const VectorXd& w) const {
   const double by_gap = back(contact_.stiffness() * contact_.gap() * VectorXd::Unit(b.size(), 0)).norm();
   State at = frictionless_state(b, solve_root(w - b));
-  for (int i = 0; i < max_steps; ++i) {
+  for (int i = 0; i < max_pressure_steps; ++i) {
     const VectorXd gradient = at.s + at.scaled_forces;
     const double before = gradient.norm(), scale = at.s.norm() + at.scaled_forces.norm() + by_gap;
-    if (before <= rounding * scale) break;
+    if (before <= rim_rounding * scale) break;
     const VectorXd step = -curvature(at.touching).llt().solve(gradient);
     const double slope = gradient.dot(step);
     double length = 1;
     State there = frictionless_state(b, at.s + step);
     constexpr double max_slope = 0.1;
-    for (int j = 0; j < max_halvings && (there.s + there.scaled_forces).dot(step) > -max_slope * slope; ++j) {
+    for (int j = 0; j < max_step_halvings && (there.s + there.scaled_forces).dot(step) > -max_slope * slope; ++j) {
       length /= 2;
       there = frictionless_state(b, at.s + length * step);
     }
-    constexpr double near = 1e-11;  // the residual may be rounding only
+    constexpr double near = 1e-11;  // the residual may be rim_rounding only
     if (before <= near * scale && (there.s + there.scaled_forces).norm() > 0.5 * before) break;
     at = std::move(there);
   }
@@ -150,16 +150,16 @@ MatrixXd RimProblem::jacobian(const State& at) const {
   return J;
 }
 
-/// Newton's method with steps that are halved until the residual falls. A residual that is nearly rounding falls by
+/// Newton's method with steps that are halved until the residual falls. A residual that is nearly rim_rounding falls by
 /// whole steps or not at all.
 bool RimProblem::solve_with_friction(const VectorXd& b, State& at) const {
   constexpr double near = 1e-12;
   const auto scale = [&] { return at.w.norm() + b.norm() + std::abs(contact_.gap()); };
-  for (int i = 0; i < max_steps; ++i) {
+  for (int i = 0; i < max_pressure_steps; ++i) {
     const double before = at.residual.norm();
-    if (before <= rounding * scale()) return true;
+    if (before <= rim_rounding * scale()) return true;
     const VectorXd step = -matrices::Lu(jacobian(at)).solve(at.residual);
-    const int halvings = before > near * scale() ? max_halvings : 0;
+    const int halvings = before > near * scale() ? max_step_halvings : 0;
     double length = 1;
     State there = state_with_friction(b, at.w + step);
     const auto falls = [&] { return there.residual.norm() < (1 - 0.1 * length) * before; };

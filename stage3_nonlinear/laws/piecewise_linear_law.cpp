@@ -2,15 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
+#include "common/infinite.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Corner of a piecewise linear curve.
 struct Vertex {

@@ -17,7 +17,7 @@ namespace {
 using formats::EnvelopeTable;
 using formats::JointResult;
 
-constexpr Index max_rows = 16;
+constexpr Index max_case_rows = 16;
 
 /// The largest transferred load of a case, and the highest peak if there is one: "412.3 at 7", "98.1 at upper:3".
 struct Largest {
@@ -61,11 +61,11 @@ std::string table(const JointResult& a, const EnvelopeTable& its, const char* me
   std::vector<Index> order(n);
   std::iota(order.begin(), order.end(), Index{0});
   const auto size = [&](Index i) { return std::max(std::abs(its.largest[i]), std::abs(its.smallest[i])); };
-  if (n > max_rows) std::ranges::stable_sort(order, std::greater(), size);
+  if (n > max_case_rows) std::ranges::stable_sort(order, std::greater(), size);
   const bool has_signs = its.smallest.minCoeff() < 0;
   std::string text = fmt::format("  {:<24} {:>20} in", meaning, fmt::format("largest [{}]", its.unit));
   text += has_signs ? fmt::format("{:<38} {:>14} in\n", "", "smallest") : "\n";
-  for (Index i = 0; i < std::min(n, max_rows); ++i) {
+  for (Index i = 0; i < std::min(n, max_case_rows); ++i) {
     const Index at = order[i];
     const std::string where = increment_of(a, its.largest_at[at]);
     text += fmt::format("  {:<24} {:>20.6g} ", program::one_line(its.of[at]), its.largest[at]);
@@ -73,7 +73,7 @@ std::string table(const JointResult& a, const EnvelopeTable& its, const char* me
                 ? fmt::format("{:<40} {:>14.6g} {}\n", where, its.smallest[at], increment_of(a, its.smallest_at[at]))
                 : where + "\n";
   }
-  if (n > max_rows) text += fmt::format("  ... and {} more with smaller ones\n", n - max_rows);
+  if (n > max_case_rows) text += fmt::format("  ... and {} more with smaller ones\n", n - max_case_rows);
   return text;
 }
 

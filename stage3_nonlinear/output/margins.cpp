@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
 
 #include "common/count.hpp"
+#include "common/infinite.hpp"
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/csv_field.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
@@ -23,8 +23,6 @@ namespace {
 using formats::JointResult;
 using formats::MarginTable;
 using Point = Eigen::Vector2d;
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Applied load and allowable at one increment, with the numbers that the allowable follows from.
 struct Applied {

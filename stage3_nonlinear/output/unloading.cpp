@@ -10,10 +10,10 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// Largest vector of a plane so far.
-class Largest {
+/// LargestVector vector of a plane so far.
+class LargestVector {
  public:
-  explicit Largest(Index n_directions) : largest_(VectorXd::Zero(n_directions)) {}
+  explicit LargestVector(Index n_directions) : largest_(VectorXd::Zero(n_directions)) {}
 
   [[nodiscard]] double magnitude() const { return largest_.norm(); }
   /// Tells whether the next vector is smaller or turns away, and keeps it if it is larger.
@@ -44,7 +44,7 @@ void warn_of_turning_friction(const JointModel& joint, const JointEquations& equ
                               std::vector<program::Warning>& result) {
   constexpr double rounding = 1e-9;
   const Index a = equations.n_directions();
-  std::vector<Largest> largest(equations.n_planes(), Largest(a));
+  std::vector<LargestVector> largest(equations.n_planes(), LargestVector(a));
   for (const PathStep& step : path.steps) {
     std::vector<Index> turned;
     for (Index j = 0; j < std::ssize(largest); ++j) {
@@ -67,7 +67,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
                        std::vector<program::Warning>& result) {
   const ContactCorners corners(equations);
   const Index a = equations.n_directions();
-  std::vector<Largest> largest(equations.n_planes(), Largest(a));
+  std::vector<LargestVector> largest(equations.n_planes(), LargestVector(a));
   for (const PathStep& step : path.steps) {
     std::vector<Index> unloaded;
     for (Index j = 0; j < std::ssize(largest); ++j) {

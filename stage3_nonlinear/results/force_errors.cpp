@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
+#include "common/infinite.hpp"
 #include "common/matrices/stiffness_error.hpp"
 
 namespace fastjoint::stage3 {
@@ -80,7 +80,6 @@ VectorXd ForceErrors::at(const SolvedPoint& point, const JointState& state) cons
     const auto D = equations_.system->D_delta.middleRows(joint_.offset(i), plate.n_unknowns());
     result += plate_errors(plate, A, D, stiffness_changes_[i], state.plates[i]);
   }
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   if (point.check().at_limit_load()) result.setConstant(infinite);
   for (const Index row : slopes.no_row)
     if (row < equations_.n_plane_rows()) result[row / joint_.n_directions()] = infinite;

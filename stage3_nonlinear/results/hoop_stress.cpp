@@ -13,8 +13,8 @@ namespace {
 using Complex = std::complex<double>;
 using Eigen::Index;
 using namespace std::complex_literals;
-constexpr double step = rim::full_turn / TractionWaves::n_points,
-                 first_angle = step / 2;  // off the multiples of 90 degrees, at which tractions jump
+constexpr double angle_step = rim::full_turn / TractionWaves::n_points,
+                 first_angle = angle_step / 2;  // off the multiples of 90 degrees, at which tractions jump
 
 /// Waves m = 0..n/2-1 of two real functions from their values at the points, (2, n / 2).
 Eigen::Matrix2Xcd waves_of(const Eigen::VectorXcd& values) {
@@ -76,12 +76,12 @@ Eigen::Matrix2Xcd cartesian(const Eigen::VectorXcd& normal, const Eigen::VectorX
 
 TractionWaves::TractionWaves(const rim::Harmonics& rim, Tractions tractions)
     : rim_(rim), tractions_(std::move(tractions)), values_(2, n_points) {
-  for (int i = 0; i < n_points; ++i) values_.col(i) = at(first_angle + i * step);
+  for (int i = 0; i < n_points; ++i) values_.col(i) = at(first_angle + i * angle_step);
   waves_ = waves_of(values_.row(0).cast<Complex>() + 1i * values_.row(1).cast<Complex>());
 }
 
 Eigen::VectorXd TractionWaves::angles() {
-  return Eigen::VectorXd::LinSpaced(n_points, first_angle, first_angle + (n_points - 1) * step);
+  return Eigen::VectorXd::LinSpaced(n_points, first_angle, first_angle + (n_points - 1) * angle_step);
 }
 
 Eigen::Vector2d TractionWaves::at(double angle) const {

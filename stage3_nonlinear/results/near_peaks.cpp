@@ -2,8 +2,8 @@
 #include "stage3_nonlinear/results/near_peaks.hpp"
 
 #include <algorithm>
-#include <limits>
 
+#include "common/infinite.hpp"
 #include "stage3_nonlinear/results/hoop_peak.hpp"
 #include "stage3_nonlinear/results/near_stress.hpp"
 
@@ -11,8 +11,6 @@ namespace fastjoint::stage3 {
 namespace {
 
 using Eigen::Vector2d;
-constexpr double infinite = std::numeric_limits<double>::infinity();
-
 /// Distance of the origin from the piece between two points; infinite if it lies on a line through the origin.
 double distance_to(const Vector2d& from, const Vector2d& to, double radius) {
   const Vector2d along = to - from;

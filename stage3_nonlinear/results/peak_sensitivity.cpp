@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "common/infinite.hpp"
 #include "common/rim/angles.hpp"
 
 namespace fastjoint::stage3 {
@@ -143,7 +143,6 @@ PeakSensitivity peak_sensitivity(const JointModel& joint, const JointNumbers& nu
   for (Index column = 0; column < result.slopes.cols(); ++column)
     if (const double change = nearby.change_for(column, part); change > 0)
       result.slopes.col(column) = (nearby.hoop_stresses(column, change) - here) / change;
-  constexpr double infinite = std::numeric_limits<double>::infinity();
   for (const Index column : slopes.none) result.slopes.col(column).setConstant(infinite);
   for (Index i = 0; i < std::ssize(holes); ++i)
     if (!holes[i].is_loaded) result.slopes.row(i).setConstant(infinite);

@@ -19,7 +19,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 /// Error if there is only one degree.
-constexpr double unknown = std::numeric_limits<double>::infinity();
+constexpr double unknown_stress = std::numeric_limits<double>::infinity();
 
 /// Minimum friction over bearing force of a jump: friction with a peak below 1 % of the bearing stress is ignored, so
 /// that the small component along one axis does not exclude the peak of a force almost along the other. The peak stress
@@ -104,7 +104,7 @@ void read_sections(const formats::PlateStresses& a, const std::string& hole, con
   state.bypass_load = bypass(force);
   state.bypass_error = forces.cols() > 1
                            ? std::max(std::abs(bypass(forces.col(1)) - state.bypass_load), energy_error * largest)
-                           : unknown;
+                           : unknown_stress;
   const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
   const auto net = [&](const std::optional<Index>& section) {
     return section ? force[*section] / a.net_area[*section] : -std::numeric_limits<double>::infinity();
@@ -157,7 +157,7 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
       std::max({forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), scale});
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
-    state.peak_error = unknown;
+    state.peak_error = unknown_stress;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
     std::vector<int> axes;
     for (int disc = 0; disc < count_of(discs.hole); ++disc) {

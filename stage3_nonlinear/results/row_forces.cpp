@@ -20,7 +20,7 @@ double tolerance(const PlateModel& plate, int axis) {
   return relative * (centers.maxCoeff() - centers.minCoeff());
 }
 
-constexpr double negligible = 1e-10;  ///< of the largest force: rounding
+constexpr double negligible_force = 1e-10;  ///< of the largest force: rounding
 
 /// All forces on the sheet along an axis.
 struct PlacedForces {
@@ -44,7 +44,7 @@ PlacedForces forces_along(const PlateModel& plate, int axis, const PlateState& s
       forces.push_back({plate.places.traction(i, 0), plate.places.traction(i, 1), state.traction[i]});
   for (const auto& force : forces) result.largest = std::max(result.largest, std::abs(force.value));
   const double reaction = state.by_supports[axis];
-  if (std::abs(reaction) > negligible * result.largest)  // else there is no support
+  if (std::abs(reaction) > negligible_force * result.largest)  // else there is no support
     forces.push_back({plate.places.support(axis, 0), plate.places.support(axis, 1), reaction});
   return result;
 }
@@ -56,7 +56,7 @@ double beyond(const PlacedForces& forces, double section) {
     if (force.from < section && force.to > section && force.value != 0) return std::numeric_limits<double>::infinity();
     if (force.from >= section) sum += force.value;
   }
-  return std::abs(sum) <= negligible * forces.largest ? 0 : sum;
+  return std::abs(sum) <= negligible_force * forces.largest ? 0 : sum;
 }
 
 }  // namespace

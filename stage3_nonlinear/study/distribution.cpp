@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -13,7 +12,6 @@ namespace fastjoint::stage3 {
 namespace {
 
 using input::Value;
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 struct Uniform final : Distribution {
   double from, to;

@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/infinite.hpp"
 #include "common/input/value.hpp"
 
 namespace fastjoint::stage3 {

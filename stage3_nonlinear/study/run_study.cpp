@@ -32,7 +32,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr const char* program_name = "stage3_nonlinear";
 constexpr std::array sampling_names{"grid", "random", "latin hypercube"};
 
 struct Slice {

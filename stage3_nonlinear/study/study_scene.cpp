@@ -22,7 +22,7 @@ namespace {
 using input::Value;
 using nlohmann::json;
 
-constexpr std::uint64_t max_samples = 1000000000;
+constexpr std::uint64_t max_study_samples = 1000000000;
 constexpr std::size_t max_levels = 1000000;
 
 /// A place in JOINT.json.
@@ -226,8 +226,8 @@ void read_number(const Value& root, StudyScene& study) {
     study.n_samples = 1;
     for (const auto& variable : study.variables) {
       study.n_samples *= variable.levels.size();
-      if (study.n_samples > max_samples)
-        root.at("variables").fail("a grid of too many samples", fmt::format("up to {}", max_samples));
+      if (study.n_samples > max_study_samples)
+        root.at("variables").fail("a grid of too many samples", fmt::format("up to {}", max_study_samples));
     }
     return;
   }
@@ -239,7 +239,7 @@ void read_number(const Value& root, StudyScene& study) {
     study.n_samples = rows;
     return;
   }
-  study.n_samples = root.at("samples").integer(1, int(max_samples));
+  study.n_samples = root.at("samples").integer(1, int(max_study_samples));
   if (study.n_samples > rows)
     given->fail(fmt::format("{}", study.n_samples), fmt::format("up to the {} rows of the table", rows));
 }

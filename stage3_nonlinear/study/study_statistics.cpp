@@ -14,7 +14,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Number of samples for the rank correlations of a given number of results: their error is 1 over its square root.
 std::uint64_t max_ranked(std::size_t n_numbers) {
   constexpr std::uint64_t max_samples = 100000, min_samples = 10000, of_all = 20000000;

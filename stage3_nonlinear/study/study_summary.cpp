@@ -67,7 +67,7 @@ std::string causes(const formats::StudyResult& result, const formats::StudyGroup
 }
 
 /// Sentence about deviations that differ from those by the sensitivities in the middle; empty if they agree.
-std::string doubts(const formats::StudyGroup& a) {
+std::string doubts_of(const formats::StudyGroup& a) {
   constexpr double max_difference = 0.2, min_deviation = 1e-6;
   Index worst = -1, n_off = 0;
   double worst_off = 0;
@@ -120,7 +120,7 @@ std::string study_summary(const formats::StudyResult& result, const StudyScene& 
   }
   for (const auto& group : result.groups)
     if (group.name.starts_with("largest")) text += causes(result, group);
-  for (const auto& group : result.groups) text += doubts(group) + closing(group);
+  for (const auto& group : result.groups) text += doubts_of(group) + closing(group);
   return text;
 }
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""docs/ and code agree: docs_test.py. Sections that comments cite, files and names that documents mention are there,
+"""docs/ and code agree: docs_test.py. Sections that comments cite, files, paths and names that documents mention are there,
 codes of warnings are in their table."""
 import re
 from pathlib import Path
@@ -27,10 +27,19 @@ def check_sections(theory):
 
 
 def check_files(documents):
-    names = {path.name for path in CODE}
-    mentioned = {name for text in documents for name in re.findall(r"`(\w+\.(?:cpp|hpp|py))`", text)}
+    names = {path.name for path in (*CODE, *(ROOT / "examples").rglob("*.py"))}
+    mentioned = {name for text in documents for name in re.findall(r"`(\w+\.(?:cpp|hpp|py))`", text)} - {"my_law.cpp"}
     assert len(mentioned) > 30, mentioned
     assert mentioned <= names, f"documents in docs/ mention files that are not there: {mentioned - names}"
+
+
+def check_paths(documents):
+    """Paths of the repository in documents lead to a file or folder."""
+    tops = "common|stage1_plate|stage2_extract|stage3_nonlinear|tests|scripts|schemas|docs|examples"
+    mentioned = {path for text in documents for path in re.findall(rf"`((?:{tops})/[\w/.-]*\w)", text)}
+    assert len(mentioned) > 60, mentioned
+    missing = {path for path in mentioned if not (ROOT / path).exists()}
+    assert not missing, f"documents mention paths that are not there: {missing}"
 
 
 def check_glossary(glossary):
@@ -64,7 +73,9 @@ def main():
     documents = [ROOT / "docs" / name for name in ("theory.md", "glossary.md")]
     theory, glossary = (document.read_text() for document in documents)
     check_sections(theory)
-    check_files((theory, glossary))
+    pages = [path.read_text() for path in (ROOT / "README.md", *ROOT.glob("docs/*.md"), *ROOT.glob("examples/*/README.md"))]
+    check_files(pages)
+    check_paths(pages)
     check_glossary(glossary)
     check_warnings((ROOT / "docs/results.md").read_text())
     for document in documents:

@@ -113,7 +113,7 @@ TEST_F(ExitStatus, DamagedAndForeignFiles) {
         HasSubstr("doubler.h5: is a 'plate-solution' file, expected 'plate-matrices'"));
   for (const auto& [name, version, remedy] :
        {std::tuple("newer.h5", 6, "use a newer program"), {"older.h5", 4, "run stage1_plate again"}}) {
-    h5::Writer file(folder_->path(name), "plate-solution", version, 0);
+    h5::Writer file(folder_->path(name), {"plate-solution", version, 0});
     file.attribute("generator", std::string("stage1_plate 1.0.0"));
     file.commit();
     expect(test::stage2(*folder_, fmt::format("{} -o out.h5", name)), 3,

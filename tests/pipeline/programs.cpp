@@ -8,20 +8,18 @@
 namespace fastjoint::test {
 namespace {
 
-Run in_folder(const TemporaryFolder& folder, const char* program, const std::string& words) {
-  return run(folder, fmt::format("cd '{}' && '{}' {}", folder.path(""), program, words));
+Run in_folder(const TemporaryFolder& folder, const char* name, const std::string& words) {
+  return run(folder, fmt::format("cd '{}' && '{}' {}", folder.path(""), program(name), words));
 }
 
 }  // namespace
 
-Run stage1(const TemporaryFolder& folder, const std::string& words) {
-  return in_folder(folder, FASTJOINT_STAGE1, words);
-}
+Run stage1(const TemporaryFolder& folder, const std::string& words) { return in_folder(folder, "stage1_plate", words); }
 Run stage2(const TemporaryFolder& folder, const std::string& words) {
-  return in_folder(folder, FASTJOINT_STAGE2, words);
+  return in_folder(folder, "stage2_extract", words);
 }
 Run stage3(const TemporaryFolder& folder, const std::string& words) {
-  return in_folder(folder, FASTJOINT_STAGE3, words);
+  return in_folder(folder, "stage3_nonlinear", words);
 }
 
 std::string example(const std::string& name) {

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The JSON Schemas and the strict readers of the programs give every input the same verdict.
 
-usage: agreement_test.py STAGE1_PLATE STAGE2_EXTRACT STAGE3_NONLINEAR
+usage: agreement_test.py BIN_FOLDER
 """
 import copy
 import json
@@ -219,7 +219,7 @@ def example_copied(root, example):
 
 
 def main():
-    programs = Programs(*sys.argv[1:])
+    programs = Programs(sys.argv[1])
     problems = []
     with tempfile.TemporaryDirectory() as name:
         folder = copied(pathlib.Path(name), GOOD + TABLES)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The HDF5 files that the programs write are what schemas/*.md say, dataset by dataset, both ways, meanings included.
 
-usage: pages_test.py STAGE1_PLATE STAGE2_EXTRACT STAGE3_NONLINEAR
+usage: pages_test.py BIN_FOLDER
 """
 import json
 import os
@@ -170,7 +170,7 @@ def run_plate(programs, source, folder, p):
 
 
 def main():
-    programs = Programs(*sys.argv[1:])
+    programs = Programs(sys.argv[1])
     pages = solution_page, matrices_page, result_page, study_page = [
         Page(name) for name in ("plate-solution", "plate-matrices", "joint-result", "study-result")]
     problems = [problem for page in pages for problem in check_symbols(page)]

@@ -12,9 +12,10 @@ ONE_THREAD = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 class Programs:
     """Each method runs one program on one input and returns what it said and how it ended."""
 
-    def __init__(self, stage1, stage2, stage3):
-        self.stage1, self.stage2, self.stage3 = stage1, stage2, stage3
-        ONE_THREAD["PATH"] = f"{pathlib.Path(stage1).resolve().parent}:{os.environ['PATH']}"  # for Makefiles
+    def __init__(self, folder):
+        folder = pathlib.Path(folder).resolve()
+        self.stage1, self.stage2, self.stage3 = (folder / name for name in ("stage1_plate", "stage2_extract", "stage3_nonlinear"))
+        ONE_THREAD["PATH"] = f"{folder}:{os.environ['PATH']}"  # for Makefiles
 
     def plate(self, scene, output, p):
         return run(self.stage1, scene, "-o", output, "--p", p)

@@ -180,7 +180,7 @@ TEST_F(Couple, BeyondWhatTwoPlasticFastenersHoldTurnsTheSheet) {
     EXPECT_NEAR(held.F_vector(1, 3), 0.99 * yield, 1e-8) << method;
     write_couple(yield / 0.75, method);
     const auto beyond =
-        test::run(folder_, std::string(STAGE3_PROGRAM) + " " + options_.input + " -o " + options_.output);
+        test::run(folder_, test::program("stage3_nonlinear") + " " + options_.input + " -o " + options_.output);
     EXPECT_EQ(beyond.status, 4) << method;
     EXPECT_THAT(beyond.err, HasSubstr("joint.json: limit load reached: beyond load factor 0.7")) << method;
     EXPECT_THAT(beyond.err, HasSubstr("the laws of fastener \"f1\", fastener \"f2\" are at their maximum force"))

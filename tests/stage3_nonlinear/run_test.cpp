@@ -252,7 +252,7 @@ TEST_F(Run, NeverWritesOverWhatItReads) {
 class Program : public Run {
  protected:
   test::Run call(const std::string& arguments) {
-    return test::run(folder_, std::string(STAGE3_PROGRAM) + " " + arguments);
+    return test::run(folder_, test::program("stage3_nonlinear") + " " + arguments);
   }
   test::Run call_here(const std::string& more = "") {
     return call(options_.input + " -o " + options_.output + " " + more);

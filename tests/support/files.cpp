@@ -27,6 +27,10 @@ std::string TemporaryFolder::write(const std::string& name, const std::string& t
   return path(name);
 }
 
+std::string program(const std::string& name) {
+  return (std::filesystem::canonical("/proc/self/exe").parent_path() / name).string();
+}
+
 std::string read_file(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path, std::ios::binary).rdbuf();

@@ -25,6 +25,9 @@ class TemporaryFolder {
 
 [[nodiscard]] std::string read_file(const std::string& path);
 
+/// Path of one of the three programs, which are built into the folder of the test's own.
+[[nodiscard]] std::string program(const std::string& name);
+
 /// What a program printed and how it ended.
 struct Run {
   int status;

@@ -39,7 +39,7 @@ class HandMade : public testing::Test {
   using Add = std::function<void(h5::Writer&)>;
   void write(
       const Add& add = [](auto&) {}, const std::vector<int>& p = {1}, const char* unit = "") const {
-    h5::Writer file(path_, "plate-matrices", 1, 0);
+    h5::Writer file(path_, {"plate-matrices", 1, 0});
     file("p", p, {any}, "1", "");
     file("disc/hole", Names{"a", "b"}, {any}, "1", "");
     file("disc/direction", Names{"x", "x"}, {any}, "1", "");

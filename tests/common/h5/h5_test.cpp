@@ -22,7 +22,7 @@ using Stack = std::vector<MatrixXd>;
 TEST(Hdf5, ReadsBackWhatWasWritten) {
   const test::TemporaryFolder folder;
   write_sample(folder.path("a.h5"));
-  Reader file(folder.path("a.h5"), "sample", 1);
+  Reader file(folder.path("a.h5"), {"sample", 1, 0});
   Sample a;
   datasets(file, a);
   EXPECT_TRUE(a == sample());
@@ -46,7 +46,7 @@ TEST(Hdf5, ReadsBackWhatWasWritten) {
 TEST(Hdf5, WhatIsMissingIsWhatStandsInForIt) {
   const test::TemporaryFolder folder;
   write_sample(folder.path("a.h5"));
-  const Reader file(folder.path("a.h5"), "sample", 1);
+  const Reader file(folder.path("a.h5"), {"sample", 1, 0});
   Eigen::MatrixXd matrix;
   file("none", matrix, {2, 3}, "1", "", or_else(infinite));
   EXPECT_EQ(matrix, Eigen::MatrixXd::Constant(2, 3, infinite));
@@ -70,13 +70,13 @@ TEST(Hdf5, EqualCallsGiveEqualBytes) {
 TEST(Hdf5, LeaksNoHandle) {
   const test::TemporaryFolder folder;
   write_sample(folder.path("a.h5"));
-  { EXPECT_THROW(Reader(folder.path("a.h5"), "other", 1), FileError); }
+  { EXPECT_THROW(Reader(folder.path("a.h5"), {"other", 1, 0}), FileError); }
   EXPECT_EQ(H5Fget_obj_count(static_cast<hid_t>(H5F_OBJ_ALL), H5F_OBJ_ALL), 0);
 }
 
 TEST(Hdf5, ANaNIsNeverWritten) {
   const test::TemporaryFolder folder;
-  Writer file(folder.path("a.h5"), "sample", 1, 0);
+  Writer file(folder.path("a.h5"), {"sample", 1, 0});
   EXPECT_THAT(
       [&] {
         file("x", std::vector<double>{1, std::numeric_limits<double>::quiet_NaN()}, {any}, "1", "");
@@ -86,7 +86,7 @@ TEST(Hdf5, ANaNIsNeverWritten) {
 
 TEST(Hdf5, AnInfiniteNumberIsWrittenOnlyWhereItIsRead) {
   const test::TemporaryFolder folder;
-  Writer file(folder.path("a.h5"), "sample", 1, 0);
+  Writer file(folder.path("a.h5"), {"sample", 1, 0});
   const std::vector<double> x{1, -std::numeric_limits<double>::infinity()};
   file("allowed", x, {any}, "1", "", infinite_too);
   EXPECT_THAT([&] { file("x", x, {any}, "1", ""); },
@@ -100,7 +100,7 @@ TEST_F(WrongFile, Kinds) {
   path_ = folder_.write("a.h5", "");
   EXPECT_THAT(message(), HasSubstr("is not an HDF5 file"));
   write_sample(path_);
-  EXPECT_THAT(message([](const Reader&) {}, "plate"), HasSubstr("a.h5: is a 'sample' file, expected 'plate'"));
+  EXPECT_THAT(message([](const Reader&) {}, {"plate", 1, 0}), HasSubstr("a.h5: is a 'sample' file, expected 'plate'"));
   path_ = folder_.path(".");
   EXPECT_THAT(message(), HasSubstr("is not a regular file"));
 }
@@ -108,7 +108,7 @@ TEST_F(WrongFile, Kinds) {
 TEST_F(WrongFile, Versions) {
   write_sample(path_, 2);
   EXPECT_THAT(message(), HasSubstr("a.h5: format version 2.2, this program reads 1.x; use a newer program"));
-  EXPECT_THAT(message([](const Reader&) {}, "sample", 3), HasSubstr("run the earlier stage again"));
+  EXPECT_THAT(message([](const Reader&) {}, {"sample", 3, 0}), HasSubstr("run the earlier stage again"));
 }
 
 TEST_F(WrongFile, ShapesUnitsTypes) {
@@ -141,13 +141,13 @@ TEST_F(WrongFile, ShapesUnitsTypes) {
 
 TEST_F(WrongFile, UnitsAreNotComparedWhenToldSo) {
   write_sample(path_);
-  Reader file(path_, "sample", 1);
+  Reader file(path_, {"sample", 1, 0});
   file.compare_units(false);
   EXPECT_NO_THROW(read<MatrixXd>(file, "group/A", {2, 3}, "N/m"));
 }
 
 TEST_F(WrongFile, EntriesThatAreNotAllowed) {
-  Writer file(path_, "sample", 1, 0);
+  Writer file(path_, {"sample", 1, 0});
   file("x", std::vector<double>{1, infinite, -1}, {any}, "1", "", infinite_too);
   file("i", std::vector<int>{2, 4, 4}, {any}, "1", "");
   file("words", std::vector<std::string>{"x", "z"}, {any}, "1", "");
@@ -264,7 +264,7 @@ TEST_F(WrongFile, ExtentsThatTheFileCannotHold) {
 }
 
 TEST_F(WrongFile, EntriesThatDoNotMakeTheShapeAreNotWritten) {
-  Writer file(path_, "sample", 1, 0);
+  Writer file(path_, {"sample", 1, 0});
   EXPECT_THAT(
       [&] {
         file("A", A, {3, 3}, "1", "");

@@ -93,7 +93,7 @@ inline Sample sample() {
 }
 
 inline void write_sample(const std::string& path, int major = 1) {
-  Writer file(path, "sample", major, 2);
+  Writer file(path, {"sample", major, 2});
   const Sample a = sample();
   datasets(file, a);
   file.commit();
@@ -113,10 +113,9 @@ class WrongFile : public testing::Test {
   std::string path_ = folder_.path("a.h5");
 
   std::string message(
-      const std::function<void(const Reader&)>& read = [](const Reader&) {}, const std::string& format = "sample",
-      int major = 1) {
+      const std::function<void(const Reader&)>& read = [](const Reader&) {}, const Format& format = {"sample", 1, 0}) {
     try {
-      read(Reader(path_, format, major));
+      read(Reader(path_, format));
     } catch (const FileError& e) {
       return e.what();
     }

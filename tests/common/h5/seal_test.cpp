@@ -41,7 +41,7 @@ TEST_F(WrongFile, DamagedAnywhere) {
 
 /// A file that is read piece by piece.
 TEST_F(WrongFile, DamagedAnywhereInALargeFile) {
-  Writer file(path_, "sample", 1, 0);
+  Writer file(path_, {"sample", 1, 0});
   file("x", Eigen::VectorXd::LinSpaced(100000, 0, 1).eval(), {any}, "1", "");
   file.commit();
   EXPECT_EQ(message(), "no error");
@@ -100,16 +100,16 @@ TEST_F(WrongFile, WithoutSealItIsTakenAsItIs) {
   const std::string whole = test::read_file(path_);
   folder_.write("a.h5", whole.substr(0, whole.rfind("\nfastjoint xxhash ")));
   EXPECT_EQ(message([](const Reader& f) { read<Eigen::MatrixXd>(f, "group/A", {2, 3}, "N/mm"); }), "no error");
-  EXPECT_EQ(Reader(path_, "sample", 1).digest(), "");
+  EXPECT_EQ(Reader(path_, {"sample", 1, 0}).digest(), "");
 }
 
 /// The digest is xxHash's: that of no bytes is in its documentation.
 TEST(Digest, IsThatOfTheFile) {
   const test::TemporaryFolder folder;
   EXPECT_EQ(digest(folder.write("empty", "")), "2d06800538d394c2");
-  Writer file(folder.path("a.h5"), "sample", 1, 0);
+  Writer file(folder.path("a.h5"), {"sample", 1, 0});
   const std::string written = file.commit();
-  EXPECT_EQ(Reader(folder.path("a.h5"), "sample", 1).digest(), written);
+  EXPECT_EQ(Reader(folder.path("a.h5"), {"sample", 1, 0}).digest(), written);
   EXPECT_EQ(digest(folder.path("a.h5"), test::read_file(folder.path("a.h5")).rfind("\nfastjoint")), written);
 }
 

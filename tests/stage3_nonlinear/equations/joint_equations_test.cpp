@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <Eigen/LU>
+
 #include "common/matrices/decompositions.hpp"
 #include "stage3_nonlinear/equations/solved_point.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
