@@ -100,6 +100,22 @@ double Lu::rcond() const {
   return result;
 }
 
+MatrixXd orthonormal_basis(MatrixXd A) {
+  if (A.size() == 0) return A;
+  const lapack_int m = size_of(A.rows()), n = size_of(A.cols());
+  std::vector<double> reflectors(A.cols());
+  lapack_int info = 0;
+  with_workspace([&](double* work, lapack_int length) {
+    LAPACK_dgeqrf(&m, &n, A.data(), &m, reflectors.data(), work, &length, &info);
+    return info;
+  });
+  with_workspace([&](double* work, lapack_int length) {
+    LAPACK_dorgqr(&m, &n, &n, A.data(), &m, reflectors.data(), work, &length, &info);
+    return info;
+  });
+  return A;
+}
+
 VectorXd symmetric_eigenvalues(MatrixXd A) { return symmetric("N", A); }
 
 SymmetricEigen symmetric_eigen(MatrixXd A) {

@@ -42,6 +42,9 @@ class Lu {
   double norm_ = 0;
 };
 
+/// Orthonormal basis of the columns of a matrix, (m, n) with m >= n: Q, (m, n), of A = Q R.
+[[nodiscard]] Eigen::MatrixXd orthonormal_basis(Eigen::MatrixXd A);
+
 /// Eigenvalues of a symmetric matrix, (n, n), whose lower triangle is read: (n), from the smallest on.
 [[nodiscard]] Eigen::VectorXd symmetric_eigenvalues(Eigen::MatrixXd A);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/equations/tangent_factor.hpp"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <limits>
 #include <numeric>
@@ -27,11 +26,6 @@ Index n_long(const MatrixXd& J, const VectorXd& diagonal, Index first, Index siz
   Index n = size;
   while (n > 0 && coupling[n - 1] <= max_coupling * std::abs(diagonal[first + n - 1])) --n;
   return n;
-}
-
-MatrixXd orthonormal(const MatrixXd& A) {
-  const Eigen::HouseholderQR<MatrixXd> qr(A);
-  return qr.householderQ() * MatrixXd::Identity(A.rows(), A.cols());
 }
 
 /// Refines a solution iteratively until the residual is rounding or does not fall any more.
@@ -141,10 +135,10 @@ TangentFactor::NullSpace TangentFactor::find_null_space(double tolerance) const 
   NullSpace result;
   for (Index k = std::min<Index>(first, n);; k = std::min(2 * k, n)) {
     const MatrixXd start = MatrixXd::NullaryExpr(n, k, [&] { return normal(random); });
-    MatrixXd right = orthonormal(start), left = right;
+    MatrixXd right = matrices::orthonormal_basis(start), left = right;
     for (int i = 0; i < turns; ++i) {
-      right = orthonormal(lu.solve(lu.solve_transposed(right)));
-      left = orthonormal(lu.solve_transposed(lu.solve(left)));
+      right = matrices::orthonormal_basis(lu.solve(lu.solve_transposed(right)));
+      left = matrices::orthonormal_basis(lu.solve_transposed(lu.solve(left)));
     }
     const auto of_right = matrices::singular_values(schur_ * right);
     const auto of_left = matrices::singular_values(schur_.transpose() * left);

@@ -81,7 +81,7 @@ def main():
             check_estimates()
         else:
             assert run("stage1_plate", panel(2), "-o", "plate.h5", "--p", "2")[0] == []
-            scene = panel(24)
+            scene = panel(14)
             check_lines(scene)
             check_bar(scene)
         os.chdir("/")

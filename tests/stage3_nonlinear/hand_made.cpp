@@ -18,11 +18,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using formats::PlateMatrices;
 
-namespace {
-
 double uniform(std::mt19937& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
+
+namespace {
 
 /// Even over the decades.
 double decades(std::mt19937& random, double low, double high) {

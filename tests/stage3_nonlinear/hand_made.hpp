@@ -15,6 +15,9 @@
 
 namespace fastjoint::test {
 
+/// A random number between two.
+[[nodiscard]] double uniform(std::mt19937& random, double low, double high);
+
 /// A spring between two unknowns of a plate (discs first, then externals), or from one to the ground.
 struct Spring {
   int a, b;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "common/input/value.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::test {
 
@@ -15,10 +16,6 @@ using Eigen::VectorXd;
 using stage3::PlateModel;
 
 namespace {
-
-double uniform(std::mt19937& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 /// A law of each type but tables and formulas in turn, of about the force F at about the displacement d.
 LawText random_law(std::mt19937& random, Index type, double F, double d) {

@@ -85,6 +85,7 @@ def run(name, programs):
 
 
 def main(programs, jobs, *names):
+    programs = str(Path(programs).resolve())
     waiting, running, failed = list(names), {}, []
     while waiting or running:
         while waiting and len(running) < int(jobs):

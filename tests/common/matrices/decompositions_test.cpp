@@ -30,6 +30,17 @@ TEST(Inverse, TimesTheMatrixIsTheIdentity) {
   }
 }
 
+/// Q^T Q = I, and Q Q^T A = A.
+TEST(OrthonormalBasis, SpansTheColumns) {
+  std::srand(7);
+  for (const auto [m, n] : {std::pair(1, 1), {7, 3}, {150, 150}, {150, 40}, {5, 0}}) {
+    const MatrixXd A = MatrixXd::Random(m, n), Q = orthonormal_basis(A);
+    ASSERT_EQ(Q.cols(), n);
+    EXPECT_LT((Q.transpose() * Q - MatrixXd::Identity(n, n)).norm(), 1e-12) << m;
+    EXPECT_LT((Q * (Q.transpose() * A) - A).norm(), 1e-11) << m;
+  }
+}
+
 TEST(Inverse, ReadsTheLowerTriangleAlone) {
   const MatrixXd A = positive(5);
   EXPECT_EQ(inverse_of_positive(A.triangularView<Eigen::Lower>()), inverse_of_positive(A));
