@@ -16,8 +16,9 @@
 
 namespace fastjoint::formats {
 
-// Every format is one function template, such as `matrices_datasets(file, a)`, for an h5::Writer and an h5::Reader. Each of its lines has
-// the name of a dataset, the value in memory, shape, unit and meaning, and the values that a reader allows.
+// Every format is one function template, such as `matrices_datasets(file, a)`, for an h5::Writer and an h5::Reader.
+// Each of its lines has the name of a dataset, the value in memory, shape, unit and meaning, and the values that a
+// reader allows.
 
 /// Attributes and input text that every file has.
 struct Header {

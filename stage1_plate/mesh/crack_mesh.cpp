@@ -289,7 +289,8 @@ void check_apart(const PlateScene& scene, const pfem::Mesh& mesh, const std::vec
 }
 
 /// The tips of a line.
-std::vector<OpenTip> tips_of(const PlateScene& scene, const pfem::Mesh& mesh, const CrackPath& path, const CrackLine& line) {
+std::vector<OpenTip> tips_of(const PlateScene& scene, const pfem::Mesh& mesh, const CrackPath& path,
+                             const CrackLine& line) {
   const Crack& crack = scene.cracks[path.crack];
   const auto at = [&](std::size_t i) -> Eigen::Vector2d { return mesh.nodes.col(line.nodes[i]); };
   const std::size_t last = line.nodes.size() - 1;

@@ -56,7 +56,7 @@ MatrixXd surely_corrected(const Solve& solve, const Matrix& J, double norm, cons
   return matrices::Lu(J).solve(b);
 }
 
-constexpr double rounding = 1e-14, nearly_rounding = 1e-10;
+constexpr double factor_rounding = 1e-14, nearly_rounding = 1e-10;
 constexpr double for_errors = 1e-11;  // enough for error bars, which need J^T
 
 }  // namespace
@@ -94,7 +94,7 @@ double TangentFactor::rcond() const { return lu_.rcond() * std::min(1.0, lu_.nor
 MatrixXd TangentFactor::solve(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve(b);
   const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve(f); };
-  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, rounding,
+  return surely_corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, factor_rounding,
                           nearly_rounding);
 }
 
@@ -109,7 +109,7 @@ MatrixXd TangentFactor::solve_transposed(const MatrixXd& b) const {
   if (short_waves_.empty()) return lu_.solve_transposed(b);
   const auto solve = [this](const MatrixXd& f) -> MatrixXd { return lu_.solve_transposed(f); };
   return surely_corrected([&](const MatrixXd& f) { return by_factor_transposed(f, solve); }, J_.transpose(), norm_, b,
-                          rounding, nearly_rounding);
+                          factor_rounding, nearly_rounding);
 }
 
 /// Finds the smallest singular values and their vectors by inverse iteration. The number of vectors grows until one of
@@ -169,7 +169,7 @@ TangentFactor::Singular TangentFactor::solve_singular(const MatrixXd& b, double 
   };
   const MatrixXd free = extended(null.right);
   if (short_waves_.empty()) return {solve(b), free};
-  return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, rounding), free};
+  return {corrected([&](const MatrixXd& f) { return by_factor(f, solve); }, J_, norm_, b, factor_rounding), free};
 }
 
 TangentFactor::Singular TangentFactor::solve_singular_transposed(const MatrixXd& b, double tolerance) const {

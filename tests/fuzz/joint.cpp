@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // JOINT.json with its laws, each then asked for a force.
 #include "stage3_nonlinear/scene/joint_scene.hpp"
+#include "tests/fuzz/json_mutation.hpp"
 #include "tests/fuzz/reading.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

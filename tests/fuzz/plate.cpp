@@ -3,6 +3,7 @@
 // other.
 #include "stage1_plate/mesh/plate_mesh.hpp"
 #include "stage1_plate/scene/scene.hpp"
+#include "tests/fuzz/json_mutation.hpp"
 #include "tests/fuzz/reading.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

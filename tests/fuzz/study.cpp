@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // STUDY.json of a joint, and the numbers of a sample of it.
 #include "stage3_nonlinear/study/study_scene.hpp"
+#include "tests/fuzz/json_mutation.hpp"
 #include "tests/fuzz/reading.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

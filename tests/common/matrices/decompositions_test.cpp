@@ -33,7 +33,7 @@ TEST(Inverse, TimesTheMatrixIsTheIdentity) {
 /// Q^T Q = I, and Q Q^T A = A.
 TEST(OrthonormalBasis, SpansTheColumns) {
   std::srand(7);
-  for (const auto [m, n] : {std::pair(1, 1), {7, 3}, {150, 150}, {150, 40}, {5, 0}}) {
+  for (const auto& [m, n] : {std::pair(1, 1), {7, 3}, {150, 150}, {150, 40}, {5, 0}}) {
     const MatrixXd A = MatrixXd::Random(m, n), Q = orthonormal_basis(A);
     ASSERT_EQ(Q.cols(), n);
     EXPECT_LT((Q.transpose() * Q - MatrixXd::Identity(n, n)).norm(), 1e-12) << m;
