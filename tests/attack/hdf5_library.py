@@ -28,7 +28,7 @@ bt 60
 # Frames that stand above the one that is to blame: of the C and C++ libraries, of sanitizers, and what has no name.
 OF_OTHERS = re.compile(r"libc\.so|libstdc\+\+|ld-linux|linux-vdso|libgcc|libasan|/sysdeps/|"
                        r"\./(malloc|string|nptl|stdlib|io|libio|debug)/|__asan|"
-                       r"__interceptor|__sanitizer|__ubsan|in \?\? \(\)$")
+                       r"__interceptor|__sanitizer|__ubsan|in (mem|str)\w+ \(\)$|in \?\? \(\)$")
 OF_LIBRARY = re.compile(r"\bH5[A-Z]\w*|libhdf5|libsz|libz\.so|libaec")
 
 
