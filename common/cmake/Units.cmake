@@ -1,5 +1,4 @@
-# Files of a library are compiled as one unit, since most of their time goes into the same headers and templates
-# (docs/developing.md has the numbers). Two files of a library that define one name in their anonymous namespaces are an
+# Files of a library are compiled as one unit, since most of their time goes into the same headers and templates. Two files of a library that define one name in their anonymous namespaces are an
 # error then. CMake's own way of it, UNITY_BUILD, writes absolute paths, with which a compiler cache finds nothing in
 # another checkout.
 option(FASTJOINT_UNITS "Compile the files of a library as one; OFF: each by itself, as clang-tidy reads them" ON)

@@ -21,7 +21,7 @@ std::string filter_of_part(int k, int n) {
   return filter + "-*Sweep.*";
 }
 
-/// As any program of GoogleTest, but for "part K N" in place of a filter.
+/// Runs the tests as any program of GoogleTest does; "part K N" in place of a filter chooses suites.
 int main(int argc, char** argv) {
   gsl_set_error_handler_off();
   testing::InitGoogleMock(&argc, argv);
