@@ -15,6 +15,9 @@
 
 namespace fastjoint::test {
 
+/// Nearly exact equilibrium at every increment.
+inline const stage3::PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 500}};
+
 /// A random number between two.
 [[nodiscard]] double uniform(std::mt19937& random, double low, double high);
 

@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const std::vector<std::string> xy{"x", "y"};
+const std::vector<std::string> both{"x", "y"};
 
 /// Two plates of two holes in files, their discs along these directions: a is pulled along the last of them.
 class PlaneRun : public testing::Test {
@@ -74,7 +74,7 @@ TEST_F(PlaneRun, AlongYAloneIsAsAlongX) {
 }
 
 TEST_F(PlaneRun, ShowsTheDirectionOfForces) {
-  write(xy, xy, {{"increments", "[0.5]"}});
+  write(both, both, {{"increments", "[0.5]"}});
   const auto a = run();
   EXPECT_THAT(a.direction, testing::ElementsAre("x", "y"));
   EXPECT_NEAR(a.F_vector(0, 1), 25, 1e-9) << "F_y of f1";
@@ -100,23 +100,23 @@ TEST_F(PlaneRun, ShowsTheDirectionOfForces) {
 }
 
 TEST_F(PlaneRun, RefusesPlatesWhoseDiscsMoveOtherwise) {
-  write({"x"}, xy);
+  write({"x"}, both);
   expect_refusal(
       "joint.json: /fasteners/0/between: the disc of hole \"a:1\" moves along x, that of hole \"b:1\" along x and y");
-  write(xy, {"y", "x"});
+  write(both, {"y", "x"});
   EXPECT_THAT([&] { (void)run(); }, ThrowsMessage<FileError>(HasSubstr(
                                         "b.h5:disc/direction: hole \"1\" has x after y, expected each direction "
                                         "once, all in one order")));
 }
 
 TEST_F(PlaneRun, RefusesHalfHoles) {
-  auto half = plate(false, xy);
+  auto half = plate(false, both);
   half.friction_hole = {"1", "1"};
   half.friction_bearing = {"+y", "-y"};
   half.friction_unit_force = half.friction_resultant = Eigen::Vector2d(0.01, 0);
   half.R_df = {Eigen::MatrixXd::Zero(4, 2)};
   half.R_ef = {Eigen::MatrixXd::Zero(0, 2)};
-  write(xy, xy);
+  write(both, both);
   formats::write(folder_.path("b.h5"), half);
   expect_refusal(
       "b.h5:friction/unit_force: hole \"1\" has no rim on its side -y, but its disc moves along x and y, off its line "
@@ -127,7 +127,7 @@ TEST_F(PlaneRun, RefusesHalfHoles) {
 TEST_F(PlaneRun, RefusesOneSidedLawsInThePlane) {
   const std::map<std::string, std::string> one_sided{
       {"laws", R"({"lin": {"type": "linear", "k": 1000, "one_sided": true}})"}};
-  write(xy, xy, one_sided);
+  write(both, both, one_sided);
   expect_refusal(
       "joint.json: /fasteners/0/law: law \"lin\" is one_sided, but the discs move along x and y; allowed: laws that "
       "bear all around, or plates whose discs have one direction");

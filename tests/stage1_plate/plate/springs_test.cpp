@@ -21,7 +21,7 @@ using testing::HasSubstr;
 constexpr double k = 1e6, t = 0.1, r = 0.25;
 
 /// One square cell with a hole in its middle (or on its lower border), discs in x and y.
-std::string scene(const std::string& spring, bool half = false) {
+std::string hole_on(const std::string& spring, bool half = false) {
   return fmt::format(R"({{"format": "plate", "version": 1, "analysis": "plane stress",
     "materials": {{"al": {{"E": 1e7, "nu": 0.3}}}},
     "geometry": {{"grid": {{"x": [-1, 1], "y": [{}, 1], "thickness": 0.1}}}},
@@ -29,7 +29,7 @@ std::string scene(const std::string& spring, bool half = false) {
                      half ? 0 : -1, spring);
 }
 
-std::string message(const std::string& json) {
+std::string refusal(const std::string& json) {
   return test::message_of([&] { return test::make_plate(json); });
 }
 
@@ -45,7 +45,7 @@ Eigen::Matrix2d arc_stiffness(double a, double b) {
 /// The ends lie inside the sides of elements, which span 45 degrees; one arc runs over 180 degrees.
 TEST(Springs, AnArcIsIntegratedExactly) {
   for (const auto& [from, to] : {std::pair(-70.0, 25.0), std::pair(100.0, 290.0), std::pair(0.0, 1.0)}) {
-    const auto plate = test::make_plate(scene(fmt::format(R"("modulus": 1e6, "arc": [{}, {}])", from, to)));
+    const auto plate = test::make_plate(hole_on(fmt::format(R"("modulus": 1e6, "arc": [{}, {}])", from, to)));
     const Eigen::Matrix2d expected = arc_stiffness(from * pi / 180, to * pi / 180);
     EXPECT_LT((plate.problem.K_cc - expected).norm(), 1e-13 * k * t * r) << from;
     const auto acts = plate.scene.holes[0].sprung().arcs;
@@ -59,11 +59,11 @@ Eigen::MatrixXd K_ff(const test::Plate& plate) { return test::free_stiffness(pla
 
 TEST(Springs, ArcsThatMakeTheCircleAddUp) {
   const auto stiffness = [](const std::string& arc) {
-    const auto plate = test::make_plate(scene(fmt::format(R"("modulus": 1e6, "arc": {})", arc)));
+    const auto plate = test::make_plate(hole_on(fmt::format(R"("modulus": 1e6, "arc": {})", arc)));
     return std::pair(K_ff(plate), plate.problem.K_cc);
   };
-  const auto whole = test::make_plate(scene(R"("modulus": 1e6)"));
-  const auto none = test::make_plate(scene(R"("modulus": 1e-100)"));  // the plate alone
+  const auto whole = test::make_plate(hole_on(R"("modulus": 1e6)"));
+  const auto none = test::make_plate(hole_on(R"("modulus": 1e-100)"));  // the plate alone
   const auto a = stiffness("[-33, 71]"), b = stiffness("[71, 327]");
   const Eigen::MatrixXd sum = a.first + b.first - K_ff(none);
   EXPECT_LT((sum - K_ff(whole)).norm(), 1e-13 * sum.norm());
@@ -71,16 +71,16 @@ TEST(Springs, ArcsThatMakeTheCircleAddUp) {
 }
 
 TEST(Springs, AnArcBesideTheModelIsRefused) {
-  EXPECT_THAT(message(scene(R"("modulus": 1, "arc": [190, 350])", true)),
+  EXPECT_THAT(refusal(hole_on(R"("modulus": 1, "arc": [190, 350])", true)),
               HasSubstr("plate.json: /holes/0/spring/arc: no part of the rim of hole \"h\" in the model"));
-  EXPECT_EQ(message(scene(R"("modulus": 1, "arc": [170, 350])", true)), "no error");
+  EXPECT_EQ(refusal(hole_on(R"("modulus": 1, "arc": [170, 350])", true)), "no error");
 }
 
 /// 8 nodes, 45 degrees apart: sum K n n^T = 4 K; a half rim has 5 nodes, half a link on either end.
 TEST(Springs, LinksAreOneForEachNodeOfTheRim) {
-  const auto whole = test::make_plate(scene(R"("links": 100)"));
+  const auto whole = test::make_plate(hole_on(R"("links": 100)"));
   EXPECT_LT((whole.problem.K_cc - 400 * Eigen::Matrix2d::Identity()).norm(), 1e-11);
-  const auto half = test::make_plate(scene(R"("links": 100)", true));
+  const auto half = test::make_plate(hole_on(R"("links": 100)", true));
   ASSERT_EQ(half.problem.K_cc.size(), 1) << "the line of symmetry holds it across";
   EXPECT_NEAR(half.problem.K_cc(0, 0), 200, 1e-11);
   const auto spring = whole.scene.holes[0].sprung();
@@ -90,7 +90,7 @@ TEST(Springs, LinksAreOneForEachNodeOfTheRim) {
 
 /// The nodes are at 0, 45 and 90 degrees: the first has half a link from the side inside the arc, the last none.
 TEST(Springs, LinksOutsideTheArcAreNone) {
-  const auto plate = test::make_plate(scene(R"("links": 100, "arc": [0, 80])"));
+  const auto plate = test::make_plate(hole_on(R"("links": 100, "arc": [0, 80])"));
   Eigen::Matrix2d expected = 50 * Eigen::Vector2d::UnitX() * Eigen::RowVector2d::UnitX();
   expected += 100 * Eigen::Matrix2d::Constant(0.5);
   EXPECT_LT((plate.problem.K_cc - expected).norm(), 1e-11);
@@ -98,7 +98,7 @@ TEST(Springs, LinksOutsideTheArcAreNone) {
 
 /// Springs resist no motion of plate and disc together.
 TEST(Springs, LinksCostNothingWhenEverythingMoves) {
-  const auto plate = test::make_plate(scene(R"("links": 100)"));
+  const auto plate = test::make_plate(hole_on(R"("links": 100)"));
   Eigen::VectorXd u = Eigen::VectorXd::Zero(plate.problem.K_fc.rows());
   for (int node = 0; node < plate.mesh.mesh.n_nodes(); ++node) u[plate.problem.unknowns.dofs(0, node)] = 1;
   const Eigen::VectorXd f = K_ff(plate) * u + plate.problem.K_fc.col(0);
@@ -106,15 +106,15 @@ TEST(Springs, LinksCostNothingWhenEverythingMoves) {
 }
 
 TEST(Springs, WhatTheyAreMustBeSaidOnce) {
-  EXPECT_THAT(message(scene(R"("modulus": 1, "links": 1)")), HasSubstr("/holes/0/spring: {"));
-  EXPECT_THAT(message(scene(R"("modulus": 1, "arc": [10, 10])")), HasSubstr("from < to <= from + 360"));
-  EXPECT_THAT(message(scene(R"("modulus": 1, "arc": [0, 361])")), HasSubstr("/holes/0/spring/arc: [0,361]"));
-  EXPECT_THAT(message(scene(R"("disk": {"E": 1, "nu": 0.5, "law": "plane strain"})")),
+  EXPECT_THAT(refusal(hole_on(R"("modulus": 1, "links": 1)")), HasSubstr("/holes/0/spring: {"));
+  EXPECT_THAT(refusal(hole_on(R"("modulus": 1, "arc": [10, 10])")), HasSubstr("from < to <= from + 360"));
+  EXPECT_THAT(refusal(hole_on(R"("modulus": 1, "arc": [0, 361])")), HasSubstr("/holes/0/spring/arc: [0,361]"));
+  EXPECT_THAT(refusal(hole_on(R"("disk": {"E": 1, "nu": 0.5, "law": "plane strain"})")),
               HasSubstr("/holes/0/spring/disk/nu: 0.5 is not allowed; allowed: a number > -1 and < 0.5"));
-  EXPECT_THAT(message(scene(R"("disk": {"E": 1, "nu": 0.3, "law": "cubic"})")),
+  EXPECT_THAT(refusal(hole_on(R"("disk": {"E": 1, "nu": 0.3, "law": "cubic"})")),
               HasSubstr("allowed: \"plane stress\", \"plane strain\", \"second harmonic\""));
-  EXPECT_THAT(message(scene(R"("links": 1, "compression_only": true)")), HasSubstr("given with \"links\""));
-  EXPECT_THAT(message(scene(R"("modulus": 1, "arc": [0, 9], "compression_only": true)")),
+  EXPECT_THAT(refusal(hole_on(R"("links": 1, "compression_only": true)")), HasSubstr("given with \"links\""));
+  EXPECT_THAT(refusal(hole_on(R"("modulus": 1, "arc": [0, 9], "compression_only": true)")),
               HasSubstr("/holes/0/spring/compression_only: given with \"arc\""));
 }
 

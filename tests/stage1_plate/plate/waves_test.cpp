@@ -17,7 +17,7 @@ using Eigen::Index;
 constexpr double radius = 0.2, thickness = 0.1;
 
 /// A whole hole, an open one and a half one, nothing held but the line of symmetry y = 0.
-std::string scene(int order, bool contact, const char* more = "") {
+std::string sheet_of(int order, bool contact, const char* more = "") {
   const std::string spring =
       fmt::format(R"("spring": {{"modulus": 1e6{}}})", contact ? R"(, "compression_only": true)" : "");
   const auto hole = [&](const char* id, double x, double y, const std::string& rest) {
@@ -57,7 +57,7 @@ Eigen::MatrixXd plain_loads(const plate::SprungMesh& sprung, const rim::Harmonic
 /// Also of waves much shorter than a side, which an element does not follow.
 TEST(Waves, AreIntegratedExactly) {
   for (const int order : {1, 5, 40}) {
-    const auto plate = test::make_plate(scene(order, false));
+    const auto plate = test::make_plate(sheet_of(order, false));
     const auto sprung = stage1::sprung_mesh(plate.scene, plate.mesh);
     for (const int hole : {0, 1, 2})
       for (const auto& side : plate.mesh.rims[hole].sides)
@@ -90,7 +90,7 @@ Eigen::VectorXd work(const test::Plate& plate, const Translation& move) {
 
 TEST(Waves, HaveTheResultantsOfTheirDistributions) {
   for (const bool contact : {false, true}) {
-    const auto plate = test::make_plate(scene(3, contact));
+    const auto plate = test::make_plate(sheet_of(3, contact));
     const auto& unknowns = plate.problem.unknowns;
     const auto sprung = stage1::sprung_mesh(plate.scene, plate.mesh);
     for (const int axis : {0, 1}) {
@@ -112,7 +112,7 @@ TEST(Waves, HaveTheResultantsOfTheirDistributions) {
 /// A wave of a hole with a disc acts between disc and sheet; the disc of the half hole moves along its line alone.
 TEST(Waves, BetweenDiscAndSheetDoNoWorkAsBothMove) {
   for (const bool contact : {false, true}) {
-    const auto plate = test::make_plate(scene(5, contact));
+    const auto plate = test::make_plate(sheet_of(5, contact));
     const auto& unknowns = plate.problem.unknowns;
     for (const int axis : {0, 1}) {
       const Eigen::VectorXd both = work(plate, translation(plate, axis, true));

@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 std::string strip(const std::string& extra) { return test::grid_scene({0, 1, 2, 3}, {0, 1}, {}, extra); }
 
-std::string message(const std::string& json) {
+std::string what_is_free(const std::string& json) {
   try {
     const auto plate = test::make_plate(json);
     stage1::check_rigid_motions(plate.scene, plate.mesh, plate.problem.unknowns);
@@ -67,20 +67,20 @@ TEST(LineSprings, AControlledVertexCouplesDiscAndExternal) {
 
 TEST(LineSprings, WhereTheyCannotBe) {
   const std::string left = R"(, "supports": [{"on": "left", "fix": ["x"]}])";
-  EXPECT_THAT(message(strip(left + R"(, "points": [{"id": "K1", "at": [1.9, 0.8], "stiffness": 1}])")),
+  EXPECT_THAT(what_is_free(strip(left + R"(, "points": [{"id": "K1", "at": [1.9, 0.8], "stiffness": 1}])")),
               HasSubstr("plate.json: /points/0/at: (1.9, 0.8) is not a vertex of the mesh; allowed: vertices of the "
                         "mesh; the nearest is (2, 1)"));
-  EXPECT_THAT(message(strip(left + R"(, "points": [{"id": "K1", "at": [0, 1], "stiffness": 1}])")),
+  EXPECT_THAT(what_is_free(strip(left + R"(, "points": [{"id": "K1", "at": [0, 1], "stiffness": 1}])")),
               HasSubstr("/points/0/at: a support fixes the vertex along x"));
-  EXPECT_THAT(message(test::grid_scene({0, 1}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
-                                       R"(, "points": [{"id": "a", "at": [0, 1], "stiffness": 1}])")),
+  EXPECT_THAT(what_is_free(test::grid_scene({0, 1}, {0, 1}, {{"a", 0.5, 0.5, 0.2}},
+                                            R"(, "points": [{"id": "a", "at": [0, 1], "stiffness": 1}])")),
               HasSubstr("/points/0/id: \"a\" stands twice"));
 }
 
 TEST(LineSprings, TheyHoldThePlate) {
   const std::string both = R"(, "disc_directions": ["x", "y"], "points": [{"id": "K1", "at": [1, 1], "stiffness": 1})";
-  EXPECT_THAT(message(strip(both + "]")), HasSubstr("by rotation about (1, 1)"));
-  EXPECT_EQ(message(strip(both + R"(, {"id": "K2", "at": [2, 1], "stiffness": 1}])")), "held");
+  EXPECT_THAT(what_is_free(strip(both + "]")), HasSubstr("by rotation about (1, 1)"));
+  EXPECT_EQ(what_is_free(strip(both + R"(, {"id": "K2", "at": [2, 1], "stiffness": 1}])")), "held");
 }
 
 }  // namespace

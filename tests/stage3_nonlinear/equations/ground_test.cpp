@@ -23,8 +23,6 @@ using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-const PathOptions tight{.initial = {}, .solver = {.tolerance = 1e-13}};
-
 /// Plates of one free disc each, loaded by these forces, one fastener through all into the ground.
 JointModel hung(const std::vector<double>& forces, const std::shared_ptr<const Law>& law) {
   std::vector<std::pair<Index, Index>> holes;
@@ -178,7 +176,7 @@ TEST(Ground, ExactPathsAreThoseOfTheSolver) {
       joint.planes[j].clearance = j % 3 == 0 ? 0.02 : 0;
     }
     const JointEquations equations = make_equations(joint);
-    const LoadPath path = follow(equations, {0.2, 0.5, 1}, tight);
+    const LoadPath path = follow(equations, {0.2, 0.5, 1}, test::tight);
     ASSERT_FALSE(path.failure) << i;
     for (const auto& step : path.steps)
       EXPECT_LT((exact_forces(equations, step.load_factor) - step.F).norm(), 1e-9 * step.F.norm()) << i;

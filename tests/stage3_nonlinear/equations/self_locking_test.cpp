@@ -71,10 +71,10 @@ class Locking : public testing::Test {
 
 const std::string spring = R"({"type": "linear", "k": 1000})";
 /// The same stiffness up to far beyond the forces here: no linear solve does it.
-const std::string bilinear = R"({"type": "bilinear", "k": 1000, "F_yield": 1e9, "k_yield": 1000})";
+const std::string never_yields = R"({"type": "bilinear", "k": 1000, "F_yield": 1e9, "k_yield": 1000})";
 
 TEST_F(Locking, IsSolvedOnBothSidesOfTheLevelAndSaidBeyondIt) {
-  for (const auto& law : {spring, bilinear})
+  for (const auto& law : {spring, never_yields})
     for (const double mu : {0.1, 0.3, 0.49, 0.499, 0.501, 0.6, 0.9, 0.99}) {
       run(mu, law);
       EXPECT_NEAR(force() * (2 + k / rigid - 2 * mu) / k, 1, 1e-8) << mu;
@@ -91,7 +91,7 @@ TEST_F(Locking, IsSolvedOnBothSidesOfTheLevelAndSaidBeyondIt) {
 
 TEST_F(Locking, BeyondTheTangentsLevelThereIsNoSolutionAndTheMessageNamesTheFriction) {
   // F (2 - 2 mu) = k has no F > 0 for mu > 1, and pulled without friction F (2) = k none below zero.
-  for (const auto& law : {spring, bilinear})
+  for (const auto& law : {spring, never_yields})
     EXPECT_THAT([&] { run(1.25, law); }, ThrowsMessage<NumericalError>(
                                              AllOf(HasSubstr("did not converge from the last increment"),
                                                    HasSubstr("On the sides that bear, with friction 0.4 times as large "

@@ -3,17 +3,13 @@
 
 #include "common/errors.hpp"
 #include "stage3_nonlinear/laws/law.hpp"
+#include "tests/stage3_nonlinear/scenes.hpp"
 
 namespace fastjoint::stage3::law_refusals_test {
 namespace {
 
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-std::shared_ptr<const Law> read(const std::string& json) {
-  const auto document = input::parse("joint.json", json);
-  return read_law(input::Value(document));
-}
 
 struct Refusal {
   const char* json;
@@ -22,7 +18,7 @@ struct Refusal {
 class LawRefuses : public testing::TestWithParam<Refusal> {};
 
 TEST_P(LawRefuses, WithPointerFoundAndAllowed) {
-  EXPECT_THAT([] { (void)read(GetParam().json); }, ThrowsMessage<InputError>(HasSubstr(GetParam().message)));
+  EXPECT_THAT([] { (void)test::law_of(GetParam().json); }, ThrowsMessage<InputError>(HasSubstr(GetParam().message)));
 }
 
 INSTANTIATE_TEST_SUITE_P(

@@ -9,16 +9,13 @@
 #include <functional>
 #include <map>
 
+#include "tests/stage3_nonlinear/scenes.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
 using testing::ElementsAre;
 using testing::IsEmpty;
-
-std::shared_ptr<const Law> read(const std::string& json) {
-  const auto document = input::parse("joint.json", json);
-  return read_law(input::Value(document));
-}
 
 /// A law by its numbers, and its curve F(delta) written down here once more, clearance included.
 struct Example {
@@ -71,7 +68,7 @@ class EachLaw : public testing::TestWithParam<Example> {
  protected:
   static constexpr double k = 4e4;
   const Example& example_ = GetParam();
-  std::shared_ptr<const Law> law_ = read(json(example_, example_.number));
+  std::shared_ptr<const Law> law_ = test::law_of(json(example_, example_.number));
 };
 
 TEST_P(EachLaw, IsItsCurve) {
@@ -127,7 +124,7 @@ TEST_P(EachLaw, HasTheSlopesOfItsNumbers) {
       expect(name, 1e-5 * std::max(1e-3, example_.number.at(name)), slopes[1 + i], [&](double h) {
         auto number = example_.number;
         number[name] += h;
-        return read(json(example_, number))->at(c, k, clearance);
+        return test::law_of(json(example_, number))->at(c, k, clearance);
       });
     }
   }
@@ -168,16 +165,16 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(PiecewiseLinearLaw, HasCornersWhereItsSlopeJumps) {
-  const auto law = read(R"({"type": "bilinear", "k": 100, "F_yield": 10, "k_yield": 0})");
+  const auto law = test::law_of(R"({"type": "bilinear", "k": 100, "F_yield": 10, "k_yield": 0})");
   EXPECT_THAT(law->corners(50, 0).value(), ElementsAre(15));
   EXPECT_THAT(law->corners(50, 0.2).value(), ElementsAre(10, 25));
   EXPECT_EQ(law->at(1000, 50, 0).F, 10) << "perfectly plastic";
   EXPECT_EQ(law->at(1000, 50, 0).dF, 0);
-  EXPECT_THAT(read(R"({"type": "linear", "k": 100})")->corners(50, 0).value(), IsEmpty());
+  EXPECT_THAT(test::law_of(R"({"type": "linear", "k": 100})")->corners(50, 0).value(), IsEmpty());
 }
 
 TEST(RigidLaw, DoesNotMovePastItsClearance) {
-  const auto law = read(R"({"type": "rigid"})");
+  const auto law = test::law_of(R"({"type": "rigid"})");
   constexpr double k = 4e4;
   EXPECT_THAT(law->parameters(), IsEmpty());
   EXPECT_THAT(law->corners(k, 0).value(), IsEmpty());

@@ -4,6 +4,7 @@
 
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "tests/stage3_nonlinear/exact_path.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
 
 namespace fastjoint::stage3 {
@@ -13,8 +14,6 @@ using Eigen::MatrixXd;
 using Eigen::Vector2d;
 
 std::shared_ptr<const Law> rigid_law() { return test::law_of(R"({"type": "rigid"})"); }
-
-const PathOptions tight{.initial = {}, .solver = {.tolerance = 1e-13}};
 
 TEST(RigidLaw, IsTheLimitOfStiffLinearOnes) {
   std::mt19937 random(34);
@@ -27,7 +26,7 @@ TEST(RigidLaw, IsTheLimitOfStiffLinearOnes) {
     EXPECT_LT((step.F - stiff.F).norm(), 1e-6 * stiff.F.norm()) << i;
     const Index a = joint.n_directions();
     for (Index j = 0; j < joint.n_planes(); j += 1 + i % 3) EXPECT_TRUE(step.delta.segment(j * a, a).isZero(0)) << i;
-    const auto path = follow(make_equations(joint), {1}, tight);
+    const auto path = follow(make_equations(joint), {1}, test::tight);
     ASSERT_FALSE(path.failure);
     EXPECT_LT((path.steps[0].F - step.F).norm(), 1e-10 * step.F.norm()) << i;
   }
@@ -43,7 +42,7 @@ TEST(RigidLaw, HasAClearance) {
     const ExactPath exact = exact_path(equations, sign);
     ASSERT_EQ(exact.pieces.size(), 2U);
     EXPECT_NEAR(100 * exact.pieces[0].end, g / f, 1e-11);
-    const LoadPath path = follow(equations, {0.3 * sign, sign}, tight);
+    const LoadPath path = follow(equations, {0.3 * sign, sign}, test::tight);
     ASSERT_FALSE(path.failure);
     EXPECT_EQ(path.steps[0].F[1], 0);
     EXPECT_NEAR(path.steps[0].delta[1], sign * 30 * f, 1e-12);
@@ -61,7 +60,7 @@ TEST(RigidLaw, BearsOnOneSideOfTheGround) {
   joint.planes[0].one_sided = true;
   joint.planes[0].clearance = g;
   const JointEquations equations = make_equations(joint);
-  const LoadPath path = follow(equations, {-1, 0.2, 1}, tight);
+  const LoadPath path = follow(equations, {-1, 0.2, 1}, test::tight);
   ASSERT_FALSE(path.failure);
   EXPECT_NEAR(path.steps[0].delta[0], -10 / s, 1e-13);
   EXPECT_NEAR(path.steps[1].delta[0], 2 / s, 1e-13);
@@ -76,7 +75,7 @@ TEST(RigidLaw, HasACircleForAClearance) {
   test::load_discs(joint, 0, Vector2d(6, -8));
   test::add_fastener(joint, {{0, 0}}, rigid_law(), true);
   joint.planes[0].clearance = g;
-  const LoadPath path = follow(make_equations(joint), {0.2, 1}, tight);
+  const LoadPath path = follow(make_equations(joint), {0.2, 1}, test::tight);
   ASSERT_FALSE(path.failure);
   EXPECT_LT((path.steps[0].delta - Vector2d(1.2, -1.6) / s).norm(), 1e-12);
   EXPECT_LT((path.steps[1].F - (10 - s * g) * Vector2d(0.6, -0.8)).norm(), 1e-11);

@@ -19,7 +19,6 @@ using Eigen::VectorXd;
 using test::ground;
 using testing::ElementsAre;
 
-const PathOptions tight{{}, {.tolerance = 1e-12, .max_iterations = 500}};
 constexpr ContactEvent closes(Index plane) { return {plane, CornerKind::contact, false}; }
 constexpr ContactEvent opens(Index plane) { return {plane, CornerKind::contact, true}; }
 
@@ -96,11 +95,11 @@ TEST(Events, AreToldByName) {
 
 TEST(Events, EqualGapsCloseTogetherAndSmallerOnesBefore) {
   for (const auto& law : {test::linear_law(3000), test::power_law(3000, 0.7)}) {
-    const LoadPath together = follow_events(make_equations(strands(law, {0.01, 0.01, 0.01})), tight);
+    const LoadPath together = follow_events(make_equations(strands(law, {0.01, 0.01, 0.01})), test::tight);
     ASSERT_EQ(together.steps.size(), 2U);
     EXPECT_NEAR(300 * together.steps[0].load_factor, 200 * 0.01, 1e-9);
     EXPECT_THAT(together.steps[0].events, ElementsAre(closes(0), closes(1), closes(2)));
-    const LoadPath pair = follow_events(make_equations(strands(law, {0.02, 0.01, 0.02})), tight);
+    const LoadPath pair = follow_events(make_equations(strands(law, {0.02, 0.01, 0.02})), test::tight);
     ASSERT_EQ(pair.steps.size(), 3U);
     EXPECT_NEAR(300 * pair.steps[0].load_factor, 200 * 0.01, 1e-9);
     EXPECT_THAT(pair.steps[0].events, ElementsAre(closes(1)));
@@ -132,7 +131,7 @@ TEST(Events, LostContactIsAnEventToo) {
   for (const auto& law : {test::linear_law(100), test::power_law(100, 0.8)}) {
     const JointEquations equations = test::equations_of(
         s * Eigen::Matrix2d{{2, -1}, {-1, 2}}, Q * Eigen::Vector2d(1, -r), {{test::linear_law(K), g1}, {law, g2}});
-    const LoadPath path = follow_events(equations, tight);
+    const LoadPath path = follow_events(equations, test::tight);
     ASSERT_EQ(path.steps.size(), 4U);
     EXPECT_THAT(path.steps[0].events, ElementsAre(closes(1)));
     EXPECT_THAT(path.steps[1].events, ElementsAre(closes(0)));
@@ -148,7 +147,7 @@ void expect_all_events(const JointEquations& equations, const LoadPath& path, bo
   ASSERT_FALSE(path.failure) << "joint " << joint;
   const ContactCorners corners(equations);
   const double scale = force_scale(equations, 1);
-  Walk walk(equations, tight);
+  Walk walk(equations, test::tight);
   double begin = first_load_factor;
   for (const auto& step : path.steps) {
     EXPECT_LE(step.residual, 1e-10) << "joint " << joint;
@@ -192,7 +191,7 @@ TEST_P(RandomEvents, AreAllFound) {
   Index events = 0;
   for (int i = 0; i < joints; ++i) {
     const JointEquations equations = make_equations(test::random_joint(random, GetParam()));
-    const LoadPath path = follow_events(equations, tight);
+    const LoadPath path = follow_events(equations, test::tight);
     events += path.steps.size() - 1;
     expect_all_events(equations, path, GetParam().floating, samples, i);
   }
@@ -221,7 +220,7 @@ TEST(Events, OfPiecewiseLinearJointsAreTheCornersOfTheExactPath) {
       if (exact.pieces[k].begin > first_load_factor && passed(exact.pieces[k]) != passed(exact.pieces[k - 1]))
         loads.push_back(exact.pieces[k].begin);
     }
-    const LoadPath found = follow_events(equations, tight);
+    const LoadPath found = follow_events(equations, test::tight);
     ASSERT_EQ(found.steps.size(), loads.size() + 1) << "joint " << i;
     for (std::size_t k = 0; k < loads.size(); ++k) EXPECT_NEAR(found.steps[k].load_factor, loads[k], 1e-8) << i;
   }
@@ -232,7 +231,7 @@ TEST(Events, ClearanceOfDiscsWithTwoDirectionsIsACircle) {
   constexpr double s_x = 1000, s_y = 500, q_x = 30, q_y = 40, g = 0.05;
   for (const auto& law : {test::linear_law(2000), test::power_law(300, 0.5)}) {
     const Eigen::Matrix2d S_ud = Eigen::Vector2d(s_x, s_y).asDiagonal();
-    const LoadPath path = follow_events(test::equations_of(S_ud, Eigen::Vector2d(q_x, q_y), {{law, g}}), tight);
+    const LoadPath path = follow_events(test::equations_of(S_ud, Eigen::Vector2d(q_x, q_y), {{law, g}}), test::tight);
     ASSERT_EQ(path.steps.size(), 2U);
     EXPECT_THAT(path.steps[0].events, ElementsAre(closes(0)));
     EXPECT_NEAR(path.steps[0].load_factor, g / std::hypot(q_x / s_x, q_y / s_y), 1e-10);
@@ -248,7 +247,7 @@ TEST(Events, OfDiscsWithTwoDirectionsAreOnTheSideThatBears) {
     const Eigen::Vector2d q = 100 * Eigen::Vector2d(number(random), number(random));
     const Eigen::Matrix2d S_ud = 1000 * Eigen::Vector2d(number(random), number(random)).asDiagonal();
     const JointEquations equations = test::equations_of(S_ud, q, {{test::linear_law(3000), 0.05 * number(random)}});
-    const LoadPath path = follow_events(equations, tight);
+    const LoadPath path = follow_events(equations, test::tight);
     if (path.steps.size() < 2) continue;
     const double k = equations.contacts[0].stiffness;
     EXPECT_NEAR(contact_state(equations, path.steps[0].c).along(&Response::dF, 0), 3000 / (3000 + k), 1e-12) << i;

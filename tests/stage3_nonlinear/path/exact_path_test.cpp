@@ -17,8 +17,6 @@ namespace {
 using Eigen::VectorXd;
 using test::ground;
 
-const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 500}};
-
 /// Largest residual of all laws at a load factor, relative to the load.
 double residual(const JointEquations& equations, const ExactPath& path, double load_factor) {
   const auto state = contact_state(equations, path.at(load_factor));
@@ -138,7 +136,7 @@ TEST_P(RandomPaths, EqualWhatTheSolversFind) {
       std::vector<double> factors;
       for (int k = 0; k < 3; ++k)
         factors.push_back(path.sign * path.reach() * std::uniform_real_distribution<double>(0.01, 1)(random));
-      const LoadPath solved = follow(equations, factors, tight);
+      const LoadPath solved = follow(equations, factors, test::tight);
       EXPECT_FALSE(solved.failure) << "joint " << i;
       for (const auto& step : solved.steps) {
         const auto state = contact_state(equations, path.at(step.load_factor));
@@ -187,7 +185,7 @@ TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
       const ExactPath path = exact_path(equations, sign);
       ASSERT_EQ(path.reach(), 1) << "joint " << i;
       for (const auto& piece : path.pieces) EXPECT_LE(residual(equations, path, sign * piece.end), 1e-12);
-      const LoadPath solved = follow(equations, {0.3 * sign, 0.7 * sign, sign}, tight);
+      const LoadPath solved = follow(equations, {0.3 * sign, 0.7 * sign, sign}, test::tight);
       EXPECT_FALSE(solved.failure) << "joint " << i;
       for (const auto& step : solved.steps) {
         const auto state = contact_state(equations, path.at(step.load_factor));

@@ -58,12 +58,12 @@ TEST(Instability, CountsWithFrictionToo) {
 }
 
 /// Two fasteners of 30 hold a sheet that nothing else holds; without stiffness behind yield 60 is the limit.
-const Members plastic{{"laws", R"({"lin": {"type": "bilinear", "k": 1000, "F_yield": 30, "k_yield": 0}})"}};
+const Members plastic_lap{{"laws", R"({"lin": {"type": "bilinear", "k": 1000, "F_yield": 30, "k_yield": 0}})"}};
 
 class LimitLoad : public Run {
  protected:
   void load(double force, const std::string& increments, const std::string& method) {
-    Members members = plastic;
+    Members members = plastic_lap;
     members["loads"] = fmt::format(R"([{{"external": "a:P", "force": {}}}])", force);
     members["increments"] = increments;
     members["solver"] = fmt::format(R"({{"method": "{}"}})", method);
@@ -149,7 +149,7 @@ TEST_F(LimitLoad, OfThreeFastenersIsNamedWhateverTheSolver) {
 
 /// A sheet that only its level fastener holds, but for rounding of 2e-11: no load goes there.
 TEST_F(LimitLoad, RoundingCarriesNothing) {
-  Members members = plastic;
+  Members members = plastic_lap;
   members["fasteners"] = R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"}])";
   const auto b = test::spring_plate(1, 0, {{0, ground, 1000}});
   auto a = test::spring_plate(1, 1, {{0, 1, 1000}, {0, ground, 2e-8}});
@@ -167,7 +167,7 @@ TEST_F(LimitLoad, RoundingCarriesNothing) {
 
 /// Slip is level too, but no end: the fastener bears behind it.
 TEST_F(LimitLoad, IsNotWhereAFastenerSlips) {
-  Members members = plastic;
+  Members members = plastic_lap;
   members["laws"] = R"({"lin": {"type": "four stage", "k_stick": 1000, "F_slip": 10, "slip": 0.1, "k_bearing": 1000,
                                 "F_yield": 40, "k_yield": 0}})";
   members["increments"] = R"("events")";
@@ -179,7 +179,7 @@ TEST_F(LimitLoad, IsNotWhereAFastenerSlips) {
 
 TEST_F(LimitLoad, IsNotWhereThePlatesHoldOn) {
   // Plastic fasteners are not open ones: sheets that hold themselves go on beyond.
-  Members members = plastic;
+  Members members = plastic_lap;
   members["fasteners"] = R"([{"id": "f1", "between": ["a:1", "b:1"], "law": "lin"}])";
   write(members,
         {test::spring_plate(1, 1, {{0, 1, 1000}, {0, ground, 50}}), test::spring_plate(1, 0, {{0, ground, 1000}})});

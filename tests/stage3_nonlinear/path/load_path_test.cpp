@@ -15,8 +15,6 @@ using Eigen::VectorXd;
 using test::ground;
 using testing::ElementsAre;
 
-const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 200}};
-
 /// Two fasteners K through two equal chains of segment flexibility f, the first pulled by P beyond fastener
 /// 2, the second held before fastener 1; fastener 2 has a gap g. From delta_2 - delta_1 = f (F_1 - F_2):
 /// open: F = (P, 0), delta_2 = P (1/K + f), so that contact comes at P* = g / (1/K + f); beyond: F_2 = (P -
@@ -34,7 +32,7 @@ class GapAtTheSecondFastener : public testing::Test {
 };
 
 TEST_F(GapAtTheSecondFastener, ContactComesAtTheLoadOfTheClosedForm) {
-  const LoadPath path = follow(equations(test::linear_law(K)), {0.5, 1 - 1e-9, 1, 1 + 1e-9, 2, 3, 0.5}, tight);
+  const LoadPath path = follow(equations(test::linear_law(K)), {0.5, 1 - 1e-9, 1, 1 + 1e-9, 2, 3, 0.5}, test::tight);
   ASSERT_FALSE(path.failure);
   for (const auto& step : path.steps) {
     const double P = step.load_factor * contact_load;
@@ -52,7 +50,7 @@ TEST_F(GapAtTheSecondFastener, ContactComesAtTheLoadOfTheClosedForm) {
 TEST_F(GapAtTheSecondFastener, PowerLawHasItsClosedForm) {
   // (P - F_2)(1/K + f) - f F_2 = g + (F_2 / A)^2 for n = 1/2: a quadratic in F_2.
   constexpr double A = 300;
-  const LoadPath path = follow(equations(test::power_law(A, 0.5)), {0.9, 1.2, 5, -5}, tight);
+  const LoadPath path = follow(equations(test::power_law(A, 0.5)), {0.9, 1.2, 5, -5}, test::tight);
   ASSERT_FALSE(path.failure);
   const auto closed_form = [&](double P) {
     const double a = 1 / (A * A), b = 1 / K + 2 * f, c = g - P * (1 / K + f);
@@ -66,7 +64,7 @@ TEST_F(GapAtTheSecondFastener, PowerLawHasItsClosedForm) {
 
 TEST_F(GapAtTheSecondFastener, CubicIsShiftedByTheGap) {
   const auto cubic = test::cubic_law({0.01, 0.02, 0.04}, {9.0, 15.0, 20.0});
-  const LoadPath path = follow(equations(cubic), {1.5}, tight);
+  const LoadPath path = follow(equations(cubic), {1.5}, test::tight);
   ASSERT_FALSE(path.failure);
   const auto& step = path.steps[0];
   EXPECT_GT(step.delta[1], g);
@@ -126,7 +124,7 @@ TEST(LoadPath, ReversedLoadMirrorsOddLaws) {
   std::mt19937 random(33);
   for (int i = 0; i < 50; ++i) {
     const JointEquations equations = make_equations(test::random_joint(random, {.cubics = true}));
-    const LoadPath path = follow(equations, {1, -1}, tight);
+    const LoadPath path = follow(equations, {1, -1}, test::tight);
     ASSERT_FALSE(path.failure) << "joint " << i;
     EXPECT_LT((path.steps[0].F + path.steps[1].F).norm(), 1e-9 * force_scale(equations, 1)) << "joint " << i;
   }
@@ -137,7 +135,7 @@ TEST(LoadPath, UnloadingReturnsTheWayItCame) {
   std::mt19937 random(35);
   for (int i = 0; i < 50; ++i) {
     const JointEquations equations = make_equations(test::random_joint(random, {.friction = true}));
-    const LoadPath path = follow(equations, {0.5, 1, 0.5, 0}, tight);
+    const LoadPath path = follow(equations, {0.5, 1, 0.5, 0}, test::tight);
     ASSERT_FALSE(path.failure) << "joint " << i;
     EXPECT_LT((path.steps[2].F - path.steps[0].F).norm(), 1e-9 * force_scale(equations, 1)) << "joint " << i;
     EXPECT_EQ(path.steps[3].F.norm(), 0) << "joint " << i;
@@ -216,7 +214,7 @@ TEST(LoadPath, SmallStepsReachWhatOneStepWithFewIterationsDoesNot) {
     const JointEquations equations = make_equations(test::random_joint(random, {}));
     const PathOptions few{{}, {.tolerance = 1e-10, .max_iterations = 3}};
     const LoadPath path = follow(equations, {1}, few);
-    const LoadPath enough = follow(equations, {1}, tight);
+    const LoadPath enough = follow(equations, {1}, test::tight);
     ASSERT_FALSE(enough.failure);
     if (path.failure) continue;
     // More than every start of both solvers in one step.
@@ -253,7 +251,7 @@ TEST_F(FloatingInItsGaps, ForcesAreFoundAndThePlaceIsSaidToBeOpen) {
 TEST_F(FloatingInItsGaps, IsDeterminedOnceTheSheetHasStretched) {
   // It bears when the stretch exceeds both gaps: F = (-T, T), (P - T)/k2 = 2 g + T (1/kd + 2/K).
   const double P = 100, g = 0.01;
-  const LoadPath path = follow(make_equations(joint(doubler(), g)), {P}, tight);
+  const LoadPath path = follow(make_equations(joint(doubler(), g)), {P}, test::tight);
   ASSERT_FALSE(path.failure);
   const double T = (P / 2000 - 2 * g) / (1. / 2000 + 1. / 1000 + 2. / 500);
   EXPECT_NEAR(path.steps[0].F[0], -T, 1e-10);

@@ -8,7 +8,6 @@
 namespace fastjoint::stage3::unloading_test {
 namespace {
 
-const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 200}};
 const std::vector<double> factors{0.4, 1, 0.4, 0, -0.4};
 
 /// Without friction a joint's forces are unique; laws are odd.
@@ -18,7 +17,7 @@ TEST(Unloading, BringsForcesBackTheWayTheyCame) {
   for (int trial = 0; trial < 60; ++trial) {
     const auto joint = test::random_joint(random, {.cubics = trial % 3 == 0, .piecewise = trial % 2 == 1});
     const auto equations = make_equations(joint);
-    for (const auto& path : {follow(equations, factors, tight), follow(equations, factors, tight)}) {
+    for (const auto& path : {follow(equations, factors, test::tight), follow(equations, factors, test::tight)}) {
       ASSERT_FALSE(path.failure) << trial;
       ASSERT_EQ(path.steps.size(), factors.size()) << trial;
       const auto F = [&](Index step) { return path.steps[step].F; };

@@ -18,8 +18,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using test::NamedJoint;
 
-const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 200}};
-
 /// A number of the joint, how to change it, and the derivative of the forces that is claimed.
 struct Number {
   std::string name;
@@ -63,7 +61,7 @@ struct Solution {
 class Differences {
  public:
   explicit Differences(NamedJoint joint) : joint_(std::move(joint)), equations_(joint_.equations()) {
-    path_ = follow(equations_, {joint_.load_factor}, tight);
+    path_ = follow(equations_, {joint_.load_factor}, test::tight);
     if (path_.failure) return;
     const PathStep& at = path_.steps[0];
     c_ = VectorXd(at.F.size());

@@ -19,7 +19,6 @@ using test::ground;
 using testing::Each;
 using testing::ElementsAre;
 
-const PathOptions tight{{}, {.tolerance = 1e-13, .max_iterations = 200}};
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Solved {
@@ -30,7 +29,7 @@ struct Solved {
 
 Solved solved(const JointModel& joint, const std::vector<double>& load_factors) {
   const JointEquations equations = make_equations(joint);
-  Solved result{follow(equations, load_factors, tight), joint_numbers(joint), {}};
+  Solved result{follow(equations, load_factors, test::tight), joint_numbers(joint), {}};
   for (const auto& step : result.path.steps)
     result.by.push_back(test::sensitivity_at(result.numbers, test::point_of(equations, step)));
   return result;
