@@ -221,7 +221,7 @@ def random_joints(folder):
     """Solved in balance, to the same state by each solver, with energy that only falls; along one direction the increments between reversals
     change nothing."""
     n_remember, falls = 0, []
-    for seed in range(40):
+    for seed in range(20):
         joint = random_joint(folder, seed)
         states = []
         for method in ("hybridsj", "damped newton"):
@@ -249,7 +249,7 @@ def random_joints(folder):
             falls.append(np.log2(off[1] / off[2]))
     # Of errors in proportion to the increment those of 4 and 8 parts, less that of 16, are as 3 to 1.
     print(f"along x and y the change by increments falls by 2 to the power of {np.mean(falls):.2f}, log2(3) = 1.58 if of order 1, in {len(falls)} joints")
-    assert n_remember > 50 and len(falls) > 10 and 1.2 < np.mean(falls) < 2.2, (n_remember, falls)
+    assert n_remember > 25 and len(falls) > 5 and 1.2 < np.mean(falls) < 2.2, (n_remember, falls)
 
 
 def main():

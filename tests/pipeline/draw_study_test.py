@@ -74,7 +74,7 @@ def check_picture(path):
 
 
 def pictures(folder):
-    for name, kind, top in (("random", "force", 20), ("random", "peak", 2), ("random", "displacement", 20), ("few", "force", 1),
+    for name, kind, top in (("random", "peak", 2), ("random", "displacement", 20), ("few", "force", 1),
                             ("grid", "force", 2), ("two", "force", 20), ("one", "force", 20)):
         picture = folder / f"{name}_{kind}.png"
         done = run_script("draw/draw_study", folder / f"{name}.study.h5", "-o", picture, "--of", kind, "--top", top)

@@ -177,7 +177,7 @@ def rate_in_waves(folder):
 def error_bars(folder):
     """Errors of random joints over 1.5 and 2 times the error bar and a thousandth of the peak. Half of the joints is in contact. What
     two fine meshes differ by is taken off the error; the short run has one, of two pieces."""
-    seeds, pieces = (range(300), (6, 3)) if SWEEP else (range(24), (2,))
+    seeds, pieces = (range(300), (6, 3)) if SWEEP else (range(12), (2,))
     waves = {2: 20, 3: 28, 6: 48}
     ratios, widths, refused = [], [], 0
     for seed in seeds:

@@ -14,13 +14,14 @@
 #include "stage3_nonlinear/results/increments.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
 TEST_F(ContactJoint, AThousandAreSolvedFromNothingAndHaveOneSolution) {
   Index most = 0;
-  for (int i = 0; i < 1000; ++i) {
+  for (int i = 0; i < test::scenes(1000); ++i) {
     const JointModel joint = random_contact_joint(random_, kind(i));
     const JointEquations equations = make_equations(joint);
     const double scale = force_scale(equations, 1);
@@ -81,7 +82,7 @@ TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
 /// other: fasteners that do not touch carry nothing, exactly.
 TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
   int loose = 0;
-  for (int i = 0; i < 80; ++i) {
+  for (int i = 0; i < test::scenes(80); ++i) {
     ContactKind its = kind(i);
     its.gaps = decades(random_, 0.1, 100), its.mu = i % 4 == 0 ? 0.3 : 0;
     JointModel joint = random_contact_joint(random_, its);
@@ -98,7 +99,7 @@ TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
       ++loose;
     }
   }
-  EXPECT_GT(loose, 20);
+  EXPECT_GT(loose, test::scenes(20));
 }
 
 /// Friction leaves no convex function. Joints are still solved, whatever the coefficient, and hardly one has other
@@ -106,7 +107,7 @@ TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
 TEST_F(ContactJoint, WithFrictionAreSolvedFromNothingAndFromFarAway) {
   for (const double mu : {0.15, 0.3, 0.6, 1.0, 2.0}) {
     int different = 0;
-    for (int i = 0; i < 40; ++i) {
+    for (int i = 0; i < test::scenes(40); ++i) {
       ContactKind its = kind(i);
       its.mu = mu;
       const JointEquations equations = make_equations(random_contact_joint(random_, its));
@@ -162,7 +163,7 @@ TEST_F(ContactJoint, OfLooseFastenersTakeFewStepsWithFriction) {
 
 /// Laws that end level: a hundredth of a percent below the bound there is a solution, above it there is none.
 TEST_F(ContactJoint, HaveTheLimitLoadThatRigidMotionsTell) {
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::scenes(60); ++i) {
     ContactKind its = kind(i);
     its.floating = true, its.gaps = 0.01, its.mu = i % 5 == 0 ? 0.2 : 0;
     JointModel joint = random_contact_joint(random_, its);
@@ -237,7 +238,7 @@ TEST_F(ContactJoint, AreUnstableWhereTheirTangentHasSuchEigenvalues) {
 /// Krylov's spaces of large tangents tell whether eigenvalues must be counted; the count is that of all eigenvalues.
 TEST_F(ContactJoint, LargeOnesAreUnstableWhereTheirTangentHasSuchEigenvalues) {
   int unstable = 0, stable = 0;
-  for (int i = 0; i < 16; ++i) {
+  for (int i = 0; i < test::scenes(16); ++i) {
     ContactKind its{24, 2, i % 2 == 0, decades(random_, 1e-4, 1e2), decades(random_, 0.1, 20), i % 4 < 2};
     const JointEquations equations = make_equations(random_contact_joint(random_, its));
     ASSERT_GT(equations.n_unknowns(), 400);
@@ -245,8 +246,8 @@ TEST_F(ContactJoint, LargeOnesAreUnstableWhereTheirTangentHasSuchEigenvalues) {
     if (!found) continue;
     (*found > 0 ? unstable : stable) += 1;
   }
-  EXPECT_GE(unstable, 3);
-  EXPECT_GE(stable, 3);
+  EXPECT_GE(unstable, test::scenes(3));
+  EXPECT_GE(stable, test::scenes(3));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/exact_path.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace fastjoint::stage3::exact_path_test {
 namespace {
@@ -160,7 +161,7 @@ INSTANTIATE_TEST_SUITE_P(
 /// own.
 TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
   std::mt19937 random(83);
-  for (int i = 0; i < 100; ++i) {
+  for (int i = 0; i < test::scenes(100); ++i) {
     auto laws = test::random_joint(random, {.piecewise = true});
     const int n = static_cast<int>(laws.planes.size());
     test::Lap lap{test::chain(n, 1, 1e4, {{n - 1, n, 1e4}, {0, ground, 1e3}}),
@@ -202,7 +203,7 @@ TEST(ExactPath, EndsWhereFrictionTurnsItBack) {
   for (const double mu : {0.5, 1.0, 2.0, 4.0}) {
     std::mt19937 random(82);
     int ended = 0;
-    for (int i = 0; i < 100; ++i) {
+    for (int i = 0; i < test::scenes(100); ++i) {
       auto joint = test::random_joint(random, {.friction = true, .piecewise = true});
       for (Index j = 0; j < std::ssize(joint.fasteners); ++j) test::set_friction(joint, j, -mu);
       const JointEquations equations = make_equations(joint);

@@ -11,6 +11,7 @@
 
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
+#include "tests/support/sweep.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -20,7 +21,7 @@ namespace {
 TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
   const PathOptions tight{{}, {.tolerance = 1e-13}};
   int events = 0;
-  for (int i = 0; i < 24; ++i) {
+  for (int i = 0; i < test::scenes(24); ++i) {
     const JointModel joint = random_contact_joint(random_, {1 + i % 4, 1 + i % 2, false, decades(random_, 0.01, 1)});
     const JointEquations equations = make_equations(joint);
     const ContactCorners corners(equations);
@@ -58,7 +59,7 @@ TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
       begin = step.load_factor;
     }
   }
-  EXPECT_GT(events, 60);
+  EXPECT_GE(events, test::scenes(60));
 }
 
 /// What rims do between increments is told at the next, and undone on the way back.
@@ -85,7 +86,7 @@ TEST_F(ContactJoint, TellWhatTheirRimsHaveDoneByAnIncrement) {
 /// The search for loss of full contact goes as far as the increments, and finds what increments at events find.
 TEST_F(ContactJoint, LoseFullContactAtTheEventsUpToTheirLargestIncrement) {
   int lost = 0, kept = 0;
-  for (int i = 0; i < 60; ++i) {
+  for (int i = 0; i < test::scenes(60); ++i) {
     const JointEquations equations = make_equations(random_contact_joint(random_, kind(i)));
     const LoadPath path = follow(equations, {0.2, 0.4, 0.1}, {}), events = follow_events(equations, {});
     const auto found = search_interference(equations, {}, path);
@@ -104,8 +105,8 @@ TEST_F(ContactJoint, LoseFullContactAtTheEventsUpToTheirLargestIncrement) {
       EXPECT_TRUE(at == first || std::abs(at - first) < 1e-6) << i << ": " << at << " and " << first;
     }
   }
-  EXPECT_GT(lost, 10);
-  EXPECT_GT(kept, 10);
+  EXPECT_GT(lost, test::scenes(10));
+  EXPECT_GT(kept, test::scenes(10));
 }
 
 }  // namespace
