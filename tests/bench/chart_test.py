@@ -16,7 +16,7 @@ from pictures import extent, plt, run_and_look  # noqa: E402
 def main(bin_folder):
     os.environ["PATH"] = os.path.abspath(bin_folder) + os.pathsep + os.environ["PATH"]
     with tempfile.TemporaryDirectory() as folder:
-        printed, _ = run_and_look(ROOT / "scripts/measure/stability_chart", "-o", Path(folder) / "stability.png", "--joints", "24")
+        printed, _ = run_and_look(ROOT / "scripts/measure/stability_chart", "-o", Path(folder) / "stability.png", "--joints", "18")
         axis = plt.gcf().axes[0]
         tiles = dict(zip((label.get_text() for label in axis.get_yticklabels()), axis.images[0].get_array()))
         assert extent(Path(folder) / "stability.png", plt.cm.RdYlGn(1.0)[:3])[2] > 0.05, "tiles of 100 % are green"

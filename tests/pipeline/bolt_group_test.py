@@ -235,7 +235,7 @@ def write_row(directions, upright):
                  for i in (0, 1)]
         Path(f"{name}.json").write_text(json.dumps({
             "format": "plate", "version": 1, "analysis": "plane stress", "materials": {"a": {"E": 72400, "nu": 0.33}},
-            "geometry": {"grid": {"x": x, "y": y, "thickness": 1.6}}, "disc_directions": directions, "p": [7, 8],
+            "geometry": {"grid": {"x": x, "y": y, "thickness": 1.6}}, "disc_directions": directions, "p": [5, 6],
             "holes": holes, **more}))
         call("stage1_plate", f"{name}.json", "-o", f"{name}.h5", "--quiet")
         call("stage2_extract", f"{name}.h5", "-o", f"{name}.matrices.h5", "--quiet")

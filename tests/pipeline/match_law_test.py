@@ -3,10 +3,10 @@
 """scripts/match_law: rigs as soft as formulas, numbers and tests, and what docs/choosing.md says of them.
 
 Usage: match_law_test.py FOLDER_OF_PROGRAMS"""
+import contextlib
 import json
 import os
 import re
-import subprocess
 import sys
 import tempfile
 from pathlib import Path
@@ -19,12 +19,14 @@ sys.path[:0] = [str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 from examples import copy_example  # noqa: E402
 from one_hole import PROGRAMS, end_if_missed, near, run  # noqa: E402
+from scripts import run_script  # noqa: E402
 
 GEOMETRY = {"type": "formula", "mode": "fastener only", "shear": "single", "t": [1.6, 1.6], "E": [72400, 72400], "d": 4.8, "E_f": 71000}
 
 
 def match(folder, *words, status=0):
-    done = subprocess.run([ROOT / "scripts/match_law", *map(str, words)], cwd=folder, capture_output=True, text=True)
+    with contextlib.chdir(folder):
+        done = run_script("match_law", *words)
     assert done.returncode == status, (done.stdout, done.stderr)
     return done.stderr if status else done.stdout
 

@@ -139,7 +139,7 @@ def edges(folder):
 
 def contact(folder):
     """A shank that expands more than its sheets fills its hole: an interference as the same gap given; orthotropic sheets at an angle."""
-    spring = {"compression_only": True, "disk": {"E": 2e5, "nu": 0.3}}
+    spring = {"compression_only": True, "harmonics": 16, "disk": {"E": 2e5, "nu": 0.3}}
     for name in "ab":
         scene = {"format": "plate", "version": 1, "analysis": "plane stress", "p": [4, 5], "materials": {"m": {"E": 7e4, "nu": 0.3, "alpha": 1e-6}},
                  "geometry": {"grid": {"x": [-20, 20], "y": [-20, 20], "thickness": 2}}, "disc_directions": ["x", "y"],
