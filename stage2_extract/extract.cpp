@@ -81,7 +81,7 @@ void describe_tips(const std::vector<pfem::CrackTip>& tips, formats::CrackRows& 
 
 void store(const std::vector<formats::PlateCases>& levels, formats::PlateMatrices& a) {
   const auto e = a.n_externals(), m = a.n_discs();
-  for (const auto& [S, R, T, C_t, W, N, K] : levels) {
+  for (const auto& [S, R, T, C_t, W, N, V, K] : levels) {
     a.S_ee.push_back(S.topLeftCorner(e, e));
     a.S_ed.push_back(S.topRightCorner(e, m));
     a.S_dd.push_back(S.bottomRightCorner(m, m));

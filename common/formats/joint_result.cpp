@@ -9,7 +9,7 @@ namespace {
 using h5::any;
 using h5::Column;
 
-const h5::Format result_format{"joint-result", 1, 14};
+const h5::Format result_format{"joint-result", 1, 15};
 
 using V = RimValues;
 using enum Dimension;
@@ -17,17 +17,23 @@ constexpr auto quantities = std::to_array<RimQuantity>({
     {"bearing_load", &V::bearing_load, force, "bearing force of the fastener on the plate along x"},
     {"bearing_load_y", &V::bearing_load_y, force, "bearing force of the fastener on the plate along y"},
     {"bearing_stress", &V::bearing_stress, stress, "magnitude of the bearing force over the projected area d t"},
-    {"bypass_load", &V::bypass_load, force, "force along x that passes the fastener by, tension positive", true},
+    {"bypass_load", &V::bypass_load, force,
+     "force that passes the fastener by, in the direction of the larger principal stress, tension positive", true,
+     false, true},
     {"bypass_error", &V::bypass_error, force, "estimated error of the bypass load", true, true},
     {"peak_hoop", &V::peak_hoop, stress, "largest hoop stress at the rim"},
     {"peak_angle", &V::peak_angle, angle, "angle of the largest hoop stress, counter-clockwise from x"},
     {"peak_error", &V::peak_error, stress, "estimated error of the largest hoop stress", false, true},
     {"gross_concentration", &V::gross_concentration, ratio, "peak over the stress of the gross section", true},
     {"net_concentration", &V::net_concentration, ratio, "peak over the stress of the net section", true},
-    {"net_stress", &V::net_stress, stress,
-     "largest mean stress of the net sections across x next to the hole, tension positive", true},
+    {"net_stress", &V::net_stress, stress, "largest tension over the net sections next to the hole, in any direction",
+     true, false, true},
     {"against_slip", &V::against_slip, angle,
      "part of the contact on which friction acts against the slip that it assumes"},
+    {"bypass_stress", &V::bypass_stress, stress, "bypass load over the gross section, tension positive", true, false,
+     true},
+    {"bypass_direction", &V::bypass_direction, angle, "direction of the bypass load, counter-clockwise from x", true},
+    {"net_direction", &V::net_direction, angle, "direction of the net stress, counter-clockwise from x", true},
 });
 
 /// Datasets of the stresses at a distance from the rims.
@@ -51,7 +57,7 @@ template <class File, class Rims>
 void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index steps, const Units& units) {
   file(group + "hole", a.hole, {any}, "1", "holes, open ones included");
   const Eigen::Index r = a.hole.size();
-  file(group + "sections", a.sections, {r}, "1", "number of sections across x next to each hole");
+  file(group + "sections", a.sections, {r}, "1", "number of sections next to each hole");
   file(group + "center", a.center, {r, 2}, unit(units, 1, 0), "x and y of each hole's centre", h5::or_else(0));
   file(group + "radius", a.radius, {r}, unit(units, 1, 0), "radius of each hole", h5::or_else(0));
   const auto sizes = [&](const char* name, auto& value, int power, const char* meaning) {
@@ -62,10 +68,12 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
   sizes("gross_area", a.gross_area, 2,
         "area of the smaller section across x next to the hole, without it, 0 if there is none");
   sizes("net_area", a.net_area, 2, "net area of this section");
+  sizes("gross_area_y", a.gross_area_y, 2, "the same as gross_area, across y");
+  sizes("net_area_y", a.net_area_y, 2, "the same as net_area, across y");
   for (const auto& each : quantities) {
     const auto row = [&](auto& holes) { return Column{holes, each.value}; };
     file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
-         each.is_error ? h5::infinite_too : h5::Allowed{});
+         each.may_be_unknown || each.is_error ? h5::infinite_too : h5::Allowed{});
   }
   if (auto* around = file.part(group + "sigma_tt", a.stresses)) {
     file(group + "start", around->start, {r + 1}, "1", "first point of each rim, and the number of points",
@@ -271,6 +279,9 @@ void margin_datasets(File& file, Table& a, Eigen::Index steps) {
   file("margin/edge_ratio", a.edge_ratio, {m}, "1",
        "distance of the hole's centre from the edge along its load over its diameter; infinite if it plays no part",
        h5::infinite_too);
+  file("margin/direction", a.direction, {m}, "deg",
+       "direction of the applied load or stress, counter-clockwise from x; infinite if it plays no part",
+       h5::infinite_too.or_else(h5::infinite));
   file("margin/at", a.at, {m}, "1", "row of the increment that governs", h5::integers(0, int(steps) - 1));
   file("margin/unit", a.unit, {m}, "1", "unit of the allowable and of what is applied", h5::or_else(""));
   file("margin/formula", a.formula, {m}, "1", "formula of the allowable", h5::or_else(""));

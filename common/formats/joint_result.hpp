@@ -18,7 +18,9 @@ struct RimValues {
   double peak_hoop = 0, peak_angle = 0, peak_error = 0;
   double against_slip = 0;                                ///< in contact with friction
   double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
-  double net_stress = 0;                                  ///< of the net section in larger tension; tension positive
+  double net_stress = 0;                                  ///< largest tension over the net sections, in any direction
+  double bypass_stress = 0;                               ///< bypass load over the gross section, tension positive
+  double bypass_direction = 0, net_direction = 0;         ///< of these two, degrees
 };
 
 enum class Dimension { force, stress, angle, ratio };
@@ -30,8 +32,9 @@ struct RimQuantity {
   double RimValues::*value;
   Dimension dimension;
   const char* meaning;
-  bool needs_section = false;  ///< unknown for a hole without a section across x
-  bool is_error = false;       ///< infinite for a single degree, which gives no estimate
+  bool needs_section = false;   ///< unknown for a hole without sections
+  bool is_error = false;        ///< infinite for a single degree, which gives no estimate
+  bool may_be_unknown = false;  ///< infinite where it is not known
 };
 /// All members, in the order of the columns.
 [[nodiscard]] std::span<const RimQuantity> rim_quantities();
@@ -52,14 +55,15 @@ struct NearStresses {
 
 /// The holes of a plate, including open ones, at every increment.
 struct RimHistory {
-  std::vector<std::string> hole;               ///< (r); empty if the plate's matrices have no stresses at this degree
-  Eigen::VectorXi sections;                    ///< (r) number of sections across x next to the hole
-  Eigen::MatrixXd center{};                    ///< (r, 2) length
-  Eigen::VectorXd radius{}, thickness{};       ///< (r) length; 0 if not known
-  Eigen::VectorXd gross_area{}, net_area{};    ///< (r) of the smaller section across x next to the hole; 0 without one
-  std::vector<std::vector<RimValues>> values;  ///< (steps) (r)
-  std::optional<RimStresses> stresses{};       ///< if requested
-  std::optional<NearStresses> near{};          ///< if requested
+  std::vector<std::string> hole;             ///< (r); empty if the plate's matrices have no stresses at this degree
+  Eigen::VectorXi sections;                  ///< (r) number of sections next to the hole
+  Eigen::MatrixXd center{};                  ///< (r, 2) length
+  Eigen::VectorXd radius{}, thickness{};     ///< (r) length; 0 if not known
+  Eigen::VectorXd gross_area{}, net_area{};  ///< (r) of the smaller section across x next to the hole; 0 without one
+  Eigen::VectorXd gross_area_y{}, net_area_y{};  ///< (r) the same across y
+  std::vector<std::vector<RimValues>> values;    ///< (steps) (r)
+  std::optional<RimStresses> stresses{};         ///< if requested
+  std::optional<NearStresses> near{};            ///< if requested
 };
 
 /// Forces of fasteners on the m discs of a plate: resultants on its rims along the discs' directions, force.
@@ -166,7 +170,8 @@ struct MarginTable {
   std::vector<std::string> check{}, of{}, formula{}, inputs{}, unit{};  ///< (m)
   Eigen::VectorXd margin{}, allowable{}, applied{};                     ///< (m)
   Eigen::VectorXd edge_ratio{};                                         ///< (m) e/D; infinite if it plays no part
-  Eigen::VectorXi at{};                                                 ///< (m) increment that governs, among all
+  Eigen::VectorXd direction{};  ///< (m) of the applied load or stress, degrees; infinite if it plays no part
+  Eigen::VectorXi at{};         ///< (m) increment that governs, among all
 };
 
 /// The states of a joint under its load increments (schemas/joint-result.md): the converged ones only.

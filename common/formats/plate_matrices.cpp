@@ -14,7 +14,7 @@ using h5::any;
 using h5::Column;
 using h5::or_else;
 
-const h5::Format matrices_format{"plate-matrices", 1, 11};
+const h5::Format matrices_format{"plate-matrices", 1, 12};
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed or_none = h5::Allowed{.text = "numbers >= 0", .low = 0}.or_else(0);
 
@@ -112,6 +112,9 @@ void stress_datasets(File& file, Stresses& a, Eigen::Index n_waves, Eigen::Index
   file("section/net_area", a.net_area, {s}, area, "area of each section less the hole's projected area", h5::positive);
   file("section/force", a.section_force, {l, s, n_cases}, per_case,
        "normal force over the section in each unit case, tension positive");
+  file("section/shear", a.section_shear, {l, s, n_cases}, per_case,
+       "shear force over the section in each unit case, positive where the shear stress xy is",
+       h5::infinite_too.or_else(h5::infinite));
   file("section/stiffness_error", a.stiffness_error, {l}, "1",
        "estimated relative error of S and C_t at each degree of stress/p, infinite at the plate's lowest",
        h5::not_negative.or_else(0));

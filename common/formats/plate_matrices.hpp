@@ -30,6 +30,7 @@ struct PlateStresses {
   std::vector<std::string> section_hole, section_side;  ///< (s)
   Eigen::VectorXd gross_area, net_area;                 ///< (s) length^2
   std::vector<StressRows> section_force;                ///< l x (s, n_cases), tension positive
+  std::vector<StressRows> section_shear{};              ///< l x (s, n_cases), as the stress xy; infinite: not known
   /// (l) estimated relative error of S and C_t, 0 if not given; that of a section's force is up to its square root
   Eigen::VectorXd stiffness_error;
 };

@@ -16,7 +16,7 @@ using Eigen::Index;
 using h5::any;
 using h5::Column;
 
-const h5::Format solution_format{"plate-solution", 5, 3};
+const h5::Format solution_format{"plate-solution", 5, 4};
 constexpr const char* per_case = "per unit of the case";
 const h5::Allowed axis = h5::one_of({"x", "y"});
 
@@ -192,6 +192,9 @@ void case_datasets(File& file, const std::string& group, Cases& a, Index nc, Ind
        "normal "
        "for pressures and tangential for shears, in each unit case");
   file(group + "N", a.N, {s, n_cases}, per_case, "normal force over each section in each unit case, tension positive");
+  file(group + "V", a.V, {s, n_cases}, per_case,
+       "shear force over each section in each unit case, positive where the shear stress xy is",
+       h5::infinite_too.or_else(h5::infinite));
   file(group + "K", a.K, {2 * t, n_cases}, per_case,
        "stress intensity factors of each crack tip in each unit case, K_I of all tips, then K_II", h5::or_else(0));
 }

@@ -27,6 +27,7 @@ struct PlateCases {
   Eigen::MatrixXd W;
   /// (s, n_cases) normal force over every section, tension positive; no rows below the n_stress_degrees highest degrees
   Eigen::MatrixXd N;
+  Eigen::MatrixXd V;  ///< (s, n_cases) shear force over them, positive where the shear stress xy is
   Eigen::MatrixXd K;  ///< (2 t, n_cases) K_I, then K_II of every crack tip
 };
 

@@ -18,11 +18,12 @@ std::vector<std::vector<pfem::Side>> sides_of_edges(const pfem::Edges& edges) {
   return sides;
 }
 
-/// Integral of n.sigma.n t ds over one side of an element as a function of the element's coefficients; n is along x or
-/// y.
+/// Integral of a component of the stress, xx, yy or xy, times t ds over one side of an element as a function of the
+/// element's coefficients.
 Eigen::VectorXd side_force(const pfem::Mesh& mesh, const pfem::Edges& edges, const pfem::Numbering& numbering,
                            const Eigen::Matrix3d& elasticity, const pfem::Side& side, Eigen::Index component) {
-  const auto rule = pfem::gauss(numbering.p + 3);  // the integrand is rational, as in ElementStiffness
+  // The integrand is rational, with poles near the side where the element is as thin as beside a large hole.
+  const auto rule = pfem::gauss(2 * numbering.p + 8);
   const pfem::ElementMap map(mesh, edges, side.element);
   const auto curve = pfem::edge_curve(mesh, edges, side.element, side.local_edge);
   const Eigen::Matrix2Xd at = pfem::along_edge(side.local_edge, rule.x);
@@ -42,18 +43,20 @@ PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mes
                                       const std::vector<rim::Section>& sections) {
   const auto both = sides_of_edges(edges);
   PlateFactor::Functions forces;
-  for (const auto& section : sections) {
+  const auto add = [&](const rim::Section& section, Eigen::Index component) {
     forces.emplace_back();
-    const int axis = rim::coordinate(rim::signed_axis_named(section.side).axis);
     for (const auto& side : section.sides) {
       const auto& sides = both[edges.of_element(side.local_edge, side.element)];
       for (const auto& one : sides) {
         const Eigen::VectorXd force =
-            side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one, axis);
+            side_force(mesh, edges, numbering, elasticity[mesh.material[one.element]], one, component);
         forces.back().push_back(PlateStates::condense(factor, one.element, force / count_of(sides)));
       }
     }
-  }
+  };
+  constexpr Eigen::Index shear = 2;
+  for (const auto& section : sections) add(section, rim::coordinate(rim::signed_axis_named(section.side).axis));
+  for (const auto& section : sections) add(section, shear);
   return forces;
 }
 

@@ -9,8 +9,9 @@
 
 namespace fastjoint::plate {
 
-/// Normal force over every section, tension positive, as a function of the plate's displacements at the degree of a
-/// factor: the integral of the stress, averaged over the elements on both sides of the section.
+/// Normal force over every section, tension positive, then shear force over every section, positive where the shear
+/// stress xy is: functions of the plate's displacements at the degree of a factor, the integrals of the stress,
+/// averaged over the elements on both sides of the section.
 /// @param elasticity Elasticity of each material, stress.
 [[nodiscard]] PlateFactor::Functions section_forces(const PlateFactor& factor, const pfem::Mesh& mesh,
                                                     const pfem::Edges& edges, const pfem::Numbering& numbering,

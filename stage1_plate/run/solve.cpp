@@ -115,12 +115,13 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
 }
 
 /// The states are the unit tractions, then the two of the probe.
+/// @param sections Normal forces over all sections, then shear forces.
 SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
                          const plate::PlateFactor::Functions& sections,
                          const plate::PlateFactor::Functions& intensities) {
   const Unknowns& unknowns = problem.unknowns;
   const Eigen::Index nc = unknowns.n_controlled(), k = unknowns.n_loaded, h = unknowns.n_friction;
-  const Eigen::Index q = problem.T_c.cols(), n_prescribed = unknowns.n_prescribed(), s = count_of(sections);
+  const Eigen::Index q = problem.T_c.cols(), n_prescribed = unknowns.n_prescribed(), s = count_of(sections) / 2;
   auto functions = sections;
   functions.insert(functions.end(), intensities.begin(), intensities.end());
   const Eigen::Index n_functions = count_of(functions);
@@ -145,7 +146,8 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
   for (Eigen::Index i = 0; i < n_functions; ++i)
     for (const auto& part : functions[i]) values.row(i).tail(q) += states.values(part).topRows(q).transpose();
   return {{SR.topLeftCorner(nc, nc), SR.block(0, nc + k, nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
-           work.topLeftCorner(q, q), std::move(W), values.topRows(s), values.bottomRows(n_functions - s)},
+           work.topLeftCorner(q, q), std::move(W), values.topRows(s), values.middleRows(s, s),
+           values.bottomRows(n_functions - 2 * s)},
           {displacement, wave, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), waves(forces, q, 1),
            waves(forces, q + 1, 1), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
            rounding_margin * states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
@@ -183,7 +185,7 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   check_rigid_motions(scene, plate, problem.unknowns);
   const plate::Skeleton skeleton(problem);
   const MemoryNeed need =
-      memory_need(problem, skeleton, degrees(scene), count_of(plate.sections) + 2 * count_of(plate.tips));
+      memory_need(problem, skeleton, degrees(scene), 2 * count_of(plate.sections) + 2 * count_of(plate.tips));
   require_memory(scene.file, scene.p_high, need);
   timings.phase("integrate");
   integrate(scene, plate, problem);

@@ -173,7 +173,7 @@ std::optional<double> negative_compliance(const PlateSolution& plate, const Plat
 
 /// Relative resultant along a direction without support, maximum over all unit cases.
 double residual_force(const PlateSolution& plate, const PlateCases& level, const FreeTranslation& free) {
-  const auto& [S, R, T, C_t, W, N, K] = level;
+  const auto& [S, R, T, C_t, W, N, V, K] = level;
   double worst = std::max(ratio(largest(S * free.motion), scale_of(plate, S)),
                           ratio(largest(W.leftCols(S.rows()).lazyProduct(free.motion) - free.waves.head(W.rows())),
                                 scale_of_motion(plate, level, W.rows())));

@@ -84,6 +84,7 @@ formats::PlateStresses describe_holes(const formats::PlateSolution& plate, bool 
   for (Eigen::Index i = n_p - a.p.size(); i < n_p; ++i) {
     a.other_waves.emplace_back(plate.cases[i].W.bottomRows(plate.n_waves() - k));
     a.section_force.emplace_back(plate.cases[i].N);
+    a.section_shear.emplace_back(plate.cases[i].V);
   }
   a.stiffness_error = stiffness_errors(plate, a.p);
   return a;

@@ -15,7 +15,7 @@
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/csv_field.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
-#include "stage3_nonlinear/results/rim_state.hpp"
+#include "stage3_nonlinear/results/section_stress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -29,6 +29,7 @@ struct Applied {
   double applied = 0, allowable = infinite;
   std::string inputs{};
   double edge_ratio = infinite;
+  double direction = infinite;  ///< degrees
 };
 
 /// One margin: the worst increment of a check of one item.
@@ -62,6 +63,11 @@ double distance_along(const formats::Border& border, const Point& from, const Po
     if (s >= -touch && s <= 1 + touch && r > 0) nearest = std::min(nearest, r);
   }
   return nearest;
+}
+
+/// Direction of a force, degrees counter-clockwise from x; infinite without one.
+double direction_of(const Point& force) {
+  return force.norm() > 0 ? std::atan2(force.y(), force.x()) * 180 / std::numbers::pi : infinite;
 }
 
 class Margins {
@@ -205,7 +211,7 @@ class Margins {
     const bool needs_section = check_->kind == CheckKind::tension || check_->kind == CheckKind::bearing_bypass,
                shears_out = check_->kind == CheckKind::shear_out && has_fastener;
     if (shears_out) require_border(hole);
-    const char* lacks = needs_section && n_sections(s, s.rim_hole[hole.rim]) == 0 ? "it has no section across x"
+    const char* lacks = needs_section && HoleSections(s, hole.rim).number() == 0 ? "it has no sections"
                         : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
                                                : nullptr;
     if (lacks != nullptr) return left_out_[lacks].push_back(hole.name);
@@ -219,7 +225,8 @@ class Margins {
         break;
       case CheckKind::tension:
         add(hole.name, "F_tu", stress, [&](Index step) {
-          return Applied{at_rim(step).net_stress, value, fmt::format("F_tu = {:g}", value)};
+          const formats::RimValues& rim = at_rim(step);
+          return Applied{rim.net_stress, value, fmt::format("F_tu = {:g}", value), infinite, rim.net_direction};
         });
         break;
       case CheckKind::peak:
@@ -230,7 +237,7 @@ class Margins {
         });
         break;
       case CheckKind::bearing_bypass:
-        add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(hole, at_rim(step)); });
+        add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(at_rim(step)); });
         break;
       default:
         break;
@@ -273,7 +280,8 @@ class Margins {
                             joint_.plates[hole.plate].border.is_free.size() > 0;
     const double e = needs_edge ? edge_distance(hole, force) : infinite, value = check_->allowable.at(e / d),
                  A = area(hole, force);
-    return {force.norm(), value * A, fmt::format("F_br = {:g}, d t = {:g}, e/D = {:.4g}", value, A, e / d), e / d};
+    return {force.norm(), value * A, fmt::format("F_br = {:g}, d t = {:g}, e/D = {:.4g}", value, A, e / d), e / d,
+            direction_of(force)};
   }
 
   Applied shear_out(const HoleAt& hole, Index step, double d, double t) const {
@@ -283,15 +291,16 @@ class Margins {
     // Half a hole on a line of symmetry has one of the two planes.
     const double planes = 2 * area(hole, force) / (d * t);
     return {force.norm(), planes * value * t * std::max(e - d / 2 * cos_40, 0.0),
-            fmt::format("F_su = {:g}, t = {:g}, e = {:.5g}, d = {:g}", value, t, e, d), e / d};
+            fmt::format("F_su = {:g}, t = {:g}, e = {:.5g}, d = {:g}", value, t, e, d), e / d, direction_of(force)};
   }
 
   /// The polygon along the ray of the two stresses; both as lengths on that ray.
-  Applied bearing_bypass(const HoleAt& hole, const formats::RimValues& rim) const {
-    const double gross = a_.plates[hole.plate].rims.gross_area[hole.rim];
-    const Point stress(rim.bypass_load / gross, rim.bearing_stress);
+  Applied bearing_bypass(const formats::RimValues& rim) const {
+    const Point stress(rim.bypass_stress, rim.bearing_stress);
+    if (!stress.allFinite()) return {infinite};
     const double allowable = stress.norm() > 0 ? reach(stress.normalized()) : infinite;
-    return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y())};
+    return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y()), infinite,
+            rim.bypass_direction};
   }
 
   /// Distance from the origin to the polygon along a direction.
@@ -328,7 +337,8 @@ MarginTable margins(const JointScene& scene, const JointModel& joint, const Join
   left_out.insert(left_out.end(), all.warnings().begin(), all.warnings().end());
   const Index n = std::ssize(rows);
   MarginTable table;
-  for (VectorXd* each : {&table.margin, &table.allowable, &table.applied, &table.edge_ratio}) each->resize(n);
+  for (VectorXd* each : {&table.margin, &table.allowable, &table.applied, &table.edge_ratio, &table.direction})
+    each->resize(n);
   table.at.resize(n);
   for (Index i = 0; i < n; ++i) {
     const Row& row = rows[i];
@@ -339,7 +349,7 @@ MarginTable margins(const JointScene& scene, const JointModel& joint, const Join
         fmt::format("{}, FS = {:g}, FF = {:g}", row.worst.inputs, row.check->safety_factor, row.check->fitting_factor));
     table.unit.push_back(row.unit);
     table.margin[i] = row.margin, table.allowable[i] = row.worst.allowable, table.applied[i] = row.worst.applied;
-    table.edge_ratio[i] = row.worst.edge_ratio;
+    table.edge_ratio[i] = row.worst.edge_ratio, table.direction[i] = row.worst.direction;
     table.at[i] = int(row.at);
   }
   return table;
@@ -375,9 +385,10 @@ std::string margin_lines(const JointResult& result) {
   for (const Index i : shown)
     text += fmt::format("  {:<20} {:<24} {:>9} {:>12.6g} {:>12.6g}  {}: {}; {}\n", program::one_line(a.check[i]),
                         program::one_line(a.of[i]),
-                        std::isfinite(a.margin[i]) ? fmt::format("{:+.3f}", a.margin[i])
-                        : a.applied[i] > 0         ? "no limit"
-                                                   : "no load",
+                        std::isfinite(a.margin[i]) && a.margin[i] > 1000 ? "> 1000"
+                        : std::isfinite(a.margin[i])                     ? fmt::format("{:+.3f}", a.margin[i])
+                        : a.applied[i] > 0                               ? "no limit"
+                                                                         : "no load",
                         a.allowable[i], a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
   if (n > std::ssize(shown))
     text += fmt::format("  ... of {}; RESULT.h5 and --margins have all\n", program::counted(n, "margin"));
@@ -385,13 +396,14 @@ std::string margin_lines(const JointResult& result) {
 }
 
 std::string margins_csv(const JointResult& result) {
+  const auto known = [](double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; };
   const MarginTable& a = result.margins;
-  std::string text = "joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs\n";
+  std::string text = "joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs,direction\n";
   for (Index i = 0; i < std::ssize(a.check); ++i)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(result.header.name), csv_field(a.check[i]),
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(result.header.name), csv_field(a.check[i]),
                         csv_field(a.of[i]), a.margin[i], a.allowable[i], a.applied[i], csv_field(a.unit[i]),
                         csv_field(result.case_name[result.case_of[a.at[i]]]), increment_number(result, a.at[i]),
-                        csv_field(a.formula[i]), csv_field(a.inputs[i]));
+                        csv_field(a.formula[i]), csv_field(a.inputs[i]), known(a.direction[i]));
   return text;
 }
 

@@ -11,6 +11,7 @@
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/secondary_bending.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
+#include "stage3_nonlinear/results/section_stress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -200,7 +201,7 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
       const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
-      const bool sections = n_sections(joint.plates[i].stresses, hole) > 0;
+      const bool sections = HoleSections(joint.plates[i].stresses, rim).number() > 0;
       rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
         const double value = state.plates[i].rims[rim].*column.value;
         const auto quantity = shown(column);

@@ -11,6 +11,7 @@
 #include "common/count.hpp"
 #include "common/rim/angles.hpp"
 #include "stage3_nonlinear/results/hoop_peak.hpp"
+#include "stage3_nonlinear/results/section_stress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -77,46 +78,39 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
   return opposite > 0.01 * there ? std::vector{direction, direction + 180} : std::vector{direction};
 }
 
-/// Sets the bypass load, its error and the concentrations.
-/// @param forces       Those of all sections of the plate; in a second column those at the degree below, if there is
-/// one.
-/// @param T            Force of the fastener along x, friction included.
+/// Sets the bypass load, its error, the net stress and the concentrations.
+/// @param forces       At the joint's degree, then at the one below, if there is one.
+/// @param T            Force of the fastener, friction included.
 /// @param largest      Largest force on the plate.
 /// @param energy_error Relative error of the plate's fields in the energy norm; resultants of stresses have about the
 ///                     same.
-void read_sections(const formats::PlateStresses& a, const std::string& hole, const Eigen::MatrixXd& forces, double T,
+void read_sections(const HoleSections& sections, const std::vector<SectionForces>& forces, const Eigen::Vector2d& T,
                    double largest, double energy_error, RimState& state) {
-  std::optional<Index> plus, minus;
-  for (int i = 0; i < count_of(a.section_hole); ++i) {
-    if (a.section_hole[i] != hole) continue;
-    if (a.section_side[i] == "+x") plus = i;
-    if (a.section_side[i] == "-x") minus = i;
-  }
-  if (!plus && !minus) return;
-  // The tension is `right` on the side of +x and `left` on that of -x; T along +x is left - right and bears on the side
-  // of +x.
-  const auto bypass = [&](const VectorXd& N) {
-    const double right = plus ? N[*plus] : N[*minus] - T;
-    const double left = minus ? N[*minus] : N[*plus] + T;
-    return T == 0 ? (left + right) / 2 : T > 0 ? right : left;
-  };
-  const VectorXd force = forces.col(0);
-  state.bypass_load = bypass(force);
-  state.bypass_error = forces.cols() > 1
-                           ? std::max(std::abs(bypass(forces.col(1)) - state.bypass_load), energy_error * largest)
-                           : unknown_stress;
-  const Index loaded = plus && (!minus || std::abs(force[*plus]) >= std::abs(force[*minus])) ? *plus : *minus;
-  const auto net = [&](const std::optional<Index>& section) {
-    return section ? force[*section] / a.net_area[*section] : -std::numeric_limits<double>::infinity();
-  };
-  state.net_stress = std::max(net(plus), net(minus));
+  if (sections.number() == 0) return;
+  const auto load = [&](const Principal& stress) { return stress.value * sections.gross_area(stress.direction); };
+  const auto bypass = [&](std::size_t level) { return larger_principal(sections.bypass(forces[level], T, largest)); };
   constexpr double rounding = 1e-9;
-  if (!(std::abs(force[loaded]) > rounding * largest)) return;
+  const Principal passing = bypass(0);
+  state.bypass_load = load(passing);
+  state.bypass_stress = passing.value;
+  if (std::abs(state.bypass_load) > rounding * largest) state.bypass_direction = passing.direction;
+  state.bypass_error = forces.size() > 1
+                           ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest)
+                           : unknown_stress;
+  const Principal net = largest_tension(sections.net(forces[0], T, largest));
+  state.net_stress = net.value;
+  const Principal gross = larger_principal(sections.gross(forces[0], T, largest));
+  const double carried = std::abs(load(gross));
+  // Where sections carry hardly anything of the load, the peak has nothing to do with what they carry.
+  constexpr double hardly = 1e-3;
+  if (!std::isfinite(carried) || !(carried > hardly * std::max(largest, T.norm()))) return;
+  state.net_direction = net.direction;
   // Interference makes stresses without resultants, so that these are errors only.
-  if (forces.cols() > 1 && std::abs(force[loaded]) < state.bypass_error) return;
-  state.in_tension = force[loaded] > 0;
-  state.gross_concentration = state.peak_hoop * a.gross_area[loaded] / std::abs(force[loaded]);
-  state.net_concentration = state.peak_hoop * a.net_area[loaded] / std::abs(force[loaded]);
+  if (forces.size() > 1 && carried < state.bypass_error) return;
+  state.in_tension = gross.value > 0;
+  state.gross_concentration = state.peak_hoop / std::abs(gross.value);
+  const double share = sections.net_share(gross.direction);
+  state.net_concentration = state.gross_concentration * share;
 }
 
 /// Sets the peak, and the values that follow from the pressure around the rim.
@@ -151,10 +145,11 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
                                  const LoadedDiscs& discs, double scale,
                                  const std::vector<std::optional<LoadedRim>>& rims) {
   std::vector<RimState> states;
-  Eigen::MatrixXd forces(a.section_force[level].rows(), level > 0 ? 2 : 1);
-  for (Index i = 0; i < forces.cols(); ++i) forces.col(i) = a.section_force[level - i] * coefficients;
+  std::vector<SectionForces> forces;
+  for (int at = level; at >= std::max(0, level - 1); --at)
+    forces.push_back({a.section_force[at] * coefficients, a.section_shear[at] * coefficients});
   const double largest =
-      std::max({forces.col(0).lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), scale});
+      std::max({forces[0].normal.lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), scale});
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
     state.peak_error = unknown_stress;
@@ -172,17 +167,10 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     const auto found =
         std::ranges::find_if(rims, [&](const auto& rim) { return rim && rim->rim.hole == a.rim_hole[i]; });
     if (found != rims.end()) read_rim(**found, bearing, friction, axes, largest, a.bearing_area.row(i), state);
-    read_sections(a, a.rim_hole[i], forces, bearing[0] + friction[0], largest, std::sqrt(a.stiffness_error[level]),
-                  state);
+    read_sections(HoleSections(a, i), forces, bearing + friction, largest, std::sqrt(a.stiffness_error[level]), state);
     states.push_back(state);
   }
   return states;
-}
-
-int n_sections(const formats::PlateStresses& a, const std::string& hole) {
-  int n = 0;
-  for (int i = 0; i < count_of(a.section_hole); ++i) n += a.section_hole[i] == hole && a.section_side[i].back() == 'x';
-  return n;
 }
 
 formats::RimHistory rims_of(const formats::PlateStresses& a) {
@@ -192,18 +180,16 @@ formats::RimHistory rims_of(const formats::PlateStresses& a) {
                            .center = a.rim_center,
                            .radius = a.rim_radius,
                            .thickness = a.rim_thickness,
-                           .gross_area = VectorXd::Zero(r),
-                           .net_area = VectorXd::Zero(r),
+                           .gross_area = VectorXd(r),
+                           .net_area = VectorXd(r),
+                           .gross_area_y = VectorXd(r),
+                           .net_area_y = VectorXd(r),
                            .values = {}};
   for (Index i = 0; i < r; ++i) {
-    rims.sections[i] = n_sections(a, rims.hole[i]);
-    for (Index s = 0; s < std::ssize(a.section_hole); ++s) {
-      const bool is_across_x = a.section_side[s].ends_with("x"), is_first = rims.net_area[i] == 0;
-      if (a.section_hole[s] != rims.hole[i] || !is_across_x || (!is_first && a.net_area[s] >= rims.net_area[i]))
-        continue;
-      rims.net_area[i] = a.net_area[s];
-      rims.gross_area[i] = a.gross_area[s];
-    }
+    const HoleSections sections(a, i);
+    rims.sections[i] = sections.number();
+    rims.gross_area[i] = sections.gross_area(0), rims.gross_area_y[i] = sections.gross_area(1);
+    rims.net_area[i] = sections.net_area(0), rims.net_area_y[i] = sections.net_area(1);
   }
   return rims;
 }

@@ -41,9 +41,8 @@ struct LoadedDiscs {
 /// A concentration is 0 if the force of its section is within rounding or within the error of the bypass load. The
 /// error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points within 7.5 degrees
 /// of a jump of friction are excluded from the search for the peak if the jump is more than 1 % of the bearing stress
-/// (11.5). The bypass load is the section force along x on the bearing side of the hole; its error is its change from
-/// the degree below, but at least the square root of the relative error of S times the largest force on the plate
-/// (11.6).
+/// (11.5). The error of the bypass load is its change from the degree below, but at least the square root of the
+/// relative error of S times the largest force on the plate (11.6).
 /// @param level    Index in `a` of the joint's degree; the one below, if there is one, gives the errors.
 /// @param coefficients  Of the unit cases, (n_cases).
 /// @param scale    Reference force of the joint's residuals, for rounding.
@@ -51,9 +50,6 @@ struct LoadedDiscs {
 [[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& coefficients,
                                                const LoadedDiscs& discs, double scale,
                                                const std::vector<std::optional<LoadedRim>>& rims);
-
-/// Number of sections normal to x of the plate next to a hole.
-[[nodiscard]] int n_sections(const formats::PlateStresses& a, const std::string& hole);
 
 /// The holes of a plate; their values at every increment are left to the caller.
 [[nodiscard]] formats::RimHistory rims_of(const formats::PlateStresses& a);

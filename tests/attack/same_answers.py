@@ -11,6 +11,7 @@ import numpy as np
 
 import any_angle
 import guises
+import same_derived
 from bench import Fall
 from chain import Chain, File, Refused, Slow
 from ends import Ends, first_words
@@ -197,6 +198,10 @@ class SameAnswers:
         free = "free-within-gaps" in set(original.codes) | set(answers.codes)
         for a, b in pairs:
             self._compare_step(guise, original, answers, turns, a, b, free)
+            if not _is_by_any_angle(guise) and guise.sign > 0 and not free:
+                same_derived.compare_holes(guise, original, answers, turns, (a, b), _rounding_of_forces(original))
+        if not ends_only and not free and not _is_by_any_angle(guise):
+            same_derived.compare_margins(guise, original, answers)
 
     def _compare_step(self, guise, original, answers, turns, a, b, free):
         factors = {"force": guise.force * guise.sign, "length": guise.length * guise.sign}

@@ -25,7 +25,7 @@ void add_stresses(formats::PlateMatrices& plate) {
   a.other_waves = {MatrixXd::Zero(rim.size(), plate.n_cases())};
   a.other_waves[0](0, plate.n_externals()) = -1;
   a.gross_area = a.net_area = Eigen::VectorXd(0);
-  a.section_force = {MatrixXd::Zero(0, plate.n_cases())};
+  a.section_force = a.section_shear = {MatrixXd::Zero(0, plate.n_cases())};
   a.stiffness_error = Eigen::VectorXd::Zero(1);
 }
 

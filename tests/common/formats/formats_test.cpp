@@ -183,6 +183,7 @@ PlateMatrices one_disc() {
   s.rim_center = s.bearing_area = s.rim_modulus = Eigen::MatrixXd::Constant(1, 2, 0.5);
   s.other_waves = {StressRows::Random(others, 1 + loaded)};
   s.section_force = {StressRows::Random(1, 1 + loaded)};
+  s.section_shear = {StressRows::Random(1, 1 + loaded)};
   s.section_side = {"+x"};
   return a;
 }
@@ -212,6 +213,7 @@ TEST(PlateMatrices, WavesReadBack) {
   EXPECT_EQ(b.W, a.W);
   EXPECT_EQ(b.stresses.other_waves, a.stresses.other_waves);
   EXPECT_EQ(b.stresses.section_force, a.stresses.section_force);
+  EXPECT_EQ(b.stresses.section_shear, a.stresses.section_shear);
 }
 
 TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {

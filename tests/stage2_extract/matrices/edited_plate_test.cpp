@@ -115,7 +115,7 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
     for (auto& level : a.cases) {
       level.R = level.R.leftCols(3).eval();
       const auto left = a.n_cases() - a.n_tractions();  // its own column stood behind them
-      for (auto* rows : {&level.W, &level.N}) {
+      for (auto* rows : {&level.W, &level.N, &level.V}) {
         Eigen::MatrixXd rest(rows->rows(), a.n_cases());
         rest << rows->leftCols(left), rows->rightCols(a.n_tractions());
         *rows = rest;
@@ -140,7 +140,7 @@ TEST_F(EditedPlate, DiscsAndCasesOfTheSheet) {
         a.waves.assign(2, {"a", waves, 0.2, 1, 1});
         for (auto& level : a.cases) {
           level.W = Eigen::MatrixXd::Zero(12, a.n_cases());
-          level.N = Eigen::MatrixXd::Zero(level.N.rows(), a.n_cases());
+          level.N = level.V = Eigen::MatrixXd::Zero(level.N.rows(), a.n_cases());
         }
         a.probe.wave = a.probe.moment = a.probe.friction_moment = Eigen::VectorXd::Zero(12);
       },

@@ -11,6 +11,7 @@
 
 #include "stage3_nonlinear/path/walk.hpp"
 #include "tests/stage3_nonlinear/contact_joints.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 #include "tests/support/sweep.hpp"
 
 namespace fastjoint::stage3 {
@@ -19,15 +20,14 @@ namespace {
 /// At its event a rim loses full contact, or has come to touch since a millionth of the load before, and between events
 /// nothing passes a mark, by states solved in between.
 TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
-  const PathOptions tight{{}, {.tolerance = 1e-13}};
   int events = 0;
   for (int i = 0; i < test::scenes(24); ++i) {
     const JointModel joint = random_contact_joint(random_, {1 + i % 4, 1 + i % 2, false, decades(random_, 0.01, 1)});
     const JointEquations equations = make_equations(joint);
     const ContactCorners corners(equations);
-    const LoadPath path = follow_events(equations, tight);
+    const LoadPath path = follow_events(equations, test::tight);
     ASSERT_FALSE(path.failure) << "joint " << i;
-    Walk walk(equations, tight);
+    Walk walk(equations, test::tight);
     double begin = first_load_factor;
     for (const auto& step : path.steps) {
       const VectorXd& c = step.c;

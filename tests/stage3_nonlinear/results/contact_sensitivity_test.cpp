@@ -40,14 +40,13 @@ PlateModel under_traction(PlateModel plate) {
 /// Stiffness is that of differences, and a boundary that moves as one has the same under a traction.
 TEST_F(ContactJoint, HaveTheStiffnessOfDifferences) {
   constexpr double change = 1e-5;
-  const PathOptions tight{{}, {.tolerance = 1e-13}};
   int compared = 0;
   for (int i = 0; i < test::scenes(90); ++i) {
     ContactKind its = kind(i);
     if (i % 3 == 2) its.mu = 0.2;
     JointModel joint = random_contact_joint(random_, its);
     const JointEquations equations = make_equations(joint);
-    const LoadPath path = follow(equations, {1, 1 - change, 1 + change, 1 - change / 2, 1 + change / 2}, tight);
+    const LoadPath path = follow(equations, {1, 1 - change, 1 + change, 1 - change / 2, 1 + change / 2}, test::tight);
     ASSERT_FALSE(path.failure);
     const auto between = [&](std::size_t low, std::size_t high) {
       const PlateState a = joint_state(joint, equations, path.steps[low]).plates[0];
@@ -62,7 +61,8 @@ TEST_F(ContactJoint, HaveTheStiffnessOfDifferences) {
     if (joint.plates[0].external_displacement[0] || its.mu > 0) continue;
     joint.plates[0] = under_traction(joint.plates[0]);
     const JointEquations others = make_equations(joint);
-    const auto other = tangent_stiffness(joint, test::point_of(others, follow(others, {1}, tight).steps.at(0))).at(0);
+    const auto other =
+        tangent_stiffness(joint, test::point_of(others, follow(others, {1}, test::tight).steps.at(0))).at(0);
     EXPECT_EQ(other.external, "a:P");
     EXPECT_NEAR(other.stiffness / stiffness, 1, 1e-7) << "joint " << i;
   }
@@ -77,9 +77,8 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
     ContactKind its = kind(i);
     if (i % 3 == 2) its.mu = 0.2;
     JointModel joint = random_contact_joint(random_, its);
-    const PathOptions options{{}, {.tolerance = 1e-13}};
     const JointEquations equations = make_equations(joint);
-    const LoadPath path = follow(equations, {1}, options);
+    const LoadPath path = follow(equations, {1}, test::tight);
     ASSERT_FALSE(path.failure);
     const Sensitivity by = test::sensitivity_at(joint_numbers(joint), test::point_of(equations, path.steps[0]));
     const MatrixXd& by_gap = by.gap;
@@ -91,7 +90,7 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
       double& gap = joint.fasteners[rim % n].holes[rim / n].gap;  // rims stand plate after plate
       const auto at = [&](double change) {
         gap += change;
-        const LoadPath changed = follow(make_equations(joint), {1}, options);
+        const LoadPath changed = follow(make_equations(joint), {1}, test::tight);
         gap -= change;
         return magnitudes(changed.steps.at(0).F, joint.n_directions());
       };

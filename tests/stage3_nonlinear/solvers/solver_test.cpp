@@ -15,7 +15,7 @@ using Eigen::VectorXd;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
 
-const RootOptions options{.tolerance = 1e-12, .max_iterations = 200};
+const RootOptions root_options{.tolerance = 1e-12, .max_iterations = 200};
 
 /// Rosenbrock's valley as two equations, root (1, 1).
 const RootProblem rosenbrock{
@@ -28,7 +28,7 @@ const RootProblem rosenbrock{
 class Solves : public testing::TestWithParam<bench::Solver> {};
 
 TEST_P(Solves, FindsTheRootOfRosenbrock) {
-  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), options);
+  const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), root_options);
   EXPECT_TRUE(root.converged);
   EXPECT_GT(root.iterations, 0);
   EXPECT_LE(root.residual.cwiseAbs().maxCoeff(), 1e-12);
@@ -36,7 +36,7 @@ TEST_P(Solves, FindsTheRootOfRosenbrock) {
 }
 
 TEST_P(Solves, IsDoneAtTheRoot) {
-  const Root root = GetParam().solve(rosenbrock, Vector2d(1, 1), options);
+  const Root root = GetParam().solve(rosenbrock, Vector2d(1, 1), root_options);
   EXPECT_TRUE(root.converged);
   EXPECT_EQ(root.iterations, 0);
 }
@@ -53,7 +53,7 @@ TEST_P(Solves, SaysThatThereIsNoRoot) {
   const RootProblem none{[](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, 1 + x[0] * x[0]); },
                          [](const VectorXd& x) -> Eigen::MatrixXd { return VectorXd::Constant(1, 2 * x[0]); },
                          {}};
-  const Root root = GetParam().solve(none, VectorXd::Constant(1, 3), options);
+  const Root root = GetParam().solve(none, VectorXd::Constant(1, 3), root_options);
   EXPECT_FALSE(root.converged);
   EXPECT_GE(root.residual[0], 1);
 }
@@ -62,7 +62,7 @@ TEST_P(Solves, StopsWhereTheFunctionHasNoValue) {
   const RootProblem nan{[](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, std::sqrt(-1 - x[0])); },
                         [](const VectorXd&) -> Eigen::MatrixXd { return VectorXd::Constant(1, 1); },
                         {}};
-  const Root root = GetParam().solve(nan, VectorXd::Constant(1, 3), options);
+  const Root root = GetParam().solve(nan, VectorXd::Constant(1, 3), root_options);
   EXPECT_FALSE(root.converged);
   EXPECT_EQ(root.residual[0], std::numeric_limits<double>::infinity());
   EXPECT_EQ(root.ending, Ending::not_finite);
@@ -70,7 +70,7 @@ TEST_P(Solves, StopsWhereTheFunctionHasNoValue) {
 
 TEST_P(Solves, ReportsEveryIterate) {
   std::vector<Root> told;
-  RootOptions reporting = options;
+  RootOptions reporting = root_options;
   reporting.report = [&](const Root& at) { told.push_back(at); };
   const Root root = GetParam().solve(rosenbrock, Vector2d(-1.2, 1), reporting);
   EXPECT_EQ(root.ending, Ending::converged);
@@ -85,7 +85,7 @@ TEST(Newton, SaysThatAConvexFunctionHasNoLeastValue) {
   const RootProblem falls{[&](const VectorXd& x) -> VectorXd { return VectorXd::Constant(1, -1 - slope(x[0])); },
                           [&](const VectorXd& x) -> Eigen::MatrixXd { return VectorXd::Constant(1, slope(x[0])); },
                           [](const VectorXd& r) { return r; }};
-  const Root root = newton_root(falls, VectorXd::Constant(1, 0), options);
+  const Root root = newton_root(falls, VectorXd::Constant(1, 0), root_options);
   EXPECT_FALSE(root.converged);
   EXPECT_EQ(root.ending, Ending::unbounded);
 }
@@ -95,7 +95,7 @@ TEST(Newton, EndsWhereTheResidualStandsStill) {
   const RootProblem stiff{[](const VectorXd& x) -> VectorXd { return x; },
                           [](const VectorXd&) -> Eigen::MatrixXd { return VectorXd::Constant(1, 1e4); },
                           {}};
-  const Root root = newton_root(stiff, VectorXd::Constant(1, 1), options);
+  const Root root = newton_root(stiff, VectorXd::Constant(1, 1), root_options);
   EXPECT_FALSE(root.converged);
   EXPECT_EQ(root.ending, Ending::no_progress);
   EXPECT_LT(root.iterations, 30);
@@ -104,7 +104,7 @@ TEST(Newton, EndsWhereTheResidualStandsStill) {
 TEST_P(Solves, LetsExceptionsOut) {
   const RootProblem throwing{
       [](const VectorXd&) -> VectorXd { throw std::runtime_error("from inside"); }, rosenbrock.jacobian, {}};
-  EXPECT_THAT([&] { (void)GetParam().solve(throwing, Vector2d(0, 0), options); },
+  EXPECT_THAT([&] { (void)GetParam().solve(throwing, Vector2d(0, 0), root_options); },
               ThrowsMessage<std::runtime_error>(HasSubstr("from inside")));
 }
 

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is derived from the forces is the same in another guise too: bearing and net stresses, bypass, margins to 1e-6 of the largest value of
+their column, peaks and concentrations within their error bars. Whatever a number means along x it means along y."""
+import numpy as np
+
+from bench import Fall
+
+SAME = 1e-6  # of the largest value of a column
+ROUNDING = 1e-3  # of the largest in the joint: columns below count as that large, so that 1e-9 of it is nothing
+FORCE, STRESS, RATIO = (1, 0), (1, -2), (0, 0)
+QUANTITIES = {"bearing_stress": STRESS, "bypass_load": FORCE, "bypass_stress": STRESS, "net_stress": STRESS, "peak_hoop": STRESS,
+              "gross_concentration": RATIO, "net_concentration": RATIO}
+
+
+def _differ(guise, what, mine, others, allowed):
+    """@param allowed: difference, one for all or one for each."""
+    both = np.isfinite(mine) & np.isfinite(others)
+    if (np.isfinite(mine) != np.isfinite(others)).any():
+        raise Fall(f"{guise.name}: {what} is known in one guise only: {mine} and {others}")
+    if (np.abs(mine - others) > allowed)[both].any():
+        raise Fall(f"{guise.name}: {what} differs, by more than {allowed}: {mine} and {others}")
+
+
+def _largest(result, names, paths):
+    """Largest finite magnitude of datasets of plates, as far as they are there."""
+    values = [np.ravel(result[f"plates/{name}/{path}"]) for name in names for path in paths if f"plates/{name}/{path}" in result]
+    values = np.abs(np.concatenate(values))
+    return values[np.isfinite(values)].max(initial=0)
+
+
+def compare_holes(guise, original, answers, turns, steps, rounding):
+    """Quantities of all holes at an increment of the original and of the guise.
+
+    @param rounding: force below which nothing is known.
+    """
+    a, b = steps
+    floors = {FORCE: _largest(original.result, turns, ("Pe", "disc/bearing", "traction/force")),
+              STRESS: _largest(original.result, turns, ("rim/peak_hoop", "rim/bearing_stress")), RATIO: 0}
+    if floors[FORCE] < 100 * rounding:
+        return
+    for name, (own, _) in turns.items():
+        of, to = f"plates/{name}/rim/", f"plates/{own}/rim/"
+        if of + "hole" not in original.result or not len(original.result[of + "hole"]):
+            continue
+        order = [list(answers.result[to + "hole"]).index(hole) for hole in original.result[of + "hole"]]
+        error = original.result[of + "peak_error"][a]
+        for quantity, unit in QUANTITIES.items():
+            whole, other = original.result[of + quantity], answers.result[to + quantity]
+            mine, others = whole[a], other[b][order] / (guise.force ** unit[0] * guise.length ** unit[1])
+            allowed = SAME * np.maximum(_largest(original.result, [name], ["rim/" + quantity]), ROUNDING * floors[unit])
+            if quantity == "peak_hoop":
+                allowed = np.maximum(allowed, error)  # ends of contact, on which a peak may sit, are told at points of the rim
+            if unit == RATIO:  # none where a section carries less than a thousandth of the load, or less than its error
+                others = np.where((mine == 0) | (others == 0), mine, others)
+                allowed = allowed + error / np.maximum(np.abs(original.result[of + "peak_hoop"][a]), 1e-300) * np.abs(mine)
+            _differ(guise, f"{quantity} of {name} at increment {a}", mine, others, allowed)
+
+
+def compare_margins(guise, original, answers):
+    """Margins by check, sorted, since names of sheets change; none of what is not loaded but for rounding."""
+    mine, others = (result.get("margin/margin") for result in (original.result, answers.result))
+    if mine is None or others is None:
+        return
+    checks, other_checks = original.result["margin/check"], answers.result["margin/check"]
+    for check in sorted(set(checks) - {"peak"}):
+        x, y = (np.sort(values[np.array([each == check for each in names])]) for values, names in ((mine, checks), (others, other_checks)))
+        if len(x) != len(y):
+            raise Fall(f"{guise.name}: {len(x)} margins of {check} and {len(y)}")
+        meant = np.minimum(x, y) < 1000
+        _differ(guise, f"margins of {check}", x[meant], y[meant], SAME * (1 + np.abs(x[meant & np.isfinite(x)]).max(initial=0)))
