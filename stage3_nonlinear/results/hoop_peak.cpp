@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "common/rim/angles.hpp"
 #include "stage3_nonlinear/results/near_stress.hpp"
@@ -53,8 +55,7 @@ class PeakSearch {
     return {on_rim.angles(), on_rim.angles().unaryExpr(hoop), hoop};
   }
 
-  /// Largest of all values at the points and at kinks of the tractions; the maximum of the parabola
-  /// through the largest and its neighbours if no kink is near.
+  /// Largest of all values at the points and at kinks of the tractions, then the largest within a step of it.
   [[nodiscard]] std::optional<Peak> top(const Curve& hoop, const std::vector<double>& kinks) const {
     const auto &angle = hoop.angles, &value = hoop.values;
     const Index n = angle.size();
@@ -73,17 +74,40 @@ class PeakSearch {
         break;
       }
     Peak peak{value[*best], angle[*best]};
-    const double before = value[(*best + n - 1) % n], after = value[(*best + 1) % n], step = angle[1] - angle[0];
-    const bool near_kink =
-        std::ranges::any_of(kinks, [&](double kink) { return std::abs(rim::wrapped(kink - peak.angle)) < 2 * step; });
-    const bool is_top = peak.value >= std::max(before, after);  // false next to an excluded point
-    if (const double curvature = before - 2 * peak.value + after; curvature < 0 && is_top && !near_kink) {
-      const double shift = (before - after) / (2 * curvature);
-      peak = {peak.value - curvature * shift * shift / 2, peak.angle + shift * step};
-    }
     for (const double kink : kinks)
       if (is_allowed(kink))
         if (const double there = hoop.at(kink); there > peak.value) peak = {there, kink};
+    return top_near(hoop, kinks, peak, angle[1] - angle[0]);
+  }
+
+  /// Largest value within a step of an angle by golden sections of each piece between kinks, so that it does not depend
+  /// on where the points lie.
+  [[nodiscard]] Peak top_near(const Curve& hoop, const std::vector<double>& kinks, Peak peak, double step) const {
+    std::vector<double> ends{peak.angle - step, peak.angle, peak.angle + step};
+    for (const double kink : kinks)
+      if (const double past = rim::wrapped(kink - peak.angle); std::abs(past) < step) ends.push_back(peak.angle + past);
+    std::ranges::sort(ends);
+    constexpr int sections = 16;  // a step / 2000 is left, of a value that is level there
+    constexpr double golden = std::numbers::phi - 1;
+    constexpr double never = 1e100;  // where a point is excluded, and the more so the further away
+    const auto at = [&](double angle) {
+      return is_allowed(angle) ? hoop.at(angle) : -never * std::abs(angle - peak.angle);
+    };
+    for (std::size_t piece = 1; piece < ends.size(); ++piece) {
+      double from = ends[piece - 1], to = ends[piece];
+      Peak low{0, to - golden * (to - from)}, high{0, from + golden * (to - from)};
+      low.value = at(low.angle), high.value = at(high.angle);
+      for (int section = 0; section < sections; ++section)
+        if (low.value > high.value) {
+          to = std::exchange(high, low).angle;
+          low.angle = to - golden * (to - from), low.value = at(low.angle);
+        } else {
+          from = std::exchange(low, high).angle;
+          high.angle = from + golden * (to - from), high.value = at(high.angle);
+        }
+      for (const Peak& each : {low, high})
+        if (each.value > peak.value) peak = each;
+    }
     return peak;
   }
 

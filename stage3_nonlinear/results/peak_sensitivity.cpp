@@ -33,20 +33,6 @@ std::vector<PeakHole> holes_with_peaks(const JointModel& joint, const JointState
   return holes;
 }
 
-/// Hoop stress at the angle of a peak by the method of the peak search: at a kink, with which the angle moves, or on
-/// the parabola through the nearest three of HoopStress::values.
-double at_place(const HoopStress& hoop, const PeakHole& peak, const std::vector<double>& kinks) {
-  const auto& values = hoop.values();
-  if (peak.kink && *peak.kink < kinks.size()) return hoop.at(kinks[*peak.kink]);
-  const Index n = values.size();
-  const double step = rim::full_turn / double(n);
-  const double past = rim::wrapped(peak.angle, hoop.angles()[0]) - hoop.angles()[0];
-  const Index middle = std::lround(past / step);
-  const double x = past / step - double(middle);
-  const double before = values[(middle + n - 1) % n], at = values[middle % n], after = values[(middle + 1) % n];
-  return at + x * (after - before) / 2 + x * x * (after - 2 * at + before) / 2;
-}
-
 /// States of a joint near a given one, and their hoop stresses at fixed angles.
 class NearbyStates {
  public:
@@ -90,7 +76,8 @@ class NearbyStates {
     for (Index i = 0; i < result.size(); ++i) {
       const auto& rim = plates[holes_[i].plate].loaded[holes_[i].rim];
       const HoopStress hoop = rim->hoop(0, rim->rim.waves, rim->traction_waves(rim->degrees[0].tractions));
-      result[i] = at_place(hoop, holes_[i], rim->kinks);
+      const auto& kink = holes_[i].kink;
+      result[i] = hoop.at(kink && *kink < rim->kinks.size() ? rim->kinks[*kink] : holes_[i].angle);
     }
     return result;
   }
