@@ -274,7 +274,8 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (arguments.flag("--envelope")) h5::write_whole_file(arguments.text("--envelope"), envelope_csv(result));
   if (arguments.flag("--margins")) h5::write_whole_file(arguments.text("--margins"), margins_csv(result));
   if (arguments.flag("--totals")) h5::write_whole_file(arguments.text("--totals"), totals_csv(result));
-  if (!arguments.quiet) out << (chosen.size() == 1 ? text : case_summary(scene, joint, result)) << margin_lines(result);
+  if (!arguments.quiet)
+    out << (chosen.size() == 1 ? text : case_summary(scene, joint, result)) << margin_lines(scene, result);
   check_solved(failures, chosen.size());
 }
 

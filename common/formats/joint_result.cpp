@@ -9,7 +9,7 @@ namespace {
 using h5::any;
 using h5::Column;
 
-const h5::Format result_format{"joint-result", 1, 15};
+const h5::Format result_format{"joint-result", 1, 16};
 
 using V = RimValues;
 using enum Dimension;
@@ -21,8 +21,9 @@ constexpr auto quantities = std::to_array<RimQuantity>({
      "force that passes the fastener by, in the direction of the larger principal stress, tension positive", true,
      false, true},
     {"bypass_error", &V::bypass_error, force, "estimated error of the bypass load", true, true},
-    {"peak_hoop", &V::peak_hoop, stress, "largest hoop stress at the rim"},
-    {"peak_angle", &V::peak_angle, angle, "angle of the largest hoop stress, counter-clockwise from x"},
+    {"peak_hoop", &V::peak_hoop, stress, "largest hoop stress at the rim", false, false, false, true},
+    {"peak_angle", &V::peak_angle, angle, "angle of the largest hoop stress, counter-clockwise from x", false, false,
+     false, true},
     {"peak_error", &V::peak_error, stress, "estimated error of the largest hoop stress", false, true},
     {"gross_concentration", &V::gross_concentration, ratio, "peak over the stress of the gross section", true},
     {"net_concentration", &V::net_concentration, ratio, "peak over the stress of the net section", true},
@@ -34,6 +35,8 @@ constexpr auto quantities = std::to_array<RimQuantity>({
      true},
     {"bypass_direction", &V::bypass_direction, angle, "direction of the bypass load, counter-clockwise from x", true},
     {"net_direction", &V::net_direction, angle, "direction of the net stress, counter-clockwise from x", true},
+    {"bypass_across", &V::bypass_across, stress, "principal stress across the direction of the bypass load", true,
+     false, true},
 });
 
 /// Datasets of the stresses at a distance from the rims.
@@ -42,8 +45,8 @@ void near_datasets(File& file, const std::string& group, Rims& a, Near& near, Ei
   const std::string stress = unit_of(Dimension::stress, units);
   const Eigen::Index r = a.hole.size();
   file(group + "near/distance", near.distance, {}, unit(units, 1, 0), "distance of the circles from the rims");
-  file(group + "near/peak_hoop", near.peak, {steps, r}, stress, "largest hoop stress on the circle");
-  file(group + "near/peak_angle", near.angle, {steps, r}, "deg", "angle of it, counter-clockwise from x");
+  file(group + "near/peak_hoop", near.peak, {steps, r}, stress, "largest hoop stress on the circle", h5::nan_too);
+  file(group + "near/peak_angle", near.angle, {steps, r}, "deg", "angle of it, counter-clockwise from x", h5::nan_too);
   file(group + "near/peak_error", near.error, {steps, r}, stress, "estimated error of it", h5::infinite_too);
   if (!a.stresses) return;
   const Eigen::Index k = a.stresses->angle.size();
@@ -73,7 +76,9 @@ void rim_datasets(File& file, const std::string& group, Rims& a, Eigen::Index st
   for (const auto& each : quantities) {
     const auto row = [&](auto& holes) { return Column{holes, each.value}; };
     file(group + each.name, Column{a.values, row}, {steps, r}, unit_of(each.dimension, units), each.meaning,
-         each.may_be_unknown || each.is_error ? h5::infinite_too : h5::Allowed{});
+         each.may_be_nan                        ? h5::nan_too
+         : each.may_be_unknown || each.is_error ? h5::infinite_too
+                                                : h5::Allowed{});
   }
   if (auto* around = file.part(group + "sigma_tt", a.stresses)) {
     file(group + "start", around->start, {r + 1}, "1", "first point of each rim, and the number of points",

@@ -15,11 +15,12 @@ namespace fastjoint::formats {
 struct RimValues {
   double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
   double bypass_load = 0, bypass_error = 0;
-  double peak_hoop = 0, peak_angle = 0, peak_error = 0;
+  double peak_hoop = 0, peak_angle = 0, peak_error = 0;   ///< NaN, NaN and infinite where it is not known
   double against_slip = 0;                                ///< in contact with friction
   double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
   double net_stress = 0;                                  ///< largest tension over the net sections, in any direction
   double bypass_stress = 0;                               ///< bypass load over the gross section, tension positive
+  double bypass_across = 0;                               ///< the other principal stress of what passes by
   double bypass_direction = 0, net_direction = 0;         ///< of these two, degrees
 };
 
@@ -35,6 +36,7 @@ struct RimQuantity {
   bool needs_section = false;   ///< unknown for a hole without sections
   bool is_error = false;        ///< infinite for a single degree, which gives no estimate
   bool may_be_unknown = false;  ///< infinite where it is not known
+  bool may_be_nan = false;      ///< NaN where it is not known
 };
 /// All members, in the order of the columns.
 [[nodiscard]] std::span<const RimQuantity> rim_quantities();

@@ -153,6 +153,7 @@ struct Allowed {
   std::optional<std::vector<std::string>> words{};  ///< allowed texts; any text if empty
   std::optional<double> number{};                   ///< default for numbers
   std::optional<std::string> word{};                ///< default for texts
+  bool may_be_nan = false;                          ///< for what is not known
 
   [[nodiscard]] Allowed or_else(double default_number) const {
     Allowed result = *this;
@@ -162,6 +163,7 @@ struct Allowed {
 };
 
 inline const Allowed infinite_too{.text = "numbers", .low = -infinite, .high = infinite};
+inline const Allowed nan_too{.text = "finite numbers or NaN", .may_be_nan = true};
 inline const Allowed not_negative{.text = "numbers >= 0", .low = 0, .high = infinite};
 inline const Allowed positive{.text = "numbers > 0", .low = std::numeric_limits<double>::min()};
 

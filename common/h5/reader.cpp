@@ -261,7 +261,9 @@ struct Reader::Impl {
           refuse(fmt::format("\"{}\"", text));
     } else {
       for (std::size_t i = 0; i < entries.size(); ++i) {
-        if (!(entries[i] >= allowed.low && entries[i] <= allowed.high)) refuse(fmt::format("{}", entries[i]));
+        if (!(entries[i] >= allowed.low && entries[i] <= allowed.high) &&
+            !(allowed.may_be_nan && std::isnan(double(entries[i]))))
+          refuse(fmt::format("{}", entries[i]));
         if (i > 0 && entries[i] < entries[i - 1] + allowed.step)
           refuse(fmt::format("{}, {}", entries[i - 1], entries[i]));
       }

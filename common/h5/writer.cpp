@@ -95,7 +95,7 @@ void Writer::attribute(const std::string& name, int value) { impl_->integer_attr
 
 template <class Scalar>
 void Writer::put(const std::string& name, const Shape& shape, const std::vector<std::span<const Scalar>>& parts,
-                 const std::string& unit, const std::string& meaning, bool may_be_infinite) {
+                 const std::string& unit, const std::string& meaning, const Allowed& allowed) {
   const auto n = std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>());
   std::size_t n_given = 0;
   std::vector<const void*> data;
@@ -116,8 +116,9 @@ void Writer::put(const std::string& name, const Shape& shape, const std::vector<
   } else {
     for (const auto& part : parts) {
       const Eigen::Map<const Eigen::ArrayXd> entries(part.data(), std::ssize(part));
-      if (entries.isNaN().any()) throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
-      if (!may_be_infinite && entries.isInf().any())
+      if (!allowed.may_be_nan && entries.isNaN().any())
+        throw NumericalError(fmt::format("{}: {} would hold a NaN", impl_->path, name));
+      if (allowed.high < infinite && entries.isInf().any())
         throw NumericalError(fmt::format(
             "{}: {} would hold a number beyond 1.8e308; the input has numbers that are far too large or small",
             impl_->path, name));
@@ -127,11 +128,11 @@ void Writer::put(const std::string& name, const Shape& shape, const std::vector<
 }
 
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const double>>&,
-                          const std::string&, const std::string&, bool);
+                          const std::string&, const std::string&, const Allowed&);
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const int>>&,
-                          const std::string&, const std::string&, bool);
+                          const std::string&, const std::string&, const Allowed&);
 template void Writer::put(const std::string&, const Shape&, const std::vector<std::span<const std::string>>&,
-                          const std::string&, const std::string&, bool);
+                          const std::string&, const std::string&, const Allowed&);
 
 template <class Scalar>
 void Writer::make_rows(const std::string& name, const Shape& shape, const std::string& unit,

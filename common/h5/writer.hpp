@@ -34,20 +34,19 @@ class Writer {
   /// @param shape Extents; `any` and `some` stand for the first extent of the value.
   /// @param unit "1" if dimensionless.
   /// @param meaning One sentence.
-  /// @param allowed What a reader accepts; of it the writer checks whether entries may be infinite.
+  /// @param allowed What a reader accepts; of it the writer checks whether entries may be infinite or NaN.
   template <class T>
   void operator()(const std::string& name, const T& value, Shape shape, const std::string& unit,
                   const std::string& meaning, const Allowed& allowed = {}) {
     using Scalar = EntryOf<T>;
     if (!shape.empty() && shape[0] < 0) shape[0] = first_extent(value);
-    const bool may_be_infinite = allowed.high == infinite;
     if constexpr (RowMajor<T> || Stack<T>) {  // avoids a copy of large data
-      put(name, shape, spans<const Scalar>(value), unit, meaning, may_be_infinite);
+      put(name, shape, spans<const Scalar>(value), unit, meaning, allowed);
     } else {
       std::vector<Scalar> entries;
       entries.reserve(std::accumulate(shape.begin(), shape.end(), std::size_t{1}, std::multiplies<>()));
       for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
-      put(name, shape, spans<const Scalar>(entries), unit, meaning, may_be_infinite);
+      put(name, shape, spans<const Scalar>(entries), unit, meaning, allowed);
     }
   }
   /// The value of an optional dataset or group; null if it is missing.
@@ -72,7 +71,7 @@ class Writer {
   // Scalar is double, int or std::string.
   template <class Scalar>
   void put(const std::string& name, const Shape& shape, const std::vector<std::span<const Scalar>>& parts,
-           const std::string& unit, const std::string& meaning, bool may_be_infinite);
+           const std::string& unit, const std::string& meaning, const Allowed& allowed);
 
   std::unique_ptr<Impl> impl_;
 };

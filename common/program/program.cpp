@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -214,6 +215,14 @@ std::string message_line(const std::string& message) {
   while (from > 0 && is_inside(from)) --from;
   while (to < text.size() && is_inside(to)) ++to;
   return text.substr(0, from) + " ... " + text.substr(to);
+}
+
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most = 6;
+  if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
+  const std::size_t more = names.size() - (most - 1);
+  names.resize(most - 1);
+  return fmt::format("{} and {} more", fmt::join(names, ", "), more);
 }
 
 std::string generator(const std::string& program) { return fmt::format("{} {}", program, FASTJOINT_VERSION); }

@@ -17,7 +17,7 @@ constexpr int max_pressure_steps = 100, max_step_halvings = 20;
 }  // namespace
 
 double contact_stiffness(const formats::ContactRim& rim, const ShortWaves& waves, double k) {
-  if (!rim.disk.is_given()) return rim.modulus * rim.area;
+  if (waves.disk_compliance.size() == 0) return rim.modulus * rim.area;
   MatrixXd compliance = waves.M / rim.area;
   compliance.diagonal().head(waves.n_long).array() += 1 / k;
   constexpr double factor = 2, margin = 1.5;  // over the stiffness at which a wave would have no compliance

@@ -16,15 +16,30 @@ bool same(const formats::ContactRim& a, const formats::WaveRim& a_carried, const
          a_carried.waves == b_carried.waves && a_carried.compliance == b_carried.compliance;
 }
 
-/// Adds the compliance of an elastic disk to waves, after D if that is known.
-void add_disk(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
-  a.M.diagonal() = a.disk_compliance = contact.disk.yield(contact.radius, full);
-  a.M_tau = a.disk_by_shear = contact.disk.yield_by_shear(contact.radius, full);
-  a.disk_tangential = contact.disk.give_way(contact.radius, full);
+/// Minimum compliance of disk and sheet over waves of order 2 and more, after D if that is known.
+double min_compliance(const rim::Harmonics& full, const ShortWaves& a) {
   VectorXd all = a.disk_compliance;
   if (a.D.size() > 0) all += a.D.diagonal().head(a.n);
   const Index first = full.is_whole() ? 3 : 2;  // the first wave of order 2, or 4 on a quarter
-  a.min_compliance = first < a.n ? all.tail(a.n - first).minCoeff() : all[0];
+  return first < a.n ? all.tail(a.n - first).minCoeff() : all[0];
+}
+
+/// Adds to waves the compliance of an elastic disk, or of springs that are stiffer than the shortest wave of the sheet:
+/// pressures between a sheet and such springs need more waves than those between a sheet and penalty springs.
+void add_disk(const formats::ContactRim& contact, const rim::Harmonics& full, ShortWaves& a) {
+  if (contact.disk.is_given()) {
+    a.disk_compliance = contact.disk.yield(contact.radius, full);
+    a.M_tau = a.disk_by_shear = contact.disk.yield_by_shear(contact.radius, full);
+    a.disk_tangential = contact.disk.give_way(contact.radius, full);
+  } else {
+    a.disk_compliance = VectorXd::Constant(a.n, 1 / contact.modulus);
+    constexpr double stiffer = 3;
+    if (a.D.size() == 0 || min_compliance(full, a) * contact.modulus < stiffer) return a.disk_compliance.resize(0);
+    a.disk_by_shear = MatrixXd::Zero(a.n, a.n_shears);
+    a.disk_tangential = VectorXd::Zero(a.n_shears);
+  }
+  a.M.diagonal() = a.disk_compliance;
+  a.min_compliance = min_compliance(full, a);
 }
 
 }  // namespace
@@ -43,7 +58,7 @@ ShortWaves short_waves(const formats::ContactRim& contact, const formats::WaveRi
   a.M = MatrixXd::Zero(a.n, a.n);
   a.M_tau = MatrixXd::Zero(a.n, a.n_shears);
   if (carried.has_closed_form()) a.D = rim::RimCompliance(carried.compliance, carried.radius).displacements(full);
-  if (contact.disk.is_given()) add_disk(contact, full, a);
+  add_disk(contact, full, a);
   if (!carried.has_closed_form() || s == 0) {
     a.D.resize(0, 0);
     return a;

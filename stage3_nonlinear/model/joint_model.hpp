@@ -101,6 +101,11 @@ struct PlateModel {
   /// m: unknowns of the discs.
   [[nodiscard]] Index n_discs() const { return holes.size() * axes.size(); }
   [[nodiscard]] Index n_externals() const { return externals.size(); }
+  /// True if the hoop stress around a hole is known, which it is not where a crack or another boundary cuts its rim.
+  [[nodiscard]] bool has_peak(const std::string& hole) const {
+    const auto is = [&](const formats::WaveRim& rim) { return rim.hole == hole && rim.has_closed_form(); };
+    return std::ranges::any_of(waves, is);
+  }
   /// Hole of a disc unknown.
   [[nodiscard]] const std::string& hole_of(Index disc) const { return holes[disc / axes.size()]; }
   [[nodiscard]] int axis_of(Index disc) const { return axes[disc % axes.size()]; }

@@ -8,12 +8,10 @@
 #include <cmath>
 #include <map>
 #include <numbers>
-#include <set>
 
 #include "common/count.hpp"
 #include "common/infinite.hpp"
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/output/csv_field.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/results/section_stress.hpp"
 
@@ -82,6 +80,9 @@ class Margins {
     for (const auto& check : scene_.checks) {
       check_ = &check;
       left_out_.clear();
+      for (const auto& name : check.cases)
+        if (std::ranges::find(scene_.cases, name, &CaseScene::name) == scene_.cases.end())
+          fail(fmt::format("case \"{}\" does not exist", name), "names of \"cases\"");
       if (check.kind == CheckKind::fastener_shear)
         of_fasteners();
       else
@@ -98,13 +99,9 @@ class Margins {
     refuse(check_->where, found, allowed);
   }
 
-  void warn(const char* reason, const std::vector<std::string>& holes) {
-    constexpr std::size_t most = 4;
-    const std::vector<std::string> first(holes.begin(), holes.begin() + std::ptrdiff_t(std::min(most, holes.size())));
-    warnings_.push_back(
-        {"check-left-out",
-         fmt::format("{}: check \"{}\" is not made for {}{}: {}", scene_.file, check_->name, fmt::join(first, ", "),
-                     holes.size() > most ? fmt::format(" and {} more", holes.size() - most) : "", reason)});
+  void warn(const std::string& reason, const std::vector<std::string>& holes) {
+    warnings_.push_back({"check-left-out", fmt::format("{}: check \"{}\" is not made for {}: {}", scene_.file,
+                                                       check_->name, program::listed(holes), reason)});
   }
 
   /// Adds the smallest margin of an item. @param at Applied(step).
@@ -112,7 +109,10 @@ class Margins {
   void add(const std::string& of, const std::string& formula, const std::string& unit, At at) {
     Row row;
     row.of = of, row.formula = formula, row.unit = unit, row.check = check_;
+    bool solved = false;
     for (Index step = 0; step < a_.load_factor.size(); ++step) {
+      if (!is_checked(step)) continue;
+      solved = true;
       const Applied now = at(step);
       if (!std::isfinite(now.applied)) continue;  // not known
       const double margin = now.applied > 0
@@ -123,7 +123,12 @@ class Margins {
     if (row.at >= 0)
       rows_.push_back(std::move(row));
     else if (a_.load_factor.size() > 0)
-      left_out_["its value is not known"].push_back(of);
+      left_out_[solved ? "its value is not known" : "none of its cases was solved"].push_back(of);
+  }
+
+  /// True if the case of an increment is one of the check's.
+  [[nodiscard]] bool is_checked(Index step) const {
+    return check_->cases.empty() || index_of(check_->cases, a_.case_name[a_.case_of[step]]) < count_of(check_->cases);
   }
 
   void of_fasteners() {
@@ -231,9 +236,7 @@ class Margins {
         break;
       case CheckKind::peak:
         add(hole.name, "limit", stress, [&](Index step) {
-          const formats::RimValues& rim = at_rim(step);
-          const bool unknown = rim.peak_hoop == 0 && std::isinf(rim.peak_error);
-          return Applied{unknown ? infinite : rim.peak_hoop, value, fmt::format("limit = {:g}", value)};
+          return Applied{at_rim(step).peak_hoop, value, fmt::format("limit = {:g}", value)};
         });
         break;
       case CheckKind::bearing_bypass:
@@ -294,13 +297,21 @@ class Margins {
             fmt::format("F_su = {:g}, t = {:g}, e = {:.5g}, d = {:g}", value, t, e, d), e / d, direction_of(force)};
   }
 
-  /// The polygon along the ray of the two stresses; both as lengths on that ray.
+  /// The polygon along the ray of the bearing stress and of that principal stress of what passes by which leaves less;
+  /// both as lengths on that ray.
   Applied bearing_bypass(const formats::RimValues& rim) const {
-    const Point stress(rim.bypass_stress, rim.bearing_stress);
-    if (!stress.allFinite()) return {infinite};
-    const double allowable = stress.norm() > 0 ? reach(stress.normalized()) : infinite;
-    return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y()), infinite,
-            rim.bypass_direction};
+    const auto along = [&](double bypass, double direction) -> Applied {
+      const Point stress(bypass, rim.bearing_stress);
+      if (!stress.allFinite()) return {infinite};
+      const double allowable = stress.norm() > 0 ? reach(stress.normalized()) : infinite;
+      return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y()), infinite,
+              direction};
+    };
+    const double turned = rim.bypass_direction > 0 ? -90 : 90;
+    const Applied larger = along(rim.bypass_stress, rim.bypass_direction),
+                  other = along(rim.bypass_across, rim.bypass_direction + turned);
+    const auto left = [](const Applied& a) { return a.applied > 0 ? a.allowable / a.applied : infinite; };
+    return left(other) < left(larger) ? other : larger;
   }
 
   /// Distance from the origin to the polygon along a direction.
@@ -324,7 +335,7 @@ class Margins {
   const JointResult& a_;
   const CheckScene* check_ = nullptr;
   std::vector<Row> rows_;
-  std::map<const char*, std::vector<std::string>> left_out_;  ///< holes of the check by the reason
+  std::map<std::string, std::vector<std::string>> left_out_;  ///< holes of the check by the reason
   std::vector<program::Warning> warnings_;
 };
 
@@ -353,58 +364,6 @@ MarginTable margins(const JointScene& scene, const JointModel& joint, const Join
     table.at[i] = int(row.at);
   }
   return table;
-}
-
-std::vector<program::Warning> edge_warnings(const JointScene& scene, const MarginTable& table) {
-  constexpr double least = 1.5;
-  if (table.edge_ratio.size() == 0) return {};
-  Index worst = 0;
-  if (!(table.edge_ratio.minCoeff(&worst) < least)) return {};
-  const auto n = (table.edge_ratio.array() < least).count();
-  return {{"edge-distance-small",
-           fmt::format(
-               "{}: {} is {:.3g} diameters from the edge along its load{}: below {:g} allowables of bearing are not "
-               "published, and here those of the check fall linearly to 0 where the rim touches the edge",
-               scene.file, table.of[worst], table.edge_ratio[worst],
-               n > 1 ? fmt::format(" (the worst of {})", program::counted(n, "margin")) : "", least)}};
-}
-
-std::string margin_lines(const JointResult& result) {
-  constexpr std::size_t most = 12;
-  const MarginTable& a = result.margins;
-  const Index n = std::ssize(a.check);
-  if (n == 0) return {};
-  std::set<Index> shown;  // the smallest of each check, then the smallest of all
-  std::set<std::string> checks;
-  for (Index i = 0; i < n; ++i)
-    if (checks.insert(a.check[i]).second) shown.insert(i);
-  for (Index i = 0; i < n && shown.size() < most; ++i) shown.insert(i);
-  std::string text = fmt::format("smallest margins = allowable / (FS FF applied) - 1{}\n",
-                                 result.complete ? "" : ", of the increments that were solved, NOT of all cases");
-  text += fmt::format("  {:<20} {:<24} {:>9} {:>12} {:>12}  in\n", "check", "of", "margin", "allowable", "applied");
-  for (const Index i : shown)
-    text += fmt::format("  {:<20} {:<24} {:>9} {:>12.6g} {:>12.6g}  {}: {}; {}\n", program::one_line(a.check[i]),
-                        program::one_line(a.of[i]),
-                        std::isfinite(a.margin[i]) && a.margin[i] > 1000 ? "> 1000"
-                        : std::isfinite(a.margin[i])                     ? fmt::format("{:+.3f}", a.margin[i])
-                        : a.applied[i] > 0                               ? "no limit"
-                                                                         : "no load",
-                        a.allowable[i], a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
-  if (n > std::ssize(shown))
-    text += fmt::format("  ... of {}; RESULT.h5 and --margins have all\n", program::counted(n, "margin"));
-  return text;
-}
-
-std::string margins_csv(const JointResult& result) {
-  const auto known = [](double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; };
-  const MarginTable& a = result.margins;
-  std::string text = "joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs,direction\n";
-  for (Index i = 0; i < std::ssize(a.check); ++i)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(result.header.name), csv_field(a.check[i]),
-                        csv_field(a.of[i]), a.margin[i], a.allowable[i], a.applied[i], csv_field(a.unit[i]),
-                        csv_field(result.case_name[result.case_of[a.at[i]]]), increment_number(result, a.at[i]),
-                        csv_field(a.formula[i]), csv_field(a.inputs[i]), known(a.direction[i]));
-  return text;
 }
 
 }  // namespace fastjoint::stage3

@@ -21,9 +21,9 @@ namespace fastjoint::stage3 {
 /// Warning of holes that are checked for bearing or shear-out nearer to an edge than 1.5 diameters.
 [[nodiscard]] std::vector<program::Warning> edge_warnings(const JointScene& scene, const formats::MarginTable& table);
 
-/// The smallest margin of each check and the smallest of all, one line each, with formula and numbers; empty without
-/// checks.
-[[nodiscard]] std::string margin_lines(const formats::JointResult& result);
+/// The smallest margin of each check, then the smallest of the others, one line each, with formula and numbers; empty
+/// without checks.
+[[nodiscard]] std::string margin_lines(const JointScene& scene, const formats::JointResult& result);
 
 /// One line for each margin after a line of names; all digits, RFC 4180.
 [[nodiscard]] std::string margins_csv(const formats::JointResult& result);

@@ -145,7 +145,7 @@ constexpr std::array<RimDoubt, 7> doubts = {{
      "fastener a \"gap\" instead of \"clearance\""},
     {"kt-below-one",
      [](const RimState& rim, bool) {
-       return rim.in_tension && rim.peak_hoop != 0 && rim.pull > 0 ? 1 - rim.net_concentration : 0;
+       return rim.in_tension && rim.net_concentration > 0 && rim.pull > 0 ? 1 - rim.net_concentration : 0;
      },
      "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
      "springs pull on its rim; give the hole's spring \"compression_only\": true in PLATE.json"},

@@ -121,13 +121,17 @@ std::string error_bar(const JointModel& joint, const formats::JointResult& resul
                      joint.name(joint.planes[plane]), step + 1);
 }
 
-/// The highest peak hoop stress of an increment with its error; empty if no hole has one.
+/// The highest peak hoop stress of an increment with its error, and the holes whose peaks are not known; empty if no
+/// hole has one.
 std::string highest_peak(const JointModel& joint, const JointState& state) {
   double highest = 0;
   std::string text;
+  std::vector<std::string> unknown;
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
       const RimState& at = state.plates[i].rims[rim];
+      if (std::isnan(at.peak_hoop))
+        unknown.push_back(joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim]);
       if (!(at.peak_hoop > highest)) continue;
       highest = at.peak_hoop;
       text = fmt::format(
@@ -137,6 +141,9 @@ std::string highest_peak(const JointModel& joint, const JointState& state) {
           at.peak_hoop, at.peak_error, unit(joint.units, -2, 1), joint.plates[i].name,
           joint.plates[i].stresses.rim_hole[rim], at.peak_angle);
     }
+  if (!unknown.empty())
+    text += fmt::format("the peak is not known at {}{}\n", program::listed(unknown),
+                        text.empty() ? "" : ", which may be higher");
   return text;
 }
 
@@ -206,11 +213,8 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
         const double value = state.plates[i].rims[rim].*column.value;
         const auto quantity = shown(column);
         const bool unloaded = quantity.dimension == formats::Dimension::ratio && value == 0;
-        const bool no_peak =
-            state.plates[i].rims[rim].peak_hoop == 0 && !std::isfinite(state.plates[i].rims[rim].peak_error);
-        const bool of_peak = column.value == &RimState::peak_hoop || column.value == &RimState::peak_angle ||
-                             column.value == &RimState::peak_error;
-        if (no_peak && of_peak) return std::string("-");
+        if (column.value == &RimState::peak_error && std::isnan(state.plates[i].rims[rim].peak_hoop))
+          return std::string("-");
         if (!std::isfinite(value) || unloaded || (quantity.needs_section && !sections))
           return std::string(column.unknown);
         return fmt::format(fmt::runtime(column.format), value == 0 ? 0 : value);

@@ -177,13 +177,9 @@ std::string increment_text(const LoadPath& path, const PathStep& step) {
 }
 
 std::string names(const JointModel& joint, const std::vector<Index>& planes) {
-  constexpr std::size_t max_named = 6;
   std::vector<std::string> result;
   for (const Index j : planes) result.push_back(joint.name(joint.planes[j]));
-  if (result.size() <= max_named) return fmt::format("{}", fmt::join(result, ", "));
-  const std::size_t more = result.size() - (max_named - 1);
-  result.resize(max_named - 1);
-  return fmt::format("{} and {} more", fmt::join(result, ", "), more);
+  return program::listed(std::move(result));
 }
 
 std::vector<program::Warning> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {

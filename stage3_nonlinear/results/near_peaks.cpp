@@ -49,7 +49,7 @@ formats::NearStresses near_stresses(const PlateModel& plate, const std::vector<J
                                     double distance, const formats::RimStresses* around) {
   const Index n = std::ssize(states), r = std::ssize(plate.stresses.rim_hole);
   const VectorXd room = room_around(plate);
-  const MatrixXd none = MatrixXd::Zero(n, r);
+  const MatrixXd none = MatrixXd::Constant(n, r, std::nan(""));
   formats::NearStresses a{distance, none, none, MatrixXd::Constant(n, r, infinite)};
   if (around)
     for (auto* table : {&a.rr, &a.tt, &a.rt}) *table = MatrixXd::Constant(n, around->angle.size(), infinite);

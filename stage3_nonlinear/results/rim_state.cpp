@@ -90,9 +90,12 @@ void read_sections(const HoleSections& sections, const std::vector<SectionForces
   const auto load = [&](const Principal& stress) { return stress.value * sections.gross_area(stress.direction); };
   const auto bypass = [&](std::size_t level) { return larger_principal(sections.bypass(forces[level], T, largest)); };
   constexpr double rounding = 1e-9;
-  const Principal passing = bypass(0);
+  const MeanStress passing_by = sections.bypass(forces[0], T, largest);
+  const Principal passing = larger_principal(passing_by);
   state.bypass_load = load(passing);
   state.bypass_stress = passing.value;
+  state.bypass_across = passing_by[0] + passing_by[1] - passing.value;  // the trace is that of any axes
+  if (!passing_by.allFinite()) state.bypass_across = infinite;
   if (std::abs(state.bypass_load) > rounding * largest) state.bypass_direction = passing.direction;
   state.bypass_error = forces.size() > 1
                            ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest)
@@ -108,6 +111,7 @@ void read_sections(const HoleSections& sections, const std::vector<SectionForces
   // Interference makes stresses without resultants, so that these are errors only.
   if (forces.size() > 1 && carried < state.bypass_error) return;
   state.in_tension = gross.value > 0;
+  if (std::isnan(state.peak_hoop)) return;
   state.gross_concentration = state.peak_hoop / std::abs(gross.value);
   const double share = sections.net_share(gross.direction);
   state.net_concentration = state.gross_concentration * share;
@@ -152,7 +156,7 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
       std::max({forces[0].normal.lpNorm<Eigen::Infinity>(), discs.bearing.lpNorm<Eigen::Infinity>(), scale});
   for (int i = 0; i < count_of(a.rim_hole); ++i) {
     RimState state;
-    state.peak_error = unknown_stress;
+    state.peak_hoop = state.peak_angle = std::nan(""), state.peak_error = unknown_stress;
     Eigen::Vector2d bearing{0, 0}, friction{0, 0};
     std::vector<int> axes;
     for (int disc = 0; disc < count_of(discs.hole); ++disc) {

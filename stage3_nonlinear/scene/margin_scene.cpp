@@ -78,7 +78,7 @@ std::vector<const char*> own_keys(CheckKind kind) {
 }
 
 void check_keys(const Value& value, CheckKind kind) {
-  std::set<std::string> allowed{"check", "name", "of", "safety_factor", "fitting_factor"};
+  std::set<std::string> allowed{"check", "name", "of", "cases", "safety_factor", "fitting_factor"};
   for (const char* key : own_keys(kind)) allowed.insert(key);
   for (const auto& [key, member] : value.members())
     if (!allowed.contains(key))
@@ -96,10 +96,12 @@ CheckScene read_check(const Value& value, double safety_factor, double fitting_f
   check.kind = static_cast<CheckKind>(std::ranges::find(check_names, kind) - check_names.begin());
   check_keys(value, check.kind);
   check.where = fmt::format("{}: {}", value.file(), value.pointer());
-  const auto name = value.find("name"), of = value.find("of");
+  const auto name = value.find("name"), of = value.find("of"), cases = value.find("cases");
   check.name = name ? name->text() : kind;
   if (of)
     for (const auto& item : of->items(1)) check.of.push_back(item.text());
+  if (cases)
+    for (const auto& item : cases->items(1)) check.cases.push_back(item.text());
   check.safety_factor = factor(value, "safety_factor", safety_factor);
   check.fitting_factor = factor(value, "fitting_factor", fitting_factor);
   const auto force = value.find("P_su");

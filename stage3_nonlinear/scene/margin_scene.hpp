@@ -35,6 +35,7 @@ struct CheckScene {
   std::optional<double> edge_distance;             ///< of the hole's centre along the load, length
   std::optional<double> diameter;                  ///< of the fastener, length
   std::vector<std::pair<double, double>> polygon;  ///< (bypass stress, bearing stress), around the origin
+  std::vector<std::string> cases;                  ///< whose increments are checked; empty: of all cases
   double safety_factor = 1, fitting_factor = 1;
   std::string where;
 };

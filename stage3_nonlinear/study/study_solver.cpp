@@ -15,7 +15,8 @@ StudyNames study_names(const JointModel& joint, const StudyScene& study) {
   for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
   for (const auto& plate : joint.plates) {
     if (study.peaks && plate.stress_level)
-      for (const auto& hole : plate.stresses.rim_hole) names.peak.push_back(plate.name + ":" + hole);
+      for (const auto& hole : plate.stresses.rim_hole)
+        if (plate.has_peak(hole)) names.peak.push_back(plate.name + ":" + hole);
     if (study.displacements)
       for (const auto& external : plate.externals) names.displacement.push_back(plate.name + ":" + external);
     if (study.cracks)
@@ -94,8 +95,10 @@ VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& s
   all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
   Index at = joint_.n_planes();
   if (!names_.peak.empty())
-    for (const auto& plate : state.plates)
-      for (const auto& rim : plate.rims) all[at++] = rim.peak_hoop;
+    for (Index i = 0; i < std::ssize(state.plates); ++i)
+      for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim)
+        if (joint_.plates[i].has_peak(joint_.plates[i].stresses.rim_hole[rim]))
+          all[at++] = state.plates[i].rims[rim].peak_hoop;
   if (!names_.displacement.empty())
     for (Index i = 0; i < std::ssize(state.plates); ++i)
       for (Index e = 0; e < std::ssize(state.plates[i].De); ++e)

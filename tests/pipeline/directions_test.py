@@ -18,7 +18,7 @@ sys.path[:0] = [str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 from one_hole import PROGRAMS, end_if_missed, matrices, near  # noqa: E402
 
-POLYGON = [[400, 0], [250, 700], [0, 700], [-300, 700], [-400, 0], [-250, -700], [0, -700], [250, -700]]
+POLYGON = [[400, 0], [250, 700], [0, 700], [-250, 600], [-300, 0], [-250, -700], [0, -700], [250, -700]]
 CHECKS = [{"check": "tension", "F_tu": 427}, {"check": "bearing", "F_br": [[1.5, 669], [2.0, 834]]}, {"check": "shear-out", "F_su": 270},
           {"check": "bearing-bypass", "polygon": POLYGON}]
 
@@ -98,9 +98,9 @@ def tractions(folder):
                       "holes": [{"id": "h", "center": [0, 0], "radius": r, "spring": {"disk": {"E": 2e5, "nu": 0.3}}}],
                       "points": [{"id": "k", "at": [a, a], "stiffness": 1}],
                       "external": [{"id": f"{edge} {axis}", "on": edge, "direction": axis, "kind": "traction"} for edge in edges for axis in "xy"]}, "s")
-    for angle in (0, 30, 45, 90, 120):
+    for angle, across in ((0, 0), (30, 0), (45, 0), (90, 0), (120, 0), (30, -0.95), (45, -2)):
         n = np.array([np.cos(np.radians(angle)), np.sin(np.radians(angle))])
-        S = sigma * np.outer(n, n)
+        S = sigma * (np.outer(n, n) + across * (np.eye(2) - np.outer(n, n)))  # with a tension or compression across n
         loads = []
         for edge, normal, part in (("right", (1, 0), 0.5), ("left", (-1, 0), 0.5), ("top", (0, 1), 0), ("bottom", (0, -1), 0)):
             force = S @ normal * area + part * Q * n
@@ -120,16 +120,53 @@ def tractions(folder):
         near("  its direction", abs(vectors[:, i] @ [np.cos(np.radians(rim["bypass_direction"])), np.sin(np.radians(rim["bypass_direction"]))]), 1, 1e-6)
         bearing = Q / (2 * r * t)
         near("  bearing stress", rim["bearing_stress"], bearing, 1e-6)
-        near("  margin of bearing-bypass", float(margins["bearing-bypass", "s:h"]["margin"]), reach(values[i], bearing) / np.hypot(values[i], bearing) - 1, 2 * bar)
+        near("  principal stress across it", rim["bypass_across"], values[1 - i], bar * abs(values[i] / values[1 - i]) if across else bar * abs(values[i]), absolute=not across)
+        least = min(reach(value, bearing) / np.hypot(value, bearing) for value in values)
+        near("  margin of bearing-bypass", float(margins["bearing-bypass", "s:h"]["margin"]), least - 1, 2 * bar)
         ligament = S * area / net
         ligament[0, 0] += Q * abs(n[0]) / 2 / net
         near("  net stress", rim["net_stress"], np.linalg.eigvalsh(ligament)[1], bar)
         near("  margin of tension", float(margins["tension", "s:h"]["margin"]), 427 / np.linalg.eigvalsh(ligament)[1] - 1, 2 * bar)
 
 
+def doubler(folder):
+    """A skin under tractions along x and y with a doubler on four rivets: by symmetry the sections beside a rivet carry half of each traction,
+    less the rivet's force on the inner side; so do those of the doubler, by the rivet's force alone."""
+    spring = {"disk": {"E": 71700, "nu": 0.33}}
+    size, t = {"skin": (60, 40), "doubler": (45, 30)}, {"skin": 2.0, "doubler": 1.6}
+    r, X, Y = 2.4, 48000.0, 36000.0
+    for name, (a, b) in size.items():
+        matrices(folder, {"format": "plate", "version": 1, "name": name, "analysis": "plane stress", "p": [6, 7], "materials": {"m": {"E": 72400, "nu": 0.33}},
+                          "geometry": {"grid": {"x": [-a, 0, a], "y": [-b, 0, b], "thickness": t[name]}}, "disc_directions": ["x", "y"],
+                          "holes": [{"id": f"{i}{j}", "center": [30 * i, 20 * j], "radius": r, "spring": spring} for i in (-1, 1) for j in (-1, 1)],
+                          "points": [{"id": side, "at": [x, 0], "stiffness": 1} for side, x in (("left", -a), ("right", a))],
+                          "external": [{"id": edge, "on": edge, "direction": axis, "kind": "traction"} for edge, axis in
+                                       zip(("right", "left", "top", "bottom"), "xxyy")]}, name)
+    rivets = [{"id": f"{i}{j}", "between": [f"skin:{i}{j}", f"doubler:{i}{j}"], "law": "rivet"} for i in (-1, 1) for j in (-1, 1)]
+    loads = [{"external": f"skin:{edge}", "force": force} for edge, force in (("right", X), ("left", -X), ("top", Y), ("bottom", -Y))]
+    margins, rims = solve(folder, {"format": "joint", "version": 1, "plates": {name: f"{name}.h5" for name in size},
+                                   "laws": {"rivet": {"type": "linear", "k": 80e3}, "hold": {"type": "linear", "k": 1e-3}},
+                                   "fasteners": rivets + [{"id": side, "between": [f"skin:{side}", "ground"], "law": "hold"} for side in ("left", "right")], "loads": loads})
+    for name, (a, b) in size.items():
+        rim, thickness = rims[f"{name}:11"], t[name]
+        T = abs(np.array([rim["bearing_load"], rim["bearing_load_y"]]))
+        applied = np.array([X, Y]) / 2 if name == "skin" else T
+        widths = np.array([b, a])
+        passing = np.sort((applied - T) / (widths * thickness))
+        net = (applied / ((widths - 2 * r) * thickness)).max()
+        bearing = np.hypot(*T) / (2 * r * thickness)
+        assert T.min() > 500, T
+        near(f"doubler, {name}: bearing stress", rim["bearing_stress"], bearing, 1e-9)
+        near("  net stress", rim["net_stress"], net, 5e-3)
+        near("  margin of tension", float(margins["tension", f"{name}:11"]["margin"]) + 1, 427 / net, 5e-3)
+        near("  bypass stress", rim["bypass_stress"], passing[1], 5e-3 * X / (b * thickness) / 2, absolute=True)
+        near("  margin of bearing-bypass", float(margins["bearing-bypass", f"{name}:11"]["margin"]) + 1,
+             min(reach(value, bearing) / np.hypot(value, bearing) for value in passing), 5e-3)
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
-        for each in (two_bolts, tractions):
+        for each in (two_bolts, tractions, doubler):
             each(Path(name))
     end_if_missed()
 

@@ -90,6 +90,14 @@ def cases(folder):
     assert (row["case"], row["increment"]) == ("pull", "2") and "e/D = 1.2" in row["inputs"], row
     assert "warning [edge-distance-small]: joint.json: " in done.stderr and \
         ":1 is 1.2 diameters from the edge along its load (the worst of 2 margins)" in done.stderr, done.stderr
+    assert "of all cases alike" in done.stdout
+    ultimate = {"check": "bearing", "name": "ultimate", "F_br": TABLE, "cases": ["push", "rest"]}
+    done, found, _ = solve(folder, [ultimate, {"check": "bearing", "F_br": TABLE, "safety_factor": 1.5}], cases=loads)
+    near("ultimate loads of one case: margin", float(found["ultimate", "a:1"]["margin"]), 860 * D * T / (1.2 * P) - 1, 1e-6)
+    near("with a factor, of all cases", float(found["bearing", "a:1"]["margin"]), 680 * 0.7 * D * T / (1.5 * P) - 1, 1e-6)
+    assert found["ultimate", "a:1"]["case"] == "push" and 'of all cases for checks without "cases"' in done.stdout
+    done, found, _ = solve(folder, [ultimate], "--case", "pull", cases=loads)
+    assert not found and 'check "ultimate" is not made for a:1, b:1: none of its cases was solved' in done.stderr, done.stderr
     done, found, _ = solve(folder, [{"check": "bearing", "F_br": TABLE}], "--case", "push", cases=loads)
     near("push: margin", float(found["bearing", "a:1"]["margin"]), 860 * D * T / (1.2 * P) - 1, 1e-6)
     done, found, _ = solve(folder, [{"check": "bearing", "F_br": TABLE}], "--case", "up", cases=loads)
@@ -120,6 +128,7 @@ def refusals(folder):
     for check, message in (({"check": "bearing", "F_br": 500, "of": ["c"]}, '/margins/checks/0: "c" is no plate and no hole with stresses; allowed: a, a:1, b, b:1'),
                            ({"check": "fastener shear", "F_su": 1, "of": ["9"]}, '/margins/checks/0: fastener "9" does not exist'),
                            ({"check": "bearing", "F_br": [[2, 500], [1.5, 400]]}, "an e/D that does not rise"),
+                           ({"check": "tension", "F_tu": 500, "cases": ["lift"]}, '/margins/checks/0: case "lift" does not exist'),
                            ({"check": "tension", "F_tu": 500, "limit": 3}, "/margins/checks/0/limit: unknown key"),
                            ({"check": "fastener shear", "F_su": 1, "P_su": 1}, 'given together with "F_su"'),
                            ({"check": "bearing-bypass", "polygon": [[100, 100], [200, 100], [200, 200]]}, "does not go once around the origin"),

@@ -90,6 +90,17 @@ def elastic_pins(folder):
         near("elastic pin: half-angle of contact by Persson, degrees", found["half-angle"][0], half_angle, 0.2, absolute=True)
 
 
+def stiff_springs(folder):
+    """Springs much stiffer than the sheet are as good as an elastic disk as stiff: peaks and bars are those of a nearly rigid pin."""
+    E, nu, gap = 70e3, 0.3, 0.01
+    for mu in (0, 0.15):
+        disk = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, {"disk": {"E": 1000 * E, "nu": nu, "law": "elastic"}}, WIDE, friction=mu)(gap)
+        for ratio, share in ((300, 5e-3), (9000, 1e-4)):  # 1 / 300 of the sheet's compliance is left
+            found = pin_in_a_wide_sheet(folder, {"E": E, "nu": nu}, ratio * E, WIDE, friction=mu)(gap)
+            near(f"springs of {ratio} E / r, friction {mu}: hoop stress as of a stiff disk", found["hoop"][0], disk["hoop"][0], share)
+            near("  its error bar", found["bar"][0], disk["bar"][0], 0.1)
+
+
 def elastic_pins_with_friction(folder):
     """The bar of the peak, which comes as N^-1/2 at the end of contact, holds what 200 waves and the rate leave."""
     for mu in (0.15, 0.3):
@@ -143,7 +154,7 @@ def pressed_in_disk(folder):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (elastic_pins, elastic_pins_with_friction, friction_against_slip, pressed_in_disk, isotropic_pins, plane_strain_pin,
+    for check in (elastic_pins, stiff_springs, elastic_pins_with_friction, friction_against_slip, pressed_in_disk, isotropic_pins, plane_strain_pin,
                   laminate_pins):
         check(Path(name))
 end_if_missed()

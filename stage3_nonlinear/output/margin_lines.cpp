@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/output/csv_field.hpp"
+#include "stage3_nonlinear/output/envelope.hpp"
+#include "stage3_nonlinear/output/margins.hpp"
+
+namespace fastjoint::stage3 {
+
+using formats::JointResult;
+using formats::MarginTable;
+
+std::vector<program::Warning> edge_warnings(const JointScene& scene, const MarginTable& table) {
+  constexpr double least = 1.5;
+  if (table.edge_ratio.size() == 0) return {};
+  Index worst = 0;
+  if (!(table.edge_ratio.minCoeff(&worst) < least)) return {};
+  const auto n = (table.edge_ratio.array() < least).count();
+  return {{"edge-distance-small",
+           fmt::format(
+               "{}: {} is {:.3g} diameters from the edge along its load{}: below {:g} allowables of bearing are not "
+               "published, and here those of the check fall linearly to 0 where the rim touches the edge",
+               scene.file, table.of[worst], table.edge_ratio[worst],
+               n > 1 ? fmt::format(" (the worst of {})", program::counted(n, "margin")) : "", least)}};
+}
+
+std::string margin_lines(const JointScene& scene, const JointResult& result) {
+  const bool checks_all_cases = std::ranges::all_of(scene.checks, &std::vector<std::string>::empty, &CheckScene::cases);
+  constexpr std::size_t most = 12;
+  const MarginTable& a = result.margins;
+  const Index n = std::ssize(a.check);
+  if (n == 0) return {};
+  std::vector<Index> shown, others;
+  std::set<std::string> checks;
+  for (Index i = 0; i < n; ++i) (checks.insert(a.check[i]).second ? shown : others).push_back(i);
+  for (const Index i : others)
+    if (shown.size() < most) shown.push_back(i);
+  std::string text = fmt::format(
+      "margins = allowable / (FS FF applied) - 1{}: the smallest of each check, then the smallest of the others\n",
+      !result.complete               ? ", of the increments that were solved, NOT of all cases"
+      : result.case_name.size() == 1 ? ""
+      : checks_all_cases             ? ", of all cases alike"
+                                     : ", of all cases for checks without \"cases\"");
+  text += fmt::format("  {:<20} {:<24} {:>9} {:>12} {:>12}  in\n", "check", "of", "margin", "allowable", "applied");
+  for (const Index i : shown)
+    text += fmt::format("  {:<20} {:<24} {:>9} {:>12.6g} {:>12.6g}  {}: {}; {}\n", program::one_line(a.check[i]),
+                        program::one_line(a.of[i]),
+                        std::isfinite(a.margin[i]) && a.margin[i] > 1000 ? "> 1000"
+                        : std::isfinite(a.margin[i])                     ? fmt::format("{:+.3f}", a.margin[i])
+                        : a.applied[i] > 0                               ? "no limit"
+                                                                         : "no load",
+                        a.allowable[i], a.applied[i], increment_of(result, a.at[i]), a.formula[i], a.inputs[i]);
+  if (shown.size() < a.check.size())
+    text += fmt::format("  ... of {}; RESULT.h5 and --margins have all\n", program::counted(n, "margin"));
+  return text;
+}
+
+std::string margins_csv(const JointResult& result) {
+  const auto known = [](double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; };
+  const MarginTable& a = result.margins;
+  std::string text = "joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs,direction\n";
+  for (Index i = 0; i < std::ssize(a.check); ++i)
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(result.header.name), csv_field(a.check[i]),
+                        csv_field(a.of[i]), a.margin[i], a.allowable[i], a.applied[i], csv_field(a.unit[i]),
+                        csv_field(result.case_name[result.case_of[a.at[i]]]), increment_number(result, a.at[i]),
+                        csv_field(a.formula[i]), csv_field(a.inputs[i]), known(a.direction[i]));
+  return text;
+}
+
+}  // namespace fastjoint::stage3
