@@ -30,7 +30,7 @@ const program::Command command = {
       "write instead FIELD.vtu: SPEC is RESULT.h5 of a joint, or a sum of cases with coefficients, "
       "external:P=0.01,disc:1:x=0.003,friction:1:+x=50,traction:T=100"},
      {"--plate", "NAME", "name of the sheet in RESULT.h5; default: the only one with the cases of PLATE.h5"},
-     {"--increment", "N", "increment of RESULT.h5 to show; default: the last"},
+     {"--increment", "N", "increment of RESULT.h5 to show; default: the one that governs"},
      {"--p", "N", "degree of the field; default: that of RESULT.h5, else the highest"}}};
 
 void write_matrices(const program::Arguments& arguments, formats::PlateSolution plate, program::Timings& timings) {

@@ -18,6 +18,7 @@
 #include "stage3_nonlinear/output/case_summary.hpp"
 #include "stage3_nonlinear/output/case_warnings.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
+#include "stage3_nonlinear/output/governing.hpp"
 #include "stage3_nonlinear/output/joined_result.hpp"
 #include "stage3_nonlinear/output/margins.hpp"
 #include "stage3_nonlinear/output/output.hpp"
@@ -264,6 +265,8 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
     warn(log, left_out, warnings);
     warn(log, edge_warnings(scene, result.margins), warnings);
   }
+  for (const auto& each : failures) warnings.push_back({"not-solved", each});
+  set_governing(result);
   for (const auto& each : warnings) {
     result.warning_code.emplace_back(each.code);
     result.warning.push_back(each.text);

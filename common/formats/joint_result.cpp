@@ -319,6 +319,10 @@ void result_datasets(File& file, Result& a) {
   const Eigen::Index steps = a.load_factor.size();
   file("case/name", a.case_name, {any}, "1", "load cases; one without a name if the joint has none", h5::or_else(""));
   file("case/of", a.case_of, {steps}, "1", "load case of each increment, counted from 0", h5::or_else(0));
+  file("governing/increment", a.governing, {}, "1",
+       "increment that governs, among all from 1, 0 without any: what pictures and fields show unless told otherwise",
+       h5::integers(0, int(steps)).or_else(0));
+  file("governing/reason", a.governing_reason, {}, "1", "why it governs", h5::or_else(""));
   file("warning/code", a.warning_code, {any}, "1", "warnings, as stage3_nonlinear printed them", h5::or_else(""));
   file("warning/text", a.warning, {std::ssize(a.warning_code)}, "1", "text of each", h5::or_else(""));
   file("converged", a.converged, {steps}, "1", "1 where the increment converged");
@@ -350,6 +354,8 @@ void result_datasets(File& file, Result& a) {
   file("plate/name", Column{a.plates, &PlateHistory::name}, {any}, "1",
        "plates of the joint; group plates/<name> has the results of each");
   const Eigen::Index plates = a.plates.size();
+  file("plate/materials", Column{a.plates, &PlateHistory::materials}, {plates}, "1",
+       "JSON text of \"materials\" in each PLATE.json, empty if unknown", h5::or_else(""));
   file("plate/matrices_digest", Column{a.plates, &PlateHistory::matrices_digest}, {plates}, "1",
        "digest of the MATRICES.h5 of each plate, empty if it has none", h5::or_else(""));
   file("plate/plate_digest", Column{a.plates, &PlateHistory::plate_digest}, {plates}, "1",

@@ -130,6 +130,7 @@ struct PlateHistory {
   CrackHistory cracks{};
   Border border{};
   std::optional<DiscForces> disc_forces{};        ///< missing in files before version 1.5
+  std::string materials{};                        ///< JSON text of "materials" in its PLATE.json; empty if unknown
   std::string matrices_digest{}, plate_digest{};  ///< digests of its MATRICES.h5 and PLATE.h5; empty if unknown
 };
 
@@ -205,6 +206,8 @@ struct JointResult {
   std::vector<PlateHistory> plates;
   std::vector<EnvelopeTable> envelope{};          ///< of a joint with "cases"
   MarginTable margins{};                          ///< of a joint with "margins"
+  int governing = 0;                              ///< increment that governs, among all; 0: the file does not know
+  std::string governing_reason{};                 ///< why it does
   std::vector<std::string> warning_code{};        ///< (a) of each warning that stage3_nonlinear printed
   std::vector<std::string> warning{};             ///< (a) its text
   std::optional<SensitivityHistory> sensitivity;  ///< if requested

@@ -101,13 +101,17 @@ FieldState joint_state(const PlateSolution& plate, const std::string& file, cons
     throw InputError(fmt::format("--increment: {} is not allowed; {} has the increments 1..{}", request.increment,
                                  request.spec, steps));
   FieldState state;
-  state.increment = request.increment != 0 ? request.increment : steps;
+  const int governing = sheet.joint.governing != 0 ? sheet.joint.governing : steps;
+  state.increment = request.increment != 0 ? request.increment : governing;
   state.joint_plate = sheet.joint.plates[sheet.at].name;
   state.p = sheet.joint.p;
   const auto step = state.increment - 1;
   const std::string& name = sheet.joint.header.name;
-  state.words = fmt::format("{}increment {} of {}, load factor {:g}", name.empty() ? "" : fmt::format("{}, ", name),
-                            state.increment, steps, sheet.joint.load_factor[step]);
+  const std::string& its = sheet.joint.case_name[sheet.joint.case_of[step]];
+  state.words = fmt::format(
+      "{}{}increment {} of {}, load factor {:g}{}", name.empty() ? "" : name + ", ",
+      its.empty() ? "" : fmt::format("case \"{}\", ", its), state.increment, steps, sheet.joint.load_factor[step],
+      request.increment == 0 && sheet.joint.governing != 0 ? fmt::format(" ({})", sheet.joint.governing_reason) : "");
   state.coefficients = sheet.coefficients.col(step);
   return state;
 }

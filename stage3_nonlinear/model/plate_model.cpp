@@ -326,6 +326,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   PlateModel plate;
   plate.name = name;
   plate.file = file;
+  plate.input = a.header.input;
   plate.matrices_digest = a.header.digest;
   plate.plate_digest = a.plate_digest;
   plate.axes = axes.empty() ? joint_axes({&file, 1}, {&a, 1}) : axes;

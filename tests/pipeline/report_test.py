@@ -20,7 +20,7 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests/support")]
 sys.dont_write_bytecode = True
 from examples import copy_example  # noqa: E402
-from one_hole import PROGRAMS, run  # noqa: E402
+from one_hole import PROGRAMS, matrices, run  # noqa: E402
 from pictures import extent  # noqa: E402
 from scripts import run_script  # noqa: E402
 
@@ -76,7 +76,11 @@ def check_numbers(folder):
     text, found = report(copy / "cases.h5", folder / "report.html")
     assert report(copy / "cases.h5", folder / "again.html")[0] == text, "the same bytes"
     with h5py.File(copy / "cases.h5") as f:
-        margins = [list(f[f"margin/{name}"][:]) for name in ("margin", "allowable", "applied")]
+        checks = list(f["margin/check"].asstr()[:])
+        order = sorted(range(len(checks)), key=lambda i: (checks.index(checks[i]) != i, i))  # the smallest of each check first
+        margins = [f[f"margin/{name}"][:][order] for name in ("margin", "allowable", "applied")]
+        row, reason = f["governing/increment"][()] - 1, f["governing/reason"].asstr()[()]
+        assert row == f["margin/at"][0] and reason == f"the smallest margin, {checks[0]} of {f['margin/of'].asstr()[0]}", (row, reason)
         load, peak, of = np.abs(f["transferred"][:, :, 0]), f["plates/right/rim/peak_hoop"][:], f["case/of"][:]
         names = list(f["case/name"].asstr()[:])
         net = f["plates/right/rim/net_stress"][:]
@@ -89,7 +93,6 @@ def check_numbers(folder):
     worst = found["The holes with the highest peaks"][1]
     i = int(peak.max(axis=0).argmax())
     assert worst[0] == "right:8" and worst[1] == f"{peak.max():.6g}" and worst[6] == f"{net[peak[:, i].argmax(), i]:.6g}", worst
-    row = int(load.max(axis=1).argmax())
     with h5py.File(copy / "cases.h5") as f:
         rows = f["plates/right/row"]
         lines = [[f"{rows['at'][i]:.6g}", str(rows["holes"][i]), *(f"{rows[name][row, i]:.6g}" for name in ("force", "before"))]
@@ -102,13 +105,34 @@ def check_numbers(folder):
                  for plate in f["plate/name"].asstr()[:] for i, name in enumerate(f[f"plates/{plate}/external/id"].asstr()[:])]
     assert found["Loaded edges"][1:] == edges and edges, (found["Loaded edges"], edges)
     assert sum(f"<h2>Sheet {name}</h2>" in text for name in ("top", "left", "right", "bottom")) == 4 and text.count("<svg") == 6
-    assert "FS = 1, FF = 1.15 in all of these" in text
+    assert "FS = 1, FF = 1.15 in all of these" in text and reason in text
+    assert ["right", "7075-T6", "E = 71000, nu = 0.33"] in found["Materials of the sheets"], found["Materials of the sheets"]
+    check_collapse(folder)
     check_geometry(copy / "cases.h5", found)
     check_rims(copy / "cases.h5", text)
     check_without_rims(copy)
     check_browser(folder, folder / "report.html", found)
     wrong = run_script("report", copy / "cover.h5", "-o", folder / "x.html")
     assert wrong.returncode == 2 and 'not of the format "joint-result"' in wrong.stderr and not (folder / "x.html").exists(), wrong
+
+
+def check_collapse(folder):
+    """A run to the limit load: the page has its last increment, and names the load."""
+    copy = copy_example("two_bolts", folder)
+    for name in ("upper", "lower"):
+        matrices(copy, json.loads((copy / f"{name}.json").read_text()), f"{name}.matrices")
+    joint = json.loads((copy / "joint.json").read_text())
+    joint["laws"]["bolt"] = {"type": "bilinear", "k": 1e5, "F_yield": 1500, "k_yield": 0}
+    (copy / "joint.json").write_text(json.dumps(joint | {"increments": 10}))
+    done = subprocess.run([PROGRAMS / "stage3_nonlinear", "joint.json", "-o", "joint.h5", "--quiet"], cwd=copy, capture_output=True, text=True)
+    assert done.returncode == 4 and "limit load reached" in done.stderr, done
+    text, found = report(copy / "joint.h5", folder / "collapse.html")
+    with h5py.File(copy / "joint.h5") as f:
+        n = len(f["load_factor"])
+        assert f["governing/increment"][()] == n == 8, n
+        applied = f["plates/upper/Pe"][-1, 0]
+    assert "limit load reached: beyond load factor 0.857" in text.split("Not solved to the end")[1].split("</p>")[0], text
+    assert found["Loaded edges"][1][1] == f"{applied:.6g}", found["Loaded edges"]
 
 
 def check_geometry(path, found):
