@@ -22,6 +22,7 @@
 #include "stage3_nonlinear/output/joined_result.hpp"
 #include "stage3_nonlinear/output/margins.hpp"
 #include "stage3_nonlinear/output/output.hpp"
+#include "stage3_nonlinear/output/secondary_bending.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
@@ -157,7 +158,7 @@ struct SolvedCase {
   formats::JointResult result;
   std::vector<program::Warning> warnings;
   std::string failure;  ///< empty if all increments converged
-  std::string summary;  ///< of every increment; empty if not wanted
+  std::string summary;  ///< of every increment, of one case of several its secondary bending alone
 };
 
 MoreStresses stresses_wanted(const program::Arguments& arguments) {
@@ -194,6 +195,7 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
         wanted.distance ? distance_warnings(joint, *wanted.distance) : std::vector<program::Warning>()})
     solved.warnings.insert(solved.warnings.end(), some.begin(), some.end());
   if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, path, increments);
+  if (!alone && !states.empty()) solved.summary = secondary_bending(joint, states.back());
   if (alone) solved.summary = summary(scene, joint, path, states, solved.result, arguments.flag("--all-stresses"));
   if (path.failure) solved.failure = failure_message(scene, its, joint, path, arguments.output);
   return solved;
@@ -245,14 +247,13 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   CrackErrorEstimate cracks(scene, cases.joint());
   formats::JointResult result;
   CaseWarnings found;
-  std::string text;
-  std::vector<std::string> failures;
+  std::vector<std::string> texts, failures;
   for (const std::size_t at : chosen) {
     SolvedCase its = solve_case(arguments, scene, cases, cracks, at, chosen.size() == 1, log);
     append(result, scene.cases[at].name, std::move(its.result));
     found.add(scene.cases[at].name, its.warnings);
     if (!its.failure.empty()) failures.push_back(std::move(its.failure));
-    text = std::move(its.summary);
+    texts.push_back(std::move(its.summary));
   }
   program::report_share(1);
   warn(log, found.all(chosen.size()), warnings);
@@ -277,8 +278,12 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   if (arguments.flag("--envelope")) h5::write_whole_file(arguments.text("--envelope"), envelope_csv(result));
   if (arguments.flag("--margins")) h5::write_whole_file(arguments.text("--margins"), margins_csv(result));
   if (arguments.flag("--totals")) h5::write_whole_file(arguments.text("--totals"), totals_csv(result));
-  if (!arguments.quiet)
-    out << (chosen.size() == 1 ? text : case_summary(scene, joint, result)) << margin_lines(scene, result);
+  if (!arguments.quiet) {
+    const int of = result.governing > 0 ? result.case_of[result.governing - 1] : 0;
+    if (chosen.size() > 1) out << case_summary(scene, joint, result);
+    if (chosen.size() > 1 && !texts[of].empty()) out << fmt::format("case \"{}\":\n", result.case_name[of]);
+    out << texts[of] << margin_lines(scene, result);
+  }
   check_solved(failures, chosen.size());
 }
 

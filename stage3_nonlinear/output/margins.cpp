@@ -45,24 +45,6 @@ struct HoleAt {
   std::string name;  ///< "plate:hole"
 };
 
-/// Distance from a point along a direction to the nearest free piece of a border; infinite if there is none.
-double distance_along(const formats::Border& border, const Point& from, const Point& direction) {
-  double nearest = infinite;
-  if (direction.norm() == 0) return nearest;
-  const Point along = direction.normalized();
-  constexpr double touch = 1e-9;
-  for (Index i = 0; i < border.is_free.size(); ++i) {
-    if (border.is_free[i] == 0) continue;
-    const Point a = border.ends.row(i).head<2>().transpose() - from;
-    const Point side = border.ends.row(i).tail<2>().transpose() - from - a;
-    const double area = along.x() * side.y() - along.y() * side.x();
-    if (std::abs(area) < touch * side.norm()) continue;
-    const double s = (a.x() * along.y() - a.y() * along.x()) / area, r = (a.x() * side.y() - a.y() * side.x()) / area;
-    if (s >= -touch && s <= 1 + touch && r > 0) nearest = std::min(nearest, r);
-  }
-  return nearest;
-}
-
 /// Direction of a force, degrees counter-clockwise from x; infinite without one.
 double direction_of(const Point& force) {
   return force.norm() > 0 ? std::atan2(force.y(), force.x()) * 180 / std::numbers::pi : infinite;
@@ -216,9 +198,13 @@ class Margins {
     const bool needs_section = check_->kind == CheckKind::tension || check_->kind == CheckKind::bearing_bypass,
                shears_out = check_->kind == CheckKind::shear_out && has_fastener;
     if (shears_out) require_border(hole);
-    const char* lacks = needs_section && HoleSections(s, hole.rim).number() == 0 ? "it has no sections"
-                        : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
-                                               : nullptr;
+    const HoleSections sections(s, hole.rim, &joint_.plates[hole.plate].border);
+    const char* lacks =
+        needs_section && sections.number() == 0 ? "it has no sections"
+        : check_->kind == CheckKind::tension && sections.is_filled()
+            ? "it fills most of the strip between cell lines, whose net section says nothing of the sheet"
+        : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
+                               : nullptr;
     if (lacks != nullptr) return left_out_[lacks].push_back(hole.name);
     switch (check_->kind) {
       case CheckKind::bearing:
@@ -274,7 +260,7 @@ class Margins {
     require_border(hole);
     if (check_->edge_distance) return *check_->edge_distance;
     const formats::PlateStresses& s = joint_.plates[hole.plate].stresses;
-    return distance_along(joint_.plates[hole.plate].border, s.rim_center.row(hole.rim).transpose(), force);
+    return distance_to_border(joint_.plates[hole.plate].border, s.rim_center.row(hole.rim).transpose(), force);
   }
 
   Applied bearing(const HoleAt& hole, Index step, double d) const {

@@ -104,16 +104,49 @@ std::string mismatches(const Source& formula, const KnownPlane& known, double cl
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-/// The contradiction between a formula for single or double shear and the number of sheets; empty if there is none, or
-/// for more than three sheets, which no formula covers.
-const char* shear_mismatch(const Source& formula, int n_sheets) {
+/// Work of the forces of the first on those of the second shear plane of a fastener through three sheets at the last
+/// increment, over the product of both: -1 in double shear, 1 in a pack whose sheets all pull the same way on; 0 of
+/// other fasteners, and where one plane carries less than a tenth of the other.
+double shear_alike(const JointModel& joint, const LoadPath& path, Index plane) {
+  const Index n = joint.n_directions(), first = joint.planes[plane].first == 0 ? plane : plane - 1;
+  if (path.steps.empty() || first + 1 >= joint.n_planes() ||
+      joint.planes[first + 1].fastener != joint.planes[first].fastener)
+    return 0;
+  const auto a = path.steps.back().F.segment(first * n, n), b = path.steps.back().F.segment((first + 1) * n, n);
+  constexpr double hardly = 0.1;
+  if (std::min(a.norm(), b.norm()) <= hardly * std::max(a.norm(), b.norm())) return 0;
+  return a.dot(b) / (a.norm() * b.norm());
+}
+
+/// The contradiction between a formula for single or double shear and the sheets; empty if there is none, or for more
+/// than three sheets, which no formula covers.
+/// @param alike As of shear_alike.
+const char* shear_mismatch(const Source& formula, int n_sheets, double alike) {
   if (formula.n_shear == 2 && n_sheets == 2)
     return "\"double\", but the fastener goes through 2 sheets, which is single shear; right only if they are half of "
            "a joint that is symmetric about its middle sheet";
-  if (formula.n_shear == 1 && n_sheets == 3)
-    return "\"single\", but the fastener goes through 3 sheets, which is double shear; the huth formulas know it, "
-           "with the middle sheet first in \"t\" and \"E\"";
+  if (formula.n_shear == 1 && n_sheets == 3 && alike < 0)
+    return "\"single\", but the fastener goes through 3 sheets, of which the outer two pull against the middle one, "
+           "which is double shear; the huth formulas know it, with the middle sheet first in \"t\" and \"E\"";
+  if (formula.n_shear == 2 && n_sheets == 3 && alike > 0)
+    return "\"double\", but both planes of the fastener pull the same way: its sheets are a pack, and each plane is in "
+           "single shear";
   return "";
+}
+
+/// Adds a doubt if an interference strains the rim beyond what metals take without yielding.
+void add_interference(const FastenerScene& fastener, const JointModel& joint, const HoleModel& hole, double radius,
+                      double E, std::vector<Doubt>& doubts) {
+  constexpr double yields = 0.01;  // the hoop strain; 0.3 to 0.9 % of most metals
+  const double strain = -hole.gap / radius;
+  if (strain <= yields) return;
+  doubts.emplace_back(
+      strain,
+      fmt::format("{}: an interference of {:.6g} strains the rim of hole \"{}\" of radius {:.6g} by {:.2g} %{}, "
+                  "at which metals yield: stresses are those of an elastic sheet; or it is in another unit of "
+                  "length",
+                  fastener.where_gap(), -hole.gap, joint.name(hole), radius, 100 * strain,
+                  E > 0 ? fmt::format(", a stress of up to {:.3g}", E * strain) : ""));
 }
 
 /// A kind of warning about rims, with its measure for a rim, 0 or NaN if there is no reason for it, and its text.
@@ -170,7 +203,7 @@ constexpr std::array<RimDoubt, 7> doubts = {{
 
 std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
                                                   const LoadPath& path) {
-  std::vector<Doubt> friction, gaps, distances, movements;
+  std::vector<Doubt> friction, gaps, interferences, distances, movements;
   std::vector<program::Warning> formulas;
   for (const auto& fastener : scene.fasteners)
     if (const double mu = *std::max_element(fastener.friction.begin(), fastener.friction.end()); mu > 1)
@@ -191,11 +224,11 @@ std::vector<program::Warning> implausible_numbers(const JointScene& scene, const
                                     "{:.6g} of the hole: one of them may be in another unit of length",
                                     where, gap, plane.law_name, radius));
     for (const HoleModel& hole : joint.holes(plane)) {
-      constexpr double max_interference = 0.05;  // far above that at which metals yield
-      constexpr double max_gap = 0.25;           // of the hole; ISO 273's coarse clearance holes: M8 in 10 mm
+      constexpr double max_gap = 0.25;  // of the hole; ISO 273's coarse clearance holes: M8 in 10 mm
       const FastenerScene& fastener = scene.fasteners[plane.fastener];
       const bool by_sheet = fastener.diameter && fastener.hole_diameter.empty();
-      if (hole.gap < (by_sheet ? max_gap : 1) * radius && -hole.gap < max_interference * radius) continue;
+      add_interference(fastener, joint, hole, radius, known.E.maxCoeff(), interferences);
+      if (hole.gap < (by_sheet ? max_gap : 1) * radius) continue;
       gaps.emplace_back(
           std::abs(hole.gap) / radius,
           fmt::format("{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length{}",
@@ -209,16 +242,18 @@ std::vector<program::Warning> implausible_numbers(const JointScene& scene, const
             fmt::format("{}/offset: a hole of radius {:.6g} is {:.6g} from its place in the free sheet: it "
                         "may be in another unit of length",
                         where, radius, std::hypot(x, y)));
-    if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > radius)
+    constexpr double coaxial = 0.1;  // of the radius
+    if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > coaxial * radius)
       distances.emplace_back(
           apart / radius,
           fmt::format(
-              "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than the radius {:.6g}: one "
-              "of them may be another fastener's hole, or the sheets are drawn in different coordinates",
+              "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than a tenth of the radius "
+              "{:.6g}: one of them may be another fastener's hole, or the sheets are drawn in different coordinates",
               where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
     const auto formula = joint.is_to_ground(plane) ? std::nullopt : plane.law->source();
     const std::string other = formula ? mismatches(*formula, known, plane.clearance) : "";
-    const std::string shear = formula ? shear_mismatch(*formula, known.n_sheets) : "";
+    const std::string shear =
+        formula ? shear_mismatch(*formula, known.n_sheets, shear_alike(joint, path, known.at)) : "";
     if (!shear.empty() && sheared.insert(plane.law_name).second)
       formulas.push_back({"formula-shear-unlike", fmt::format("{}: /laws/{}/shear: {} ({})", joint.file, plane.law_name,
                                                               shear, joint.name(plane))});
@@ -245,6 +280,7 @@ std::vector<program::Warning> implausible_numbers(const JointScene& scene, const
   std::vector<program::Warning> result;
   add_worst(result, "friction-unlikely", friction);
   add_worst(result, "gap-unlikely", gaps);
+  add_worst(result, "interference-yields", interferences);
   add_worst(result, "holes-apart", distances);
   const auto diameters = diameter_warnings(scene, joint);
   result.insert(result.end(), diameters.begin(), diameters.end());

@@ -14,10 +14,10 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// A sheet of the lap at its most loaded row: the hole with the largest gross stress.
+/// A sheet of the lap: at its most loaded row, the hole with the largest gross stress, and its highest peak.
 struct LapSheet {
   double t = 0, E = 0, gross = 0, peak = 0;
-  std::string hole;
+  std::string hole;  ///< of the highest peak
 };
 
 std::optional<LapSheet> loaded_sheet(const PlateModel& plate, const PlateState& state, int axis) {
@@ -25,9 +25,9 @@ std::optional<LapSheet> loaded_sheet(const PlateModel& plate, const PlateState& 
   for (Index i = 0; i < std::ssize(state.rims); ++i) {
     const RimState& rim = state.rims[i];
     const double gross = rim.gross_concentration > 0 ? rim.peak_hoop / rim.gross_concentration : 0;
+    if (rim.peak_hoop > found.peak) found.peak = rim.peak_hoop, found.hole = plate.stresses.rim_hole[i];
     if (!std::isfinite(gross) || !rim.in_tension || gross <= found.gross) continue;
-    found = {plate.stresses.rim_thickness[i], plate.stresses.rim_modulus(i, axis), gross, rim.peak_hoop,
-             plate.stresses.rim_hole[i]};
+    found.t = plate.stresses.rim_thickness[i], found.E = plate.stresses.rim_modulus(i, axis), found.gross = gross;
   }
   if (found.gross > 0 && found.t > 0 && found.E > 0) return found;
   return std::nullopt;
@@ -96,7 +96,7 @@ std::string secondary_bending(const JointModel& joint, const JointState& state) 
     const LapSheet& sheet = i == 0 ? *first : *second;
     text += fmt::format(
         "  {:<24} bending {:.3f} of the gross stress {:.6g}: {:+.6g} {} at the surface that touches the other sheet, "
-        "where the membrane peak is {:.6g} (hole {})\n",
+        "where the highest membrane peak is {:.6g} (hole {})\n",
         joint.plates[i].name, factors[i], sheet.gross, factors[i] * sheet.gross, unit(joint.units, -2, 1), sheet.peak,
         sheet.hole);
   }

@@ -42,9 +42,12 @@ std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index s
     all.push_back({"", plate.external_id[i], "", "force", plate.Pe(step, i), force});
     all.push_back({"", plate.external_id[i], "", "displacement", plate.De(step, i), length});
   }
-  for (Index i = 0; i < std::ssize(plate.traction_id); ++i) {
+  const Index n = std::ssize(plate.traction_id);
+  for (Index i = 0; i < n; ++i) {
     const double arm = plate.traction_arm[i], f = plate.traction(step, i), u = plate.traction_displacement(step, i);
-    if (i > 0 && plate.traction_id[i] == plate.traction_id[i - 1] && f == 0) continue;  // other side of a hole
+    // Of the two sides of a hole that is pressed the one that bears is shown, or the first.
+    const auto is_same = [&](Index other) { return other < n && plate.traction_id[other] == plate.traction_id[i]; };
+    if (f == 0 && ((i > 0 && is_same(i - 1)) || (is_same(i + 1) && plate.traction(step, i + 1) != 0))) continue;
     all.push_back(
         {"", plate.traction_id[i], "", arm > 0 ? "moment" : "force", arm > 0 ? f * arm : f, arm > 0 ? moment : force});
     all.push_back({"", plate.traction_id[i], "", arm > 0 ? "rotation" : "displacement", arm > 0 ? u / arm : u,

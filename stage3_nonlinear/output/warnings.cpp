@@ -133,6 +133,36 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
              step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable))});
 }
 
+/// Warns of a hole that two externals press along x and y, each on the half of the rim that faces it: no pin does.
+void warn_of_oblique_bearing(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
+                             std::vector<program::Warning>& result) {
+  if (path.steps.empty()) return;
+  const VectorXd given = equations.parameters.given_at(path.steps.back().load_factor);
+  const auto loads = loads_of(joint);
+  constexpr double hardly = 1e-3;
+  std::vector<Doubt> oblique;
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k) {
+      const PlateModel& plate = joint.plates[loads[i].plate];
+      const auto presses = [&](const Load& load) {
+        return load.is_traction && plate.bearing_sign(load.at) != 0 && load.plate == loads[i].plate;
+      };
+      const double a = std::abs(given[Index(i)]), b = std::abs(given[Index(k)]);
+      if (!presses(loads[i]) || !presses(loads[k]) || std::min(a, b) <= hardly * std::max(a, b)) continue;
+      if (plate.traction_hole[loads[i].at] != plate.traction_hole[loads[k].at]) continue;
+      oblique.emplace_back(
+          std::min(a, b),
+          fmt::format(
+              "externals \"{0}\" and \"{1}\" press hole \"{2}:{3}\" along x and y at once, each on its own half "
+              "of the rim: a pin presses where the load points, and its peak hoop stress is higher, by a third "
+              "at 45 degrees; let a fastener in contact bring the load, or draw the sheet with the load along an "
+              "axis",
+              plate.tractions[loads[k].at], plate.tractions[loads[i].at], plate.name,
+              plate.traction_hole[loads[i].at]));
+    }
+  add_worst(result, "bearing-oblique", oblique);
+}
+
 /// Sentence about self-locking. @param factor Friction reserve, at most 1.
 std::string locking_text(double factor) {
   return fmt::format(
@@ -186,6 +216,7 @@ std::vector<program::Warning> warnings(const JointModel& joint, const JointEquat
   std::vector<program::Warning> result;
   warn_of_soft_plates(joint, result);
   warn_of_bearing_twice(joint, result);
+  warn_of_oblique_bearing(joint, equations, path, result);
   warn_beyond_last_point(joint, equations, path, result);
   warn_of_mechanisms(joint, path, result);
   warn_of_other_solutions(joint, equations, path, result);

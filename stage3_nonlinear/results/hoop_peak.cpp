@@ -2,6 +2,7 @@
 #include "stage3_nonlinear/results/hoop_peak.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -122,8 +123,8 @@ class PeakSearch {
   }
 
   /// Sum of twice the change from the degree below, the extrapolated change by all further orders, from that by the
-  /// last two pairs of orders, and in contact a fraction of the change of the peak by the waves beyond half the order
-  /// (docs/theory.md, section 11.4).
+  /// last two or four pairs of orders, and in contact a fraction of the change of the peak by the waves beyond half the
+  /// order (docs/theory.md, section 11.4).
   [[nodiscard]] double error(const Curve& hoop, const Peak& peak,
                              const std::shared_ptr<const TractionWaves>& tractions) const {
     const rim::Harmonics& all = rim_.rim.waves;
@@ -135,16 +136,22 @@ class PeakSearch {
       shape.highest = std::max(all.highest - fewer, 1);
       return curve(0, shape, tractions);
     };
-    const Curve without_2 = up_to(2), without_4 = up_to(4);
     const double by_degree = change(hoop, curve(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
-    const double last = change(hoop, without_2, peak.angle), before = change(without_2, without_4, peak.angle);
-    constexpr double fastest = 0.1, slowest = 0.8;  // fall of the changes from one pair of orders to the next
-    const double fall = std::clamp(before > 0 ? last / before : slowest, fastest, slowest);
+    // Where shapes of four sides alternate, the changes fall over two pairs of orders, not from one pair to the next.
+    const int n = all.highest < 8 ? 1 : 2;  // pairs
+    std::vector<Curve> shorter{hoop};
+    std::array<double, 2> changed{};  // by the last n pairs, and by those before
+    for (int pair = 0; pair < 2 * n; ++pair) {
+      shorter.push_back(up_to(2 * pair + 2));
+      changed[pair / n] += change(shorter[pair], shorter[pair + 1], peak.angle);
+    }
+    const double fastest = std::pow(0.1, n), slowest = std::pow(0.8, n);
+    const double fall = std::clamp(changed[1] > 0 ? changed[0] / changed[1] : slowest, fastest, slowest);
     double by_waves = 0;
     if (rim_.in_contact)
       if (const auto other = top(curve(0, all, rim_.traction_waves(rim_.by_half)), rim_.kinks_by_half))
         by_waves = std::abs(other->value - peak.value);
-    return 2 * by_degree + last * fall / (1 - fall) + rim_.beyond_half * by_waves;
+    return 2 * by_degree + changed[0] * fall / (1 - fall) + rim_.beyond_half * by_waves;
   }
 
   /// Largest difference of two hoop stresses within 45 degrees of an angle.

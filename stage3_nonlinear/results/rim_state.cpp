@@ -87,7 +87,9 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
 void read_sections(const HoleSections& sections, const std::vector<SectionForces>& forces, const Eigen::Vector2d& T,
                    double largest, double energy_error, RimState& state) {
   if (sections.number() == 0) return;
-  const auto load = [&](const Principal& stress) { return stress.value * sections.gross_area(stress.direction); };
+  const auto load = [&](const Principal& stress) {
+    return stress.value * sections.gross_area_across(stress.direction);
+  };
   const auto bypass = [&](std::size_t level) { return larger_principal(sections.bypass(forces[level], T, largest)); };
   constexpr double rounding = 1e-9;
   const MeanStress passing_by = sections.bypass(forces[0], T, largest);
@@ -114,7 +116,7 @@ void read_sections(const HoleSections& sections, const std::vector<SectionForces
   if (std::isnan(state.peak_hoop)) return;
   state.gross_concentration = state.peak_hoop / std::abs(gross.value);
   const double share = sections.net_share(gross.direction);
-  state.net_concentration = state.gross_concentration * share;
+  if (!sections.is_filled()) state.net_concentration = state.gross_concentration * share;
 }
 
 /// Sets the peak, and the values that follow from the pressure around the rim.
@@ -145,8 +147,8 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
 
 }  // namespace
 
-std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& coefficients,
-                                 const LoadedDiscs& discs, double scale,
+std::vector<RimState> rim_states(const formats::PlateStresses& a, const formats::Border& border, int level,
+                                 const VectorXd& coefficients, const LoadedDiscs& discs, double scale,
                                  const std::vector<std::optional<LoadedRim>>& rims) {
   std::vector<RimState> states;
   std::vector<SectionForces> forces;
@@ -171,7 +173,8 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, con
     const auto found =
         std::ranges::find_if(rims, [&](const auto& rim) { return rim && rim->rim.hole == a.rim_hole[i]; });
     if (found != rims.end()) read_rim(**found, bearing, friction, axes, largest, a.bearing_area.row(i), state);
-    read_sections(HoleSections(a, i), forces, bearing + friction, largest, std::sqrt(a.stiffness_error[level]), state);
+    read_sections(HoleSections(a, i, &border), forces, bearing + friction, largest, std::sqrt(a.stiffness_error[level]),
+                  state);
     states.push_back(state);
   }
   return states;

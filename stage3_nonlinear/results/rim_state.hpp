@@ -46,10 +46,10 @@ struct LoadedDiscs {
 /// @param level    Index in `a` of the joint's degree; the one below, if there is one, gives the errors.
 /// @param coefficients  Of the unit cases, (n_cases).
 /// @param scale    Reference force of the joint's residuals, for rounding.
-/// @param rims     Rims with waves and a closed form; other holes have no peak: 0 with an infinite error.
-[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, int level, const VectorXd& coefficients,
-                                               const LoadedDiscs& discs, double scale,
-                                               const std::vector<std::optional<LoadedRim>>& rims);
+/// @param rims     Rims with waves and a closed form; other holes have no peak: NaN with an infinite error.
+[[nodiscard]] std::vector<RimState> rim_states(const formats::PlateStresses& a, const formats::Border& border,
+                                               int level, const VectorXd& coefficients, const LoadedDiscs& discs,
+                                               double scale, const std::vector<std::optional<LoadedRim>>& rims);
 
 /// The holes of a plate; their values at every increment are left to the caller.
 [[nodiscard]] formats::RimHistory rims_of(const formats::PlateStresses& a);

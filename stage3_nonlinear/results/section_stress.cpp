@@ -49,7 +49,25 @@ Principal largest_tension(const MeanStress& stress) {
   return stress.allFinite() ? MohrCircle(stress).high() : not_known;
 }
 
-HoleSections::HoleSections(const formats::PlateStresses& a, Index rim) : a_(a) {
+double distance_to_border(const formats::Border& border, const Eigen::Vector2d& from, const Eigen::Vector2d& direction,
+                          bool held_too) {
+  double nearest = infinite;
+  if (direction.norm() == 0) return nearest;
+  const Eigen::Vector2d along = direction.normalized();
+  constexpr double touch = 1e-9;
+  for (Index i = 0; i < border.is_free.size(); ++i) {
+    if (border.is_free[i] == 0 && !held_too) continue;
+    const Eigen::Vector2d a = border.ends.row(i).head<2>().transpose() - from;
+    const Eigen::Vector2d side = border.ends.row(i).tail<2>().transpose() - from - a;
+    const double area = along.x() * side.y() - along.y() * side.x();
+    if (std::abs(area) < touch * side.norm()) continue;
+    const double s = (a.x() * along.y() - a.y() * along.x()) / area, r = (a.x() * side.y() - a.y() * side.x()) / area;
+    if (s >= -touch && s <= 1 + touch && r > 0) nearest = std::min(nearest, r);
+  }
+  return nearest;
+}
+
+HoleSections::HoleSections(const formats::PlateStresses& a, Index rim, const formats::Border* border) : a_(a) {
   for (Index i = 0; i < std::ssize(a.section_hole); ++i) {
     if (a.section_hole[i] != a.rim_hole[rim]) continue;
     const auto [axis, sign] = rim::signed_axis_named(a.section_side[i]);
@@ -59,6 +77,15 @@ HoleSections::HoleSections(const formats::PlateStresses& a, Index rim) : a_(a) {
   const double whole = a.rim_thickness.size() > 0 ? 2 * a.rim_radius[rim] * a.rim_thickness[rim] : area.maxCoeff();
   constexpr double part = 0.75;  // of the projected area; half of it is there on a line of symmetry
   on_symmetry_ = area.minCoeff() < part * whole;
+  constexpr double most = 0.5, nearly = 0.99;
+  for (const int axis : {0, 1}) {
+    if (!border || net_area(axis) >= most * gross_area(axis)) continue;
+    const Eigen::Vector2d center = a.rim_center.row(rim), along = Eigen::Vector2d::Unit(1 - axis);
+    const double of_sheet = distance_to_border(*border, center, along, true) +
+                            distance_to_border(*border, center, -along, true),
+                 t = a.rim_thickness.size() > 0 ? a.rim_thickness[rim] : 0;
+    is_filled_ |= !(gross_area(axis) >= nearly * of_sheet * t);
+  }
 }
 
 int HoleSections::number() const {
@@ -87,10 +114,12 @@ double HoleSections::across(double x, double y, double direction) {
   return x == 0 ? y : y == 0 ? x : y + (x - y) * c * c;
 }
 
-double HoleSections::gross_area(double direction) const { return across(gross_area(0), gross_area(1), direction); }
+double HoleSections::gross_area_across(double direction) const {
+  return across(gross_area(0), gross_area(1), direction);
+}
 
 double HoleSections::net_share(double direction) const {
-  return across(net_area(0), net_area(1), direction) / gross_area(direction);
+  return across(net_area(0), net_area(1), direction) / gross_area_across(direction);
 }
 
 bool HoleSections::is_unknown(int axis, const Eigen::Vector2d& T, double scale) const {
@@ -139,6 +168,7 @@ MeanStress HoleSections::gross(const SectionForces& forces, const Eigen::Vector2
 }
 
 MeanStress HoleSections::net(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const {
+  if (is_filled_) return MeanStress::Constant(infinite);
   MeanStress stress(0, 0, shear(forces));
   double share = 1;  // of the gross area; the shear acts where it is smallest
   for (const int axis : {0, 1}) {

@@ -28,22 +28,30 @@ struct SectionForces {
   Eigen::VectorXd normal, shear;  ///< tension positive; as the stress xy
 };
 
+/// Distance from a point along a direction to the nearest piece of a border; infinite if there is none.
+/// @param held_too Pieces with supports or loads count too, beyond which the sheet may go on.
+[[nodiscard]] double distance_to_border(const formats::Border& border, const Eigen::Vector2d& from,
+                                        const Eigen::Vector2d& direction, bool held_too = false);
+
 /// The sections on the sides of one hole, and what their forces say of the sheet there (docs/theory.md, section 11.6).
 /// Nothing here knows along which axis a load acts: both axes are treated alike.
 class HoleSections {
  public:
-  /// @param rim Index of the hole in a.rim_hole.
-  HoleSections(const formats::PlateStresses& a, Eigen::Index rim);
+  /// @param rim    Index of the hole in a.rim_hole.
+  /// @param border Of the sheet, by which a section is told that ends at cell lines amid the sheet; may be null.
+  HoleSections(const formats::PlateStresses& a, Eigen::Index rim, const formats::Border* border = nullptr);
 
   [[nodiscard]] int number() const;
   /// Gross and net area of the section across an axis with the smaller net area; 0 without one, length^2.
   [[nodiscard]] double gross_area(int axis) const;
   [[nodiscard]] double net_area(int axis) const;
   /// Gross area across a direction, degrees: between those across the axes.
-  [[nodiscard]] double gross_area(double direction) const;
-
+  [[nodiscard]] double gross_area_across(double direction) const;
   /// Net over gross area across a direction.
   [[nodiscard]] double net_share(double direction) const;
+  /// True if the hole fills more than half of a section that ends amid the sheet: the force over such a strip is less
+  /// than what flows around the hole, and the stress over what is left of it is none of the sheet's.
+  [[nodiscard]] bool is_filled() const { return is_filled_; }
 
   /// Stress that passes the fastener by: without what the fastener adds on the side where it bears.
   /// @param T     Force of the fastener on the sheet, friction included.
@@ -51,7 +59,7 @@ class HoleSections {
   [[nodiscard]] MeanStress bypass(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
   /// Stress of the more loaded section across each axis, by magnitude, fastener included.
   [[nodiscard]] MeanStress gross(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
-  /// The same of the net sections, of that in larger tension.
+  /// The same of the net sections, of that in larger tension; infinite if the hole fills its strip.
   [[nodiscard]] MeanStress net(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
 
  private:
@@ -66,7 +74,8 @@ class HoleSections {
 
   const formats::PlateStresses& a_;
   std::array<Sides, 2> at_;  ///< by axis
-  bool on_symmetry_;         ///< the sheet goes on beyond the hole, as its mirror image
+  bool is_filled_ = false;
+  bool on_symmetry_;  ///< the sheet goes on beyond the hole, as its mirror image
 };
 
 }  // namespace fastjoint::stage3

@@ -10,6 +10,7 @@
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
+#include "common/program/program.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -327,6 +328,20 @@ SolverScene read_solver(const Value& value) {
   return solver;
 }
 
+/// Warns if fasteners without an expansion have a temperature, which then does nothing.
+void warn_of_expansion(JointScene& scene) {
+  const auto is_warm = [](const CaseScene& its) { return its.fastener_temperature.value_or(0) != 0; };
+  if (std::ranges::none_of(scene.cases, is_warm)) return;
+  std::vector<std::string> without;
+  for (const auto& fastener : scene.fasteners)
+    if (!fastener.expansion) without.push_back(fastener.id);
+  if (without.empty()) return;
+  scene.warnings.push_back(
+      {"expansion-missing",
+       fmt::format("{}: \"fastener_temperature\" does nothing at {}: give the fasteners their \"expansion\"",
+                   scene.file, program::listed(without))});
+}
+
 }  // namespace
 
 std::set<std::string> CaseScene::held() const {
@@ -354,6 +369,7 @@ JointScene read_joint_scene(const input::Document& document) {
   read_fasteners(root.at("fasteners"), scene);
   scene.warnings = law_doubts(root.at("laws"), scene);
   scene.cases = read_cases(root, scene);
+  warn_of_expansion(scene);
   if (const auto margins = root.find("margins")) scene.checks = read_margins(*margins);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);

@@ -230,7 +230,7 @@ def check_unwanted(scenes, joint):
     with h5py.File("result.h5") as result:
         rim = result["plates/upper/rim"]
         assert np.array_equal(np.diff(rim["start"]), [360, 0, 360, 360, 360]), rim["start"][:]
-        assert (rim["peak_hoop"][:, 1] == 0).all() and np.isinf(rim["peak_error"][:, 1]).all()
+        assert np.isnan(rim["peak_hoop"][:, 1]).all() and np.isinf(rim["peak_error"][:, 1]).all()
         assert rim["bearing_load"][-1, 1] != 0 and (rim["peak_hoop"][-1, [0, 2, 3, 4]] != 0).all()
         np.testing.assert_allclose(result["plates/lower/rim/sigma_tt"], before, atol=1e-6 * np.abs(before).max())
 

@@ -90,6 +90,8 @@ def gigapascals(sheets, joint):
 KINDS = {  # code and place or number: how it comes about
     ("holes-apart", "/fasteners/0/between: "): swap,
     ("gap-unlikely", "/fasteners/1/clearance: the gap"): lambda sheets, joint: joint["fasteners"][1].update(clearance=20),
+    ("holes-apart", "more than a tenth of the radius 2.4"): lambda sheets, joint: sheets["upper"]["holes"][0]["center"].__setitem__(1, 0.3 + sheets["upper"]["holes"][0]["center"][1]),
+    ("expansion-missing", '"fastener_temperature" does nothing at '): lambda sheets, joint: joint.update(fastener_temperature=50),
     ("friction-unlikely", "/fasteners/0/friction: 15 "): lambda sheets, joint: joint["fasteners"][0].update(friction=15),
     ("formula-sheets-unlike", "t = 0.16, 0.16 instead of 1.6"): formula,
     ("formula-shear-unlike", '/laws/rivet/shear: "double", but the fastener goes through 2 sheets'): double_shear,
@@ -108,6 +110,22 @@ def check_kinds():
         assert any(f"warning [{code}]: " in line and words in line for line in said.splitlines()), (code, words, said)
 
 
+def check_sheets_of_a_formula():
+    """A rivet through three sheets is in double shear if the middle one pulls against the others, and in a pack each plane is in single shear."""
+    strip = {"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"m": {"E": 72400, "nu": 0.33}},
+             "geometry": {"grid": {"x": [-40, 40], "y": [-10, 10], "thickness": 2}}, "holes": [{"id": "1", "center": [0, 0], "radius": 2.4, "spring": {"disk": {"E": 71000, "nu": 0.33}}}]}
+    held, pulled = {"supports": [{"on": "left", "fix": ["x", "y"]}]}, {"external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}]}
+    for shear, ends, said in (("single", (held, pulled, held), True), ("single", (held, {}, pulled), False),
+                              ("double", (held, pulled, held), False), ("double", (held, {}, pulled), True)):
+        law = {"type": "formula", "formula": "huth rivet", "mode": "fastener only", "shear": shear, "t": [2, 2], "E": [72400, 72400], "d": 4.8, "E_f": 71000}
+        joint = {"format": "joint", "version": 1, "plates": {name: f"{name}.matrices.h5" for name in "abc"}, "laws": {"rivet": law},
+                 "fasteners": [{"id": "1", "between": ["a:1", "b:1", "c:1"], "law": "rivet"}],
+                 "loads": [{"external": f"{name}:P", "force": 100} for name, end in zip("abc", ends) if "external" in end]}
+        with tempfile.TemporaryDirectory() as folder:
+            told = solved(Path(folder), {name: strip | end for name, end in zip("abc", ends)}, {"joint": joint}, 2)
+        assert ("[formula-shear-unlike]" in told) == said, (shear, ends, told)
+
+
 def check_clearance_in_contact():
     said = spoiled(contact, statuses=[2])
     assert "/fasteners/1/clearance: 0.02 is free play" in said and 'write "gap": [0.02, 0] instead' in said, said
@@ -116,4 +134,5 @@ def check_clearance_in_contact():
 if __name__ == "__main__":
     os.environ["PATH"] = os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"]
     check_kinds()
+    check_sheets_of_a_formula()
     check_clearance_in_contact()

@@ -54,7 +54,7 @@ TEST_F(Plausibility, NothingIsSaidOfAJointThatFits) {
 TEST_F(Plausibility, SwappedHolesAreNamed) {
   const std::string said = warnings(fasteners({1, 3, 2, 4}), described(4));
   EXPECT_THAT(said, AllOf(HasSubstr("[holes-apart]: "), HasSubstr("joint.json: /fasteners/1/between: "),
-                          HasSubstr("\"a:2\" and \"b:3\" are 20 apart, more than the radius 2.5"),
+                          HasSubstr("\"a:2\" and \"b:3\" are 20 apart, more than a tenth of the radius 2.5"),
                           HasSubstr(" (1 more of this kind, this is the worst)\n")));
 }
 

@@ -37,7 +37,7 @@ TEST(RimWarnings, DoubtAPeakBelowTheNetStressWhereSpringsPull) {
               testing::Contains(test::is_warning("kt-below-one", "joint.json: Kt net is 0.8 ")));
   RimState none_pulls = low_peak(), open = low_peak(), compressed = low_peak(), high = low_peak();
   none_pulls.pull = 0;
-  open.peak_hoop = 0;
+  open.net_concentration = 0;
   compressed.in_tension = false;
   high.net_concentration = 1.2;
   for (const RimState& rim : {none_pulls, open, compressed, high})
