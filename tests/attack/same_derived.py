@@ -8,7 +8,7 @@ from bench import Fall
 SAME = 1e-6  # of the largest value of a column
 ROUNDING = 1e-3  # of the largest in the joint: columns below count as that large, so that 1e-9 of it is nothing
 FORCE, STRESS, RATIO = (1, 0), (1, -2), (0, 0)
-QUANTITIES = {"bearing_stress": STRESS, "bypass_load": FORCE, "bypass_stress": STRESS, "net_stress": STRESS, "peak_hoop": STRESS,
+QUANTITIES = {"bearing_stress": STRESS, "bypass_load": FORCE, "bypass_stress": STRESS, "bypass_across": STRESS, "net_stress": STRESS, "peak_hoop": STRESS,
               "gross_concentration": RATIO, "net_concentration": RATIO}
 
 

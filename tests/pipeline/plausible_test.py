@@ -114,9 +114,10 @@ def check_sheets_of_a_formula():
     """A rivet through three sheets is in double shear if the middle one pulls against the others, and in a pack each plane is in single shear."""
     strip = {"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"m": {"E": 72400, "nu": 0.33}},
              "geometry": {"grid": {"x": [-40, 40], "y": [-10, 10], "thickness": 2}}, "holes": [{"id": "1", "center": [0, 0], "radius": 2.4, "spring": {"disk": {"E": 71000, "nu": 0.33}}}]}
-    held, pulled = {"supports": [{"on": "left", "fix": ["x", "y"]}]}, {"external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}]}
-    for shear, ends, said in (("single", (held, pulled, held), True), ("single", (held, {}, pulled), False),
-                              ("double", (held, pulled, held), False), ("double", (held, {}, pulled), True)):
+    held, pulled = {"supports": [{"on": "left", "fix": ["x", "y"]}]}, {"supports": [{"on": "bottom", "fix": ["y"]}], "external": [{"id": "P", "on": "right", "direction": "x", "kind": "rigid"}]}
+    free = {"supports": pulled["supports"]}
+    for shear, ends, said in (("single", (held, pulled, held), True), ("single", (held, free, pulled), False),
+                              ("double", (held, pulled, held), False), ("double", (held, free, pulled), True)):
         law = {"type": "formula", "formula": "huth rivet", "mode": "fastener only", "shear": shear, "t": [2, 2], "E": [72400, 72400], "d": 4.8, "E_f": 71000}
         joint = {"format": "joint", "version": 1, "plates": {name: f"{name}.matrices.h5" for name in "abc"}, "laws": {"rivet": law},
                  "fasteners": [{"id": "1", "between": ["a:1", "b:1", "c:1"], "law": "rivet"}],
