@@ -35,8 +35,10 @@ CaseSolver::CaseSolver(const JointModel& joint, const JointScene& scene, std::si
       system_(std::move(system)) {
   rims_ = equations_of(scene, at).rims;
   middle_ = from_no_load(scene);
-  if (middle_)
-    (void)contact_state(equations_of(scene, at), middle_->c);  // samples start at these solutions of the rims
+  if (!middle_) return;
+  const JointEquations equations = equations_of(scene, at);
+  (void)contact_state(equations, middle_->c);
+  rims_ = equations.rims;  // samples start at these solutions
 }
 
 JointEquations CaseSolver::equations_of(const JointScene& scene, std::size_t at) const {
