@@ -23,6 +23,7 @@ JointEquations CaseRun::equations(std::size_t at, const End* before) {
     system_ = std::make_shared<const CondensedSystem>(condense(joint_));
     displaced_ = std::move(displaced);
     ties_ = joint_.ties;
+    rims_.clear();  // their coordinates have the stiffness of the system before
   }
   Parameters parameters = parameters_of(joint_);
   if (before != nullptr && !before->load.isZero(0)) parameters.load_before = before->load;
