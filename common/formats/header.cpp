@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -20,6 +21,17 @@ Units labels(const std::string& text) {
     return units.is_object() && units.contains(key) && units[key].is_string() ? units[key] : "";
   };
   return {label("length"), label("force")};
+}
+
+/// True if a symmetric matrix with units has no eigenvalue below zero by more than rounding, and all its diagonal is
+/// positive.
+bool is_positive_definite(const Eigen::Matrix3d& A) {
+  constexpr double rounding = 1e-8;
+  if (!(A.diagonal().minCoeff() > 0)) return false;
+  const Eigen::Vector3d scale = A.diagonal().cwiseSqrt().cwiseInverse();
+  Eigen::Matrix3d unit_diagonal = scale.asDiagonal() * A * scale.asDiagonal();
+  unit_diagonal.diagonal().array() += rounding;
+  return unit_diagonal.llt().info() == Eigen::Success;
 }
 
 }  // namespace
@@ -131,6 +143,13 @@ void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& un
          h5::not_negative);
   file("wave/compliance", Column{a, &WaveRim::compliance}, {std::ssize(a), 3, 3}, unit(units, 2, -1),
        "strain (x, y, engineering xy) of the sheet at the rim per stress (x, y, xy); 0 where no closed form holds");
+  if constexpr (File::reads)
+    for (const auto& rim : a)
+      if (!rim.compliance.isZero(0) && !is_positive_definite(rim.compliance))
+        throw FileError(fmt::format(
+            "{}:wave/compliance: that of hole \"{}\" is not positive definite, expected a positive definite "
+            "matrix, or 0 where no closed form holds",
+            file.path(), rim.hole));
   if (File::reads && a.empty()) return;  // files from other sources may have none
   std::vector<int> owner;
   std::vector<rim::AngleRange> arcs;

@@ -232,6 +232,8 @@ TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
   refused([](auto& s, auto&) { s.section_side = {""}; }, "section/side: holds \"\", expected one of +x, -x, +y, -y");
   refused([](auto& s, auto&) { s.p[0] = 100; }, "stress/p: holds 100, expected ascending degrees from 1 to 99");
   refused([](auto&, auto& a) { a.waves[2].radius = 0; }, "wave/radius: holds 0, expected numbers > 0");
+  refused([](auto&, auto& a) { a.waves[0].compliance *= -1; },
+          "wave/compliance: that of hole \"a\" is not positive definite, expected a positive definite matrix, or 0");
   refused([](auto&, auto& a) { a.waves[1].modulus = -1; }, "wave/modulus: holds -1, expected numbers >= 0");
 }
 
