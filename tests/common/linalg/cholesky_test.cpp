@@ -138,14 +138,26 @@ TEST(Cholesky, ProductsAreThoseOfTheSolutions) {
     }
 }
 
-TEST(EliminationOrder, FillsAnArrowLittle) {
-  constexpr int n = 60;  // the first row is full: it must come last
+/// Lower triangle whose first column is full: eliminated first, it fills all others.
+Sparse arrow(int n) {
   Sparse A(n, n);
+  A.reserve(Eigen::VectorXi::Constant(n, 1) + (n - 1) * Eigen::VectorXi::Unit(n, 0));
   for (int i = 0; i < n; ++i) {
     A.insert(i, i) = n;
     if (i > 0) A.insert(i, 0) = 1;
   }
   A.makeCompressed();
+  return A;
+}
+
+TEST(Cholesky, RefusesAFactorOfMoreEntriesThanAnIntCounts) {
+  constexpr int n = 46400;  // n^2 > 2^31
+  EXPECT_THAT([] { Cholesky factor(arrow(n)); }, ThrowsMessage<NumericalError>(HasSubstr("too large for 32-bit")));
+}
+
+TEST(EliminationOrder, FillsAnArrowLittle) {
+  constexpr int n = 60;  // the full row must come last
+  const Sparse A = arrow(n);
   const auto order = elimination_order(A);
   ASSERT_EQ(order.size(), n);
   EXPECT_GE(std::find(order.begin(), order.end(), 0) - order.begin(), n - 2);
