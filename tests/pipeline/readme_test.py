@@ -125,9 +125,15 @@ def check_run_joint(folder, script):
 
     assert [words[0] for words in run("joint.json", "--no-picture")] == ["stage3_nonlinear"]
     sheet = folder / "lower.json"
+    before = sheet.read_text()
     sheet.write_text("// thicker\n" + sheet.read_text().replace('"thickness": 2', '"thickness": 3'))
     assert run("joint.json", "--no-picture", "--p", "7") == [["stage1_plate", "lower.json"], ["stage2_extract", "lower.h5"], ["stage3_nonlinear", "joint.json"]]
-    sheet.write_text(sheet.read_text().replace('"thickness": 3', '"thickness": -3'))
+    for text in (before, "// thin\n" + before):  # older than the matrices, as a file copied back with its time
+        sheet.write_text(text)
+        os.utime(sheet, (0, 0))
+        assert run("joint.json", "--no-picture")[:2] == [["stage1_plate", "lower.json"], ["stage2_extract", "lower.h5"]]
+        assert run("joint.json", "--no-picture") == [["stage3_nonlinear", "joint.json"]]
+    sheet.write_text(sheet.read_text().replace('"thickness": 2', '"thickness": -3'))
     assert "lower.json: /geometry/grid/thickness" in run("joint.json", status=2)
     sheet.rename(folder / "gone.json")
     assert [words[0] for words in run("joint.json", "--no-picture")] == ["stage3_nonlinear"], "matrices without a sheet are taken as they are"
