@@ -111,6 +111,7 @@ struct PathFailure {
   std::optional<double> locking;             ///< TangentCheck::locking, for the sides that bear or would bear
   std::optional<Imbalance> unbalanced = {};  ///< the reason, if the path ended by an imbalance
   std::optional<double> limit = {};          ///< upper bound of the limit load (limit_load), with the sign of the load
+  std::string ending = {};                   ///< why the solver ended in the last try (text_of)
 };
 
 /// The first load factor whose solution is not on the path from no load.

@@ -140,10 +140,12 @@ PathFailure Walk::failure(Index increment, double load_factor) {
     failure.limit = std::copysign(factor, load_factor);
     return failure;
   }
-  return {increment,           load_factor,
-          here_.load_factor,   equations_.entry_of(worst_row_),
-          worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
-          locking(load_factor)};
+  PathFailure failure{increment,           load_factor,
+                      here_.load_factor,   equations_.entry_of(worst_row_),
+                      worst_residual_,     level_planes(equations_, best_.size() > 0 ? best_ : here_.c),
+                      locking(load_factor)};
+  failure.ending = ending_ == Ending::converged ? "past the limit load of a law" : text_of(ending_);
+  return failure;
 }
 
 std::optional<double> Walk::locking(double load_factor) const {
@@ -276,6 +278,7 @@ Root Walk::run(const RootProblem& problem, const VectorXd& start, SolveFunction 
   if (options_.log) options.report = [&](const Root& root) { log_iteration(root, before); };
   Root root = solver(problem, start / scale_, options);
   iterations_ += root.iterations;
+  ending_ = root.ending;
   if (root.converged && (solver == hybridsj_root || is_far_from_balance(root))) end_by_newton(problem, root);
   if (options_.log) *options_.log << fmt::format("    {}\n", text_of(root.ending));
   return root;

@@ -104,6 +104,7 @@ class Walk {
   double worst_residual_ = 0;                                      ///< of the best try
   Index worst_row_ = 0;                                            ///< of all unknowns
   VectorXd best_;                                                  ///< contact coordinates of the best try
+  Ending ending_ = Ending::converged;                              ///< of the last try
   std::array<std::optional<std::optional<LimitLoad>>, 2> limits_;  ///< of negative and positive load factors, if found
 };
 
