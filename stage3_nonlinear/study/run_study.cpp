@@ -117,10 +117,12 @@ formats::StudyOrigin origin_of(const Study& study, const JointModel& joint, std:
 std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& study, bool may_draw, std::ostream& log) {
   if (study.seed) return *study.seed;
   if (const auto before = StudyBlocks::seed_in(arguments.output)) return *before;
-  if (study.sampling == Sampling::grid) return 0;
+  const bool draws = std::ranges::any_of(study.variables, [](const auto& each) { return each.column.empty(); });
+  if (study.sampling == Sampling::grid || !draws) return 0;
   if (!may_draw)
     throw InputError(
-        fmt::format("{}: /: no \"seed\"; allowed: a seed, without which slices would not be of one study", study.file));
+        fmt::format("{}: /: no \"seed\"; allowed: a seed, without which slices and --sample would not be of one study",
+                    study.file));
   const std::uint64_t seed = std::random_device()() & std::uint32_t(std::numeric_limits<int>::max());
   log << fmt::format("{}: the study's seed is {}; \"seed\": {} in {} repeats it\n", program_name, seed, seed,
                      study.file);

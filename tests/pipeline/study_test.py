@@ -298,6 +298,9 @@ def grids_and_tables(folder):
                                       (("/laws/pin/k", "k"), ("/fasteners/1/clearance", "c"))]})
     with h5py.File(folder / "study.h5") as study:
         assert study["samples/variable"][:].tolist() == [[1000, 0.5], [2000, 0.25]]
+    assert "seed" not in run(folder, joint, tabled, "--sample", "1", output="one.json"), "a table needs none"
+    assert json.loads((folder / "one.json").read_text())["laws"]["pin"]["k"] == 2000
+    assert "slices and --sample would not be" in run(folder, joint, {"samples": 3, "variables": [EACH_CLEARANCE]}, "--sample", "1", status=2)
 
 
 def memory(folder):
