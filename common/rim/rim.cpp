@@ -9,9 +9,10 @@
 namespace fastjoint::rim {
 namespace {
 
-bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector2d& center, double radius) {
-  return (arc.center - center).norm() < same_place * radius &&
-         std::abs((mesh.nodes.col(arc.a) - arc.center).norm() - radius) < same_place * radius;
+bool on_circle(const pfem::Mesh& mesh, const pfem::Arc& arc, const Eigen::Vector2d& center, double radius,
+               double tolerance) {
+  return (arc.center - center).norm() < tolerance * radius &&
+         std::abs((mesh.nodes.col(arc.a) - arc.center).norm() - radius) < tolerance * radius;
 }
 
 }  // namespace
@@ -27,13 +28,13 @@ RimFinder::RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges) : mesh_(m
     }
 }
 
-Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius) const {
+Rim RimFinder::operator()(const Eigen::Vector2d& center, double radius, double tolerance) const {
   Rim rim{center, radius, {}};
-  const Eigen::Array2d low = center.array() - same_place * radius, high = center.array() + same_place * radius;
+  const Eigen::Array2d low = center.array() - tolerance * radius, high = center.array() + tolerance * radius;
   for (auto x = arcs_.lower_bound(low.x()); x != arcs_.end() && x->first <= high.x(); ++x)
     for (auto y = x->second.lower_bound(low.y()); y != x->second.end() && y->first <= high.y(); ++y)
       for (const auto& [side, arc] : y->second)
-        if (on_circle(mesh_, mesh_.arcs[arc], center, radius)) rim.sides.push_back(side);
+        if (on_circle(mesh_, mesh_.arcs[arc], center, radius, tolerance)) rim.sides.push_back(side);
   std::ranges::sort(rim.sides, {}, [](const pfem::Side& side) { return std::pair(side.element, side.local_edge); });
   return rim;
 }

@@ -34,7 +34,8 @@ class RimFinder {
   /// The mesh must outlive this.
   RimFinder(const pfem::Mesh& mesh, const pfem::Edges& edges);
   /// Finds the sides of elements that lie on a circle, in the order of the elements.
-  [[nodiscard]] Rim operator()(const Eigen::Vector2d& center, double radius) const;
+  /// @param tolerance Of their centres and radii, relative to the radius.
+  [[nodiscard]] Rim operator()(const Eigen::Vector2d& center, double radius, double tolerance = same_place) const;
 
  private:
   const pfem::Mesh& mesh_;

@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "common/errors.hpp"
+#include "common/formats/plate_checks.hpp"
 #include "tests/support/message.hpp"
 #include "tests/support/plates.hpp"
 
@@ -197,6 +198,19 @@ TEST(ExplicitMesh, DigitsOfAHandWrittenFileMakeNoOtherRim) {
     EXPECT_TRUE(stage1::missing_symmetry(plate.scene, mesh, plate.problem.unknowns).empty()) << first << others;
   }
   EXPECT_THAT(message(paper_half_plate("[2e-5, 0]")), HasSubstr("135 degrees"));
+}
+
+/// What stage 1 takes as a rim, PLATE.h5 may hold: nodes may follow centres that are on both sides of the hole's.
+TEST(ExplicitMesh, ARimOfDifferentCentresIsReadAgain) {
+  const double side = std::sqrt(0.5), shift = 9e-7;
+  const std::string nodes =
+      fmt::format("[{0},-{1}],[{0},{1}],[-{0},{1}],[-{0},-{1}],[5,-5],[5,5],[-5,5],[-5,-5]", side + shift, side);
+  const test::Plate plate = test::make_plate(mesh_scene(
+      nodes, "[0,4,5,1],[1,5,6,2],[2,6,7,3],[3,7,4,0]",
+      R"(, "edges": {"left": [[6, 7]]}, "arcs": [{"edge": [0, 1], "center": [9e-7, 0]}, {"edge": [1, 2], "center": [0, 0]},
+        {"edge": [2, 3], "center": [-9e-7, 0]}, {"edge": [3, 0], "center": [0, 0]}])",
+      R"(, "p": [2, 3], "holes": [{"id": "h", "center": [0, 0], "radius": 1}], "supports": [{"on": "left", "fix": ["x", "y"]}])"));
+  EXPECT_NO_THROW(formats::check_consistent("plate.h5", test::solve(plate)));
 }
 
 /// The set of edges that lies on the line of a half hole is the one to support.
