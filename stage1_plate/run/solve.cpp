@@ -145,12 +145,14 @@ SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& 
   values.leftCols(n_prescribed) = SR.bottomRows(n_functions);
   for (Eigen::Index i = 0; i < n_functions; ++i)
     for (const auto& part : functions[i]) values.row(i).tail(q) += states.values(part).topRows(q).transpose();
-  return {{SR.topLeftCorner(nc, nc), SR.block(0, nc + k, nc, h), forces.topLeftCorner(nc, q) - problem.T_c,
-           work.topLeftCorner(q, q), std::move(W), values.topRows(s), values.middleRows(s, s),
-           values.bottomRows(n_functions - 2 * s)},
-          {displacement, wave, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), waves(forces, q, 1),
-           waves(forces, q + 1, 1), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement),
-           rounding_margin * states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300)}};
+  const double rounding = rounding_margin * states.rounding()[q] / std::max(displacement.squaredNorm(), 1e-300);
+  Eigen::MatrixXd S = SR.topLeftCorner(nc, nc);
+  if (nc > 0 && S.cwiseAbs().maxCoeff() <= rounding) S.setZero();  // one disc alone holds the sheet
+  return {
+      {std::move(S), SR.block(0, nc + k, nc, h), forces.topLeftCorner(nc, q) - problem.T_c, work.topLeftCorner(q, q),
+       std::move(W), values.topRows(s), values.middleRows(s, s), values.bottomRows(n_functions - 2 * s)},
+      {displacement, wave, friction, forces.col(q).head(nc), forces.col(q + 1).head(nc), waves(forces, q, 1),
+       waves(forces, q + 1, 1), work.col(q).head(q) + problem.T_c.transpose().lazyProduct(displacement), rounding}};
 }
 
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& a) {

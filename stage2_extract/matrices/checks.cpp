@@ -32,9 +32,15 @@ constexpr double min_scale = 1e-5;
 
 double ratio(double x, double scale) { return scale > 0 ? x / scale : x; }
 
+/// The same, raised so that errors up to the rounding that stage 1 estimates pass: the springs of one disc that alone
+/// holds a stiff sheet may be so soft that it is more.
+double min_scale_of(const PlateSolution& plate) {
+  return std::max(min_scale, ratio(plate.probe.rounding, max_error * largest(plate.held_stiffness)));
+}
+
 /// Reference stiffness for errors of S: its largest entry, or a fraction of the springs' stiffness if S is nearly zero.
 double scale_of(const PlateSolution& plate, const Eigen::MatrixXd& S) {
-  return std::max(largest(S), min_scale * largest(plate.held_stiffness));
+  return std::max(largest(S), min_scale_of(plate) * largest(plate.held_stiffness));
 }
 
 /// Displacement along an axis at a point by rigid motions of the sheet: along x, along y, and rotation by 1 / size.
@@ -96,7 +102,7 @@ double scale_of_motion(const PlateSolution& plate, const PlateCases& level, Eige
   double area = 0;
   for (Eigen::Index i = 0; i < std::ssize(plate.waves) && plate.n_waves_before(i) < n_waves; ++i)
     area = std::max(area, plate.waves[i].area);
-  return std::max(largest(level.W.topLeftCorner(n_waves, level.S.rows())), min_scale * area);
+  return std::max(largest(level.W.topLeftCorner(n_waves, level.S.rows())), min_scale_of(plate) * area);
 }
 
 /// Reference value for forces in unit friction cases and loaded waves.

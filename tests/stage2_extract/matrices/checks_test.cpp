@@ -116,6 +116,21 @@ TEST(Checks, ASheetThatOneDiscInContactHolds) {
   EXPECT_LT(*result.checks.equilibrium, 1e-9);
 }
 
+/// The rounding of a stiff sheet is more than a small fraction of its soft springs, and is no force on its disc.
+TEST(Checks, AStiffSheetThatOneSoftDiscHolds) {
+  for (const double E : {500.0, 5.0, 0.05}) {
+    const auto result = test::extract(fmt::format(
+        R"({{"format": "plate", "version": 1, "analysis": "plane stress", "p": [2, 5],
+      "materials": {{"m": {{"E": 4e5, "nu": 0.33}}}}, "geometry": {{"grid": {{"x": [-13, 21.5, 22.5], "y": [0, 5], "thickness": 4}}}},
+      "holes": [{{"id": "pin", "center": [0, 0], "radius": 4.3, "spring": {{"disk": {{"E": {}, "nu": 0.3}}}}}}],
+      "supports": [{{"on": "bottom", "fix": ["y"]}}],
+      "external": [{{"id": "P", "on": "right", "direction": "x", "kind": "traction"}}]}})",
+        E));
+    EXPECT_NO_THROW(stage2::require_good(result.checks, "f.h5")) << E;
+    EXPECT_EQ(result.matrices.S_dd.back()(0, 0), 0) << E;
+  }
+}
+
 TEST(Checks, RigidMotionsAreTheNullSpaceOfS) {
   const auto m = test::extract(test::grid_scene({0, 1, 2}, {0, 1}, {{"a", 0.4, 0.5, 0.2}, {"b", 1.5, 0.6, 0.25}},
                                                 R"(, "disc_directions": ["x", "y"])"))
