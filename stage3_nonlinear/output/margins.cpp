@@ -62,6 +62,7 @@ class Margins {
     for (const auto& check : scene_.checks) {
       check_ = &check;
       left_out_.clear();
+      unknown_because_ = "its value is not known";
       for (const auto& name : check.cases)
         if (std::ranges::find(scene_.cases, name, &CaseScene::name) == scene_.cases.end())
           fail(fmt::format("case \"{}\" does not exist", name), "names of \"cases\"");
@@ -105,7 +106,7 @@ class Margins {
     if (row.at >= 0)
       rows_.push_back(std::move(row));
     else if (a_.load_factor.size() > 0)
-      left_out_[solved ? "its value is not known" : "none of its cases was solved"].push_back(of);
+      left_out_[solved ? unknown_because_ : "none of its cases was solved"].push_back(of);
   }
 
   /// True if the case of an increment is one of the check's.
@@ -199,13 +200,14 @@ class Margins {
                shears_out = check_->kind == CheckKind::shear_out && has_fastener;
     if (shears_out) require_border(hole);
     const HoleSections sections(s, hole.rim, &joint_.plates[hole.plate].border);
-    const char* lacks =
-        needs_section && sections.number() == 0 ? "it has no sections"
-        : check_->kind == CheckKind::tension && sections.is_filled()
-            ? "it fills most of the strip between cell lines, whose net section says nothing of the sheet"
-        : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
-                               : nullptr;
+    const char* lacks = needs_section && sections.number() == 0 ? "it has no sections"
+                        : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
+                                               : nullptr;
     if (lacks != nullptr) return left_out_[lacks].push_back(hole.name);
+    unknown_because_ =
+        check_->kind == CheckKind::tension && sections.is_filled()
+            ? "it fills most of the strip between cell lines, whose net section says nothing of the sheet"
+            : "its value is not known";
     switch (check_->kind) {
       case CheckKind::bearing:
         if (has_fastener) add(hole.name, "F_br d t", force, [&](Index step) { return bearing(hole, step, d); });
@@ -321,6 +323,7 @@ class Margins {
   const JointResult& a_;
   const CheckScene* check_ = nullptr;
   std::vector<Row> rows_;
+  std::string unknown_because_;                               ///< of the item that is checked
   std::map<std::string, std::vector<std::string>> left_out_;  ///< holes of the check by the reason
   std::vector<program::Warning> warnings_;
 };

@@ -116,7 +116,7 @@ void read_sections(const HoleSections& sections, const std::vector<SectionForces
   if (std::isnan(state.peak_hoop)) return;
   state.gross_concentration = state.peak_hoop / std::abs(gross.value);
   const double share = sections.net_share(gross.direction);
-  if (!sections.is_filled()) state.net_concentration = state.gross_concentration * share;
+  if (std::isfinite(net.value)) state.net_concentration = state.gross_concentration * share;
 }
 
 /// Sets the peak, and the values that follow from the pressure around the rim.

@@ -84,7 +84,7 @@ HoleSections::HoleSections(const formats::PlateStresses& a, Index rim, const for
     const double of_sheet = distance_to_border(*border, center, along, true) +
                             distance_to_border(*border, center, -along, true),
                  t = a.rim_thickness.size() > 0 ? a.rim_thickness[rim] : 0;
-    is_filled_ |= !(gross_area(axis) >= nearly * of_sheet * t);
+    is_filled_[axis] = !(gross_area(axis) >= nearly * of_sheet * t);
   }
 }
 
@@ -168,13 +168,19 @@ MeanStress HoleSections::gross(const SectionForces& forces, const Eigen::Vector2
 }
 
 MeanStress HoleSections::net(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const {
-  if (is_filled_) return MeanStress::Constant(infinite);
+  constexpr double hardly = 0.05;  // of the stress across the other axis
+  const MeanStress over_gross = gross(forces, T, scale);
   MeanStress stress(0, 0, shear(forces));
   double share = 1;  // of the gross area; the shear acts where it is smallest
   for (const int axis : {0, 1}) {
     if (is_unknown(axis, T, scale)) stress[axis] = infinite;
     const auto& [plus, minus] = at_[axis];
     if (!plus && !minus) continue;
+    if (is_filled_[axis]) {
+      const bool carries = !(std::abs(over_gross[axis]) <= hardly * std::abs(over_gross[1 - axis]));
+      stress[axis] = carries ? infinite : over_gross[axis];
+      continue;
+    }
     const auto of = [&](const std::optional<Index>& side) {
       return side ? forces.normal[*side] / a_.net_area[*side] : -infinite;
     };

@@ -51,7 +51,7 @@ class HoleSections {
   [[nodiscard]] double net_share(double direction) const;
   /// True if the hole fills more than half of a section that ends amid the sheet: the force over such a strip is less
   /// than what flows around the hole, and the stress over what is left of it is none of the sheet's.
-  [[nodiscard]] bool is_filled() const { return is_filled_; }
+  [[nodiscard]] bool is_filled() const { return is_filled_[0] || is_filled_[1]; }
 
   /// Stress that passes the fastener by: without what the fastener adds on the side where it bears.
   /// @param T     Force of the fastener on the sheet, friction included.
@@ -59,7 +59,7 @@ class HoleSections {
   [[nodiscard]] MeanStress bypass(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
   /// Stress of the more loaded section across each axis, by magnitude, fastener included.
   [[nodiscard]] MeanStress gross(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
-  /// The same of the net sections, of that in larger tension; infinite if the hole fills its strip.
+  /// The same of the net sections, of that in larger tension; infinite if the hole fills a strip that carries.
   [[nodiscard]] MeanStress net(const SectionForces& forces, const Eigen::Vector2d& T, double scale) const;
 
  private:
@@ -73,9 +73,9 @@ class HoleSections {
   [[nodiscard]] double shear(const SectionForces& forces) const;
 
   const formats::PlateStresses& a_;
-  std::array<Sides, 2> at_;  ///< by axis
-  bool is_filled_ = false;
-  bool on_symmetry_;  ///< the sheet goes on beyond the hole, as its mirror image
+  std::array<Sides, 2> at_;          ///< by axis
+  std::array<bool, 2> is_filled_{};  ///< by axis
+  bool on_symmetry_;                 ///< the sheet goes on beyond the hole, as its mirror image
 };
 
 }  // namespace fastjoint::stage3

@@ -106,6 +106,25 @@ def cases(folder):
     assert found["bearing", "a:1"]["margin"] == "inf" and "no load" in done.stdout
 
 
+def strips(folder):
+    """A cut-out that fills its strip between cell lines amid the sheet has no net section; one that fills as much of a strip as wide as the sheet has."""
+    for name, x, y, known in (("wide", [-60, -12, 12, 60], [-60, -12, 12, 60], False), ("specimen", [-30, 30], [-12, 12], True)):
+        wide = sheet(x, y, supports=[{"on": "left", "fix": ["x"]}, {"on": "bottom", "fix": ["y"]}],
+                     external=[{"id": "P", "on": "right", "direction": "x", "kind": "traction"}], points=[{"id": "k", "at": [x[-1], y[-1]], "stiffness": 1}])
+        matrices(folder, wide | {"holes": [{"id": "cut", "center": [0, 0], "radius": 8}]}, name)
+        joint = {"format": "joint", "version": 1, "plates": {"a": f"{name}.h5"}, "laws": {"hold": {"type": "linear", "k": 1e-3}},
+                 "fasteners": [{"id": "k", "between": ["a:k", "ground"], "law": "hold"}], "loads": [{"external": "a:P", "force": P}],
+                 "margins": {"checks": [{"check": "tension", "F_tu": 420}]}}
+        (folder / "joint.json").write_text(json.dumps(joint))
+        done = subprocess.run([PROGRAMS / "stage3_nonlinear", "joint.json", "-o", "out.h5"], cwd=folder, capture_output=True, text=True)
+        assert done.returncode == 0 and ("a:cut: it fills most of the strip between cell lines" in done.stderr) != known, done
+        with h5py.File(folder / "out.h5") as file:
+            net, concentration = (file[f"plates/a/rim/{key}"][0, 0] for key in ("net_stress", "net_concentration"))
+            assert len(file.get("margin/margin", [])) == known and (concentration > 1) == known and np.isfinite(net) == known, (name, net, concentration)
+        if known:
+            near("net stress of a specimen", net, P / (T * 8), 0.02)
+
+
 def outlines(folder):
     """A mesh's outline with an arc and a crack: straight pieces are joined, faces of cracks and holes are left out."""
     lap(folder, 9.0)
@@ -202,6 +221,7 @@ def main():
         refusals(Path(name))
         by_hand(Path(name))
         cases(Path(name))
+        strips(Path(name))
         outlines(Path(name))
         halves(Path(name))
         left_out(Path(name))

@@ -127,6 +127,24 @@ def check_sheets_of_a_formula():
         assert ("[formula-shear-unlike]" in told) == said, (shear, ends, told)
 
 
+def check_bearing_externals():
+    """Two externals that press one hole along x and y at once are said; each is one line of the summary, with its force."""
+    sheet = {"format": "plate", "version": 1, "analysis": "plane stress", "materials": {"m": {"E": 71000, "nu": 0.33}},
+             "geometry": {"grid": {"x": [-60, -15, 15], "y": [-15, 15], "thickness": 3}}, "supports": [{"on": "left", "fix": ["x", "y"]}],
+             "holes": [{"id": "d", "center": [-40, 0], "radius": 2, "spring": {"disk": {"E": 71000, "nu": 0.33}}}, {"id": "h", "center": [0, 0], "radius": 3}],
+             "external": [{"id": f"b{axis}", "on": "h", "direction": axis, "kind": "bearing"} for axis in "xy"]}
+    with tempfile.TemporaryDirectory() as folder:
+        for forces, said in (((3000, 0), False), ((-3000, 0), False), ((2100, -2100), True)):
+            joint = {"format": "joint", "version": 1, "plates": {"s": "s.matrices.h5"}, "laws": {"l": {"type": "linear", "k": 1e-3}},
+                     "fasteners": [{"id": "d", "between": ["s:d", "ground"], "law": "l"}],
+                     "loads": [{"external": f"s:b{axis}", "force": force} for axis, force in zip("xy", forces)]}
+            told = solved(Path(folder), {"s": sheet}, {"joint": joint}, 2)
+            assert ("[bearing-oblique]" in told) == said, (forces, told)
+            printed = subprocess.run(["stage3_nonlinear", f"{folder}/joint.json", "-o", f"{folder}/result.h5"], capture_output=True, text=True).stdout
+            lines = [line.split() for line in printed.splitlines() if line.startswith("  s:b") and " force " in line]
+            assert [(line[0], float(line[2])) for line in lines] == [("s:bx", forces[0]), ("s:by", forces[1])], (forces, lines)
+
+
 def check_clearance_in_contact():
     said = spoiled(contact, statuses=[2])
     assert "/fasteners/1/clearance: 0.02 is free play" in said and 'write "gap": [0.02, 0] instead' in said, said
@@ -136,4 +154,5 @@ if __name__ == "__main__":
     os.environ["PATH"] = os.path.abspath(sys.argv[1]) + os.pathsep + os.environ["PATH"]
     check_kinds()
     check_sheets_of_a_formula()
+    check_bearing_externals()
     check_clearance_in_contact()
