@@ -10,10 +10,10 @@ namespace fastjoint::stage3 {
 void set_governing(formats::JointResult& a) {
   const auto n = static_cast<int>(a.load_factor.size());
   if (n == 0) return;
-  const auto choose = [&](int row, const std::string& reason) { a.governing = row + 1, a.governing_reason = reason; };
-  if (!a.complete && a.case_name.size() == 1) return choose(n - 1, "the last that was solved");
+  const auto govern = [&](int row, const std::string& reason) { a.governing = row + 1, a.governing_reason = reason; };
+  if (!a.complete && a.case_name.size() == 1) return govern(n - 1, "the last that was solved");
   if (a.margins.margin.size() > 0 && std::isfinite(a.margins.margin[0]))
-    return choose(a.margins.at[0], fmt::format("the smallest margin, {} of {}", a.margins.check[0], a.margins.of[0]));
+    return govern(a.margins.at[0], fmt::format("the smallest margin, {} of {}", a.margins.check[0], a.margins.of[0]));
   constexpr double equal = 1e-9;  // the later of equal ones
   double highest = 0;
   for (const auto& plate : a.plates)
@@ -22,12 +22,12 @@ void set_governing(formats::JointResult& a) {
         const double peak = plate.rims.values[row][rim].peak_hoop;
         if (!(peak > 0) || !(peak >= highest * (row >= a.governing ? 1 - equal : 1 + equal))) continue;
         highest = std::max(highest, peak);
-        choose(row, fmt::format("the highest peak, at {}:{}", plate.name, plate.rims.hole[rim]));
+        govern(row, fmt::format("the highest peak, at {}:{}", plate.name, plate.rims.hole[rim]));
       }
   if (a.governing > 0) return;
   Eigen::Index row = n - 1, at = 0;
   if (a.transferred.size() > 0 && a.transferred.cwiseAbs().maxCoeff() > 0) a.transferred.cwiseAbs().maxCoeff(&row, &at);
-  choose(static_cast<int>(row), "the largest load of a shear plane");
+  govern(static_cast<int>(row), "the largest load of a shear plane");
 }
 
 }  // namespace fastjoint::stage3
