@@ -14,13 +14,13 @@ void set_governing(formats::JointResult& a) {
   if (!a.complete && a.case_name.size() == 1) return govern(n - 1, "the last that was solved");
   if (a.margins.margin.size() > 0 && std::isfinite(a.margins.margin[0]))
     return govern(a.margins.at[0], fmt::format("the smallest margin, {} of {}", a.margins.check[0], a.margins.of[0]));
-  constexpr double equal = 1e-9;  // the later of equal ones
+  constexpr double same_peak = 1e-9;  // the later of equal ones
   double highest = 0;
   for (const auto& plate : a.plates)
     for (int row = 0; row < std::ssize(plate.rims.values); ++row)
       for (std::size_t rim = 0; rim < plate.rims.hole.size(); ++rim) {
         const double peak = plate.rims.values[row][rim].peak_hoop;
-        if (!(peak > 0) || !(peak >= highest * (row >= a.governing ? 1 - equal : 1 + equal))) continue;
+        if (!(peak > 0) || !(peak >= highest * (row >= a.governing ? 1 - same_peak : 1 + same_peak))) continue;
         highest = std::max(highest, peak);
         govern(row, fmt::format("the highest peak, at {}:{}", plate.name, plate.rims.hole[rim]));
       }
