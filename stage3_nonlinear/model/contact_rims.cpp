@@ -34,7 +34,9 @@ void add_disk(const formats::ContactRim& contact, const rim::Harmonics& full, Sh
   } else {
     a.disk_compliance = VectorXd::Constant(a.n, 1 / contact.modulus);
     constexpr double stiffer = 3;
-    if (a.D.size() == 0 || min_compliance(full, a) * contact.modulus < stiffer) return a.disk_compliance.resize(0);
+    constexpr int many = 32;  // waves; of fewer the shortest is softer than most springs
+    if (full.highest < many || a.D.size() == 0 || min_compliance(full, a) * contact.modulus < stiffer)
+      return a.disk_compliance.resize(0);
     a.disk_by_shear = MatrixXd::Zero(a.n, a.n_shears);
     a.disk_tangential = VectorXd::Zero(a.n_shears);
   }

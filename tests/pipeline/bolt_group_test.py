@@ -155,7 +155,7 @@ def check_picture(script, fields):
     with h5py.File("joint.h5") as f:
         forces = [script.fastener_forces(field, f, None) for field in fields]
         peaks = [script.highest_peak(field, f, None) for field in fields]
-        bars = script.fastener_bars(f, None)
+        bars = script.fastener_bars(f, -1)
         assert np.array_equal(bars[1], f["transferred"][-1].max(axis=1)) and len(set(bars[0])) == len(bars[0]) == 12
     picture = script.Picture(fields, "principal_1", forces, peaks, bars)
     (heights,) = [[bar.get_height() for bar in axis.patches] for axis in picture.figure.get_axes() if axis.get_title().startswith("load of each ")]
