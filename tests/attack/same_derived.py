@@ -17,7 +17,7 @@ def _differ(guise, what, mine, others, allowed):
     both = np.isfinite(mine) & np.isfinite(others)
     if (np.isfinite(mine) != np.isfinite(others)).any():
         raise Fall(f"{guise.name}: {what} is known in one guise only: {mine} and {others}")
-    if (np.abs(mine - others) > allowed)[both].any():
+    if (np.abs(np.where(both, mine, 0) - np.where(both, others, 0)) > allowed).any():
         raise Fall(f"{guise.name}: {what} differs, by more than {allowed}: {mine} and {others}")
 
 

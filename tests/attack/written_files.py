@@ -39,21 +39,26 @@ def documented(kind):
     return re.compile("|".join(infinite)), re.compile("|".join(nan))
 
 
+def check_numbers(kind, file, name, values):
+    """Raises Fall for a number of a dataset that the page of its kind of file does not allow."""
+    infinite, nan = documented(kind)
+    if np.isnan(values).any() and not nan.fullmatch(name):
+        raise Fall(f"{file}:{name} holds NaN")
+    if np.isinf(values).any() and not infinite.fullmatch(name):
+        raise Fall(f"{file}:{name} holds an infinite number")
+
+
 def check_hdf5(path):
-    """Raises Fall for a number in the file that the page of its kind does not allow."""
+    """The same for all datasets of a file; NaN of a study is a sample that was not solved."""
     with h5py.File(path) as file:
         kind = file.attrs["format"]
-        infinite, nan = documented(kind)
 
         def visit(name, item):
             if not isinstance(item, h5py.Dataset) or item.dtype.kind != "f":
                 return
             values = item[()]
-            if np.isnan(values).any() and not nan.fullmatch(name):
-                raise Fall(f"{path.name}:{name} holds NaN")
-            if np.isinf(values).any() and not infinite.fullmatch(name):
-                raise Fall(f"{path.name}:{name} holds an infinite number")
-            if np.isnan(values).any() and not (file["samples/status"][()] != 0).any():
+            check_numbers(kind, path.name, name, values)
+            if kind == "study-result" and np.isnan(values).any() and not (file["samples/status"][()] != 0).any():
                 raise Fall(f"{path.name}:{name} holds NaN, though all samples are solved")
 
         file.visititems(visit)
