@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <ostream>
 #include <utility>
 
@@ -15,6 +14,7 @@
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/warning.hpp"
+#include "stage3_nonlinear/memory_need.hpp"
 #include "stage3_nonlinear/output/case_summary.hpp"
 #include "stage3_nonlinear/output/case_warnings.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
@@ -93,49 +93,17 @@ void warn(std::ostream& log, const std::vector<program::Warning>& warnings, std:
   all.insert(all.end(), warnings.begin(), warnings.end());
 }
 
-/// Bytes of the program and of the plates' matrices.
-double matrices_need(const JointScene& scene) {
-  double bytes = 22e6;  // the program itself
-  for (const auto& plate : scene.plates) {
-    std::error_code none;
-    if (const auto size = std::filesystem::file_size(plate.file, none); !none) bytes += 2 * double(size);
-  }
-  return bytes;
-}
-
 /// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments
 /// of the chosen cases.
 void require_memory(const JointScene& scene, const JointModel& joint, const std::vector<std::size_t>& chosen,
                     bool with_csv, bool with_sensitivities, bool with_rim_stresses) {
   using program::bytes_text;
-  const JointNumbers numbers = joint_numbers(joint);
-  const double n = double(joint.n_planes());
-  double of_plane = with_csv ? 64 : 12;
-  if (with_sensitivities) of_plane += double(numbers.n_derivatives());
-  constexpr double number = sizeof(double), of_stiffness = 24, of_rim = 17, of_plate = 60;
-  constexpr double of_points = 3 * 360,
-                   of_loaded_rim = 600;  // stresses, and the waves and tractions that they follow from
-  double solving = 0, of_step = of_plane * n, around_rims = 0;
-  for (const auto& plate : joint.plates) {
-    const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
-    solving += of_stiffness * number * unknowns * (unknowns + (numbers.friction.empty() ? 0 : cases / 2));
-    const double n_rims = plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0;
-    of_step += of_plate + unknowns + cases + of_rim * n_rims;
-    if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;
-  }
-  if (with_sensitivities) {  // derivatives of displacements and of friction loads
-    const bool has_peaks =
-        std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
-    constexpr double of_forces = 3, of_peaks = 4;
-    const double each = of_forces + (has_peaks ? of_peaks : 0);
-    solving += number * double(joint.n_unknowns()) * each * double(numbers.n_derivatives());
-  }
+  const auto [solving, of_step] = joint_need(joint, with_csv, with_sensitivities, with_rim_stresses);
   const double read = matrices_need(scene);
   Index n_steps = 0;
   for (const std::size_t at : chosen)
     n_steps += std::max<Index>(std::ssize(scene.cases[at].load_factors), 1);  // how many events is not known yet
-  constexpr double copies = 2.5;                                              // in the states and in the tables
-  const double results = number * (copies * of_step + around_rims) * double(n_steps);
+  const double results = of_step * double(n_steps);
   program::require_memory(
       scene.file + ": this", read + solving + results,
       fmt::format(" (matrices {}, solving {}, results of {} {})", bytes_text(read), bytes_text(solving),
@@ -233,8 +201,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   check_results_spare(arguments, scene);
   std::vector<program::Warning> warnings;
   warn(log, scene.warnings, warnings);
-  program::require_memory(scene.file + ": reading its plates' matrices", matrices_need(scene), "",
-                          "matrices of fewer holes, or of stage2_extract --loads-only");
+  require_memory_to_read(scene);
   CaseRun cases(scene, load_joint(scene, p));
   require_memory(scene, cases.joint(), chosen, !arguments.text("--csv").empty(), arguments.flag("--sensitivities"),
                  arguments.flag("--rim-stresses"));

@@ -26,6 +26,8 @@ class CaseRun {
 
   /// The joint, with the loads of the case that was followed last.
   [[nodiscard]] const JointModel& joint() const { return joint_; }
+  /// Gives the joint back, whose copy may be large.
+  [[nodiscard]] JointModel take_joint() && { return std::move(joint_); }
   /// Sets the loads of the joint to those of a case.
   void load(std::size_t at) { set_loads(joint_, scene_, scene_.cases[at]); }
 

@@ -21,6 +21,7 @@
 #include "common/program/memory.hpp"
 #include "common/program/progress.hpp"
 #include "common/program/warning.hpp"
+#include "stage3_nonlinear/memory_need.hpp"
 #include "stage3_nonlinear/output/case_warnings.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
@@ -130,10 +131,12 @@ std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& stu
 }
 
 /// Warnings of a run of the joint with all variables in their middle, at the last increment of every case.
-std::vector<program::Warning> middle_warnings(const JointModel& joint, const JointScene& scene,
+/// @param given The joint, which has the loads of the last case afterwards.
+std::vector<program::Warning> middle_warnings(JointModel& given, const JointScene& scene,
                                               const std::vector<std::size_t>& cases) {
   const PathOptions solving{scene.initial, scene.solver};
-  CaseRun run(scene, joint);
+  CaseRun run(scene, std::move(given));
+  const JointModel& joint = run.joint();
   CrackErrorEstimate cracks(scene, joint);
   CaseWarnings found;
   for (const std::size_t at : cases) {
@@ -145,6 +148,7 @@ std::vector<program::Warning> middle_warnings(const JointModel& joint, const Joi
                              rim_warnings(joint, increments.states), crack_warnings(joint, increments.states, errors)})
       found.add(scene.cases[at].name, some);
   }
+  given = std::move(run).take_joint();
   std::vector<program::Warning> all = scene.warnings;
   for (const auto& each : found.all(cases.size())) all.push_back(each);
   for (auto& each : all) each.text += " (with every variable of the study in its middle)";
@@ -210,6 +214,23 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
   return joint;
 }
 
+/// Throws InputError if there is too little memory for the matrices, and for samples on all threads or the statistics
+/// after them.
+void require_memory(const Study& study, const JointModel& joint, const StudyNames& names, const StudyBlocks& blocks,
+                    int threads) {
+  using program::bytes_text;
+  constexpr double of_tangent = 8 * sizeof(double);  // its factors and the matrices that it is made of
+  const auto [solving, of_step] = joint_need(joint, false, false, false);
+  const auto r = double(joint.n_planes() * joint.n_directions() + joint.n_moments());
+  const double read = matrices_need(study.joint), samples = solving + threads * (of_step + of_tangent * r * r);
+  const double statistics = statistics_need(study.scene, names, blocks.end(0));
+  program::require_memory(study.scene.file + ": this", read + std::max(samples, statistics),
+                          fmt::format(" (matrices {}, solving on {} {}, then statistics of {} {})", bytes_text(read),
+                                      program::counted(threads, "thread"), bytes_text(samples),
+                                      program::counted(names.size(), "number"), bytes_text(statistics)),
+                          "fewer \"outputs\" or threads, or matrices of stage2_extract --loads-only");
+}
+
 /// Solves the missing blocks from `first` to `end`.
 void solve_blocks(const StudyBlocks& blocks, int first, int end, bool quiet, Samples& samples, std::ostream& log) {
   int there = 0;
@@ -272,18 +293,20 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
     h5::write_whole_file(arguments.output, sampled.text(sample_values(study.scene, seed, sample), arguments.output));
     return;
   }
+  require_memory_to_read(study.joint);
   JointModel joint = load_studied(arguments, study, sampled);
   const formats::StudyOrigin origin = origin_of(study, joint, seed);
   StudyNames names = study_names(joint, study.scene);
   const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, names.size());
   blocks.check();
+  const auto cases = studied_cases(study);
+  require_memory(study, joint, names, blocks, threads);
   if (merge_only) check_all_there(blocks, arguments.output);
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
-  const auto cases = studied_cases(study);
-  set_loads(joint, middle_scene, middle_scene.cases[cases.front()]);
   if (slice.is_whole)
     for (const auto& each : middle_warnings(joint, middle_scene, cases)) program::warn(log, program_name, each);
+  set_loads(joint, middle_scene, middle_scene.cases[cases.front()]);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
     if (!study.scene.peaks) plate.stress_level.reset();

@@ -12,7 +12,6 @@
 namespace fastjoint::stage3 {
 namespace {
 
-constexpr int bits_of_pass = 11;
 constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63U;
 
 /// An integer key with the order of the numbers.
@@ -23,7 +22,7 @@ std::uint64_t ordered(double x) {
 double number_of(std::uint64_t key) { return std::bit_cast<double>((key & sign_bit) != 0 ? key & ~sign_bit : ~key); }
 
 /// Number of bits that are not known before a pass.
-int below(int pass) { return std::max(64 - bits_of_pass * pass, 0); }
+int below(int pass) { return std::max(64 - Selection::bits_of_pass * pass, 0); }
 
 /// Smallest k in [0, n] for which a binomial number of n trials is k or less with more than a probability.
 std::uint64_t min_count_with(double probability, double fraction, std::uint64_t n) {

@@ -52,7 +52,7 @@ class Moments {
 /// pass finds eleven more bits of each.
 class Selection {
  public:
-  static constexpr int n_passes = 6;
+  static constexpr int n_passes = 6, bits_of_pass = 11;
   /// @param ranks 1-based, none beyond the number of numbers.
   explicit Selection(const std::vector<std::uint64_t>& ranks);
   void add(double x);

@@ -237,6 +237,16 @@ class Statistics {
 
 }  // namespace
 
+double statistics_need(const StudyScene& study, const StudyNames& names, std::uint64_t block) {
+  constexpr double copies = 4;  // of a block: its file, its rows, those of a kind and what is written
+  constexpr double max_largest = 3, n_ranks = 3 * quantile_levels.size(),
+                   of_rank = sizeof(double) << unsigned{Selection::bits_of_pass};
+  const double v = double(study.variables.size()), columns = double(names.size()), n = columns + max_largest;
+  const double ranked = double(std::min(study.n_samples, max_ranked(std::size_t(n + v))));
+  return sizeof(double) * (n * (ranked + copies * v) + v * ranked + copies * double(block) * (columns + v)) +
+         n * n_ranks * of_rank;
+}
+
 formats::StudyResult study_statistics(const StudyContext& context, const StudyBlocks& blocks) {
   return Statistics(context, blocks).make();
 }

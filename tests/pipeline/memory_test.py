@@ -154,6 +154,18 @@ def check_stage3(n, p, of_stage2, friction, increments, words, own):
     check_refusals(("stage3_nonlinear", "joint.json", *words), "result.h5", told, own)
 
 
+def check_study(n, own):
+    """The statistics of many numbers are known before anything is solved."""
+    make_joint(n, "2..3", ["--loads-only"], 0, 1)
+    Path("study.json").write_text(json.dumps({
+        "format": "study", "version": 1, "samples": 200, "seed": 1, "variables": [
+            {"name": "k", "at": "/fasteners/*/clearance", "each": True, "distribution": {"type": "uniform", "from": 0, "to": 1e-4}}]}))
+    told = (r"^stage3_nonlinear: error: (?:joint.json: reading its plates' matrices|study.json: this) takes about (\d+) MB of memory"
+            rf"(?: \(matrices \d+ MB, solving on 1 thread \d+ MB, then statistics of {n * n} numbers \d+ MB\))?, (\d+) MB are available; "
+            r"allowed: (?:matrices of fewer holes, or|fewer \"outputs\" or threads, or matrices) of stage2_extract --loads-only\n$")
+    check_refusals(("stage3_nonlinear", "joint.json", "--study", "study.json", "--threads", "1"), "study.h5", told, own)
+
+
 def sweep(own):
     for each in LARGE:
         check_need(*each)
@@ -181,6 +193,7 @@ def main():
         check_stage3(5, "4..5", [], 0, 10, ["--rim-stresses"], own)
         check_stage3(7, "7..8", [], 0, 2, [], own)
         check_stage3(7, "2..3", ["--loads-only"], 0.2, 300, ["--sensitivities"], own)
+        check_study(10, own)
         if sys.argv[2:] == ["sweep"]:
             sweep(own)
         os.chdir("/")
