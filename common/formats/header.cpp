@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
 
 #include "common/errors.hpp"
+#include "common/matrices/decompositions.hpp"
 
 namespace fastjoint::formats {
 namespace {
@@ -25,13 +25,13 @@ Units labels(const std::string& text) {
 
 /// True if a symmetric matrix with units has no eigenvalue below zero by more than rounding, and all its diagonal is
 /// positive.
-bool is_positive_definite(const Eigen::Matrix3d& A) {
+bool is_compliance(const Eigen::Matrix3d& A) {
   constexpr double rounding = 1e-8;
   if (!(A.diagonal().minCoeff() > 0)) return false;
   const Eigen::Vector3d scale = A.diagonal().cwiseSqrt().cwiseInverse();
   Eigen::Matrix3d unit_diagonal = scale.asDiagonal() * A * scale.asDiagonal();
   unit_diagonal.diagonal().array() += rounding;
-  return unit_diagonal.llt().info() == Eigen::Success;
+  return matrices::is_positive_definite(unit_diagonal);
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ void wave_datasets(File& file, Waves& a, Eigen::Index n_contact, const Units& un
        "strain (x, y, engineering xy) of the sheet at the rim per stress (x, y, xy); 0 where no closed form holds");
   if constexpr (File::reads)
     for (const auto& rim : a)
-      if (!rim.compliance.isZero(0) && !is_positive_definite(rim.compliance))
+      if (!rim.compliance.isZero(0) && !is_compliance(rim.compliance))
         throw FileError(fmt::format(
             "{}:wave/compliance: that of hole \"{}\" is not positive definite, expected a positive definite "
             "matrix, or 0 where no closed form holds",

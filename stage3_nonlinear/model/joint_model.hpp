@@ -42,7 +42,7 @@ struct FreeShape {
 
 struct PlateModel {
   std::string name, file;
-  std::string input;                                     ///< text of its PLATE.json; empty if unknown
+  std::string materials;                                 ///< JSON text of them in its PLATE.json; empty if unknown
   std::string matrices_digest, plate_digest;             ///< of its MATRICES.h5, and of its PLATE.h5
   std::vector<std::string> holes, externals, tractions;  ///< (m / a), (e), (q): each side of a hole is a case
   std::vector<int> axes;                                 ///< (a) directions of each hole's discs in order: 0 x, 1 y

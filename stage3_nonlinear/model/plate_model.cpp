@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "common/count.hpp"
@@ -280,6 +281,13 @@ PlateDegrees degrees_up_to(const std::string& file, const formats::PlateMatrices
   return degrees;
 }
 
+/// JSON text of the materials in the text of a PLATE.json; empty if that is not known.
+std::string materials_in(const std::string& input) {
+  const auto json = nlohmann::json::parse(input, nullptr, false, true);
+  const auto found = json.is_object() ? json.find("materials") : json.end();
+  return found != json.end() ? found->dump() : "";
+}
+
 }  // namespace
 
 std::vector<BearingSide> bearing_sides(const std::vector<std::string>& names) {
@@ -326,7 +334,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   PlateModel plate;
   plate.name = name;
   plate.file = file;
-  plate.input = a.header.input;
+  plate.materials = materials_in(a.header.input);
   plate.matrices_digest = a.header.digest;
   plate.plate_digest = a.plate_digest;
   plate.axes = axes.empty() ? joint_axes({&file, 1}, {&a, 1}) : axes;

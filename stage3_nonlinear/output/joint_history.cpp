@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "common/count.hpp"
@@ -87,18 +86,11 @@ void set_totals(const PlateModel& plate, const std::vector<JointState>& states, 
   }
 }
 
-/// JSON text of the materials in the text of a PLATE.json; empty if that is not known.
-std::string materials_in(const std::string& input) {
-  const auto json = nlohmann::json::parse(input, nullptr, false, true);
-  const auto found = json.is_object() ? json.find("materials") : json.end();
-  return found != json.end() ? found->dump() : "";
-}
-
 formats::PlateHistory plate_history(const PlateModel& plate, const std::vector<JointState>& states, Index at,
                                     const MoreStresses& wanted) {
   formats::PlateHistory history;
   history.name = plate.name;
-  history.materials = materials_in(plate.input);
+  history.materials = plate.materials;
   history.matrices_digest = plate.matrices_digest;
   history.plate_digest = plate.plate_digest;
   for (const Index i : plate.discs) {

@@ -62,7 +62,6 @@ class Margins {
     for (const auto& check : scene_.checks) {
       check_ = &check;
       left_out_.clear();
-      unknown_because_ = "its value is not known";
       for (const auto& name : check.cases)
         if (std::ranges::find(scene_.cases, name, &CaseScene::name) == scene_.cases.end())
           fail(fmt::format("case \"{}\" does not exist", name), "names of \"cases\"");
@@ -87,9 +86,10 @@ class Margins {
                                                        check_->name, program::listed(holes), reason)});
   }
 
-  /// Adds the smallest margin of an item. @param at Applied(step).
+  /// Adds the smallest margin of an item. @param at Applied(step). @param unknown Why its value may not be known.
   template <class At>
-  void add(const std::string& of, const std::string& formula, const std::string& unit, At at) {
+  void add(const std::string& of, const std::string& formula, const std::string& unit, At at,
+           const char* unknown = "its value is not known") {
     Row row;
     row.of = of, row.formula = formula, row.unit = unit, row.check = check_;
     bool solved = false;
@@ -106,7 +106,7 @@ class Margins {
     if (row.at >= 0)
       rows_.push_back(std::move(row));
     else if (a_.load_factor.size() > 0)
-      left_out_[solved ? unknown_because_ : "none of its cases was solved"].push_back(of);
+      left_out_[solved ? unknown : "none of its cases was solved"].push_back(of);
   }
 
   /// True if the case of an increment is one of the check's.
@@ -204,10 +204,6 @@ class Margins {
                         : shears_out && t == 0 ? "its thickness is not known"  // in files before format 1.4
                                                : nullptr;
     if (lacks != nullptr) return left_out_[lacks].push_back(hole.name);
-    unknown_because_ =
-        check_->kind == CheckKind::tension && sections.is_filled()
-            ? "it fills most of the strip between cell lines, whose net section says nothing of the sheet"
-            : "its value is not known";
     switch (check_->kind) {
       case CheckKind::bearing:
         if (has_fastener) add(hole.name, "F_br d t", force, [&](Index step) { return bearing(hole, step, d); });
@@ -217,10 +213,15 @@ class Margins {
           add(hole.name, "2 F_su t (e - d cos 40 / 2)", force, [&](Index step) { return shear_out(hole, step, d, t); });
         break;
       case CheckKind::tension:
-        add(hole.name, "F_tu", stress, [&](Index step) {
-          const formats::RimValues& rim = at_rim(step);
-          return Applied{rim.net_stress, value, fmt::format("F_tu = {:g}", value), infinite, rim.net_direction};
-        });
+        add(
+            hole.name, "F_tu", stress,
+            [&](Index step) {
+              const formats::RimValues& rim = at_rim(step);
+              return Applied{rim.net_stress, value, fmt::format("F_tu = {:g}", value), infinite, rim.net_direction};
+            },
+            sections.is_filled()
+                ? "it fills most of the strip between cell lines, whose net section says nothing of the sheet"
+                : "its value is not known");
         break;
       case CheckKind::peak:
         add(hole.name, "limit", stress, [&](Index step) {

@@ -45,7 +45,7 @@ std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index s
   const Index n = std::ssize(plate.traction_id);
   for (Index i = 0; i < n; ++i) {
     const double arm = plate.traction_arm[i], f = plate.traction(step, i), u = plate.traction_displacement(step, i);
-    // Of the two sides of a hole that is pressed the one that bears is shown, or the first.
+    // A hole that is pressed has two sides: the one that bears is shown, or the first if none does.
     const auto is_same = [&](Index other) { return other < n && plate.traction_id[other] == plate.traction_id[i]; };
     if (f == 0 && ((i > 0 && is_same(i - 1)) || (is_same(i + 1) && plate.traction(step, i + 1) != 0))) continue;
     all.push_back(

@@ -278,9 +278,8 @@ std::string failure_message(const JointScene& scene, const CaseScene& its, const
   return fmt::format(
       "{}: {} did not converge from the last increment, in half steps ({} times halved), or from any first guess; load "
       "factor {:.6g} was reached; {} {}; the last try ended: {}. {} {}Check the law, the gap and the clearance of the "
-      "fastener there, take "
-      "smaller "
-      "increments, allow more than {} or, if the residual is close to it, a larger tolerance than {:.0e}; and see that "
+      "fastener there, take smaller increments, allow more than {} or, if the residual is close to it, a larger "
+      "tolerance than {:.0e}; and see that "
       "each plate is fixed in the direction of its load: one without supports has no stiffness while all its fasteners "
       "are open, and one-sided fasteners cannot pull it",
       scene.file, increment, max_halvings, failure.reached, at, place, failure.ending, kept, locking,

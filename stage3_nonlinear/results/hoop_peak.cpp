@@ -137,7 +137,7 @@ class PeakSearch {
       return curve(0, shape, tractions);
     };
     const double by_degree = change(hoop, curve(1, all, rim_.traction_waves(rim_.degrees[1].tractions)), peak.angle);
-    // Where shapes of four sides alternate, the changes fall over two pairs of orders, not from one pair to the next.
+    // Changes by successive pairs of orders alternate around shapes of four sides: they fall over two pairs at a time.
     const int n = all.highest < 8 ? 1 : 2;  // pairs
     std::vector<Curve> shorter{hoop};
     std::array<double, 2> changed{};  // by the last n pairs, and by those before

@@ -80,10 +80,13 @@ HoleSections::HoleSections(const formats::PlateStresses& a, Index rim, const for
   constexpr double most = 0.5, nearly = 0.99;
   for (const int axis : {0, 1}) {
     if (!border || net_area(axis) >= most * gross_area(axis)) continue;
-    const Eigen::Vector2d center = a.rim_center.row(rim), along = Eigen::Vector2d::Unit(1 - axis);
-    const double of_sheet = distance_to_border(*border, center, along, true) +
-                            distance_to_border(*border, center, -along, true),
-                 t = a.rim_thickness.size() > 0 ? a.rim_thickness[rim] : 0;
+    double of_sheet = 0;
+    for (const int sign : {1, -1}) {
+      const double room =
+          distance_to_border(*border, a.rim_center.row(rim), sign * Eigen::Vector2d::Unit(1 - axis), true);
+      if (std::isfinite(room) || !on_symmetry_) of_sheet += room;  // a line of symmetry is no border at its hole
+    }
+    const double t = a.rim_thickness.size() > 0 ? a.rim_thickness[rim] : 0;
     is_filled_[axis] = !(gross_area(axis) >= nearly * of_sheet * t);
   }
 }
