@@ -26,9 +26,9 @@ void require_memory_to_read(const JointScene& scene) {
 JointNeed joint_need(const JointModel& joint, bool with_csv, bool with_sensitivities, bool with_rim_stresses) {
   const JointNumbers numbers = joint_numbers(joint);
   const double n = double(joint.n_planes());
-  double of_plane = with_csv ? 64 : 12;
+  double of_plane = with_csv ? 88 : 12;  // a line of the table has about 900 bytes in two copies
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
-  constexpr double number = sizeof(double), of_stiffness = 24, of_rim = 17, of_plate = 60;
+  constexpr double number = sizeof(double), of_stiffness = 24, of_rim = 18, of_plate = 60;
   constexpr double of_points = 3 * 360,
                    of_loaded_rim = 600;  // stresses, and the waves and tractions that they follow from
   double solving = 0, of_step = of_plane * n, around_rims = 0;
