@@ -217,8 +217,7 @@ std::string message_line(const std::string& message) {
   return text.substr(0, from) + " ... " + text.substr(to);
 }
 
-std::string listed(std::vector<std::string> names) {
-  constexpr std::size_t most = 6;
+std::string listed(std::vector<std::string> names, std::size_t most) {
   if (names.size() <= most) return fmt::format("{}", fmt::join(names, ", "));
   const std::size_t more = names.size() - (most - 1);
   names.resize(most - 1);

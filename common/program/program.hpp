@@ -66,8 +66,8 @@ template <class Integer>
   return std::to_string(n) + " " + noun + (n == 1 ? "" : "s");
 }
 
-/// "a, b, c"; of more than six names the first five "and 3 more".
-[[nodiscard]] std::string listed(std::vector<std::string> names);
+/// "a, b, c"; of more names than the most, one fewer "and 3 more".
+[[nodiscard]] std::string listed(std::vector<std::string> names, std::size_t most = 6);
 
 /// Name and version that every file carries: "stage1_plate 1.0.0".
 [[nodiscard]] std::string generator(const std::string& program);

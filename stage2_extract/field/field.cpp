@@ -109,8 +109,8 @@ FieldState joint_state(const PlateSolution& plate, const std::string& file, cons
   const std::string& name = sheet.joint.header.name;
   const std::string& its = sheet.joint.case_name[sheet.joint.case_of[step]];
   state.words = fmt::format(
-      "{}{}increment {} of {}, load factor {:g}{}", name.empty() ? "" : name + ", ",
-      its.empty() ? "" : fmt::format("case \"{}\", ", its), state.increment, steps, sheet.joint.load_factor[step],
+      "{}increment {} of {}{}, load factor {:g}{}", name.empty() ? "" : name + ", ", state.increment, steps,
+      its.empty() ? "" : fmt::format(" in all, of case \"{}\"", its), sheet.joint.load_factor[step],
       request.increment == 0 && sheet.joint.governing != 0 ? fmt::format(" ({})", sheet.joint.governing_reason) : "");
   state.coefficients = sheet.coefficients.col(step);
   return state;

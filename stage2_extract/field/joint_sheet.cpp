@@ -2,12 +2,12 @@
 #include "stage2_extract/field/joint_sheet.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
+#include "common/program/program.hpp"
 
 namespace fastjoint::stage2 {
 namespace {
@@ -63,11 +63,8 @@ void take_waves_of_field(PlateSolution& plate) {
 std::vector<std::string> case_names(const PlateSolution& plate) { return names_of_cases(plate); }
 
 std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t max_shown = 12;
-  const auto shown = std::min(names.size(), max_shown);
-  const std::string text = fmt::format("{}", fmt::join(names.begin(), names.begin() + shown, ", "));
-  if (shown == names.size()) return names.empty() ? "none" : text;
-  return fmt::format("{} and {} more", text, names.size() - shown);
+  constexpr std::size_t most = 13;
+  return names.empty() ? "none" : program::listed(names, most);
 }
 
 JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file, const std::string& result_file,

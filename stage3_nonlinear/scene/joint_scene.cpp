@@ -370,7 +370,10 @@ JointScene read_joint_scene(const input::Document& document) {
   scene.warnings = law_doubts(root.at("laws"), scene);
   scene.cases = read_cases(root, scene);
   warn_of_expansion(scene);
-  if (const auto margins = root.find("margins")) scene.checks = read_margins(*margins);
+  std::vector<std::string> cases;
+  for (const auto& its : scene.cases)
+    if (!its.name.empty()) cases.push_back(its.name);
+  if (const auto margins = root.find("margins")) scene.checks = read_margins(*margins, cases);
   if (const auto initial = root.find("initial")) scene.initial = read_initial(*initial);
   if (const auto solver = root.find("solver")) scene.solver = read_solver(*solver);
   return scene;

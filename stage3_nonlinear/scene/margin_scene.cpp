@@ -90,7 +90,9 @@ double factor(const Value& value, const char* key, double otherwise) {
   return given ? given->number(input::positive) : otherwise;
 }
 
-CheckScene read_check(const Value& value, double safety_factor, double fitting_factor) {
+/// @param known Names of the joint's cases.
+CheckScene read_check(const Value& value, const std::vector<std::string>& known, double safety_factor,
+                      double fitting_factor) {
   const std::string kind = value.at("check").choice(check_names);
   CheckScene check;
   check.kind = static_cast<CheckKind>(std::ranges::find(check_names, kind) - check_names.begin());
@@ -101,7 +103,7 @@ CheckScene read_check(const Value& value, double safety_factor, double fitting_f
   if (of)
     for (const auto& item : of->items(1)) check.of.push_back(item.text());
   if (cases)
-    for (const auto& item : cases->items(1)) check.cases.push_back(item.text());
+    for (const auto& item : cases->items(1)) check.cases.push_back(item.choice(known));
   check.safety_factor = factor(value, "safety_factor", safety_factor);
   check.fitting_factor = factor(value, "fitting_factor", fitting_factor);
   const auto force = value.find("P_su");
@@ -130,12 +132,12 @@ double Allowable::at(double ratio) const {
   return value[i - 1] + fraction * (value[i] - value[i - 1]);
 }
 
-std::vector<CheckScene> read_margins(const Value& value) {
+std::vector<CheckScene> read_margins(const Value& value, const std::vector<std::string>& cases) {
   value.only({"safety_factor", "fitting_factor", "checks"});
   const double safety_factor = factor(value, "safety_factor", 1), fitting_factor = factor(value, "fitting_factor", 1);
   std::vector<CheckScene> checks;
   for (const auto& item : value.at("checks").items(1))
-    checks.push_back(read_check(item, safety_factor, fitting_factor));
+    checks.push_back(read_check(item, cases, safety_factor, fitting_factor));
   return checks;
 }
 

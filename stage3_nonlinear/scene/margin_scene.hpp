@@ -40,7 +40,7 @@ struct CheckScene {
   std::string where;
 };
 
-/// Reads "margins". @throws InputError.
-[[nodiscard]] std::vector<CheckScene> read_margins(const input::Value& value);
+/// Reads "margins". @param cases Names of the joint's cases. @throws InputError.
+[[nodiscard]] std::vector<CheckScene> read_margins(const input::Value& value, const std::vector<std::string>& cases);
 
 }  // namespace fastjoint::stage3

@@ -147,7 +147,7 @@ def refusals(folder):
     for check, message in (({"check": "bearing", "F_br": 500, "of": ["c"]}, '/margins/checks/0: "c" is no plate and no hole with stresses; allowed: a, a:1, b, b:1'),
                            ({"check": "fastener shear", "F_su": 1, "of": ["9"]}, '/margins/checks/0: fastener "9" does not exist'),
                            ({"check": "bearing", "F_br": [[2, 500], [1.5, 400]]}, "an e/D that does not rise"),
-                           ({"check": "tension", "F_tu": 500, "cases": ["lift"]}, '/margins/checks/0: case "lift" does not exist'),
+                           ({"check": "tension", "F_tu": 500, "cases": ["lift"]}, '/margins/checks/0/cases/0: "lift"'),
                            ({"check": "tension", "F_tu": 500, "limit": 3}, "/margins/checks/0/limit: unknown key"),
                            ({"check": "fastener shear", "F_su": 1, "P_su": 1}, 'given together with "F_su"'),
                            ({"check": "bearing-bypass", "polygon": [[100, 100], [200, 100], [200, 200]]}, "does not go once around the origin"),
