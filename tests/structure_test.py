@@ -43,7 +43,7 @@ COMMON = {
     "rim": ["matrices", "pfem"],
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
-    "formats": ["", "h5", "pfem", "rim"],
+    "formats": ["", "h5", "matrices", "pfem", "rim"],
     "program": ["", "h5", "linalg"],
 }
 # Of finite elements the third stage knows the angles, waves and closed forms of a rim alone; of formats those without a mesh; of linear algebra

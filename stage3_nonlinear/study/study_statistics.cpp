@@ -241,9 +241,9 @@ double statistics_need(const StudyScene& study, const StudyNames& names, std::ui
   constexpr double copies = 4;  // of a block: its file, its rows, those of a kind and what is written
   constexpr double max_largest = 3, n_ranks = 3 * quantile_levels.size(),
                    of_rank = sizeof(double) << unsigned{Selection::bits_of_pass};
-  const double v = double(study.variables.size()), columns = double(names.size()), n = columns + max_largest;
+  const double v = double(study.variables.size()), named = double(names.size()), n = named + max_largest;
   const double ranked = double(std::min(study.n_samples, max_ranked(std::size_t(n + v))));
-  return sizeof(double) * (n * (ranked + copies * v) + v * ranked + copies * double(block) * (columns + v)) +
+  return sizeof(double) * (n * (ranked + copies * v) + v * ranked + copies * double(block) * (named + v)) +
          n * n_ranks * of_rank;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/memory_need.hpp"
+#include "stage3_nonlinear/output/memory_need.hpp"
 
 #include <algorithm>
 #include <filesystem>
