@@ -87,6 +87,7 @@ void warn(const stage1::PlateScene& scene, const stage1::SolvedPlate& plate) {
                                       disc, disc / E, E));
   }
   for (const auto& line : plate.missing_symmetry) say("symmetry-missing", line);
+  for (const auto& line : plate.few_waves) say("waves-few", line);
   for (const auto& crack : scene.cracks)
     if (crack.hole && scene.holes[*crack.hole].spring && !scene.holes[*crack.hole].spring->compression_only &&
         !scene.holes[*crack.hole].spring->has_arc)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage1_plate/problem/wave_orders.hpp"
 
+#include <fmt/format.h>
+
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
@@ -82,6 +84,14 @@ double truncation_error(int order, double fall) {
   return fall < 1 ? (order + 1 - order * fall) * std::pow(fall, order) / ((1 - fall) * (1 - fall)) : HUGE_VAL;
 }
 
+/// Lowest order whose truncation is within the scene's tolerance.
+int determined_order(const PlateScene& scene, const PlateMesh& plate, const std::vector<pfem::Side>& rough, int hole) {
+  const double fall = slowest_fall(scene, plate, rough, hole);
+  int order = min_order;
+  while (order < rim::max_harmonics && truncation_error(order, fall) > scene.wave_tolerance) ++order;
+  return order;
+}
+
 }  // namespace
 
 int resolved_order(int p, double n_sides) {
@@ -92,17 +102,22 @@ int resolved_order(int p, double n_sides) {
 std::vector<int> needed_orders(const PlateScene& scene, const PlateMesh& plate) {
   const auto rough = rough_sides(plate);
   std::vector<int> orders;
-  for (int i = 0; i < count_of(scene.holes); ++i) {
-    if (scene.holes[i].waves > 0) {
-      orders.push_back(scene.holes[i].waves);
-      continue;
-    }
-    const double fall = slowest_fall(scene, plate, rough, i);
-    int order = min_order;
-    while (order < rim::max_harmonics && truncation_error(order, fall) > scene.wave_tolerance) ++order;
-    orders.push_back(order);
-  }
+  for (int i = 0; i < count_of(scene.holes); ++i)
+    orders.push_back(scene.holes[i].waves > 0 ? scene.holes[i].waves : determined_order(scene, plate, rough, i));
   return orders;
+}
+
+std::vector<std::string> few_waves(const PlateScene& scene, const PlateMesh& plate) {
+  const auto rough = rough_sides(plate);
+  std::vector<std::string> found;
+  for (int i = 0; i < count_of(scene.holes); ++i)
+    if (const int waves = scene.holes[i].waves; waves > 0)
+      if (const int needed = determined_order(scene, plate, rough, i); waves < needed)
+        found.push_back(
+            fmt::format("/holes/{}/waves: hole \"{}\" has {} waves; its neighbours need {}: the stresses on "
+                        "its rim may be off by more than their error bars",
+                        i, scene.holes[i].id, waves, needed));
+  return found;
 }
 
 }  // namespace fastjoint::stage1

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "stage1_plate/mesh/plate_mesh.hpp"
@@ -18,5 +19,8 @@ inline constexpr int default_harmonics = 64;
 /// edges, other holes, point springs and steps of thickness or material are negligible, and the closed form holds. A
 /// value in the scene takes precedence (docs/theory.md, section 11.3).
 [[nodiscard]] std::vector<int> needed_orders(const PlateScene& scene, const PlateMesh& plate);
+
+/// Holes whose order is given in the scene and lower than they need: a line for each.
+[[nodiscard]] std::vector<std::string> few_waves(const PlateScene& scene, const PlateMesh& plate);
 
 }  // namespace fastjoint::stage1

@@ -200,7 +200,8 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
                                      pfem::extremes(plate.mesh, scene.elasticity, plate::spring_stiffnesses(problem))));
   }
   for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
-  return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns), plate.moved_lines};
+  return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns), few_waves(scene, plate),
+          plate.moved_lines};
 }
 
 std::string summary(const SolvedPlate& plate, const std::string& file) {

@@ -55,8 +55,8 @@ void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, f
 struct SolvedPlate {
   MemoryNeed need;
   formats::PlateSolution solution;
-  std::vector<std::string> missing_symmetry;  ///< warnings
-  std::vector<std::string> moved_lines{};     ///< of PlateMesh
+  std::vector<std::string> missing_symmetry, few_waves;  ///< warnings
+  std::vector<std::string> moved_lines{};                ///< of PlateMesh
 };
 
 /// Mesh, matrices, unit cases. Phases: mesh, integrate, solve.

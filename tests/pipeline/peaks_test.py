@@ -174,6 +174,18 @@ def rate_in_waves(folder):
 
 # 5: error bars
 
+def few_waves(folder):
+    """With "waves" by hand the bar holds, or stage 1 says that they are few. By default there is no such warning."""
+    exact, warned = strip_with_hole.concentration(0.5), []
+    for n_c in (None, 2, 4, 6, 7, 8, 9, 10, 12, 16):
+        scene = strip(rings=1, **({"waves": n_c} if n_c else {}))
+        found, bar = concentration(folder, scene)
+        done = subprocess.run([PROGRAMS / "stage1_plate", "sheet.json", "-o", "sheet.plate.h5"], cwd=folder, capture_output=True, text=True, check=True)
+        warned.append("[waves-few]" in done.stderr)
+        near(f"{n_c} waves, {'warned' if warned[-1] else 'not warned'}", found, exact, 1 if warned[-1] else bar / exact + 1e-3, bar)
+    assert warned[1] and not warned[0] and not warned[-1], warned
+
+
 def error_bars(folder):
     """Errors of random joints over 1.5 and 2 times the error bar and a thousandth of the peak. Half of the joints is in contact. What
     two fine meshes differ by is taken off the error; the short run has one, of two pieces."""
@@ -237,7 +249,7 @@ def is_one_pin(scene, joint):
 
 
 with tempfile.TemporaryDirectory() as name:
-    for check in (column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p, rate_in_waves, error_bars,
+    for check in (column_of_rivets, ligaments, edges_of_a_laminate, open_holes, rates_in_p, rate_in_waves, few_waves, error_bars,
                   *([truths] if SWEEP else [])):
         check(Path(name))
 end_if_missed()
