@@ -113,14 +113,6 @@ void require_memory(const JointScene& scene, const JointModel& joint, const std:
                                                                  : "matrices of stage2_extract --loads-only"));
 }
 
-void set_crack_errors(const std::vector<CrackErrors>& errors, formats::JointResult& result) {
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    if (errors[i].K_I.size() > 0) {
-      result.plates[i].cracks.K_I_error = errors[i].K_I;
-      result.plates[i].cracks.K_II_error = errors[i].K_II;
-    }
-}
-
 /// What a load case comes to.
 struct SolvedCase {
   formats::JointResult result;
@@ -148,21 +140,20 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
   const JointModel& joint = cases.joint();
   const auto& states = increments.states;
   path.interference = search_interference(equations, solving, path);
-  SolvedCase solved{joint_result(joint, equations, path, increments, wanted), {}, {}, {}};
+  const auto errors = cracks.of(joint, at, path, states, solving);
+  SolvedCase solved{joint_result(joint, equations, path, increments, wanted, errors), {}, {}, {}};
   if (missing) {
     solved.result.complete = false;
     solved.failure = fmt::format("{}: case \"{}\" comes after \"{}\", which was not solved", scene.file, its.name,
                                  scene.cases[*missing].name);
     return solved;
   }
-  const auto errors = cracks.of(joint, at, path, states, solving);
-  set_crack_errors(errors, solved.result);
   for (const auto& some :
        {warnings(joint, equations, path), implausible_numbers(scene, joint, path), rim_warnings(joint, states),
         crack_warnings(joint, states, errors),
         wanted.distance ? distance_warnings(joint, *wanted.distance) : std::vector<program::Warning>()})
     solved.warnings.insert(solved.warnings.end(), some.begin(), some.end());
-  if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, path, increments);
+  if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, increments);
   if (!alone && !states.empty()) solved.summary = secondary_bending(joint, states.back());
   if (alone) solved.summary = summary(scene, joint, path, states, solved.result, arguments.flag("--all-stresses"));
   if (path.failure) solved.failure = failure_message(scene, its, joint, path, arguments.output);

@@ -28,8 +28,8 @@ STAGES = {
         "solvers": [],
         "equations": ["matrices", "rim", ""],
         "path": ["program"],
-        "results": ["formats", "matrices", "rim", ""],
-        "output": ["formats", "program", ""],
+        "results": ["columns", "formats", "matrices", "rim", ""],
+        "output": ["columns", "formats", "program", ""],
         "study": ["formats", "h5", "input", "linalg", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],
     },
@@ -43,7 +43,8 @@ COMMON = {
     "rim": ["matrices", "pfem"],
     "plate": ["", "linalg", "pfem", "rim"],
     "h5": [""],
-    "formats": ["", "h5", "matrices", "pfem", "rim"],
+    "columns": ["", "h5"],
+    "formats": ["", "columns", "h5", "matrices", "pfem", "rim"],
     "program": ["", "h5", "linalg"],
 }
 # Of finite elements the third stage knows the angles, waves and closed forms of a rim alone; of formats those without a mesh; of linear algebra

@@ -82,10 +82,10 @@ JointSheet read_joint_sheet(const PlateSolution& plate, const std::string& file,
   if (result.joint.load_factor.size() == 0)
     throw InputError(fmt::format("{}: holds no increment that converged", result_file));
   result.coefficients.resize(plate.n_cases(), result.joint.load_factor.size());
-  Eigen::MatrixXd De = sheet.De, D = sheet.D;  // what deforms the sheet
-  if (sheet.free_D.size() == D.size() && sheet.free_De.size() == De.size()) De -= sheet.free_De, D -= sheet.free_D;
-  result.coefficients << De.transpose(), D.transpose(), sheet.amounts.transpose(), sheet.Lambda.transpose(),
-      sheet.traction.transpose();
+  const auto& of = sheet.columns;
+  // What deforms the sheet: without its free expansion.
+  result.coefficients << (of["De"] - of["free/De"]).transpose(), (of["D"] - of["free/D"]).transpose(),
+      of["wave/amount"].transpose(), of["Lambda"].transpose(), of["traction/force"].transpose();
   return result;
 }
 

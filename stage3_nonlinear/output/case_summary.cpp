@@ -42,11 +42,11 @@ std::string case_lines(const JointModel& joint, const JointResult& a) {
     for (Index row = 0; row < a.case_of.size(); ++row) {
       if (a.case_of[row] != at) continue;
       ++n;
-      for (Index j = 0; j < a.F.cols(); ++j)
-        load.take(std::abs(a.transferred(row, 2 * j)), joint.short_name(joint.planes[j]));
+      for (Index j = 0; j < joint.n_planes(); ++j)
+        load.take(std::abs(a.columns["transferred"](row, 2 * j)), joint.short_name(joint.planes[j]));
       for (const auto& plate : a.plates)
-        for (Index rim = 0; rim < std::ssize(plate.rims.hole); ++rim)
-          peak.take(plate.rims.values[row][rim].peak_hoop, plate.name + ":" + plate.rims.hole[rim]);
+        for (Index rim = 0; rim < std::ssize(plate.holes.hole); ++rim)
+          peak.take(plate.columns["rim/peak_hoop"](row, rim), plate.name + ":" + plate.holes.hole[rim]);
     }
     text +=
         fmt::format("  {:<32} {:>10}   {:<32} {}\n", program::one_line(a.case_name[at]), n, load.text(), peak.text());

@@ -16,17 +16,20 @@ void set_governing(formats::JointResult& a) {
     return govern(a.margins.at[0], fmt::format("the smallest margin, {} of {}", a.margins.check[0], a.margins.of[0]));
   constexpr double same_peak = 1e-9;  // the later of equal ones
   double highest = 0;
-  for (const auto& plate : a.plates)
-    for (int row = 0; row < std::ssize(plate.rims.values); ++row)
-      for (std::size_t rim = 0; rim < plate.rims.hole.size(); ++rim) {
-        const double peak = plate.rims.values[row][rim].peak_hoop;
+  for (const auto& plate : a.plates) {
+    const auto& peaks = plate.columns["rim/peak_hoop"];
+    for (int row = 0; row < peaks.rows(); ++row)
+      for (Eigen::Index rim = 0; rim < peaks.cols(); ++rim) {
+        const double peak = peaks(row, rim);
         if (!(peak > 0) || !(peak >= highest * (row >= a.governing ? 1 - same_peak : 1 + same_peak))) continue;
         highest = std::max(highest, peak);
-        govern(row, fmt::format("the highest peak, at {}:{}", plate.name, plate.rims.hole[rim]));
+        govern(row, fmt::format("the highest peak, at {}:{}", plate.name, plate.holes.hole[rim]));
       }
+  }
   if (a.governing > 0) return;
   Eigen::Index row = n - 1, at = 0;
-  if (a.transferred.size() > 0 && a.transferred.cwiseAbs().maxCoeff() > 0) a.transferred.cwiseAbs().maxCoeff(&row, &at);
+  const auto& transferred = a.columns["transferred"];
+  if (transferred.size() > 0 && transferred.cwiseAbs().maxCoeff() > 0) transferred.cwiseAbs().maxCoeff(&row, &at);
   govern(static_cast<int>(row), "the largest load of a shear plane");
 }
 

@@ -2,111 +2,59 @@
 #include "stage3_nonlinear/output/joined_result.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "common/count.hpp"
+#include "common/infinite.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
 
-using Eigen::Index;
-using Eigen::MatrixXd;
-
 template <class Rows>
 void add_rows(Rows& all, const Rows& more) {
-  const Index n = all.rows();
-  if (more.rows() == 0) return;
-  if (n == 0) {
-    all = more;
-    return;
-  }
-  all.conservativeResize(n + more.rows(), all.cols());
-  all.bottomRows(more.rows()) = more;
+  all.conservativeResize(all.size() + more.size());
+  all.tail(more.size()) = more;
 }
 
-template <class Item>
-void add_items(std::vector<Item>& all, std::vector<Item>& more) {
-  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+/// Gives a result columns for these loads, infinite for those that it does not have.
+void spread_loads(const std::vector<std::string>& loads, formats::JointResult& a) {
+  columns::Column& column = *a.columns.find("stiffness/tangent");
+  MatrixXd rows = MatrixXd::Constant(a.load_factor.size(), std::ssize(loads), infinite);
+  for (Index i = 0; i < std::ssize(a.load_external); ++i)
+    rows.col(index_of(loads, a.load_external[i])) = column.rows.col(i);
+  column.n = rows.cols(), column.rows = std::move(rows);
+  a.load_external = loads;
 }
 
-void add_stiffness(formats::JointResult& all, const formats::JointResult& its, Index n_before) {
-  constexpr double unknown = std::numeric_limits<double>::infinity();
-  for (const auto& external : its.load_external)
-    if (index_of(all.load_external, external) == count_of(all.load_external)) all.load_external.push_back(external);
-  const Index before = all.load_stiffness.cols(), n = its.load_stiffness.rows();
-  all.load_stiffness.conservativeResize(n_before + n, std::ssize(all.load_external));
-  all.load_stiffness.rightCols(all.load_stiffness.cols() - before).setConstant(unknown);
-  all.load_stiffness.bottomRows(n).setConstant(unknown);
-  for (Index i = 0; i < std::ssize(its.load_external); ++i)
-    all.load_stiffness.col(index_of(all.load_external, its.load_external[i])).tail(n) = its.load_stiffness.col(i);
-}
-
-void add_contacts(formats::ContactHistory& all, const formats::ContactHistory& its) {
-  all.no_load_peak = all.no_load_peak.cwiseMax(its.no_load_peak);
-  all.no_load_least = all.no_load_least.cwiseMax(its.no_load_least);
-  all.full_until = all.full_until.cwiseMin(its.full_until);
-  for (const auto table : {&formats::ContactHistory::touching, &formats::ContactHistory::from,
-                           &formats::ContactHistory::to, &formats::ContactHistory::peak_pressure,
-                           &formats::ContactHistory::peak_angle, &formats::ContactHistory::least_gap})
-    add_rows(all.*table, its.*table);
-}
-
-void add_plate(formats::PlateHistory& all, formats::PlateHistory& its) {
-  using formats::CrackHistory;
-  using formats::PlateHistory;
-  for (const auto table : {&PlateHistory::D, &PlateHistory::De, &PlateHistory::free_D, &PlateHistory::free_De,
-                           &PlateHistory::Pe, &PlateHistory::amounts, &PlateHistory::w, &PlateHistory::Lambda,
-                           &PlateHistory::traction, &PlateHistory::traction_displacement, &PlateHistory::applied,
-                           &PlateHistory::by_fasteners, &PlateHistory::by_supports})
-    add_rows(all.*table, its.*table);
-  for (const auto table : {&formats::RowHistory::force, &formats::RowHistory::before, &formats::RowHistory::after})
-    add_rows(all.rows.*table, its.rows.*table);
-  add_rows(all.disc_forces->bearing, its.disc_forces->bearing);
-  add_rows(all.disc_forces->friction, its.disc_forces->friction);
-  add_contacts(all.contacts, its.contacts);
-  for (const auto table :
-       {&CrackHistory::K_I, &CrackHistory::K_II, &CrackHistory::K_I_error, &CrackHistory::K_II_error})
-    add_rows(all.cracks.*table, its.cracks.*table);
-  add_items(all.rims.values, its.rims.values);
-  if (all.rims.stresses && its.rims.stresses) {
-    auto &stresses = *all.rims.stresses, &more = *its.rims.stresses;
-    if (stresses.angle.size() == 0) stresses.start = more.start, stresses.angle = more.angle;
-    for (const auto table : {&formats::RimStresses::rr, &formats::RimStresses::tt, &formats::RimStresses::rt})
-      add_rows(stresses.*table, more.*table);
-  }
-  using formats::NearStresses;
-  if (all.rims.near && its.rims.near)
-    for (const auto table : {&NearStresses::peak, &NearStresses::angle, &NearStresses::error, &NearStresses::rr,
-                             &NearStresses::tt, &NearStresses::rt})
-      add_rows((*all.rims.near).*table, (*its.rims.near).*table);
+void add_plate(formats::PlateHistory& all, const formats::PlateHistory& its) {
+  auto& before = all.at_no_load;
+  before.peak = before.peak.cwiseMax(its.at_no_load.peak);
+  before.least = before.least.cwiseMax(its.at_no_load.least);
+  before.full_until = before.full_until.cwiseMin(its.at_no_load.full_until);
+  if (all.holes.angle.size() == 0) all.holes.start = its.holes.start, all.holes.angle = its.holes.angle;
+  all.columns.append(its.columns);
 }
 
 }  // namespace
 
 void append(formats::JointResult& all, const std::string& case_name, formats::JointResult its) {
-  using formats::JointResult;
-  const int at = count_of(all.case_name);
-  its.case_of = Eigen::VectorXi::Constant(its.load_factor.size(), at);
-  if (at == 0) {
+  its.case_of = Eigen::VectorXi::Constant(its.load_factor.size(), count_of(all.case_name));
+  all.case_name.push_back(case_name);
+  if (all.case_name.size() == 1) {
+    its.case_name = std::move(all.case_name);
     all = std::move(its);
-    all.case_name = {case_name};
     return;
   }
-  all.case_name.push_back(case_name);
-  add_stiffness(all, its, all.load_factor.size());
+  std::vector<std::string> loads = all.load_external;
+  for (const auto& each : its.load_external)
+    if (index_of(loads, each) == count_of(loads)) loads.push_back(each);
+  spread_loads(loads, all), spread_loads(loads, its);
   all.complete &= its.complete;
-  for (const auto list : {&JointResult::load_factor, &JointResult::residual}) add_rows(all.*list, its.*list);
-  for (const auto list : {&JointResult::converged, &JointResult::iterations, &JointResult::case_of})
-    add_rows(all.*list, its.*list);
-  add_items(all.event, its.event);
-  for (const auto table : {&JointResult::delta, &JointResult::F, &JointResult::delta_vector, &JointResult::F_vector,
-                           &JointResult::transferred, &JointResult::set, &JointResult::dissipated})
-    add_rows(all.*table, its.*table);
-  if (all.F_error && its.F_error)
-    add_rows(*all.F_error, *its.F_error);
-  else
-    all.F_error.reset();
+  add_rows(all.load_factor, its.load_factor), add_rows(all.residual, its.residual);
+  add_rows(all.converged, its.converged), add_rows(all.iterations, its.iterations);
+  add_rows(all.case_of, its.case_of);
+  all.event.insert(all.event.end(), its.event.begin(), its.event.end());
+  all.columns.append(its.columns);
   for (std::size_t i = 0; i < all.plates.size(); ++i) add_plate(all.plates[i], its.plates[i]);
 }
 

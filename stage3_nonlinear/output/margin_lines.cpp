@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/output/csv_field.hpp"
+#include "stage3_nonlinear/output/csv.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/margins.hpp"
 
@@ -61,15 +61,13 @@ std::string margin_lines(const JointScene& scene, const JointResult& result) {
 }
 
 std::string margins_csv(const JointResult& result) {
-  const auto known = [](double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; };
   const MarginTable& a = result.margins;
-  std::string text = "joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs,direction\n";
+  Csv csv("joint,check,of,margin,allowable,applied,unit,case,increment,formula,inputs,direction");
   for (Index i = 0; i < std::ssize(a.check); ++i)
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(result.header.name), csv_field(a.check[i]),
-                        csv_field(a.of[i]), a.margin[i], a.allowable[i], a.applied[i], csv_field(a.unit[i]),
-                        csv_field(result.case_name[result.case_of[a.at[i]]]), increment_number(result, a.at[i]),
-                        csv_field(a.formula[i]), csv_field(a.inputs[i]), known(a.direction[i]));
-  return text;
+    csv.line(result.header.name, a.check[i], a.of[i], fmt::to_string(a.margin[i]), fmt::to_string(a.allowable[i]),
+             a.applied[i], a.unit[i], result.case_name[result.case_of[a.at[i]]], increment_number(result, a.at[i]),
+             a.formula[i], a.inputs[i], a.direction[i]);
+  return csv.text();
 }
 
 }  // namespace fastjoint::stage3

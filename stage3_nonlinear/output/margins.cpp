@@ -127,7 +127,7 @@ class Margins {
           (part < 1 ? fmt::format(", {:g} of the fastener is in the model", part) : "");
       add(joint_.short_name(plane), check_->is_force ? "P_su" : "F_su pi d^2 / 4", unit(joint_.units, 0, 1),
           [&](Index step) {
-            const auto both = a_.transferred.row(step).segment<2>(2 * j);
+            const auto both = a_.columns["transferred"].row(step).segment<2>(2 * j);
             return Applied{both.cwiseAbs().maxCoeff(), allowable, inputs};
           });
     }
@@ -188,8 +188,8 @@ class Margins {
     const double d = 2 * s.rim_radius[hole.rim], t = s.rim_thickness[hole.rim],
                  value = check_->polygon.empty() ? check_->allowable.at(infinite) : 0;
     const std::string force = unit(joint_.units, 0, 1), stress = unit(joint_.units, -2, 1);
-    const auto at_rim = [&](Index step) -> const formats::RimValues& {
-      return a_.plates[hole.plate].rims.values[step][hole.rim];
+    const auto at_rim = [&](const char* quantity, Index step) {
+      return a_.plates[hole.plate].columns[quantity](step, hole.rim);
     };
     const auto& fastened = joint_.plates[hole.plate].holes;
     const bool has_fastener = index_of(fastened, s.rim_hole[hole.rim]) < count_of(fastened);
@@ -213,8 +213,8 @@ class Margins {
         add(
             hole.name, "F_tu", stress,
             [&](Index step) {
-              const formats::RimValues& rim = at_rim(step);
-              return Applied{rim.net_stress, value, fmt::format("F_tu = {:g}", value), infinite, rim.net_direction};
+              return Applied{at_rim("rim/net_stress", step), value, fmt::format("F_tu = {:g}", value), infinite,
+                             at_rim("rim/net_direction", step)};
             },
             sections.is_filled()
                 ? "it fills most of the strip between cell lines, whose net section says nothing of the sheet"
@@ -222,11 +222,11 @@ class Margins {
         break;
       case CheckKind::peak:
         add(hole.name, "limit", stress, [&](Index step) {
-          return Applied{at_rim(step).peak_hoop, value, fmt::format("limit = {:g}", value)};
+          return Applied{at_rim("rim/peak_hoop", step), value, fmt::format("limit = {:g}", value)};
         });
         break;
       case CheckKind::bearing_bypass:
-        add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(at_rim(step)); });
+        add(hole.name, "polygon", stress, [&](Index step) { return bearing_bypass(hole, step); });
         break;
       default:
         break;
@@ -238,9 +238,9 @@ class Margins {
     const formats::PlateHistory& plate = a_.plates[hole.plate];
     Point force = Point::Zero();
     for (Index m = 0; m < std::ssize(plate.disc_hole); ++m)
-      if (plate.disc_hole[m] == plate.rims.hole[hole.rim])
+      if (plate.disc_hole[m] == plate.holes.hole[hole.rim])
         force[plate.disc_direction[m] == "x" ? 0 : 1] +=
-            plate.disc_forces->bearing(step, m) + plate.disc_forces->friction(step, m);
+            plate.columns["disc/bearing"](step, m) + plate.columns["disc/friction"](step, m);
     return force;
   }
 
@@ -285,17 +285,18 @@ class Margins {
 
   /// The polygon along the ray of the bearing stress and of that principal stress of what passes by which leaves less;
   /// both as lengths on that ray.
-  Applied bearing_bypass(const formats::RimValues& rim) const {
+  Applied bearing_bypass(const HoleAt& hole, Index step) const {
+    const auto rim = [&](const char* quantity) { return a_.plates[hole.plate].columns[quantity](step, hole.rim); };
     const auto along = [&](double bypass, double direction) -> Applied {
-      const Point stress(bypass, rim.bearing_stress);
+      const Point stress(bypass, rim("rim/bearing_stress"));
       if (!stress.allFinite()) return {infinite};
       const double allowable = stress.norm() > 0 ? reach(stress.normalized()) : infinite;
       return {stress.norm(), allowable, fmt::format("bypass {:g}, bearing {:g}", stress.x(), stress.y()), infinite,
               direction};
     };
-    const double turned = rim.bypass_direction > 0 ? -90 : 90;
-    const Applied larger = along(rim.bypass_stress, rim.bypass_direction),
-                  other = along(rim.bypass_across, rim.bypass_direction + turned);
+    const double direction = rim("rim/bypass_direction"), turned = direction > 0 ? -90 : 90;
+    const Applied larger = along(rim("rim/bypass_stress"), direction),
+                  other = along(rim("rim/bypass_across"), direction + turned);
     const auto left = [](const Applied& a) { return a.applied > 0 ? a.allowable / a.applied : infinite; };
     return left(other) < left(larger) ? other : larger;
   }

@@ -20,14 +20,14 @@ struct MoreStresses {
 };
 
 /// The contents of RESULT.h5 for a path, one state per step; the header is left to the caller.
+/// @param errors Of the cracks of each plate.
 [[nodiscard]] formats::JointResult joint_result(const JointModel& joint, const JointEquations& equations,
                                                 const LoadPath& path, const Increments& increments,
-                                                const MoreStresses& wanted);
+                                                const MoreStresses& wanted, const std::vector<CrackErrors>& errors);
 
 /// The contents of RESULT.h5 for the derivatives of the bearing forces at every step of the path, and of the peaks at
 /// the last.
-[[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const LoadPath& path,
-                                                              const Increments& increments);
+[[nodiscard]] formats::SensitivityHistory sensitivity_history(const JointModel& joint, const Increments& increments);
 
 /// One line per increment and shear plane after a line of names; all digits, RFC 4180. Stresses and bypass loads are
 /// empty if the plate's matrices do not have them.

@@ -115,9 +115,10 @@ double arm_of(const JointModel& joint, const std::string& name) {
 /// The largest force of all increments with its error bar.
 std::string error_bar(const JointModel& joint, const formats::JointResult& result) {
   Index step = 0, plane = 0;
-  result.F.transpose().cwiseAbs().maxCoeff(&plane, &step);  // the first of several
+  const auto& F = result.columns["F"];
+  F.transpose().cwiseAbs().maxCoeff(&plane, &step);  // the first of several
   return fmt::format("the largest F is {:.8g} +- {:.1g} {} ({}, increment {}), by the errors of the plates' matrices\n",
-                     result.F(step, plane) + 0.0, (*result.F_error)(step, plane), unit(joint.units, 0, 1),
+                     F(step, plane) + 0.0, result.columns["F_error"](step, plane), unit(joint.units, 0, 1),
                      joint.name(joint.planes[plane]), step + 1);
 }
 
@@ -152,53 +153,47 @@ std::string highest_near(const formats::JointResult& result, const Units& units)
   double highest = 0;
   std::string text;
   for (const auto& plate : result.plates) {
-    if (!plate.rims.near || plate.rims.near->peak.rows() == 0) continue;
-    const formats::NearStresses& near = *plate.rims.near;
-    const Index last = near.peak.rows() - 1;
-    for (Index i = 0; i < near.peak.cols(); ++i)
-      if (near.peak(last, i) > highest) {
-        highest = near.peak(last, i);
+    const Index last = result.load_factor.size() - 1;
+    if (!plate.holes.near_distance || last < 0) continue;
+    const auto at = [&](const char* quantity, Index i) { return plate.columns[quantity](last, i); };
+    for (Index i = 0; i < std::ssize(plate.holes.hole); ++i)
+      if (at("rim/near/peak_hoop", i) > highest) {
+        highest = at("rim/near/peak_hoop", i);
         text = fmt::format("{:g} {} from the rims the highest is {:.6g} +- {:.1g} {} at {}:{}, {:.1f} degrees\n",
-                           near.distance, unit(units, 1, 0), highest, near.error(last, i), unit(units, -2, 1),
-                           plate.name, plate.rims.hole[i], near.angle(last, i));
+                           *plate.holes.near_distance, unit(units, 1, 0), highest, at("rim/near/peak_error", i),
+                           unit(units, -2, 1), plate.name, plate.holes.hole[i], at("rim/near/peak_angle", i));
       }
   }
   return text;
 }
 
-/// Column of the summary's table; its unit, if it has one, is printed below the heading.
+/// Column of the summary's table.
 struct Column {
   double RimState::*value;
   const char* heading;
   int width;
   const char* format;
-  bool has_unit = false;
+  columns::Dimension unit = columns::ratio;  ///< printed below the heading, if it has one
+  bool needs_section = false, is_concentration = false;
   const char* unknown = "-";
 };
 
-constexpr auto columns = std::to_array<Column>({
-    {&RimState::bearing_stress, "bearing stress", 14, "{:.6g}", true},
-    {&RimState::bypass_load, "bypass", 14, "{:.6g}", true},
-    {&RimState::peak_hoop, "peak hoop", 14, "{:.6g}", true},
+constexpr auto table_columns = std::to_array<Column>({
+    {&RimState::bearing_stress, "bearing stress", 14, "{:.6g}", columns::stress},
+    {&RimState::bypass_load, "bypass", 14, "{:.6g}", columns::force, true},
+    {&RimState::peak_hoop, "peak hoop", 14, "{:.6g}", columns::stress},
     {&RimState::peak_angle, "at [deg]", 9, "{:.1f}"},
-    {&RimState::peak_error, "+-", 9, "{:.1e}", false, "?"},
-    {&RimState::gross_concentration, "Kt gross", 8, "{:.3f}"},
-    {&RimState::net_concentration, "Kt net", 8, "{:.3f}"},
-    {&RimState::across, "reaction", 12, "{:.6g}", true},
+    {&RimState::peak_error, "+-", 9, "{:.1e}", columns::ratio, false, false, "?"},
+    {&RimState::gross_concentration, "Kt gross", 8, "{:.3f}", columns::ratio, true, true},
+    {&RimState::net_concentration, "Kt net", 8, "{:.3f}", columns::ratio, true, true},
+    {&RimState::across, "reaction", 12, "{:.6g}", columns::force},
 });
-
-/// The quantity in a column; `across`, a force, is the only one that is not in RESULT.h5.
-formats::RimQuantity shown(const Column& column) {
-  for (const auto& quantity : formats::rim_quantities())
-    if (column.value == quantity.value) return quantity;
-  return {"across", nullptr, formats::Dimension::force, ""};
-}
 
 /// A row of the table. @param cell Text in each column, right-aligned.
 template <class Cell>
 std::string row(const std::string& name, Cell cell) {
   std::string text = fmt::format("  {:<24}", name);
-  for (const auto& column : columns) text += fmt::format(" {:>{}}", cell(column), column.width);
+  for (const auto& column : table_columns) text += fmt::format(" {:>{}}", cell(column), column.width);
   return text + "\n";
 }
 
@@ -211,17 +206,16 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
       const bool sections = HoleSections(joint.plates[i].stresses, rim).number() > 0;
       rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
         const double value = state.plates[i].rims[rim].*column.value;
-        const auto quantity = shown(column);
-        const bool unloaded = quantity.dimension == formats::Dimension::ratio && value == 0;
         if (column.value == &RimState::peak_error && std::isnan(state.plates[i].rims[rim].peak_hoop))
           return std::string("-");
-        if (!std::isfinite(value) || unloaded || (quantity.needs_section && !sections))
+        if (!std::isfinite(value) || (column.is_concentration && value == 0) || (column.needs_section && !sections))
           return std::string(column.unknown);
         return fmt::format(fmt::runtime(column.format), value == 0 ? 0 : value);
       });
     }
   const auto unit_below = [&](const Column& each) {
-    return each.has_unit ? fmt::format("[{}]", unit_of(shown(each).dimension, joint.units)) : "";
+    const std::string unit = unit_of(each.unit, joint.units);
+    return unit == "1" ? "" : fmt::format("[{}]", unit);
   };
   return rows.empty() ? rows : row("hole", std::mem_fn(&Column::heading)) + row("", unit_below) + rows;
 }
@@ -231,10 +225,11 @@ std::string contact_table(const JointModel& joint, const formats::JointResult& r
   std::string rows;
   for (const auto& plate : result.plates)
     for (Index i = 0; i < std::ssize(plate.contact); ++i) {
-      const auto& a = plate.contacts;
+      const auto at = [&](const char* quantity) { return plate.columns[quantity](step, i); };
       rows += fmt::format("  {:<24} {:>14.6g} {:>10.2f} {:>10.2f} {:>10.2f} {:>14.6g} {:>9.1f} {:>14.6g}\n",
-                          plate.name + ":" + plate.contact[i].hole, a.gap[i], a.touching(step, i), a.from(step, i),
-                          a.to(step, i), a.peak_pressure(step, i), a.peak_angle(step, i), a.least_gap(step, i));
+                          plate.name + ":" + plate.contact[i].hole, plate.at_no_load.gap[i], at("contact/touching"),
+                          at("contact/from"), at("contact/to"), at("contact/peak_pressure"), at("contact/peak_angle"),
+                          at("contact/least_gap"));
     }
   if (rows.empty()) return rows;
   return fmt::format("  {:<24} {:>14} {:>10} {:>10} {:>10} {:>14} {:>9} {:>14}\n", "contact", "gap", "touches", "from",
@@ -248,12 +243,13 @@ std::string contact_table(const JointModel& joint, const formats::JointResult& r
 /// Table of all crack tips at one increment; empty if there is none.
 std::string crack_table(const JointModel& joint, const formats::JointResult& result, Index step) {
   std::string rows;
-  for (const auto& plate : result.plates) {
-    const auto& a = plate.cracks;
-    for (Index t = 0; t < std::ssize(a.tip); ++t)
-      rows += fmt::format("  {:<24} {:>12.6g} {:>14.6g} {:>9.1e} {:>14.6g} {:>9.1e}\n", plate.name + ":" + a.tip[t],
-                          a.length[t], a.K_I(step, t), a.K_I_error(step, t), a.K_II(step, t), a.K_II_error(step, t));
-  }
+  for (const auto& plate : result.plates)
+    for (Index t = 0; t < std::ssize(plate.tips.tip); ++t) {
+      const auto at = [&](const char* quantity) { return plate.columns[quantity](step, t); };
+      rows += fmt::format("  {:<24} {:>12.6g} {:>14.6g} {:>9.1e} {:>14.6g} {:>9.1e}\n",
+                          plate.name + ":" + plate.tips.tip[t], plate.tips.length[t], at("crack/K_I"),
+                          at("crack/K_I_error"), at("crack/K_II"), at("crack/K_II_error"));
+    }
   if (rows.empty()) return rows;
   const std::string intensity = head("", unit(joint.units, -1.5, 1));
   return fmt::format("  {:<24} {:>12} {:>14} {:>9} {:>14} {:>9}\n", "crack", "length", "K_I", "+-", "K_II", "+-") +
@@ -267,11 +263,11 @@ std::string interference_lines(const JointModel& joint, const LoadPath& path, co
   std::string text;
   for (const auto& plate : result.plates)
     for (Index i = 0; i < std::ssize(plate.contact); ++i) {
-      const auto& a = plate.contacts;
+      const auto& a = plate.at_no_load;
       if (!path.interference || a.gap[i] >= 0) continue;
       text +=
           fmt::format("interference at {}:{}: pressure {:.6g} to {:.6g} {} at no load, {}\n", plate.name,
-                      plate.contact[i].hole, a.no_load_least[i], a.no_load_peak[i], unit(joint.units, -2, 1),
+                      plate.contact[i].hole, a.least[i], a.peak[i], unit(joint.units, -2, 1),
                       std::isfinite(a.full_until[i])
                           ? fmt::format("full contact is lost at load factor {:.6g}", a.full_until[i])
                           : fmt::format("full contact is kept up to load factor {:.6g}", path.interference->followed));
@@ -338,12 +334,12 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
             plate_table(joint, states[i], width);
   }
   if (states.empty()) return text;
-  if (result.F_error) text += error_bar(joint, result);
+  if (result.columns.find("F_error")) text += error_bar(joint, result);
   const Index last = std::ssize(states) - 1;
   text += external_table(result, joint.units, last) + row_table(result, joint.units, last);
   constexpr std::size_t few = 4;
   for (std::size_t i = 0; i < result.load_external.size() && result.load_external.size() <= few; ++i) {
-    const double arm = arm_of(joint, result.load_external[i]), stiffness = result.load_stiffness(last, i);
+    const double arm = arm_of(joint, result.load_external[i]), stiffness = result.columns["stiffness/tangent"](last, i);
     text += fmt::format("  tangent stiffness at {}: {:.6g} {}\n", result.load_external[i],
                         arm > 0 ? stiffness * arm * arm : stiffness,
                         arm > 0 ? unit(joint.units, 1, 1) + "/rad" : unit(joint.units, -1, 1));

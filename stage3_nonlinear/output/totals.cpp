@@ -7,7 +7,7 @@
 #include <cmath>
 #include <map>
 
-#include "stage3_nonlinear/output/csv_field.hpp"
+#include "stage3_nonlinear/output/csv.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 
 namespace fastjoint::stage3 {
@@ -26,28 +26,29 @@ struct Total {
 
 std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index step) {
   const std::string force = unit(units, 0, 1), length = unit(units, 1, 0), moment = unit(units, 1, 1);
+  const auto at = [&](const char* path, Index i) { return plate.columns[path](step, i); };
   std::vector<Total> all;
   for (int axis = 0; axis < 2; ++axis)
-    for (const auto& [quantity, table] :
-         {std::pair("applied", &plate.applied), std::pair("by fasteners", &plate.by_fasteners),
-          std::pair("by supports", &plate.by_supports)})
-      all.push_back({axis == 0 ? "x" : "y", "sheet", "", quantity, (*table)(step, axis), force});
-  const auto& rows = plate.rows;
-  for (Index i = 0; i < std::ssize(rows.direction); ++i)
-    for (const auto& [quantity, table] :
-         {std::pair("by fasteners", &rows.force), std::pair("in sheet before", &rows.before),
-          std::pair("in sheet after", &rows.after)})
-      all.push_back({rows.direction[i], "row", fmt::format("{}", rows.at[i]), quantity, (*table)(step, i), force});
+    for (const auto& [quantity, path] :
+         {std::pair("applied", "total/applied"), std::pair("by fasteners", "total/by_fasteners"),
+          std::pair("by supports", "total/by_supports")})
+      all.push_back({axis == 0 ? "x" : "y", "sheet", "", quantity, at(path, axis), force});
+  for (Index i = 0; i < std::ssize(plate.rows.direction); ++i)
+    for (const auto& [quantity, path] :
+         {std::pair("by fasteners", "row/force"), std::pair("in sheet before", "row/before"),
+          std::pair("in sheet after", "row/after")})
+      all.push_back(
+          {plate.rows.direction[i], "row", fmt::format("{}", plate.rows.at[i]), quantity, at(path, i), force});
   for (Index i = 0; i < std::ssize(plate.external_id); ++i) {
-    all.push_back({"", plate.external_id[i], "", "force", plate.Pe(step, i), force});
-    all.push_back({"", plate.external_id[i], "", "displacement", plate.De(step, i), length});
+    all.push_back({"", plate.external_id[i], "", "force", at("Pe", i), force});
+    all.push_back({"", plate.external_id[i], "", "displacement", at("De", i), length});
   }
   const Index n = std::ssize(plate.traction_id);
   for (Index i = 0; i < n; ++i) {
-    const double arm = plate.traction_arm[i], f = plate.traction(step, i), u = plate.traction_displacement(step, i);
+    const double arm = plate.traction_arm[i], f = at("traction/force", i), u = at("traction/displacement", i);
     // A hole that is pressed has two sides: the one that bears is shown, or the first if none does.
     const auto is_same = [&](Index other) { return other < n && plate.traction_id[other] == plate.traction_id[i]; };
-    if (f == 0 && ((i > 0 && is_same(i - 1)) || (is_same(i + 1) && plate.traction(step, i + 1) != 0))) continue;
+    if (f == 0 && ((i > 0 && is_same(i - 1)) || (is_same(i + 1) && at("traction/force", i + 1) != 0))) continue;
     all.push_back(
         {"", plate.traction_id[i], "", arm > 0 ? "moment" : "force", arm > 0 ? f * arm : f, arm > 0 ? moment : force});
     all.push_back({"", plate.traction_id[i], "", arm > 0 ? "rotation" : "displacement", arm > 0 ? u / arm : u,
@@ -60,32 +61,32 @@ std::vector<Total> totals(const PlateHistory& plate, const Units& units, Index s
 }  // namespace
 
 std::string totals_csv(const JointResult& a) {
-  std::string text = "increment,load_factor,plate,direction,of,at,quantity,value,unit,joint,case\n";
+  Csv csv("increment,load_factor,plate,direction,of,at,quantity,value,unit,joint,case");
   for (Index step = 0; step < a.load_factor.size(); ++step)
     for (const auto& plate : a.plates)
       for (const auto& [direction, of, at, quantity, value, unit] : totals(plate, a.header.units, step))
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", increment_number(a, step), a.load_factor[step],
-                            csv_field(plate.name), direction, csv_field(of), at, quantity, value, csv_field(unit),
-                            csv_field(a.header.name), csv_field(a.case_name[a.case_of[step]]));
-  return text;
+        csv.line(increment_number(a, step), a.load_factor[step], plate.name, direction, of, at, quantity, value, unit,
+                 a.header.name, a.case_name[a.case_of[step]]);
+  return csv.text();
 }
 
 std::string row_table(const JointResult& a, const Units& units, Index step) {
   std::map<std::string, double> carried;
   for (const auto& plate : a.plates)
     for (Index i = 0; i < std::ssize(plate.rows.direction); ++i)
-      carried[plate.rows.direction[i]] += std::abs(plate.rows.force(step, i));
+      carried[plate.rows.direction[i]] += std::abs(plate.columns["row/force"](step, i));
   if (carried.empty()) return {};
   const std::string along = std::ranges::max_element(carried, {}, [](const auto& each) { return each.second; })->first;
   const auto shown = [](double force) { return std::isfinite(force) ? fmt::format("{:.8g}", force + 0.0) : "-"; };
   std::string lines;
   for (const auto& plate : a.plates) {
     const auto& rows = plate.rows;
+    const auto cell = [&](const char* path, Index i) { return shown(plate.columns[path](step, i)); };
     if (std::ranges::count(rows.direction, along) < 2) continue;
     for (Index i = 0; i < std::ssize(rows.direction); ++i)
       if (rows.direction[i] == along)
         lines += fmt::format("  {:<24} {:>12.6g} {:>6} {:>16} {:>16} {:>16}\n", plate.name, rows.at[i], rows.holes[i],
-                             shown(rows.force(step, i)), shown(rows.before(step, i)), shown(rows.after(step, i)));
+                             cell("row/force", i), cell("row/before", i), cell("row/after", i));
   }
   if (lines.empty()) return lines;
   const std::string force = fmt::format("[{}]", unit(units, 0, 1));

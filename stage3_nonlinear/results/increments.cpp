@@ -68,7 +68,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
     if (wanted.sensitivities) {
       require_first_loading(joint, point);
       slopes = state_slopes(all.numbers, point);
-      all.sensitivity.push_back(sensitivity(all.numbers, slopes, point));
+      all.sensitivity.push_back(sensitivity(slopes, point));
     }
     if (!wanted.keep_loaded_rims)
       for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
@@ -83,6 +83,25 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
   }
   if (last) all.peak = peak_sensitivity(joint, all.numbers, slopes, *last, all.states.back());
   return {std::move(path), std::move(all)};
+}
+
+std::vector<JointGroup> increment_quantities(const Increments& increments) {
+  const auto& stiffness = increments.stiffness;
+  const Index loads = stiffness.empty() ? 0 : std::ssize(stiffness[0]);
+  std::vector<JointGroup> groups{JointGroup(
+      columns::Of::load, loads,
+      {{"stiffness/tangent", columns::stiffness,
+        "rise of force over that of displacement at each, as all loads grow together", "", h5::infinite_too}},
+      [&stiffness, loads](const JointAt& at) {
+        return VectorXd::NullaryExpr(loads, [&](Index i) { return stiffness[at.increment][i].stiffness; });
+      })};
+  if (increments.F_error)
+    groups.emplace_back(
+        columns::Of::plane, increments.F_error->cols(),
+        std::vector<columns::Quantity>{
+            {"F_error", columns::force, "estimated error of F by those of the plates' matrices", "", h5::infinite_too}},
+        [&errors = *increments.F_error](const JointAt& at) { return errors.row(at.increment).transpose(); });
+  return groups;
 }
 
 }  // namespace fastjoint::stage3

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "stage3_nonlinear/results/at_increment.hpp"
 #include "stage3_nonlinear/results/force_errors.hpp"
 #include "stage3_nonlinear/results/joint_numbers.hpp"
 #include "stage3_nonlinear/results/joint_state.hpp"
@@ -28,9 +29,12 @@ struct Increments {
   std::optional<MatrixXd> F_error;                     ///< (steps, n) force; none if not known (ForceErrors)
   std::vector<std::vector<LoadStiffness>> stiffness;   ///< of each increment
   JointNumbers numbers;                                ///< parameters of the derivatives, if wanted
-  std::vector<Sensitivity> sensitivity;                ///< of each increment, if wanted
+  std::vector<MatrixXd> sensitivity;                   ///< of the forces, of each increment, if wanted
   std::optional<PeakSensitivity> peak = std::nullopt;  ///< at the last increment, if wanted
 };
+
+/// Estimated errors of the forces of shear planes, if known, and the stiffness of the joint under its loads.
+[[nodiscard]] std::vector<JointGroup> increment_quantities(const Increments& increments);
 
 /// Part of a state that is out of balance by more than 1e-8 of the largest force and more than ten times the solver's
 /// tolerance, or the load, if rounding of the gaps is as large a part of it.

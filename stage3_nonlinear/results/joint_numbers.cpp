@@ -65,6 +65,22 @@ Index JointNumbers::column(const Change& change) const {
   return first_gap() + change.at;
 }
 
+std::vector<formats::Slopes> JointNumbers::kinds() const {
+  using columns::length, columns::ratio;
+  constexpr columns::Dimension by_law{0, 0, "law_unit"};
+  std::vector<formats::Slopes> all{
+      {"load_factor", "the load factor", ratio, 1},
+      {"clearance", "the clearance of each shear plane", length, n_planes},
+      {"law", "each number of the laws", by_law, std::ssize(law)},
+      {"mu", "the coefficient of friction of each hole", ratio, std::ssize(friction) + std::ssize(rim_friction)},
+      {"force", "the force on each at load factor 1", columns::force, std::ssize(force)},
+      {"displacement", "the displacement of each at load factor 1", length, std::ssize(displacement)},
+      {"gap", "the radial gap of each", length, std::ssize(gap)}};
+  Index first = 0;
+  for (auto& each : all) each.first = std::exchange(first, first + each.n);
+  return all;
+}
+
 JointNumbers joint_numbers(const JointModel& joint) {
   JointNumbers numbers;
   numbers.n_planes = joint.n_planes();

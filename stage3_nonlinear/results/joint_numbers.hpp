@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/formats/joint_result.hpp"
 #include "stage3_nonlinear/interfaces/interface.hpp"
 #include "stage3_nonlinear/model/parameters.hpp"
 
@@ -34,6 +35,8 @@ struct JointNumbers {
            std::ssize(displacement) + std::ssize(gap);
   }
   [[nodiscard]] Index column(const Change& change) const;
+  /// The kinds of numbers in the order of the columns.
+  [[nodiscard]] std::vector<formats::Slopes> kinds() const;
 };
 [[nodiscard]] JointNumbers joint_numbers(const JointModel& joint);
 

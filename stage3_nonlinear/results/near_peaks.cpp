@@ -6,6 +6,7 @@
 #include "common/infinite.hpp"
 #include "stage3_nonlinear/results/hoop_peak.hpp"
 #include "stage3_nonlinear/results/near_stress.hpp"
+#include "stage3_nonlinear/results/rim_stresses.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -19,12 +20,6 @@ double distance_to(const Vector2d& from, const Vector2d& to, double radius) {
   if (std::abs(area) <= same_line * radius * along.norm()) return infinite;
   const double at = std::clamp(-from.dot(along) / along.squaredNorm(), 0.0, 1.0);
   return (from + at * along).norm();
-}
-
-const LoadedRim* rim_of(const JointState& state, Index plate, const std::string& hole) {
-  for (const auto& rim : state.plates[plate].loaded)
-    if (rim && rim->rim.hole == hole) return &*rim;
-  return nullptr;
 }
 
 }  // namespace
@@ -45,33 +40,45 @@ VectorXd room_around(const PlateModel& plate) {
   return room - a.rim_radius;
 }
 
-formats::NearStresses near_stresses(const PlateModel& plate, const std::vector<JointState>& states, Index at,
-                                    double distance, const formats::RimStresses* around) {
-  const Index n = std::ssize(states), r = std::ssize(plate.stresses.rim_hole);
-  const VectorXd room = room_around(plate);
-  const MatrixXd none = MatrixXd::Constant(n, r, std::nan(""));
-  formats::NearStresses a{distance, none, none, MatrixXd::Constant(n, r, infinite)};
-  if (around)
-    for (auto* table : {&a.rr, &a.tt, &a.rt}) *table = MatrixXd::Constant(n, around->angle.size(), infinite);
-  for (Index step = 0; step < n; ++step)
-    for (Index i = 0; i < r; ++i) {
-      const LoadedRim* rim = rim_of(states[step], at, plate.stresses.rim_hole[i]);
-      if (!rim || !(distance < room[i])) continue;
-      if (const auto peak = hoop_peak(*rim, {}, distance)) {
-        a.peak(step, i) = peak->value;
-        a.angle(step, i) = peak->angle;
-        a.error(step, i) = peak->error;
-      }
-      if (!around) continue;
-      const NearStress near(rim->hoop(0, rim->rim.waves, rim->traction_waves(rim->degrees[0].tractions)), distance);
-      for (Index k = around->start[i]; k < around->start[i + 1]; ++k) {
-        const Eigen::Vector3d stress = near.at(around->angle[k] * rim::degree);
-        a.rr(step, k) = stress[0];
-        a.tt(step, k) = stress[1];
-        a.rt(step, k) = stress[2];
-      }
-    }
-  return a;
+PlateGroup near_peaks(const PlateModel& plate, double distance) {
+  const Index r = std::ssize(plate.stresses.rim_hole);
+  return {columns::Of::hole,
+          r,
+          {{"rim/near/peak_hoop", columns::stress, "largest hoop stress on the circle", "", h5::nan_too},
+           {"rim/near/peak_angle", columns::angle, "angle of it, counter-clockwise from x", "", h5::nan_too},
+           {"rim/near/peak_error", columns::stress, "estimated error of it", "", h5::infinite_too}},
+          [distance, room = room_around(plate), r](const PlateAt& at) {
+            MatrixXd all(r, 3);
+            all.leftCols(2).setConstant(std::nan(""));
+            all.col(2).setConstant(infinite);
+            for (Index i = 0; i < r; ++i) {
+              const LoadedRim* rim = loaded_rim(at.state(), at.model().stresses.rim_hole[i]);
+              if (!rim || !(distance < room[i])) continue;
+              if (const auto peak = hoop_peak(*rim, {}, distance)) all.row(i) << peak->value, peak->angle, peak->error;
+            }
+            return all;
+          }};
+}
+
+PlateGroup near_stresses(const PlateModel& plate, double distance, const formats::HoleList& points) {
+  const std::string meaning = " stress at this distance outwards from each point";
+  return {columns::Of::point,
+          points.angle.size(),
+          {{"rim/near/sigma_rr", columns::stress, "radial" + meaning, "", h5::infinite_too},
+           {"rim/near/sigma_tt", columns::stress, "hoop" + meaning, "", h5::infinite_too},
+           {"rim/near/sigma_rt", columns::stress, "shear" + meaning, "", h5::infinite_too}},
+          [distance, room = room_around(plate), points](const PlateAt& at) {
+            MatrixXd all = MatrixXd::Constant(points.angle.size(), 3, infinite);
+            for (Index i = 0; i < room.size(); ++i) {
+              const LoadedRim* rim = loaded_rim(at.state(), points.hole[i]);
+              if (!rim || !(distance < room[i])) continue;
+              const NearStress near(rim->hoop(0, rim->rim.waves, rim->traction_waves(rim->degrees[0].tractions)),
+                                    distance);
+              for (Index k = points.start[i]; k < points.start[i + 1]; ++k)
+                all.row(k) = near.at(points.angle[k] * rim::degree);
+            }
+            return all;
+          }};
 }
 
 }  // namespace fastjoint::stage3

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <vector>
-
 #include "common/formats/joint_result.hpp"
-#include "stage3_nonlinear/model/joint_model.hpp"
-#include "stage3_nonlinear/results/joint_state.hpp"
+#include "stage3_nonlinear/results/at_increment.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -13,10 +10,11 @@ namespace fastjoint::stage3 {
 /// symmetry through its centre, or another hole; infinite where neither is known, (r), length.
 [[nodiscard]] VectorXd room_around(const PlateModel& plate);
 
-/// Stresses at a distance from the rims of a plate at every increment. A hole without a closed form or without room has
-/// peaks of 0 with an infinite error, and infinite stresses.
-/// @param around Points of which the stresses are wanted; null for the peaks alone.
-[[nodiscard]] formats::NearStresses near_stresses(const PlateModel& plate, const std::vector<JointState>& states,
-                                                  Index at, double distance, const formats::RimStresses* around);
+/// Highest hoop stresses at a distance from the rims of a plate; NaN with an infinite error at a hole without a closed
+/// form or without room.
+[[nodiscard]] PlateGroup near_peaks(const PlateModel& plate, double distance);
+
+/// Stresses at that distance outwards from points on the rims; infinite at such holes.
+[[nodiscard]] PlateGroup near_stresses(const PlateModel& plate, double distance, const formats::HoleList& points);
 
 }  // namespace fastjoint::stage3

@@ -180,25 +180,24 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, const formats:
   return states;
 }
 
-formats::RimHistory rims_of(const formats::PlateStresses& a) {
+formats::HoleList holes_of(const formats::PlateStresses& a) {
   const Index r = std::ssize(a.rim_hole);
-  formats::RimHistory rims{.hole = a.rim_hole,
-                           .sections = Eigen::VectorXi(r),
-                           .center = a.rim_center,
-                           .radius = a.rim_radius,
-                           .thickness = a.rim_thickness,
-                           .gross_area = VectorXd(r),
-                           .net_area = VectorXd(r),
-                           .gross_area_y = VectorXd(r),
-                           .net_area_y = VectorXd(r),
-                           .values = {}};
+  formats::HoleList all{.hole = a.rim_hole,
+                        .sections = Eigen::VectorXi(r),
+                        .center = a.rim_center,
+                        .radius = a.rim_radius,
+                        .thickness = a.rim_thickness,
+                        .gross_area = VectorXd(r),
+                        .net_area = VectorXd(r),
+                        .gross_area_y = VectorXd(r),
+                        .net_area_y = VectorXd(r)};
   for (Index i = 0; i < r; ++i) {
     const HoleSections sections(a, i);
-    rims.sections[i] = sections.number();
-    rims.gross_area[i] = sections.gross_area(0), rims.gross_area_y[i] = sections.gross_area(1);
-    rims.net_area[i] = sections.net_area(0), rims.net_area_y[i] = sections.net_area(1);
+    all.sections[i] = sections.number();
+    all.gross_area[i] = sections.gross_area(0), all.gross_area_y[i] = sections.gross_area(1);
+    all.net_area[i] = sections.net_area(0), all.net_area_y[i] = sections.net_area(1);
   }
-  return rims;
+  return all;
 }
 
 }  // namespace fastjoint::stage3

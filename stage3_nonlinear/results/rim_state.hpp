@@ -13,8 +13,17 @@
 
 namespace fastjoint::stage3 {
 
-/// One hole of a plate at one increment: the values in RESULT.h5, and those for the summary and warnings only.
-struct RimState : formats::RimValues {
+/// One hole of a plate at one increment: its quantities in RESULT.h5, and what the summary and warnings ask of it.
+struct RimState {
+  double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
+  double bypass_load = 0, bypass_error = 0;
+  double peak_hoop = 0, peak_angle = 0, peak_error = 0;   ///< NaN, NaN and infinite where it is not known
+  double against_slip = 0;                                ///< in contact with friction
+  double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
+  double net_stress = 0;                                  ///< largest tension over the net sections, in any direction
+  double bypass_stress = 0;                               ///< bypass load over the gross section, tension positive
+  double bypass_across = 0;                               ///< the other principal stress of what passes by
+  double bypass_direction = 0, net_direction = 0;         ///< of these two, degrees
   /// The springs are in tension: they are on the side that does not bear.
   bool pulls = false;
   bool filled = false;  ///< springs act all around
@@ -51,7 +60,7 @@ struct LoadedDiscs {
                                                int level, const VectorXd& coefficients, const LoadedDiscs& discs,
                                                double scale, const std::vector<std::optional<LoadedRim>>& rims);
 
-/// The holes of a plate; their values at every increment are left to the caller.
-[[nodiscard]] formats::RimHistory rims_of(const formats::PlateStresses& a);
+/// The holes of a plate, without points.
+[[nodiscard]] formats::HoleList holes_of(const formats::PlateStresses& a);
 
 }  // namespace fastjoint::stage3

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/count.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -81,20 +83,41 @@ std::vector<DiscRow> disc_rows(const PlateModel& plate) {
   return rows;
 }
 
-RowForces row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state) {
-  const Index n = std::ssize(rows);
-  RowForces result{VectorXd::Zero(n), VectorXd(n), VectorXd(n)};
+formats::RowList row_list(const std::vector<DiscRow>& rows) {
+  const Index w = std::ssize(rows);
+  formats::RowList list{{}, VectorXd(w), Eigen::VectorXi(w)};
+  for (Index i = 0; i < w; ++i) {
+    list.direction.emplace_back(rim::axis_names[rows[i].axis]);
+    list.at[i] = rows[i].at;
+    list.holes[i] = count_of(rows[i].discs);
+  }
+  return list;
+}
+
+MatrixXd row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state) {
+  MatrixXd all = MatrixXd::Zero(std::ssize(rows), 3);
   PlacedForces forces;
-  for (Index i = 0; i < n; ++i) {
+  for (Index i = 0; i < all.rows(); ++i) {
     const auto& [axis, at, discs] = rows[i];
     if (i == 0 || axis != rows[i - 1].axis) forces = forces_along(plate, axis, state);
-    for (const Index disc : discs) result.force[i] += state.bearing[disc] + state.friction[disc];
+    for (const Index disc : discs) all(i, 0) += state.bearing[disc] + state.friction[disc];
     // Rounding of the places must not put an edge at the row on its other side.
     const double margin = tolerance(plate, axis) + 1e-9 * std::abs(at);
-    result.before[i] = beyond(forces, at - margin);
-    result.after[i] = beyond(forces, at + margin);
+    all(i, 1) = beyond(forces, at - margin);
+    all(i, 2) = beyond(forces, at + margin);
   }
-  return result;
+  return all;
+}
+
+PlateGroup row_quantities(std::vector<DiscRow> rows) {
+  const char* section = "force in the plate over its whole section there, tension positive";
+  const Index n = std::ssize(rows);
+  return {columns::Of::row,
+          n,
+          {{"row/force", columns::force, "force of the fasteners of each row along its direction"},
+           {"row/before", columns::force, section, "", h5::infinite_too},
+           {"row/after", columns::force, section, "", h5::infinite_too}},
+          [rows = std::move(rows)](const PlateAt& at) { return row_forces(at.model(), rows, at.state()); }};
 }
 
 }  // namespace fastjoint::stage3

@@ -3,7 +3,8 @@
 
 #include <vector>
 
-#include "stage3_nonlinear/results/joint_state.hpp"
+#include "common/formats/joint_result.hpp"
+#include "stage3_nonlinear/results/at_increment.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -18,13 +19,13 @@ struct DiscRow {
 /// Centres that differ by less than a thousandth of the extent of all are of one row.
 [[nodiscard]] std::vector<DiscRow> disc_rows(const PlateModel& plate);
 
-/// Forces along the axis of each row, shape (rows).
-struct RowForces {
-  VectorXd force;          ///< of the fasteners on the sheet, positive along + axis
-  VectorXd before, after;  ///< of the sheet over its section just before and after the row, tension positive; infinite
-                           ///< where the section crosses an edge on which forces act along the axis
-};
+[[nodiscard]] formats::RowList row_list(const std::vector<DiscRow>& rows);
 
-[[nodiscard]] RowForces row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state);
+/// Forces along the axis of each row, (rows, 3): of the fasteners on the sheet, positive along + axis, and of the sheet
+/// over its section just before and just after the row, tension positive; infinite where the section crosses an edge on
+/// which forces act along the axis.
+[[nodiscard]] MatrixXd row_forces(const PlateModel& plate, const std::vector<DiscRow>& rows, const PlateState& state);
+
+[[nodiscard]] PlateGroup row_quantities(std::vector<DiscRow> rows);
 
 }  // namespace fastjoint::stage3

@@ -61,20 +61,8 @@ StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point) 
   return all;
 }
 
-Sensitivity sensitivity(const JointNumbers& numbers, const StateSlopes& slopes, const SolvedPoint& point) {
-  const MatrixXd dF = point.of_magnitudes({slopes.F, {}, slopes.none, slopes.no_row});
-  Index column = 0;
-  const auto next = [&](Index count) -> MatrixXd {
-    column += count;
-    return dF.middleCols(column - count, count);
-  };
-  return {.load_factor = next(1),
-          .clearance = next(numbers.n_planes),
-          .law = next(std::ssize(numbers.law)),
-          .mu = next(std::ssize(numbers.friction) + std::ssize(numbers.rim_friction)),
-          .force = next(std::ssize(numbers.force)),
-          .displacement = next(std::ssize(numbers.displacement)),
-          .gap = next(std::ssize(numbers.gap))};
+MatrixXd sensitivity(const StateSlopes& slopes, const SolvedPoint& point) {
+  return point.of_magnitudes({slopes.F, {}, slopes.none, slopes.no_row});
 }
 
 }  // namespace fastjoint::stage3

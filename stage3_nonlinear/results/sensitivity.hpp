@@ -9,18 +9,6 @@
 
 namespace fastjoint::stage3 {
 
-/// Derivatives of the n bearing forces by each parameter: those of the signed forces with one direction, those of their
-/// magnitudes with two.
-struct Sensitivity {
-  VectorXd load_factor;   ///< (n) force
-  MatrixXd clearance;     ///< (n, n) column: by the clearance of that plane, force / length
-  MatrixXd law;           ///< (n, l) force per unit of the parameter
-  MatrixXd mu;            ///< (n, f) force
-  MatrixXd force;         ///< (n, u) by JointNumbers::force at load factor 1, dimensionless
-  MatrixXd displacement;  ///< (n, v) by JointNumbers::displacement at load factor 1, force / length
-  MatrixXd gap;           ///< (n, g) by the gap of each rim of contact, force / length
-};
-
 /// Derivatives of a solution by each parameter, in the order of JointNumbers.
 struct StateSlopes {
   MatrixXd F, delta;                ///< (r, columns) of all rows of the condensed system
@@ -30,12 +18,13 @@ struct StateSlopes {
 };
 [[nodiscard]] StateSlopes state_slopes(const JointNumbers& numbers, const SolvedPoint& point);
 
-/// Derivatives at a solution, by the implicit function theorem for all parameters at once (docs/theory.md, section 10).
-/// They are one-sided at a corner of F.
+/// Derivatives of the n bearing forces at a solution by each parameter, (n, columns): those of the signed forces with
+/// one direction, those of their magnitudes with two; by the implicit function theorem for all parameters at once
+/// (docs/theory.md, section 10). They are one-sided at a corner of F.
 ///
 /// Forces on a plate that is free within its gaps (TangentCheck::mechanism) are differentiable by all parameters that
 /// do not disturb its balance; derivatives by a load that would move it, and those of forces at a limit load, are
 /// infinite.
-[[nodiscard]] Sensitivity sensitivity(const JointNumbers& numbers, const StateSlopes& slopes, const SolvedPoint& point);
+[[nodiscard]] MatrixXd sensitivity(const StateSlopes& slopes, const SolvedPoint& point);
 
 }  // namespace fastjoint::stage3

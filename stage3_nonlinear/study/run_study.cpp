@@ -200,12 +200,12 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
       load_joint(with_all_friction(study, sampled), arguments.integer("--p", 1, formats::highest_degree, 0));
   const bool has_peaks =
       std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
-  if (study.scene.peaks && !has_peaks)
+  if (study.scene.outputs.contains("peaks") && !has_peaks)
     throw InputError(
         fmt::format("{}: /outputs: \"peaks\", but no plate's matrices hold stresses at p = {}; allowed: "
                     "matrices of stage2_extract without --loads-only, at their highest degree",
                     study.scene.file, joint.p));
-  if (study.scene.cracks &&
+  if (study.scene.outputs.contains("cracks") &&
       std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tip.empty(); }))
     throw InputError(
         fmt::format("{}: /outputs: \"cracks\", but no plate has cracks; allowed: at least one plate with \"cracks\" in "
@@ -216,18 +216,17 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
 
 /// Throws InputError if there is too little memory for the matrices, and for samples on all threads or the statistics
 /// after them.
-void require_memory(const Study& study, const JointModel& joint, const StudyNames& names, const StudyBlocks& blocks,
-                    int threads) {
+void require_memory(const Study& study, const JointModel& joint, const StudyOutputs& outputs, int threads) {
   using program::bytes_text;
   constexpr double of_tangent = 8 * sizeof(double);  // its factors and the matrices that it is made of
   const auto [solving, of_step] = joint_need(joint, false, false, false);
   const auto r = double(joint.n_planes() * joint.n_directions() + joint.n_moments());
   const double read = matrices_need(study.joint), samples = solving + threads * (of_step + of_tangent * r * r);
-  const double statistics = statistics_need(study.scene, names, blocks.end(0));
+  const double statistics = statistics_need(study.scene, outputs);
   program::require_memory(study.scene.file + ": this", read + std::max(samples, statistics),
                           fmt::format(" (matrices {}, solving on {} {}, then statistics of {} {})", bytes_text(read),
                                       program::counted(threads, "thread"), bytes_text(samples),
-                                      program::counted(names.size(), "number"), bytes_text(statistics)),
+                                      program::counted(outputs.size(), "number"), bytes_text(statistics)),
                           "fewer \"outputs\" or threads, or matrices of stage2_extract --loads-only");
 }
 
@@ -296,11 +295,11 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   require_memory_to_read(study.joint);
   JointModel joint = load_studied(arguments, study, sampled);
   const formats::StudyOrigin origin = origin_of(study, joint, seed);
-  StudyNames names = study_names(joint, study.scene);
-  const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, names.size());
+  StudyOutputs outputs(joint, study.scene);
+  const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, outputs.size());
   blocks.check();
   const auto cases = studied_cases(study);
-  require_memory(study, joint, names, blocks, threads);
+  require_memory(study, joint, outputs, threads);
   if (merge_only) check_all_there(blocks, arguments.output);
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
@@ -309,15 +308,15 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   set_loads(joint, middle_scene, middle_scene.cases[cases.front()]);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
-    if (!study.scene.peaks) plate.stress_level.reset();
+    if (!study.scene.outputs.contains("peaks")) plate.stress_level.reset();
   }
-  const StudySolver solver(joint, middle_scene, cases, std::move(names));
+  const StudySolver solver(joint, middle_scene, cases, std::move(outputs));
   Samples samples(study, seed, solver);
   const auto [first, end] = blocks.of_slice(slice.number, slice.n);
   if (!merge_only) solve_blocks(blocks, first, end, arguments.quiet, samples, log);
   std::string summary;
   if (slice.is_whole)
-    summary = merge(study, {study.scene, seed, solver.names(), joint.units, solver.middle(), samples.sensitivity()},
+    summary = merge(study, {study.scene, seed, solver.outputs(), joint.units, solver.middle(), samples.sensitivity()},
                     blocks, origin, arguments.output, timings);
   else
     summary = fmt::format("{} of {} blocks of samples are in {}; --merge makes {} of all slices\n", end - first,

@@ -36,7 +36,7 @@ void Samples::solve_block(const StudyBlocks& blocks, int block) {
   const std::uint64_t first = blocks.first(block);
   const Index n = Index(blocks.end(block) - first);
   Eigen::VectorXi status(n);
-  formats::StudyRows values(n, solver_.names().size());
+  formats::StudyRows values(n, solver_.outputs().size());
   linalg::for_each_index(n, [&](std::size_t i) {
     const auto numbers = of_values(sample_values(study_.scene, seed_, first + i));
     const Index row = Index(i);
@@ -50,7 +50,7 @@ void Samples::solve_block(const StudyBlocks& blocks, int block) {
 
 void Samples::find_slopes() {
   const Index v = std::ssize(middle_);
-  slopes_.resize(solver_.names().size(), v);
+  slopes_.resize(solver_.outputs().size(), v);
   MatrixXd c_slopes = MatrixXd::Zero(solver_.middle().c.size(), v);
   linalg::for_each_index(v, [&](std::size_t i) {
     constexpr double part = 1e-3;

@@ -4,25 +4,12 @@
 #include <gsl/gsl_cdf.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace fastjoint::stage3 {
 namespace {
-
-constexpr std::uint64_t sign_bit = std::uint64_t{1} << 63U;
-
-/// An integer key with the order of the numbers.
-std::uint64_t ordered(double x) {
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  return (bits & sign_bit) != 0 ? ~bits : bits | sign_bit;
-}
-double number_of(std::uint64_t key) { return std::bit_cast<double>((key & sign_bit) != 0 ? key & ~sign_bit : ~key); }
-
-/// Number of bits that are not known before a pass.
-int below(int pass) { return std::max(64 - Selection::bits_of_pass * pass, 0); }
 
 /// Smallest k in [0, n] for which a binomial number of n trials is k or less with more than a probability.
 std::uint64_t min_count_with(double probability, double fraction, std::uint64_t n) {
@@ -62,47 +49,6 @@ Proportion proportion(std::uint64_t count, std::uint64_t solved, std::uint64_t f
 }
 
 double Moments::deviation() const { return n_ < 2 ? 0 : or_infinite(std::sqrt(squares_ / double(n_ - 1))); }
-
-Selection::Selection(const std::vector<std::uint64_t>& ranks) {
-  for (const std::uint64_t rank : ranks) targets_.push_back({rank, 0, 0});
-  group();
-}
-
-void Selection::group() {
-  prefixes_.clear();
-  for (const auto& target : targets_) prefixes_.push_back(target.prefix);
-  std::ranges::sort(prefixes_);
-  prefixes_.erase(std::ranges::unique(prefixes_).begin(), prefixes_.end());
-  for (auto& target : targets_) target.counts = std::ranges::lower_bound(prefixes_, target.prefix) - prefixes_.begin();
-  counts_.assign(prefixes_.size(), std::vector<std::uint64_t>(std::size_t{1} << bits_of_pass, 0));
-}
-
-void Selection::add(double x) {
-  const std::uint64_t key = ordered(x);
-  const int known = below(pass_), next = below(pass_ + 1);
-  const std::uint64_t prefix = pass_ == 0 ? 0 : key >> known << known;
-  const auto at = std::ranges::lower_bound(prefixes_, prefix);
-  if (at == prefixes_.end() || *at != prefix) return;
-  ++counts_[at - prefixes_.begin()][(key - prefix) >> next];
-}
-
-void Selection::next() {
-  const int next = below(pass_ + 1);
-  for (auto& target : targets_) {
-    const auto& counts = counts_[target.counts];
-    std::uint64_t bits = 0;
-    while (bits + 1 < counts.size() && target.rank > counts[bits]) target.rank -= counts[bits++];
-    target.prefix |= bits << next;
-  }
-  ++pass_;
-  group();
-}
-
-std::vector<double> Selection::found() const {
-  std::vector<double> result;
-  for (const auto& target : targets_) result.push_back(number_of(target.prefix));
-  return result;
-}
 
 std::vector<double> ranks_of(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());

@@ -48,32 +48,6 @@ class Moments {
   double mean_ = 0, squares_ = 0;
 };
 
-/// Exact order statistics of numbers in several passes, with memory that does not depend on how many there are: each
-/// pass finds eleven more bits of each.
-class Selection {
- public:
-  static constexpr int n_passes = 6, bits_of_pass = 11;
-  /// @param ranks 1-based, none beyond the number of numbers.
-  explicit Selection(const std::vector<std::uint64_t>& ranks);
-  void add(double x);
-  /// Ends a pass.
-  void next();
-  /// The numbers of the ranks, after the last pass.
-  [[nodiscard]] std::vector<double> found() const;
-
- private:
-  struct Target {
-    std::uint64_t rank;    ///< among the numbers with the same prefix
-    std::uint64_t prefix;  ///< the known bits, the others 0
-    std::size_t counts;    ///< index in counts_
-  };
-  void group();
-  std::vector<Target> targets_;
-  std::vector<std::uint64_t> prefixes_;
-  std::vector<std::vector<std::uint64_t>> counts_;  ///< of each prefix, by the next bits
-  int pass_ = 0;
-};
-
 /// Spearman's rank correlation of two lists of equal length; 0 if one of them is constant.
 [[nodiscard]] double rank_correlation(const std::vector<double>& ranks_a, const std::vector<double>& ranks_b);
 /// Ranks of numbers; equal ones have their mean rank.

@@ -261,11 +261,8 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
   read_number(root, study);
   if (const auto seed = root.find("seed")) study.seed = seed->integer(0, std::numeric_limits<int>::max());
   if (const auto outputs = root.find("outputs"))
-    for (const auto& output : outputs->items()) {
-      const std::string word = output.choice({"forces", "peaks", "displacements", "cracks"});
-      study.peaks |= word == "peaks", study.displacements |= word == "displacements";
-      study.cracks |= word == "cracks";
-    }
+    for (const auto& output : outputs->items())
+      study.outputs.insert(output.choice({"forces", "peaks", "displacements", "cracks"}));
   if (const auto cases = root.find("cases"))
     for (const auto& name : cases->items(1)) {
       if (std::ranges::find(study.cases, name.text()) != study.cases.end())
@@ -274,9 +271,12 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
     }
   if (const auto limits = root.find("limits")) {
     limits->only({"force", "peak", "K_I"});
-    if (const auto force = limits->find("force")) study.max_force = force->number(input::positive);
-    if (const auto peak = limits->find("peak")) study.max_peak = peak->number(input::positive), study.peaks = true;
-    if (const auto K_I = limits->find("K_I")) study.max_K_I = K_I->number(input::positive), study.cracks = true;
+    for (const auto& [name, output] :
+         {std::pair("force", "forces"), std::pair("peak", "peaks"), std::pair("K_I", "cracks")})
+      if (const auto limit = limits->find(name)) {
+        study.limits[name] = limit->number(input::positive);
+        study.outputs.insert(output);
+      }
   }
   return study;
 }

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -39,9 +41,9 @@ struct StudyScene {
   Sampling sampling = Sampling::random;
   std::uint64_t n_samples = 0;
   std::optional<std::uint64_t> seed;  ///< none: a random one
-  bool peaks = false, displacements = false, cracks = false;
-  std::vector<std::string> cases{};                    ///< of the joint; empty: all
-  std::optional<double> max_force, max_peak, max_K_I;  ///< limits whose exceedance is counted
+  std::set<std::string> outputs{"forces"};
+  std::vector<std::string> cases{};        ///< of the joint; empty: all
+  std::map<std::string, double> limits{};  ///< of outputs by name, whose exceedance is counted
 };
 
 /// Reads a study of a joint; wildcards in its places are resolved in the joint. Throws InputError.

@@ -10,20 +10,6 @@
 #include "stage3_nonlinear/results/increments.hpp"
 
 namespace fastjoint::stage3 {
-StudyNames study_names(const JointModel& joint, const StudyScene& study) {
-  StudyNames names;
-  for (const auto& plane : joint.planes) names.force.push_back(joint.short_name(plane));
-  for (const auto& plate : joint.plates) {
-    if (study.peaks && plate.stress_level)
-      for (const auto& hole : plate.stresses.rim_hole)
-        if (plate.has_peak(hole)) names.peak.push_back(plate.name + ":" + hole);
-    if (study.displacements)
-      for (const auto& external : plate.externals) names.displacement.push_back(plate.name + ":" + external);
-    if (study.cracks)
-      for (const auto& tip : plate.cracks.tip) names.crack.push_back(plate.name + ":" + tip);
-  }
-  return names;
-}
 
 CaseSolver::CaseSolver(const JointModel& joint, const JointScene& scene, std::size_t at,
                        std::shared_ptr<const CondensedSystem> system)
@@ -79,46 +65,21 @@ std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const 
 }
 
 StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const std::vector<std::size_t>& cases,
-                         StudyNames names)
-    : joint_(joint), tolerance_(scene.solver.tolerance), names_(std::move(names)) {
+                         StudyOutputs outputs)
+    : joint_(joint), tolerance_(scene.solver.tolerance), outputs_(std::move(outputs)) {
   const auto system = std::make_shared<const CondensedSystem>(condense(joint));
   for (const std::size_t at : cases) cases_.emplace_back(joint, scene, at, system);
   middle_ = solve(scene);
 }
 
 SampleNumbers StudySolver::nothing(SampleStatus status) const {
-  return {status, VectorXd::Constant(names_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
+  return {status, VectorXd::Constant(outputs_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
 }
 
 VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
-  VectorXd all(names_.size());
   const JointState state = joint_state(joint_, equations, step);
   if (imbalance(equations, step, state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
-  all.head(joint_.n_planes()) = state.transferred_first.cwiseAbs();
-  Index at = joint_.n_planes();
-  if (!names_.peak.empty())
-    for (Index i = 0; i < std::ssize(state.plates); ++i)
-      for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim)
-        if (joint_.plates[i].has_peak(joint_.plates[i].stresses.rim_hole[rim]))
-          all[at++] = state.plates[i].rims[rim].peak_hoop;
-  if (!names_.displacement.empty())
-    for (Index i = 0; i < std::ssize(state.plates); ++i)
-      for (Index e = 0; e < std::ssize(state.plates[i].De); ++e)
-        all[at++] = state.plates[i].De[e] + equations.parameters.free_De[i][e];
-  if (!names_.crack.empty())
-    for (VectorXd CrackState::*factor : {&CrackState::K_I, &CrackState::K_II})
-      for (const auto& plate : state.plates)
-        for (const double each : plate.cracks.*factor) all[at++] = each;
-  return all;
-}
-
-void StudySolver::take(const VectorXd& its, VectorXd& all) const {
-  const Index first = std::ssize(names_.force) + std::ssize(names_.peak), n = std::ssize(names_.displacement),
-              K_II = first + n + std::ssize(names_.crack);
-  for (Index i = 0; i < all.size(); ++i) {
-    const bool has_sign = (i >= first && i < first + n) || i >= K_II;
-    if (has_sign ? std::abs(its[i]) > std::abs(all[i]) : its[i] > all[i]) all[i] = its[i];
-  }
+  return outputs_.numbers({joint_, equations, step, state, 0});
 }
 
 SampleNumbers StudySolver::solve(const JointScene& scene, const VectorXd& away) const {
@@ -132,7 +93,7 @@ SampleNumbers StudySolver::solve(const JointScene& scene, const VectorXd& away) 
         if (i == 0)
           result.all = its;
         else
-          take(its, result.all);
+          outputs_.take(its, result.all);
         result.c.conservativeResize((i + 1) * step.c.size());
         result.c.tail(step.c.size()) = step.c;
       });

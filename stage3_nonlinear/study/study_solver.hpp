@@ -9,7 +9,7 @@
 
 #include "stage3_nonlinear/equations/joint_equations.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
-#include "stage3_nonlinear/study/study_scene.hpp"
+#include "stage3_nonlinear/study/study_outputs.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -19,23 +19,9 @@ enum class SampleStatus { solved, refused, not_solved, out_of_balance };
 /// Results of a sample at the last increment.
 struct SampleNumbers {
   SampleStatus status = SampleStatus::solved;
-  VectorXd all;  ///< in the order of StudyNames: forces, peaks, displacements, K_I, K_II; NaN if not solved
+  VectorXd all;  ///< in the order of StudyOutputs; NaN if not solved
   VectorXd c{};  ///< (cases r) contact coordinates; empty if not solved
 };
-
-/// Names of the numbers of a sample.
-struct StudyNames {
-  std::vector<std::string> force;         ///< fastener, and its plates if it has several planes
-  std::vector<std::string> peak;          ///< "plate:hole"; empty if not requested
-  std::vector<std::string> displacement;  ///< "plate:external" of rigid externals; empty if not requested
-  std::vector<std::string> crack;         ///< "plate:tip" of K_I and of K_II; empty if not requested
-
-  [[nodiscard]] Index size() const {
-    return std::ssize(force) + std::ssize(peak) + std::ssize(displacement) + 2 * std::ssize(crack);
-  }
-};
-
-[[nodiscard]] StudyNames study_names(const JointModel& joint, const StudyScene& study);
 
 /// Solves one load case of a joint for other parameters.
 class CaseSolver {
@@ -86,9 +72,9 @@ class StudySolver {
   /// @param joint Outlives this; has friction wherever a sample has some.
   /// @param scene With every variable in its middle. @param cases Numbers of the cases to solve.
   StudySolver(const JointModel& joint, const JointScene& scene, const std::vector<std::size_t>& cases,
-              StudyNames names);
+              StudyOutputs outputs);
 
-  [[nodiscard]] const StudyNames& names() const { return names_; }
+  [[nodiscard]] const StudyOutputs& outputs() const { return outputs_; }
   /// Results for the parameters of the middle; NaN if not solved.
   [[nodiscard]] const SampleNumbers& middle() const { return middle_; }
   /// Results for other parameters; away from the middle as in CaseSolver, for all cases one after another.
@@ -99,13 +85,11 @@ class StudySolver {
  private:
   /// Numbers of one case; not finite if it is out of balance.
   [[nodiscard]] VectorXd numbers(const JointEquations& equations, const PathStep& step) const;
-  /// Takes the numbers of a case into the envelope of those before.
-  void take(const VectorXd& its, VectorXd& all) const;
 
   const JointModel& joint_;
   double tolerance_;
   std::vector<CaseSolver> cases_;
-  StudyNames names_;
+  StudyOutputs outputs_;
   SampleNumbers middle_;
 };
 

@@ -14,61 +14,38 @@
 namespace fastjoint::stage3 {
 namespace {
 
+constexpr std::uint64_t max_at_once = 32'000'000;  ///< numbers of samples in memory, 256 MB
+
 /// Number of samples for the rank correlations of a given number of results: their error is 1 over its square root.
 std::uint64_t max_ranked(std::size_t n_numbers) {
   constexpr std::uint64_t max_samples = 100000, min_samples = 10000, of_all = 20000000;
   return std::clamp(of_all / n_numbers, min_samples, max_samples);
 }
 
-/// Results of one kind: columns of the samples, or the largest of some columns.
-struct Kind {
-  const char* name;
-  const char* meaning;
-  std::string unit;
+/// Numbers whose statistics stand in one group of STUDY.h5: those of a kind of outputs, or the largest of all of them.
+struct Group {
+  std::string name, meaning;
   std::vector<std::string> of;
-  Index first, n;
+  const OutputKind* kind;
   bool is_largest;
-  double limit = infinite;
 };
 
-std::vector<Kind> kinds_of(const StudyContext& a) {
-  const std::string force = unit(a.units, 0, 1), stress = unit(a.units, -2, 1), length = unit(a.units, 1, 0);
-  const Index f = std::ssize(a.names.force), r = std::ssize(a.names.peak), d = std::ssize(a.names.displacement);
-  const Index t = std::ssize(a.names.crack);
-  const double max_force = a.study.max_force.value_or(infinite), max_peak = a.study.max_peak.value_or(infinite);
-  std::vector<Kind> kinds{
-      {"force", "load that each fastener transfers", force, a.names.force, 0, f, false, max_force},
-      {"largest_force", "largest transferred load of all", force, {"largest force"}, 0, f, true, max_force}};
-  if (r > 0) {
-    kinds.push_back({"peak", "largest hoop stress at each hole", stress, a.names.peak, f, r, false, max_peak});
-    kinds.push_back({"largest_peak", "largest hoop stress of all", stress, {"largest peak"}, f, r, true, max_peak});
+std::vector<Group> groups_of(const StudyOutputs& outputs) {
+  std::vector<Group> groups;
+  for (const auto& kind : outputs.kinds()) {
+    const auto& [name, asked, meaning, largest, is_magnitude] = kind.output;
+    groups.push_back({name, meaning, kind.of, &kind, false});
+    if (largest != nullptr)
+      groups.push_back({std::string("largest_") + name, largest, {std::string("largest ") + name}, &kind, true});
   }
-  if (d > 0)
-    kinds.push_back(
-        {"displacement", "displacement of each rigid external", length, a.names.displacement, f + r, d, false});
-  if (t > 0) {
-    const std::string intensity = unit(a.units, -1.5, 1);
-    const Index K_I = f + r + d;
-    const double max_K_I = a.study.max_K_I.value_or(infinite);
-    kinds.push_back({"K_I", "K_I of each crack tip", intensity, a.names.crack, K_I, t, false, max_K_I});
-    kinds.push_back({"largest_K_I", "largest K_I of all", intensity, {"largest K_I"}, K_I, t, true, max_K_I});
-    kinds.push_back({"K_II", "K_II of each crack tip", intensity, a.names.crack, K_I + t, t, false});
-  }
-  return kinds;
+  return groups;
 }
 
-/// Values of a kind in the row of a sample.
-VectorXd of_kind(const Kind& kind, const Eigen::Ref<const Eigen::RowVectorXd>& row) {
-  const auto part = row.segment(kind.first, kind.n);
-  return kind.is_largest ? VectorXd::Constant(1, part.maxCoeff()) : VectorXd(part.transpose());
+/// Values of a group in the row of a sample.
+VectorXd of_group(const Group& group, const Eigen::Ref<const Eigen::RowVectorXd>& row) {
+  const auto part = row.segment(group.kind->first, std::ssize(group.kind->of));
+  return group.is_largest ? VectorXd::Constant(1, part.maxCoeff()) : VectorXd(part.transpose());
 }
-
-/// Statistics of one number.
-struct Gathered {
-  Moments moments;
-  std::uint64_t above = 0, governs = 0, negative = 0;
-  std::vector<double> ranked{};
-};
 
 /// Calls each(sample, row) for all solved samples, in their order.
 template <class Each>
@@ -80,171 +57,152 @@ void for_each_solved(const StudyBlocks& blocks, Each each) {
   }
 }
 
-/// Sensitivities of a number; for the largest of some they are those of the one that is largest in the middle.
-Eigen::RowVectorXd sensitivity_of(const StudyContext& a, const Kind& kind, Index i) {
-  Index at = kind.first + i;
-  if (kind.is_largest) {
-    a.middle.all.segment(kind.first, kind.n).maxCoeff(&at);
-    at += kind.first;
+/// Statistics of one number over all samples.
+struct OfSamples {
+  double mean, deviation;
+  std::vector<double> ranks;  ///< of the first ones, for correlations
+
+  OfSamples(const std::vector<double>& values, std::uint64_t n_ranked) {
+    Moments moments;
+    for (const double value : values) moments.add(value);
+    mean = moments.mean(), deviation = moments.deviation();
+    ranks =
+        ranks_of({values.begin(), values.begin() + std::ptrdiff_t(std::min<std::uint64_t>(values.size(), n_ranked))});
   }
-  return a.sensitivity.row(at);
-}
+};
 
 class Statistics {
  public:
   Statistics(const StudyContext& context, const StudyBlocks& blocks)
-      : a_(context), blocks_(blocks), kinds_(kinds_of(context)), variables_(context.study.variables.size()) {
-    for (const auto& kind : kinds_) all_.emplace_back(kind.of.size());
+      : a_(context), blocks_(blocks), groups_(groups_of(context.outputs)) {
+    std::size_t n_numbers = a_.study.variables.size();
+    for (const auto& group : groups_) n_numbers += group.of.size();
+    n_ranked_ = max_ranked(n_numbers);
   }
 
   formats::StudyResult make() {
-    gather_variables();
-    gather();
-    for (std::size_t g = 0; g < kinds_.size(); ++g) make_group(g);
-    select();
-    return std::move(result_);
-  }
-
- private:
-  void gather_variables() {
-    const Index v = std::ssize(variables_);
-    result_.middle.resize(v), result_.mean.resize(v), result_.deviation.resize(v);
     result_.n_samples = a_.study.n_samples;
-    for (std::uint64_t sample = 0; sample < a_.study.n_samples; ++sample) {
-      const auto values = sample_values(a_.study, a_.seed, sample);
-      for (Index i = 0; i < v; ++i) variables_[i].moments.add(values[i]);
-    }
-    for (Index i = 0; i < v; ++i) {
-      const Variable& variable = a_.study.variables[i];
-      result_.variable.push_back(variable.name);
-      result_.place.push_back(fmt::format("{}", fmt::join(variable.places, " ")));
-      result_.middle[i] = middle_of(variable);
-      result_.mean[i] = variables_[i].moments.mean();
-      result_.deviation[i] = variables_[i].moments.deviation();
-    }
-  }
-
-  void gather() {
     result_.n_status = Eigen::VectorXi::Zero(4);
     for (int block = 0; block < blocks_.n_blocks(); ++block)
       for (const int status : blocks_.read(block).status) ++result_.n_status[status];
     solved_ = result_.n_status[0];
     failed_ = a_.study.n_samples - solved_;
-    std::size_t n_numbers = variables_.size();
-    for (const auto& kind : kinds_) n_numbers += kind.of.size();
-    std::uint64_t ranked = 0;
-    for_each_solved(blocks_, [&](std::uint64_t sample, const auto& row) {
-      const bool is_ranked = ranked++ < max_ranked(n_numbers);
-      for (std::size_t g = 0; g < kinds_.size(); ++g) {
-        const VectorXd values = of_kind(kinds_[g], row);
-        for (Index i = 0; i < values.size(); ++i) {
-          all_[g][i].moments.add(values[i]);
-          all_[g][i].above += values[i] > kinds_[g].limit ? 1 : 0;
-          all_[g][i].negative += values[i] < 0 ? 1 : 0;
-          if (is_ranked) all_[g][i].ranked.push_back(values[i]);
-        }
-        Index at = 0;
-        values.maxCoeff(&at);
-        ++all_[g][at].governs;
-      }
-      if (!is_ranked) return;
-      const auto values = sample_values(a_.study, a_.seed, sample);
-      for (std::size_t i = 0; i < values.size(); ++i) variables_[i].ranked.push_back(values[i]);
-    });
-    for (auto& each : variables_) each.ranked = ranks_of(each.ranked);
+    for (const double fraction : quantile_levels) quantiles_.push_back(quantile_ranks(fraction, solved_, failed_));
+    gather_variables();
+    for (const auto& group : groups_) gather(group);
+    return std::move(result_);
   }
 
-  void make_group(std::size_t g) {
-    const Kind& kind = kinds_[g];
-    const Index n = std::ssize(kind.of), v = std::ssize(variables_);
+ private:
+  void gather_variables() {
+    const Index v = std::ssize(a_.study.variables);
+    result_.middle.resize(v), result_.mean.resize(v), result_.deviation.resize(v);
+    std::vector<std::vector<double>> all(v), ranked(v);
+    for (std::uint64_t sample = 0; sample < a_.study.n_samples; ++sample) {
+      const auto values = sample_values(a_.study, a_.seed, sample);
+      for (Index i = 0; i < v; ++i) all[i].push_back(values[i]);
+    }
+    for_each_solved(blocks_, [&](std::uint64_t sample, const auto&) {
+      for (Index i = 0; i < v; ++i)
+        if (ranked[i].size() < n_ranked_) ranked[i].push_back(all[i][sample]);
+    });
+    for (Index i = 0; i < v; ++i) {
+      const Variable& variable = a_.study.variables[i];
+      result_.variable.push_back(variable.name);
+      result_.place.push_back(fmt::format("{}", fmt::join(variable.places, " ")));
+      result_.middle[i] = middle_of(variable);
+      const OfSamples its(all[i], 0);
+      result_.mean[i] = its.mean, result_.deviation[i] = its.deviation;
+      variable_ranks_.push_back(ranks_of(ranked[i]));
+    }
+  }
+
+  void gather(const Group& its) {
+    const Index n = std::ssize(its.of), v = std::ssize(a_.study.variables), levels = std::ssize(quantile_levels);
     formats::StudyGroup& group = result_.groups.emplace_back();
-    group.name = kind.name, group.unit = kind.unit, group.of = kind.of;
-    group.limit = kind.limit;
+    group.name = its.name, group.unit = unit_of(its.kind->dimension, a_.units), group.of = its.of;
+    group.limit = its.kind->limit;
     for (VectorXd* each : {&group.middle, &group.mean, &group.deviation, &group.by_sensitivities, &group.exceeds,
-                           &group.exceeds_low, &group.exceeds_high, &group.governs})
+                           &group.exceeds_low, &group.exceeds_high})
       each->resize(n);
+    group.governs = VectorXd::Zero(n);
     if (group.name == "K_I") group.closed.resize(n);
     group.sensitivity.resize(n, v), group.correlation.resize(n, v);
+    group.quantile = MatrixXd::Constant(n, levels, infinite);
+    group.low = -group.quantile, group.high = group.quantile;
     const bool has_middle = a_.middle.status == SampleStatus::solved;
-    group.middle = has_middle ? of_kind(kind, a_.middle.all.transpose()) : VectorXd::Constant(n, infinite);
-    for (Index i = 0; i < n; ++i) {
-      Gathered& each = all_[g][i];
-      group.mean[i] = each.moments.mean(), group.deviation[i] = each.moments.deviation();
-      group.sensitivity.row(i) = has_middle ? sensitivity_of(a_, kind, i) : Eigen::RowVectorXd::Constant(v, infinite);
-      const Eigen::RowVectorXd slope = group.sensitivity.row(i), deviation = result_.deviation.transpose();
-      group.by_sensitivities[i] =  // a deviation may be infinite, also of a variable without influence
-          slope.allFinite() ? (slope.array() == 0).select(0, slope.cwiseProduct(deviation)).norm() : infinite;
-      const auto ranks = ranks_of(each.ranked);
-      each.ranked.clear();
-      for (Index k = 0; k < v; ++k) group.correlation(i, k) = rank_correlation(ranks, variables_[k].ranked);
-      group.governs[i] = solved_ > 0 ? double(each.governs) / double(solved_) : 0;
-      if (group.closed.size() > 0) group.closed[i] = solved_ > 0 ? double(each.negative) / double(solved_) : 0;
-      Proportion fraction = proportion(each.above, solved_, failed_);
-      if (is_grid() || std::isinf(kind.limit)) fraction.low = fraction.high = fraction.value;
-      group.exceeds[i] = fraction.value, group.exceeds_low[i] = fraction.low, group.exceeds_high[i] = fraction.high;
+    group.middle = has_middle ? of_group(its, a_.middle.all.transpose()) : VectorXd::Constant(n, infinite);
+    const auto at_once = Index(std::max<std::uint64_t>(1, max_at_once / std::max<std::uint64_t>(solved_, 1)));
+    for (Index first = 0; first < n; first += at_once) {
+      std::vector<std::vector<double>> columns(std::min(at_once, n - first));
+      for (auto& column : columns) column.reserve(solved_);
+      for_each_solved(blocks_, [&](std::uint64_t, const auto& row) {
+        const VectorXd values = of_group(its, row);
+        for (std::size_t i = 0; i < columns.size(); ++i) columns[i].push_back(values[first + Index(i)]);
+        Index largest = 0;
+        if (first == 0) values.maxCoeff(&largest), ++group.governs[largest];
+      });
+      for (std::size_t i = 0; i < columns.size(); ++i) describe(its, first + Index(i), columns[i], group);
+    }
+    group.governs /= double(std::max<std::uint64_t>(solved_, 1));
+  }
+
+  /// Statistics of the i-th number of a group. @param values Of the solved samples; are sorted.
+  void describe(const Group& its, Index i, std::vector<double>& values, formats::StudyGroup& group) const {
+    const OfSamples all(values, n_ranked_);
+    group.mean[i] = all.mean, group.deviation[i] = all.deviation;
+    group.sensitivity.row(i) = sensitivity_of(its, i);
+    const Eigen::RowVectorXd slope = group.sensitivity.row(i), deviation = result_.deviation.transpose();
+    group.by_sensitivities[i] =  // a deviation may be infinite, also of a variable without influence
+        slope.allFinite() ? (slope.array() == 0).select(0, slope.cwiseProduct(deviation)).norm() : infinite;
+    for (Index k = 0; k < group.correlation.cols(); ++k)
+      group.correlation(i, k) = rank_correlation(all.ranks, variable_ranks_[k]);
+    std::ranges::sort(values);
+    const auto above = std::uint64_t(values.end() - std::ranges::upper_bound(values, group.limit));
+    if (group.closed.size() > 0)
+      group.closed[i] =
+          double(std::ranges::lower_bound(values, 0.0) - values.begin()) / double(std::max<std::uint64_t>(solved_, 1));
+    Proportion fraction = proportion(above, solved_, failed_);
+    if (is_grid() || std::isinf(group.limit)) fraction.low = fraction.high = fraction.value;
+    group.exceeds[i] = fraction.value, group.exceeds_low[i] = fraction.low, group.exceeds_high[i] = fraction.high;
+    if (solved_ == 0) return;
+    for (std::size_t k = 0; k < quantiles_.size(); ++k) {
+      const auto& [at, low, high] = quantiles_[k];
+      group.quantile(i, Index(k)) = values[at - 1];
+      if (is_grid()) continue;  // a grid is not random and has no confidence limits
+      if (low >= 1) group.low(i, Index(k)) = values[low - 1];
+      if (high <= solved_) group.high(i, Index(k)) = values[high - 1];
     }
   }
 
-  /// Finds the quantiles of all numbers, and their limits.
-  void select() {
-    constexpr Index n = std::ssize(quantile_levels);
-    for (auto& group : result_.groups) {
-      group.quantile = MatrixXd::Constant(std::ssize(group.of), n, infinite);
-      group.low = -group.quantile, group.high = group.quantile;
-    }
-    if (solved_ == 0) return;
-    std::vector<std::uint64_t> ranks;
-    std::vector<QuantileRanks> of_level;
-    for (const double fraction : quantile_levels) {
-      const auto& its = of_level.emplace_back(quantile_ranks(fraction, solved_, failed_));
-      for (const std::uint64_t rank : {its.at, its.low, its.high})
-        ranks.push_back(std::clamp<std::uint64_t>(rank, 1, solved_));
-    }
-    std::vector<std::vector<Selection>> selections;
-    for (const auto& kind : kinds_) selections.emplace_back(kind.of.size(), Selection(ranks));
-    for (int pass = 0; pass < Selection::n_passes; ++pass) {
-      for_each_solved(blocks_, [&](std::uint64_t, const auto& row) {
-        for (std::size_t g = 0; g < kinds_.size(); ++g) {
-          const VectorXd values = of_kind(kinds_[g], row);
-          for (Index i = 0; i < values.size(); ++i) selections[g][i].add(values[i]);
-        }
-      });
-      for (auto& of_group : selections)
-        for (auto& each : of_group) each.next();
-    }
-    for (std::size_t g = 0; g < kinds_.size(); ++g)
-      for (Index i = 0; i < std::ssize(kinds_[g].of); ++i) {
-        const auto found = selections[g][i].found();
-        for (Index k = 0; k < n; ++k) {
-          result_.groups[g].quantile(i, k) = found[3 * k];
-          if (is_grid()) continue;  // a grid is not random and has no confidence limits
-          if (of_level[k].low >= 1) result_.groups[g].low(i, k) = found[3 * k + 1];
-          if (of_level[k].high <= solved_) result_.groups[g].high(i, k) = found[3 * k + 2];
-        }
-      }
+  /// Sensitivities of a number; for the largest of some they are those of the one that is largest in the middle.
+  [[nodiscard]] Eigen::RowVectorXd sensitivity_of(const Group& group, Index i) const {
+    const auto& [output, dimension, of, first, limit] = *group.kind;
+    if (a_.middle.status != SampleStatus::solved)
+      return Eigen::RowVectorXd::Constant(std::ssize(a_.study.variables), infinite);
+    if (group.is_largest) a_.middle.all.segment(first, std::ssize(of)).maxCoeff(&i);
+    return a_.sensitivity.row(first + i);
   }
 
   [[nodiscard]] bool is_grid() const { return a_.study.sampling == Sampling::grid; }
 
   const StudyContext& a_;
   const StudyBlocks& blocks_;
-  std::vector<Kind> kinds_;
-  std::vector<std::vector<Gathered>> all_;  ///< of each kind
-  std::vector<Gathered> variables_;
-  std::uint64_t solved_ = 0, failed_ = 0;
-  formats::StudyResult result_;
+  std::vector<Group> groups_;
+  std::uint64_t n_ranked_, solved_ = 0, failed_ = 0;
+  std::vector<QuantileRanks> quantiles_{};
+  std::vector<std::vector<double>> variable_ranks_{};
+  formats::StudyResult result_{};
 };
 
 }  // namespace
 
-double statistics_need(const StudyScene& study, const StudyNames& names, std::uint64_t block) {
-  constexpr double copies = 4;  // of a block: its file, its rows, those of a kind and what is written
-  constexpr double max_largest = 3, n_ranks = 3 * quantile_levels.size(),
-                   of_rank = sizeof(double) << unsigned{Selection::bits_of_pass};
-  const double v = double(study.variables.size()), named = double(names.size()), n = named + max_largest;
-  const double ranked = double(std::min(study.n_samples, max_ranked(std::size_t(n + v))));
-  return sizeof(double) * (n * (ranked + copies * v) + v * ranked + copies * double(block) * (named + v)) +
-         n * n_ranks * of_rank;
+double statistics_need(const StudyScene& study, const StudyOutputs& outputs) {
+  const double v = double(study.variables.size()), n = double(study.n_samples), all = double(outputs.size());
+  constexpr double ranks = 3, copies = 4,
+                   of_block = 8192;  // of a column; of a block: its file, rows and what is written
+  const double at_once = std::max(n, std::min(all * n, double(max_at_once)));
+  return sizeof(double) * (at_once + (v + ranks) * n + copies * (v * all + std::min(n, of_block) * (all + v)));
 }
 
 formats::StudyResult study_statistics(const StudyContext& context, const StudyBlocks& blocks) {
@@ -253,14 +211,14 @@ formats::StudyResult study_statistics(const StudyContext& context, const StudyBl
 
 void write_samples(h5::Writer& file, const StudyContext& a, const StudyBlocks& blocks) {
   const Index n = Index(a.study.n_samples), v = std::ssize(a.study.variables);
-  const auto kinds = kinds_of(a);
+  const auto groups = groups_of(a.outputs);
   file.make_rows<int>("samples/status", {n}, "1", "0 solved, 1 refused, 2 not solved, 3 out of balance");
   file.make_rows<double>("samples/variable", {n, v}, "1", "value of each variable");
-  for (const auto& kind : kinds) {
+  for (const auto& group : groups) {
     h5::Shape shape{n};
-    if (!kind.is_largest) shape.push_back(kind.n);
-    file.make_rows<double>(std::string("samples/") + kind.name, shape, kind.unit,
-                           std::string(kind.meaning) + "; NaN where the sample was not solved");
+    if (!group.is_largest) shape.push_back(std::ssize(group.of));
+    file.make_rows<double>("samples/" + group.name, shape, unit_of(group.kind->dimension, a.units),
+                           group.meaning + "; NaN where the sample was not solved");
   }
   for (int block = 0; block < blocks.n_blocks(); ++block) {
     const auto its = blocks.read(block);
@@ -271,13 +229,13 @@ void write_samples(h5::Writer& file, const StudyContext& a, const StudyBlocks& b
     for (Index i = 0; i < k; ++i)
       variables.row(i) = VectorXd::Map(sample_values(a.study, a.seed, first + i).data(), v).transpose();
     file.rows("samples/variable", first, std::span<const double>(variables.data(), variables.size()));
-    for (const auto& kind : kinds) {
-      formats::StudyRows rows(k, kind.is_largest ? 1 : kind.n);
+    for (const auto& group : groups) {
+      formats::StudyRows rows(k, std::ssize(group.of));
       for (Index i = 0; i < k; ++i)
         rows.row(i) = its.status[i] == 0
-                          ? Eigen::RowVectorXd(of_kind(kind, its.values.row(i)).transpose())
+                          ? Eigen::RowVectorXd(of_group(group, its.values.row(i)).transpose())
                           : Eigen::RowVectorXd::Constant(rows.cols(), std::numeric_limits<double>::quiet_NaN());
-      file.rows(std::string("samples/") + kind.name, first, std::span<const double>(rows.data(), rows.size()));
+      file.rows("samples/" + group.name, first, std::span<const double>(rows.data(), rows.size()));
     }
   }
 }

@@ -14,14 +14,14 @@ namespace fastjoint::stage3 {
 struct StudyContext {
   const StudyScene& study;
   std::uint64_t seed;
-  const StudyNames& names;
+  const StudyOutputs& outputs;
   Units units;
   SampleNumbers middle;  ///< results with every variable in its middle
   MatrixXd sensitivity;  ///< (columns, v) derivative of each number by each variable there; infinite if not known
 };
 
 /// Bytes that the statistics take. @param block Number of samples of a block.
-[[nodiscard]] double statistics_need(const StudyScene& study, const StudyNames& names, std::uint64_t block);
+[[nodiscard]] double statistics_need(const StudyScene& study, const StudyOutputs& outputs);
 /// Statistics of all samples; the blocks are read several times, one after another.
 [[nodiscard]] formats::StudyResult study_statistics(const StudyContext& context, const StudyBlocks& blocks);
 

@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "common/formats/joint_result.hpp"
 #include "common/h5/writer.hpp"
 #include "tests/pipeline/programs.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint {
 namespace {
@@ -157,12 +157,12 @@ TEST(ExitStatusNotConverged, KeepsTheConvergedIncrements) {
                                HasSubstr("at fastener \""),
                                HasSubstr("Check the law, the gap and the clearance of the fastener there"),
                                HasSubstr("out.h5 holds the " + std::to_string(converged) + " increment")));
-    const auto result = formats::read_joint_result(folder.path("out.h5"));
+    const auto result = test::Result(folder.path("out.h5"));
     EXPECT_FALSE(result.complete);
     EXPECT_EQ(result.load_factor, Eigen::VectorXd::Constant(converged, 0.05));
   }
   EXPECT_EQ(run_with(8).status, 0);
-  EXPECT_TRUE(formats::read_joint_result(folder.path("out.h5")).complete);
+  EXPECT_TRUE(test::Result(folder.path("out.h5")).complete);
 }
 
 /// A strip that floats along x, held by one fastener that yields at 3e-7 and does not harden, under 4e-3.
@@ -187,7 +187,7 @@ TEST(BeyondCapacity, IsANumericalFailureThatNamesTheFastener) {
   EXPECT_EQ(run.status, 4);
   EXPECT_THAT(run.err, testing::HasSubstr("limit load reached: beyond load factor 7.14286e-05, the last that "
                                           "converged, the laws of fastener \"1\" are at"));
-  const auto result = formats::read_joint_result(folder.path("R.h5"));
+  const auto result = test::Result(folder.path("R.h5"));
   EXPECT_FALSE(result.complete);
   EXPECT_EQ(result.load_factor.size(), 1);
 }

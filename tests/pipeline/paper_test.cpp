@@ -8,9 +8,9 @@
 #include <memory>
 #include <tuple>
 
-#include "common/formats/joint_result.hpp"
 #include "common/formats/plate_matrices.hpp"
 #include "tests/pipeline/programs.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint {
 namespace {
@@ -23,11 +23,11 @@ class ThreeFastenerJoint : public testing::Test {
   }
   static void TearDownTestSuite() { folder_.reset(); }
 
-  static formats::JointResult solve(const std::string& joint) {
+  static test::Result solve(const std::string& joint) {
     folder_->write("joint.json", joint);
     const auto run = test::stage3(*folder_, "joint.json -o result.h5");
     EXPECT_EQ(run.status, 0) << run.err;
-    return formats::read_joint_result(folder_->path("result.h5"));
+    return test::Result(folder_->path("result.h5"));
   }
 
   /// What fastener 1 transfers of all, per cent.

@@ -97,9 +97,16 @@ struct RandomJoint {
   return {equations, step.load_factor, step.c};
 }
 
-[[nodiscard]] inline stage3::Sensitivity sensitivity_at(const stage3::JointNumbers& numbers,
-                                                        const stage3::SolvedPoint& point) {
-  return sensitivity(numbers, state_slopes(numbers, point), point);
+/// Derivatives of forces by kinds of numbers.
+struct Sensitivity {
+  Eigen::VectorXd load_factor;
+  Eigen::MatrixXd clearance, law, mu, force, displacement, gap;
+};
+[[nodiscard]] inline Sensitivity sensitivity_at(const stage3::JointNumbers& numbers, const stage3::SolvedPoint& point) {
+  const Eigen::MatrixXd all = sensitivity(state_slopes(numbers, point), point);
+  const auto kinds = numbers.kinds();
+  const auto by = [&](std::size_t kind) -> Eigen::MatrixXd { return all.middleCols(kinds[kind].first, kinds[kind].n); };
+  return {by(0), by(1), by(2), by(3), by(4), by(5), by(6)};
 }
 
 /// A symmetric matrix with eigenvalues of order 1, all > 0, shape (n, n).

@@ -7,9 +7,9 @@
 #include <sstream>
 
 #include "common/errors.hpp"
-#include "common/formats/joint_result.hpp"
 #include "stage3_nonlinear/run.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -46,9 +46,9 @@ class PlaneRun : public testing::Test {
                 false,
                 {{"--csv", csv_}}};
   }
-  formats::JointResult run() {
+  test::Result run() {
     stage3::run(options_, out_, log_, timings_);
-    return formats::read_joint_result(options_.output);
+    return test::Result(options_.output);
   }
   void expect_refusal(const std::string& message) {
     EXPECT_THAT([&] { (void)run(); }, ThrowsMessage<InputError>(HasSubstr(message)));
@@ -185,7 +185,7 @@ TEST_F(Couple, BeyondWhatTwoPlasticFastenersHoldTurnsTheSheet) {
     EXPECT_THAT(beyond.err, HasSubstr("joint.json: limit load reached: beyond load factor 0.7")) << method;
     EXPECT_THAT(beyond.err, HasSubstr("the laws of fastener \"f1\", fastener \"f2\" are at their maximum force"))
         << method;
-    const auto kept = formats::read_joint_result(options_.output);
+    const auto kept = test::Result(options_.output);
     EXPECT_FALSE(kept.complete);
     EXPECT_EQ(kept.load_factor, Eigen::VectorXd::Constant(1, 0.5)) << method;
   }

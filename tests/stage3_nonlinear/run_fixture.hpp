@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "common/formats/joint_result.hpp"
 #include "stage3_nonlinear/run.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -22,7 +22,7 @@ class Run : public testing::Test {
     options_ = {test::write_joint(folder_, lap, members), folder_.path("result.h5"), "", false, {{"--csv", csv_}}};
   }
   void run() { stage3::run(options_, out_, log_, timings_); }
-  [[nodiscard]] formats::JointResult result() const { return formats::read_joint_result(options_.output); }
+  [[nodiscard]] test::Result result() const { return test::Result(options_.output); }
 
   test::TemporaryFolder folder_;
   const std::string csv_ = folder_.path("result.csv");

@@ -69,9 +69,9 @@ TEST_F(Run, ForcesHaveTheSignsThatThePageSays) {
     EXPECT_NEAR(a.transferred(0, 0), sign * 50, 1e-9);
     EXPECT_NEAR(a.transferred(0, 1), sign * 50, 1e-9);
     EXPECT_GT(sign * a.delta(0, 0), 0);
-    EXPECT_NEAR(a.plates[0].Pe(0, 0), 100, 1e-9);
-    EXPECT_NEAR(a.plates[0].rims.values[0][0].bearing_load, -50, 1e-9);
-    EXPECT_NEAR(a.plates[1].rims.values[0][0].bearing_load, 50, 1e-9);
+    EXPECT_NEAR(a["plates/a/Pe"](0, 0), 100, 1e-9);
+    EXPECT_NEAR(a["plates/a/rim/bearing_load"](0, 0), -50, 1e-9);
+    EXPECT_NEAR(a["plates/b/rim/bearing_load"](0, 0), 50, 1e-9);
     EXPECT_THAT(out_.str(), HasSubstr("  a                         100             -100                    0\n"
                                       "  b                           0              100                 -100\n"));
     EXPECT_THAT(out_.str(),
@@ -88,7 +88,8 @@ TEST_F(Run, CountsOneAsOne) {
   run();
   EXPECT_THAT(out_.str(), StartsWith("joint: 2 plates, 1 fastener, p = 8, hybridsj\n"));
   EXPECT_THAT(out_.str(), HasSubstr(", 1 iteration, "));
-  EXPECT_THAT(out_.str(), HasSubstr(fmt::format("  tangent stiffness at a:P: {:.6g} ", result().load_stiffness(0, 0))));
+  EXPECT_THAT(out_.str(),
+              HasSubstr(fmt::format("  tangent stiffness at a:P: {:.6g} ", result()["stiffness/tangent"](0, 0))));
 }
 
 }  // namespace

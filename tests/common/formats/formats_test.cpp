@@ -10,6 +10,7 @@
 #include "common/formats/plate_matrices.hpp"
 #include "common/h5/writer.hpp"
 #include "tests/support/files.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint::formats {
 namespace {
@@ -237,6 +238,7 @@ TEST(PlateMatrices, StressesThatNoPlateHasAreRefused) {
   refused([](auto&, auto& a) { a.waves[1].modulus = -1; }, "wave/modulus: holds -1, expected numbers >= 0");
 }
 
+/// What a field is made of; the rest is written alone.
 TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
   for (const Eigen::Index steps : {0, 2}) {
     const test::TemporaryFolder folder;
@@ -249,14 +251,9 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.converged = a.iterations = Eigen::VectorXi::Ones(steps);
     a.residual = Eigen::VectorXd::Zero(steps);
     a.event.assign(steps, "1 closes");
-    a.fastener_id = {"1", "2", "3"};
-    a.delta = a.F = Eigen::MatrixXd::Random(steps, 3);
-    a.first_hole = {"top:1", "top:2", "top:3"};
-    a.second_hole = {"low:1", "low:2", "low:3"};
-    a.direction = {"x", "y"};
-    a.delta_vector = a.F_vector = a.transferred = Eigen::MatrixXd::Random(steps, 6);
-    a.load_external = {"top:P"};
-    a.load_stiffness = Eigen::MatrixXd::Constant(steps, 1, std::numeric_limits<double>::infinity());
+    for (const char* path : {"F", "delta", "F_vector", "delta_vector", "transferred"})
+      a.columns.add(
+          {{path, columns::force, "of planes"}, columns::Of::plane, 3, {}, Eigen::MatrixXd::Random(steps, 3)});
     PlateHistory& plate = a.plates.emplace_back();
     plate.name = "top";
     plate.plate_digest = "0123456789abcdef";
@@ -266,80 +263,31 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     plate.friction_bearing = {"+x", "-x"};
     plate.contact = {{"1", {6}, 3e4, 5, 20}};
     plate.waves = {{"1", {4}, 5, 20, 3e4}};
-    plate.amounts = Eigen::MatrixXd::Random(steps, 18);
-    plate.w = Eigen::MatrixXd::Random(steps, 13);
-    plate.contacts.gap = plate.contacts.no_load_peak = plate.contacts.no_load_least = plate.contacts.full_until =
+    plate.at_no_load.gap = plate.at_no_load.peak = plate.at_no_load.least = plate.at_no_load.full_until =
         Eigen::VectorXd::Constant(1, 0.01);
-    plate.contacts.touching = plate.contacts.from = plate.contacts.to = plate.contacts.peak_pressure =
-        plate.contacts.peak_angle = plate.contacts.least_gap = Eigen::MatrixXd::Ones(steps, 1);
-    plate.D = Eigen::MatrixXd::Random(steps, 1);
-    plate.De = plate.Pe = plate.traction = Eigen::MatrixXd(steps, 0);
-    plate.Lambda = Eigen::MatrixXd::Random(steps, 2);
-    RimHistory& rims = plate.rims;
-    rims.hole = {"1"};
-    rims.sections = Eigen::VectorXi::Constant(1, 2);
-    rims.center = Eigen::MatrixXd::Constant(1, 2, 3.5);
-    rims.radius = Eigen::VectorXd::Constant(1, 0.25);
-    rims.values.resize(steps, std::vector<RimValues>(1));
-    EXPECT_EQ(rim_quantities().size() * sizeof(double), sizeof(RimValues)) << "each member has its row";
-    for (const auto& one : rim_quantities())
-      EXPECT_EQ(std::ranges::count(rim_quantities(), one.value, &RimQuantity::value), 1) << one.name;
-    double number = 0;
-    for (const auto& each : rim_quantities())
-      for (auto& row : rims.values)
-        row[0].*each.value = each.is_error ? std::numeric_limits<double>::infinity() : ++number;
-    write(folder.path("r.h5"), a);
-    EXPECT_FALSE(read_joint_result(folder.path("r.h5")).sensitivity);
-    SensitivityHistory& by = a.sensitivity.emplace();
-    const auto tables = [&](Eigen::Index columns) {
-      return std::vector<Eigen::MatrixXd>(steps, Eigen::MatrixXd::Random(3, columns));
-    };
-    by.load_factor = Eigen::MatrixXd::Constant(steps, 3, std::numeric_limits<double>::infinity());
-    by.clearance = tables(3);
-    by.mu = tables(0);
-    by.law_name = by.law_number = by.law_unit = {"k"};
-    by.law = tables(1);
-    by.force_external = {"top:P", "low:Q"};
-    by.force = tables(2);
-    by.displacement_external = {"top:D"};
-    by.displacement = tables(1);
+    const columns::Quantity angle{"rim/peak_angle", columns::angle, "place", "", h5::nan_too};
+    for (const auto& [quantity, n] :
+         {std::pair(&De, 0), std::pair(&free_De, 0), std::pair(&D, 1), std::pair(&free_D, 1),
+          std::pair(&wave_amount, 18), std::pair(&Lambda, 2), std::pair(&traction_force, 0)})
+      plate.columns.add({*quantity, {}, n, {}, Eigen::MatrixXd::Random(steps, n)});
+    plate.columns.add({angle, {}, 1, {{"x", "y"}}, Eigen::MatrixXd::Constant(steps, 2, std::nan(""))});
     write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));
     EXPECT_EQ(b.header.units, a.header.units);
     EXPECT_EQ(b.complete, a.complete);
     EXPECT_EQ(b.load_factor, a.load_factor);
-    EXPECT_EQ(b.event, a.event);
-    EXPECT_EQ(b.load_external, a.load_external);
-    EXPECT_EQ(b.load_stiffness, a.load_stiffness);
-    EXPECT_EQ(b.fastener_id, a.fastener_id);
-    EXPECT_EQ(b.F, a.F);
-    EXPECT_EQ(b.F_vector, a.F_vector);
-    EXPECT_EQ(b.second_hole, a.second_hole);
-    EXPECT_EQ(b.transferred, a.transferred);
-    EXPECT_EQ(b.plates.at(0).D, plate.D);
-    EXPECT_EQ(b.plates[0].plate_digest, plate.plate_digest);
-    EXPECT_EQ(b.plates[0].Lambda, plate.Lambda);
-    EXPECT_EQ(b.plates[0].amounts, plate.amounts);
-    EXPECT_EQ(b.plates[0].w, plate.w);
-    ASSERT_EQ(b.plates[0].waves.size(), 1U);
-    EXPECT_EQ(b.plates[0].waves[0].hole, "1");
-    EXPECT_EQ(b.plates[0].waves[0].waves, rim::Harmonics{4});
-    EXPECT_EQ(b.plates[0].friction_bearing, plate.friction_bearing);
-    EXPECT_EQ(b.plates[0].rims.sections, rims.sections);
-    EXPECT_EQ(b.plates[0].rims.center, rims.center);
-    EXPECT_EQ(b.plates[0].rims.radius, rims.radius);
-    for (const auto& each : rim_quantities())
-      for (int step = 0; step < steps; ++step)
-        EXPECT_EQ(b.plates[0].rims.values.at(step).at(0).*each.value, rims.values[step][0].*each.value) << each.name;
-    const SensitivityHistory by_file = b.sensitivity.value();
-    EXPECT_EQ(by_file.load_factor, by.load_factor) << "infinite where there is none";
-    EXPECT_EQ(by_file.clearance, by.clearance);
-    EXPECT_EQ(by_file.mu, by.mu);
-    EXPECT_EQ(by_file.law_unit, by.law_unit);
-    EXPECT_EQ(by_file.law, by.law);
-    EXPECT_EQ(by_file.force_external, by.force_external);
-    EXPECT_EQ(by_file.force, by.force);
-    EXPECT_EQ(by_file.displacement, by.displacement);
+    const PlateHistory& its = b.plates.at(0);
+    EXPECT_EQ(its.plate_digest, plate.plate_digest);
+    for (const auto* quantity : {&De, &free_De, &D, &free_D, &wave_amount, &Lambda, &traction_force})
+      EXPECT_EQ(its.columns[quantity->path], plate.columns[quantity->path]) << quantity->path;
+    ASSERT_EQ(its.waves.size(), 1U);
+    EXPECT_EQ(its.waves[0].hole, "1");
+    EXPECT_EQ(its.waves[0].waves, rim::Harmonics{4});
+    EXPECT_EQ(its.friction_bearing, plate.friction_bearing);
+    const test::Result all(folder.path("r.h5"));
+    EXPECT_EQ(all.F, a.columns["F"]);
+    EXPECT_EQ(all["plates/top/rim/peak_angle"].rows(), steps);
+    EXPECT_TRUE(all["plates/top/rim/peak_angle"].array().isNaN().all());
   }
 }
 

@@ -107,23 +107,18 @@ class StateOfAJoint : public testing::Test {
                                  .external_id = plate.external_id,
                                  .traction_id = plate.traction_id,
                                  .traction_bearing = plate.traction_bearing,
+                                 .traction_arm = {0},
                                  .friction_hole = plate.friction_hole,
-                                 .friction_bearing = plate.friction_bearing,
-                                 .D = {},
-                                 .De = {},
-                                 .Pe = {},
-                                 .Lambda = {},
-                                 .traction = {},
-                                 .rims = {}};
-    const auto table = [&](Eigen::Index cols, double offset) -> Eigen::MatrixXd {
-      return Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(cols, value + offset, value + offset + 0.1);
+                                 .friction_bearing = plate.friction_bearing};
+    const auto add = [&](const columns::Quantity& quantity, Eigen::Index n, double offset) {
+      result.columns.add(
+          {quantity, {}, n, {}, Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(n, offset, offset + 0.1)});
     };
-    result.De = table(1, 1);
-    result.Pe = table(1, 2);
-    result.D = table(2, 3);
-    result.Lambda = table(2, 4);
-    result.traction = table(1, 5);
-    result.rims.values.resize(2);
+    for (const auto& [quantity, n, offset] :
+         {std::tuple(&formats::De, 1, 1), std::tuple(&formats::D, 2, 3), std::tuple(&formats::Lambda, 2, 4),
+          std::tuple(&formats::traction_force, 1, 5)})
+      add(*quantity, n, value + offset);
+    add(formats::wave_amount, 0, 0);
     return result;
   }
   std::string joint(const std::vector<std::string>& names) const {
@@ -137,8 +132,6 @@ class StateOfAJoint : public testing::Test {
     result.case_of = Eigen::VectorXi::Zero(2);
     result.converged = result.iterations = Eigen::VectorXi::Ones(2);
     result.residual = Eigen::Vector2d::Zero();
-    for (auto* table : {&result.delta, &result.F, &result.delta_vector, &result.F_vector, &result.transferred})
-      table->setZero(2, 0);
     for (const auto& name : names) result.plates.push_back(history(name, 10 * static_cast<double>(name.size())));
     if (names.size() > 1) result.plates.back().disc_hole[0] = "other";
     formats::write(folder_.path("joint.h5"), result);

@@ -161,7 +161,7 @@ TEST(Ground, SensitivitiesAreThoseOfThePlateThatDoesNotMove) {
       const JointEquations equations = make_equations(joint);
       return test::sensitivity_at(joint_numbers(joint), test::point_of(equations, test::solved(joint)));
     };
-    const Sensitivity a = of(grounded), b = of(with_wall(grounded, 5000));
+    const test::Sensitivity a = of(grounded), b = of(with_wall(grounded, 5000));
     EXPECT_LT((a.load_factor - b.load_factor).norm(), 1e-11 * b.load_factor.norm()) << i;
     EXPECT_LT((a.clearance - b.clearance).norm(), 1e-11 * b.clearance.norm()) << i;
   }

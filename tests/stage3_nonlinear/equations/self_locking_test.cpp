@@ -4,10 +4,10 @@
 #include <sstream>
 
 #include "common/errors.hpp"
-#include "common/formats/joint_result.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/run.hpp"
 #include "tests/stage3_nonlinear/hand_made.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -62,7 +62,7 @@ class Locking : public testing::Test {
     log_.str("");
     stage3::run(options, out_, log_, timings_);
   }
-  [[nodiscard]] double force() const { return formats::read_joint_result(folder_.path("r.h5")).F(0, 0); }
+  [[nodiscard]] double force() const { return test::Result(folder_.path("r.h5")).F(0, 0); }
 
   test::TemporaryFolder folder_;
   std::ostringstream out_, log_;

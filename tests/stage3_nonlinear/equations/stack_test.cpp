@@ -7,10 +7,10 @@
 #include <set>
 #include <sstream>
 
-#include "common/formats/joint_result.hpp"
 #include "stage3_nonlinear/path/load_path.hpp"
 #include "stage3_nonlinear/run.hpp"
 #include "tests/stage3_nonlinear/stacks.hpp"
+#include "tests/support/result.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -264,7 +264,7 @@ std::map<std::string, double> loads_of(const test::TemporaryFolder& folder, cons
   std::ostringstream out, log;
   program::Timings timings;
   run({path, folder.path("result.h5"), "", true, {}}, out, log, timings);
-  const auto a = formats::read_joint_result(folder.path("result.h5"));
+  const auto a = test::Result(folder.path("result.h5"));
   std::map<std::string, double> loads;
   for (Index j = 0; j < std::ssize(a.fastener_id); ++j)
     loads[a.fastener_id[j] + a.first_hole[j] + a.second_hole[j]] = a.F(0, j);

@@ -80,7 +80,7 @@ TEST_F(ContactJoint, SensitivitiesToGapsAreDifferences) {
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {1}, test::tight);
     ASSERT_FALSE(path.failure);
-    const Sensitivity by = test::sensitivity_at(joint_numbers(joint), test::point_of(equations, path.steps[0]));
+    const test::Sensitivity by = test::sensitivity_at(joint_numbers(joint), test::point_of(equations, path.steps[0]));
     const MatrixXd& by_gap = by.gap;
     EXPECT_EQ(joint_numbers(joint).n_derivatives(), 1 + by.clearance.cols() + by.law.cols() + by.mu.cols() +
                                                         by.force.cols() + by.displacement.cols() + by_gap.cols());

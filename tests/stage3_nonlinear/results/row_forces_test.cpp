@@ -52,20 +52,20 @@ TEST(RowForces, AreOfTheFastenersAndOfTheSectionsBesideThem) {
   EXPECT_EQ(rows[0].discs, (std::vector<Index>{0, 4})) << "rounding of a place makes no row";
   EXPECT_NEAR(rows[0].at, 10, 1e-8);
   EXPECT_EQ(rows[2].discs, (std::vector<Index>{1, 7}));
-  const RowForces forces = row_forces(sheet.plate, rows, sheet.state);
-  expect_near(forces.force, {-25, -35, 0, 0});
-  expect_near(forces.before, {40, 65, 0, 0});
-  expect_near(forces.after, {65, 100, 0, 0});
+  const MatrixXd forces = row_forces(sheet.plate, rows, sheet.state);
+  expect_near(forces.col(0), {-25, -35, 0, 0});
+  expect_near(forces.col(1), {40, 65, 0, 0});
+  expect_near(forces.col(2), {65, 100, 0, 0});
 }
 
 TEST(RowForces, AreNotKnownWhereASectionCrossesALoadedEdge) {
   Sheet sheet;
   sheet.plate.places.external = Eigen::RowVector2d(20, 50);
-  const RowForces forces = row_forces(sheet.plate, disc_rows(sheet.plate), sheet.state);
-  expect_near(forces.before.head(2), {40, unknown});
-  expect_near(forces.after.head(2), {65, unknown});
+  const MatrixXd forces = row_forces(sheet.plate, disc_rows(sheet.plate), sheet.state);
+  expect_near(forces.col(1).head(2), {40, unknown});
+  expect_near(forces.col(2).head(2), {65, unknown});
   sheet.plate.places.support(0, 1) = 12;
-  expect_near(row_forces(sheet.plate, disc_rows(sheet.plate), sheet.state).before.head(1), {unknown});
+  expect_near(row_forces(sheet.plate, disc_rows(sheet.plate), sheet.state).col(1).head(1), {unknown});
 }
 
 TEST(RowForces, OfAFileWithoutPlacesAreNone) {

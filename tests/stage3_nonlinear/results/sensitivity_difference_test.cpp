@@ -118,7 +118,7 @@ HoleModel& hole_of(JointModel& joint, const std::string& name) {
 std::vector<Number> Differences::numbers() const {
   constexpr double small = 0.02;  // so that the error of differences is seen
   const JointNumbers names = joint_numbers(joint_.model);
-  const Sensitivity by = test::sensitivity_at(names, test::point_of(equations_, path_.steps[0]));
+  const test::Sensitivity by = test::sensitivity_at(names, test::point_of(equations_, path_.steps[0]));
   const double length = path_.steps[0].delta.cwiseAbs().maxCoeff();
   std::vector<Number> all{{"load factor", small, [](NamedJoint& j, double h) { j.load_factor += h; }, by.load_factor}};
   for (Index i = 0; i < std::ssize(joint_.model.planes); ++i) {

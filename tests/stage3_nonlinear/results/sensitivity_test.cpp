@@ -24,7 +24,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 struct Solved {
   LoadPath path;
   JointNumbers numbers;
-  std::vector<Sensitivity> by;  ///< one per step
+  std::vector<test::Sensitivity> by;  ///< one per step
 };
 
 Solved solved(const JointModel& joint, const std::vector<double>& load_factors) {
@@ -65,7 +65,7 @@ TEST_F(TwoFastenerLap, HasItsClosedForm) {
   EXPECT_LT(a.by[0].law.norm(), 1e-14);
   const double by_g = 1 / (1 / K + f) / 2, by_K = g / (2 * std::pow(1 + K * f, 2));
   for (const double sense : {1.0, -1.0}) {
-    const Sensitivity& by = a.by[sense > 0 ? 1 : 2];
+    const test::Sensitivity& by = a.by[sense > 0 ? 1 : 2];
     EXPECT_LT((by.load_factor - Vector2d(P / 2, P / 2)).norm(), 1e-10);
     EXPECT_LT((by.clearance.col(1) - sense * Vector2d(by_g, -by_g)).norm(), 1e-10 * by_g) << "forces have signs";
     EXPECT_LT((by.law.col(0) - sense * Vector2d(by_K, -by_K)).norm(), 1e-10 * by_K);
@@ -81,7 +81,7 @@ TEST_F(TwoFastenerLap, AtFirstContactIsOfTheSideThatBears) {
   const PathStep at = at_contact(equations);
   const double k = equations.contacts[1].stiffness;
   ASSERT_EQ(contact_state(equations, Vector2d(k, k * g)).F[1], 0);
-  const Sensitivity by = test::sensitivity_at(numbers, test::point_of(equations, at));
+  const test::Sensitivity by = test::sensitivity_at(numbers, test::point_of(equations, at));
   EXPECT_LT((by.load_factor - Vector2d(P / 2, P / 2)).norm(), 1e-10);
   const double by_g = 1 / (1 / K + f) / 2;
   EXPECT_LT((by.clearance.col(1) - Vector2d(by_g, -by_g)).norm(), 1e-10 * by_g);
@@ -96,7 +96,7 @@ TEST_F(TwoFastenerLap, SaysTheSameWithPowerAndCubicLawsAtFirstContact) {
     model.planes[1].law_name = "other";
     const JointEquations equations = make_equations(model);
     const PathStep at = at_contact(equations);
-    const Sensitivity by = test::sensitivity_at(joint_numbers(model), test::point_of(equations, at));
+    const test::Sensitivity by = test::sensitivity_at(joint_numbers(model), test::point_of(equations, at));
     EXPECT_NEAR(by.clearance(1, 1) * (1 / K + 2 * f + flexibility), -1, 1e-12);
     EXPECT_NEAR(by.load_factor[1] * (1 / K + 2 * f + flexibility), P * (1 / K + f), 1e-9);
     EXPECT_TRUE(by.law.allFinite());
@@ -115,7 +115,7 @@ TEST(JointNumbers, HaveAColumnForEachDerivative) {
     auto joint = test::named_joint(random, i % test::n_kinds);
     static_cast<void>(joint.equations());
     const Solved a = solved(joint.model, {0});
-    const Sensitivity& by = a.by.at(0);
+    const test::Sensitivity& by = a.by.at(0);
     EXPECT_EQ(a.numbers.n_derivatives(), by.load_factor.cols() + by.clearance.cols() + by.law.cols() + by.mu.cols() +
                                              by.force.cols() + by.displacement.cols() + by.gap.cols());
   }
@@ -162,7 +162,7 @@ TEST(Sensitivity, FollowsTheUnits) {
     const Solved a = solved(joint.model, {joint.load_factor});
     if (a.path.failure || a.path.steps[0].check.mechanism) continue;
     ++joints;
-    const Sensitivity& by = a.by[0];
+    const test::Sensitivity& by = a.by[0];
     VectorXd sum = joint.load_factor * by.load_factor;
     for (Index j = 0; j < std::ssize(joint.model.planes); ++j)
       sum += joint.model.planes[j].clearance * by.clearance.col(j);
@@ -249,7 +249,7 @@ TEST(Sensitivity, AtALimitPointIsInfinite) {
   const JointEquations equations = make_equations(joint);
   ASSERT_NEAR(equations.system->S_ud(0, 0), -on.dF, 1e-12) << "two equal springs in series";
   const SolvedPoint point(equations, 1, VectorXd::Constant(1, equations.contacts[0].stiffness * delta));
-  const Sensitivity by = test::sensitivity_at(joint_numbers(joint), point);
+  const test::Sensitivity by = test::sensitivity_at(joint_numbers(joint), point);
   EXPECT_THAT(by.load_factor, ElementsAre(infinity));
   EXPECT_EQ(by.law(0, 0), infinity);
 }

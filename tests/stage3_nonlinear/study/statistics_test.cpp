@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
@@ -72,21 +71,6 @@ TEST(Proportion, HasLimitsOfAMillionSamples) {
                 fraction.high - fraction.low < 0.002)
         << k;
   }
-}
-
-TEST(Selection, FindsOrderStatisticsOfAnyNumbers) {
-  std::mt19937_64 random(1);
-  std::vector<double> values{0.0, -0.0, 1e-310, -1e300, 5, 5, 5, 5};
-  for (int i = 0; i < 1000; ++i) values.push_back(std::normal_distribution(0.0, std::pow(10, i % 7 - 3))(random));
-  std::vector<std::uint64_t> ranks(values.size());
-  std::iota(ranks.begin(), ranks.end(), std::uint64_t{1});
-  Selection selection(ranks);
-  for (int pass = 0; pass < Selection::n_passes; ++pass) {
-    for (const double value : values) selection.add(value);
-    selection.next();
-  }
-  std::ranges::sort(values);
-  EXPECT_EQ(selection.found(), values);
 }
 
 TEST(RandomPlace, IsAPermutation) {
