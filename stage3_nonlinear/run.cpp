@@ -19,12 +19,13 @@
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/governing.hpp"
 #include "stage3_nonlinear/output/joined_result.hpp"
-#include "stage3_nonlinear/output/margins.hpp"
+#include "stage3_nonlinear/output/margin_lines.hpp"
 #include "stage3_nonlinear/output/memory_need.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/output/secondary_bending.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
+#include "stage3_nonlinear/strength/margins.hpp"
 #include "stage3_nonlinear/study/run_study.hpp"
 
 namespace fastjoint::stage3 {
@@ -196,10 +197,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   CaseRun cases(scene, load_joint(scene, p));
   require_memory(scene, cases.joint(), chosen, !arguments.text("--csv").empty(), arguments.flag("--sensitivities"),
                  arguments.flag("--rim-stresses"));
-  if (!scene.checks.empty()) {
-    std::vector<program::Warning> later;
-    (void)margins(scene, cases.joint(), {}, later);  // ends before anything is solved if a check cannot be made
-  }
+  const CheckedItems checked = checked_items(scene, cases.joint());  // ends before solving if a check cannot be made
   timings.phase("solve");
   program::report_share(0);
   CrackErrorEstimate cracks(scene, cases.joint());
@@ -219,8 +217,8 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
   if (!scene.checks.empty()) {
-    std::vector<program::Warning> left_out;
-    result.margins = margins(scene, joint, result, left_out);
+    std::vector<program::Warning> left_out = checked.left_out;
+    result.margins = margins(scene, checked.items, result, left_out);
     warn(log, left_out, warnings);
     warn(log, edge_warnings(scene, result.margins), warnings);
   }

@@ -29,6 +29,7 @@ STAGES = {
         "equations": ["matrices", "rim", ""],
         "path": ["program"],
         "results": ["columns", "formats", "matrices", "rim", ""],
+        "strength": ["columns", "formats", "program", ""],
         "output": ["columns", "formats", "program", ""],
         "study": ["formats", "h5", "input", "linalg", "program", ""],
         "": ["h5", "input", "linalg", "program", ""],

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/output/margin_lines.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,26 +10,11 @@
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/csv.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
-#include "stage3_nonlinear/output/margins.hpp"
 
 namespace fastjoint::stage3 {
 
 using formats::JointResult;
 using formats::MarginTable;
-
-std::vector<program::Warning> edge_warnings(const JointScene& scene, const MarginTable& table) {
-  constexpr double least = 1.5;
-  if (table.edge_ratio.size() == 0) return {};
-  Index worst = 0;
-  if (!(table.edge_ratio.minCoeff(&worst) < least)) return {};
-  const auto n = (table.edge_ratio.array() < least).count();
-  return {{"edge-distance-small",
-           fmt::format(
-               "{}: {} is {:.3g} diameters from the edge along its load{}: below {:g} allowables of bearing are not "
-               "published, and here those of the check fall linearly to 0 where the rim touches the edge",
-               scene.file, table.of[worst], table.edge_ratio[worst],
-               n > 1 ? fmt::format(" (the worst of {})", program::counted(n, "margin")) : "", least)}};
-}
 
 std::string margin_lines(const JointScene& scene, const JointResult& result) {
   const bool checks_all_cases = std::ranges::all_of(scene.checks, &std::vector<std::string>::empty, &CheckScene::cases);

@@ -20,6 +20,8 @@ Result::Result(const std::string& path) : JointResult(formats::read_joint_result
   file("iterations", iterations, {h5::any}, "1", "");
   file("residual", residual, {h5::any}, "1", "");
   event = texts("event");
+  first_hole = texts("fastener/first");
+  second_hole = texts("fastener/second");
   fastener_id = texts("fastener/id");
   direction = texts("direction");
 }

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "common/columns/column.hpp"
+#include "common/infinite.hpp"
+#include "common/program/program.hpp"
+#include "stage3_nonlinear/model/joint_model.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Results of a joint and of its plates at increments, from which strength is judged.
+struct JointColumns {
+  const columns::Columns* joint;
+  std::vector<const columns::Columns*> plates;
+};
+
+/// Applied load and allowable at one increment, with the numbers that the allowable follows from.
+struct Applied {
+  double applied = 0, allowable = infinite;  ///< applied is not finite where it is not known
+  std::string inputs{};
+  double edge_ratio = infinite;
+  double direction = infinite;  ///< degrees
+};
+
+/// What a check asks of one hole or one shear plane.
+struct CheckedItem {
+  const CheckScene* check;
+  std::string of, formula, unit;
+  std::function<Applied(const JointColumns&, Index step)> at;
+  const char* unknown = "its value is not known";  ///< why that may be
+
+  /// allowable / (FS FF applied) - 1; infinite where nothing is applied.
+  [[nodiscard]] double margin(const Applied& now) const;
+};
+
+/// All that the checks of a joint ask, in their order.
+struct CheckedItems {
+  std::vector<CheckedItem> items;
+  std::vector<program::Warning> left_out;  ///< of holes for which a check cannot be made
+};
+
+/// Throws InputError if a check names what is not there, or needs stresses or an edge distance that are not known.
+/// @param scene, joint Outlive the items.
+[[nodiscard]] CheckedItems checked_items(const JointScene& scene, const JointModel& joint);
+
+/// Warning of items that a check leaves out.
+[[nodiscard]] program::Warning left_out(const JointScene& scene, const CheckScene& check, const std::string& reason,
+                                        const std::vector<std::string>& items);
+
+}  // namespace fastjoint::stage3
