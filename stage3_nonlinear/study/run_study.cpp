@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 #include <limits>
@@ -32,8 +31,6 @@
 
 namespace fastjoint::stage3 {
 namespace {
-
-constexpr std::array sampling_names{"grid", "random", "latin hypercube"};
 
 struct Slice {
   int number = 1, n = 1;
@@ -118,7 +115,7 @@ formats::StudyOrigin origin_of(const Study& study, const JointModel& joint, std:
 std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& study, bool may_draw, std::ostream& log) {
   if (study.seed) return *study.seed;
   if (const auto before = StudyBlocks::seed_in(arguments.output)) return *before;
-  const bool draws = std::ranges::any_of(study.variables, [](const auto& each) { return each.column.empty(); });
+  const bool draws = std::ranges::any_of(study.variables, [](const auto& its) { return its.table.empty(); });
   if (study.sampling == Sampling::grid || !draws) return 0;
   if (!may_draw)
     throw InputError(

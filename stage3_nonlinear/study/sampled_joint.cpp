@@ -16,13 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Index of the load in "/cases/I/loads/J/force".
-std::size_t load_number(const std::string& place) {
-  auto at = std::string::npos;
-  for (int slashes = 0; slashes < 4; ++slashes) at = place.find('/', at + 1);
-  return std::stoul(place.substr(at + 1));
-}
-
 /// Converts the path of a file in a document to one relative to the folder of another document.
 void turn_path(json& path, const std::filesystem::path& from, const std::filesystem::path& to) {
   const std::filesystem::path file = path.get<std::string>();
@@ -45,17 +38,15 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
       const bool is_there = root_->contains(pointer);
       json& number = (*root_)[pointer];
       targets.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer()});
-      const auto end = place.find('/', 1);
-      const std::string part = place.substr(1, end - 1),
-                        name = json::json_pointer(place.substr(0, place.find('/', end + 1))).back();
-      if (part == "laws")
-        parts_.laws.insert(name);
-      else if (part == "fasteners")
-        parts_.fasteners.insert(std::stoul(name));
-      else if (part == "loads")
-        parts_.loads.insert({0, std::stoul(name)});
+      const auto parts = parts_of_pointer(place);
+      if (parts[0] == "laws")
+        parts_.laws.insert(parts[1]);
+      else if (parts[0] == "fasteners")
+        parts_.fasteners.insert(std::stoul(parts[1]));
+      else if (parts[0] == "loads")
+        parts_.loads.insert({0, std::stoul(parts[1])});
       else
-        parts_.loads.insert({std::stoul(name), load_number(place)});
+        parts_.loads.insert({std::stoul(parts[1]), std::stoul(parts[3])});
     }
   }
 }

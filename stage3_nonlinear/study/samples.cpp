@@ -9,12 +9,6 @@
 
 namespace fastjoint::stage3 {
 
-std::vector<double> middle_values(const StudyScene& study) {
-  std::vector<double> values;
-  for (const auto& variable : study.variables) values.push_back(middle_of(variable));
-  return values;
-}
-
 Samples::Samples(const Study& study, std::uint64_t seed, const StudySolver& solver)
     : study_(study), seed_(seed), solver_(solver), middle_(middle_values(study.scene)) {
   find_slopes();
