@@ -30,14 +30,13 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
       document_{joint.file, joint.text, root_},
       study_(study.file),
       scene_(std::move(scene)) {
-  for (const auto& variable : study.variables) {
-    use_.push_back(variable.use);
-    auto& targets = targets_.emplace_back();
-    for (const auto& place : variable.places) {
+  for (std::size_t i = 0; i < study.variables.size(); ++i)
+    for (const auto& place : study.variables[i].places) {
       const json::json_pointer pointer(place);
       const bool is_there = root_->contains(pointer);
       json& number = (*root_)[pointer];
-      targets.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer()});
+      targets_.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer(),
+                          study.variables[i].use, i});
       const auto parts = parts_of_pointer(place);
       if (parts[0] == "laws")
         parts_.laws.insert(parts[1]);
@@ -48,23 +47,20 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
       else
         parts_.loads.insert({std::stoul(parts[1]), std::stoul(parts[3])});
     }
-  }
 }
 
 void SampledJoint::put(const std::vector<double>& values) {
-  for (std::size_t i = 0; i < targets_.size(); ++i)
-    for (const auto& [number, before, is_integer] : targets_[i]) {
-      const double value = use_[i] == Use::value    ? values[i]
-                           : use_[i] == Use::factor ? before * values[i]
-                                                    : before + values[i];
-      if (!std::isfinite(value))
-        throw InputError(study_ + ": a number of the sample is too large; allowed: finite numbers");
-      constexpr double max_integer = 1e15;
-      if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
-        *number = static_cast<std::int64_t>(value);
-      else
-        *number = value;
-    }
+  for (const auto& [number, before, is_integer, use, variable] : targets_) {
+    const double drawn = values[variable];
+    const double value = use == Use::value ? drawn : use == Use::factor ? before * drawn : before + drawn;
+    if (!std::isfinite(value))
+      throw InputError(study_ + ": a number of the sample is too large; allowed: finite numbers");
+    constexpr double max_integer = 1e15;
+    if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
+      *number = static_cast<std::int64_t>(value);
+    else
+      *number = value;
+  }
 }
 
 const JointScene& SampledJoint::scene(const std::vector<double>& values) {

@@ -144,22 +144,18 @@ void read_variable(const Value& value, const json& joint, std::vector<Variable>&
   const auto name = value.find("name");
   variable.name = name ? name->text() : found.front().pointer;
   read_numbers(value, variable);
-  const auto add_place = [](const Found& place, Variable& to) {
-    to.places.push_back(place.pointer);
-    if (!place.counted.empty())
-      to.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
-                                       place.is_new ? ", for which the joint itself gives none" : ""));
-  };
   const auto each = value.find("each");
-  if (!each || !each->boolean()) {
-    for (const auto& place : found) add_place(place, variable);
-    variables.push_back(std::move(variable));
-    return;
-  }
+  const bool each_alone = each && each->boolean();
+  if (!each_alone) variables.push_back(variable);
   for (const auto& place : found) {
-    Variable& own = variables.emplace_back(variable);
-    add_place(place, own);
-    own.name = !name ? place.pointer : variable.name + " " + (place.words.empty() ? place.pointer : place.words);
+    if (each_alone) variables.push_back(variable);
+    Variable& its = variables.back();
+    its.places.push_back(place.pointer);
+    if (!place.counted.empty())
+      its.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
+                                        place.is_new ? ", for which the joint itself gives none" : ""));
+    if (each_alone)
+      its.name = !name ? place.pointer : variable.name + " " + (place.words.empty() ? place.pointer : place.words);
   }
 }
 
