@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -78,6 +76,23 @@ void number_free(Unknowns& unknowns) {
     if (dof == undecided) dof = n_free++;
 }
 
+/// Applies supports and rigid externals. Throws InputError where two of them prescribe the same displacement.
+Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
+  Unknowns unknowns;
+  unknowns.dofs.setConstant(2, numbering.n_functions.back(), undecided);
+  for (const auto& support : scene.supports)
+    for (const rim::Axis direction : support.fix)
+      for (const auto& side : plate.sets.at(support.on))
+        for (const int function : functions_on(numbering, side))
+          unknowns.dofs(rim::coordinate(direction), function) = pfem::fixed_dof;
+  for (const int external : rigid_externals(scene))
+    control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
+  add_discs(scene, plate, unknowns);
+  number_free(unknowns);
+  unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
+  return unknowns;
+}
+
 /// The loads in the order of the externals.
 std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate) {
   constexpr double negligible = 1e-12;  // relative to a whole rim; rounding is about 1e-16
@@ -108,8 +123,8 @@ std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh
                fmt::format("a support fixes the vertex along {}, so that the spring cannot load the plate",
                            rim::name_of(direction)),
                "vertices that are free to move along every one of \"disc_directions\"");
-      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a),
-                      scene.points[i].stiffness});
+      const int disc = unknowns.first_disc.back() + i * count_of(scene.disc_directions) + a;  // after those of holes
+      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc), scene.points[i].stiffness});
     }
   return ties;
 }
@@ -129,10 +144,15 @@ void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
   }
 }
 
-/// Adds the load of a traction on an edge.
-/// @param traction Stress at a point, shape (2).
-void add_traction(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
-                  const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& traction, Loads& loads) {
+/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small
+/// rotation about the edge's centroid, so without a force, and linear along a straight edge as in bending.
+void add_edge_load(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
+                   Loads& loads) {
+  const EdgeMoments edge = edge_moments(plate, external.on);
+  const auto traction = [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+    if (external.kind != ExternalKind::moment) return rim::unit_vector(external.direction) / edge.area;
+    return Eigen::Vector2d(edge.centroid.y() - x.y(), x.x() - edge.centroid.x()) / (edge.area * edge.arm);
+  };
   for (const auto& side : plate.sets.at(external.on)) {
     const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
     Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
@@ -140,25 +160,6 @@ void add_traction(const PlateMesh& plate, const External& external, const PlateP
       load += plate.mesh.thickness[side.element] * rule.ds[q] * rule.N.col(q) * traction(rule.x.col(q)).transpose();
     add_load(problem, side.element, rule.modes, load.reshaped(), column, loads);
   }
-}
-
-/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small
-/// rotation about the edge's centroid, so without a force, and linear along a straight edge as in bending.
-void add_edge_load(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
-                   Loads& loads) {
-  const EdgeMoments edge = edge_moments(plate, external.on);
-  if (external.kind == ExternalKind::moment)
-    add_traction(
-        plate, external, problem, column,
-        [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
-          return Eigen::Vector2d(edge.centroid.y() - x.y(), x.x() - edge.centroid.x()) / (edge.area * edge.arm);
-        },
-        loads);
-  else
-    add_traction(
-        plate, external, problem, column,
-        [&](const Eigen::Vector2d&) -> Eigen::Vector2d { return rim::unit_vector(external.direction) / edge.area; },
-        loads);
 }
 
 /// Adds the cosine pressure on the bearing half of an open hole, of unit force along the external's direction; it is
@@ -233,26 +234,6 @@ std::vector<int> rigid_externals(const PlateScene& scene) {
   for (int i = 0; i < count_of(scene.externals); ++i)
     if (scene.externals[i].kind == ExternalKind::rigid) list.push_back(i);
   return list;
-}
-
-int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point) {
-  return unknowns.n_discs() - (count_of(scene.points) - point) * count_of(scene.disc_directions);
-}
-
-Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
-  Unknowns unknowns;
-  unknowns.dofs.setConstant(2, numbering.n_functions.back(), undecided);
-  for (const auto& support : scene.supports)
-    for (const rim::Axis direction : support.fix)
-      for (const auto& side : plate.sets.at(support.on))
-        for (const int function : functions_on(numbering, side))
-          unknowns.dofs(rim::coordinate(direction), function) = pfem::fixed_dof;
-  for (const int external : rigid_externals(scene))
-    control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
-  add_discs(scene, plate, unknowns);
-  number_free(unknowns);
-  unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
-  return unknowns;
 }
 
 void add_load(const plate::PlateStiffness& plate, int element, const std::vector<int>& modes,

@@ -33,13 +33,6 @@ struct EdgeMoments {
 };
 [[nodiscard]] EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge);
 
-/// First disc of a point spring; the discs of point springs come last.
-[[nodiscard]] int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point);
-
-/// Applies supports and rigid externals. Throws InputError where two of them prescribe the same displacement.
-[[nodiscard]] Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate,
-                                         const pfem::Numbering& numbering);
-
 /// The discrete plate at the highest p: n_f free unknowns (by degree), nc controlled ones, h friction cases, q
 /// tractions. Stiffness and loads of the rims are stored by class of elements.
 struct PlateProblem : plate::PlateStiffness {
