@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <functional>
-
 #include "common/pfem/shape_functions.hpp"
 
 namespace fastjoint::stage1 {
@@ -78,15 +76,40 @@ void number_free(Unknowns& unknowns) {
     if (dof == undecided) dof = n_free++;
 }
 
-/// Force per unit peak of the cosine pressure on the half of the rim along an external's direction (side 1) or against
-/// it (-1), length^2; 0 if the model has no rim there.
-double unit_force(const PlateScene& scene, const PlateMesh& plate, const TractionCase& load) {
+/// Applies supports and rigid externals. Throws InputError where two of them prescribe the same displacement.
+Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
+  Unknowns unknowns;
+  unknowns.dofs.setConstant(2, numbering.n_functions.back(), undecided);
+  for (const auto& support : scene.supports)
+    for (const rim::Axis direction : support.fix)
+      for (const auto& side : plate.sets.at(support.on))
+        for (const int function : functions_on(numbering, side))
+          unknowns.dofs(rim::coordinate(direction), function) = pfem::fixed_dof;
+  for (const int external : rigid_externals(scene))
+    control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
+  add_discs(scene, plate, unknowns);
+  number_free(unknowns);
+  unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
+  return unknowns;
+}
+
+/// The loads in the order of the externals.
+std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate) {
   constexpr double negligible = 1e-12;  // relative to a whole rim; rounding is about 1e-16
-  const External& external = scene.externals[load.external];
-  const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
-  const auto d = rim::unit_vector({external.direction, load.side});
-  const double force = rim::bearing(plate.mesh, plate.edges, rim, d).unit_force;
-  return force < negligible * plate.mesh.thickness.maxCoeff() * rim.radius ? 0 : force;
+  std::vector<TractionCase> list;
+  for (int i = 0; i < count_of(scene.externals); ++i) {
+    const External& external = scene.externals[i];
+    if (external.kind == ExternalKind::traction || external.kind == ExternalKind::moment) list.push_back({i});
+    if (external.kind != ExternalKind::bearing) continue;
+    const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
+    for (const int side : {1, -1}) {
+      const auto d = rim::unit_vector({external.direction, side});
+      const double force = rim::bearing(plate.mesh, plate.edges, rim, d).unit_force;
+      const bool is_there = force >= negligible * plate.mesh.thickness.maxCoeff() * rim.radius;
+      if (is_there || side > 0) list.push_back({i, side, is_there ? force : 0});
+    }
+  }
+  return list;
 }
 
 std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
@@ -100,8 +123,8 @@ std::vector<plate::PointTie> tie_points(const PlateScene& scene, const PlateMesh
                fmt::format("a support fixes the vertex along {}, so that the spring cannot load the plate",
                            rim::name_of(direction)),
                "vertices that are free to move along every one of \"disc_directions\"");
-      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc_of_point(scene, unknowns, i) + a),
-                      scene.points[i].stiffness});
+      const int disc = unknowns.first_disc.back() + i * count_of(scene.disc_directions) + a;  // after those of holes
+      ties.push_back({plate.point_nodes[i], dof, unknowns.controlled_of_disc(disc), scene.points[i].stiffness});
     }
   return ties;
 }
@@ -121,10 +144,15 @@ void check_arcs(const PlateScene& scene, const plate::PlateElements& elements) {
   }
 }
 
-/// Adds the load of a traction on an edge.
-/// @param traction Stress at a point, shape (2).
-void add_traction(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
-                  const std::function<Eigen::Vector2d(const Eigen::Vector2d&)>& traction, Loads& loads) {
+/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small
+/// rotation about the edge's centroid, so without a force, and linear along a straight edge as in bending.
+void add_edge_load(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
+                   Loads& loads) {
+  const EdgeMoments edge = edge_moments(plate, external.on);
+  const auto traction = [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
+    if (external.kind != ExternalKind::moment) return rim::unit_vector(external.direction) / edge.area;
+    return Eigen::Vector2d(edge.centroid.y() - x.y(), x.x() - edge.centroid.x()) / (edge.area * edge.arm);
+  };
   for (const auto& side : plate.sets.at(external.on)) {
     const auto rule = pfem::side_rule(plate.mesh, plate.edges, side, problem.numbering.p);
     Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
@@ -134,25 +162,6 @@ void add_traction(const PlateMesh& plate, const External& external, const PlateP
   }
 }
 
-/// Adds a uniform traction of unit total force on an edge, or that of a moment: as the displacements of a small
-/// rotation about the edge's centroid, so without a force, and linear along a straight edge as in bending.
-void add_edge_load(const PlateMesh& plate, const External& external, const PlateProblem& problem, int column,
-                   Loads& loads) {
-  const EdgeMoments edge = edge_moments(plate, external.on);
-  if (external.kind == ExternalKind::moment)
-    add_traction(
-        plate, external, problem, column,
-        [&](const Eigen::Vector2d& x) -> Eigen::Vector2d {
-          return Eigen::Vector2d(edge.centroid.y() - x.y(), x.x() - edge.centroid.x()) / (edge.area * edge.arm);
-        },
-        loads);
-  else
-    add_traction(
-        plate, external, problem, column,
-        [&](const Eigen::Vector2d&) -> Eigen::Vector2d { return rim::unit_vector(external.direction) / edge.area; },
-        loads);
-}
-
 /// Adds the cosine pressure on the bearing half of an open hole, of unit force along the external's direction; it is
 /// negative on the half against that direction.
 void add_pressure(const PlateScene& scene, const PlateMesh& plate, const TractionCase& of, const PlateProblem& problem,
@@ -160,8 +169,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, const Tractio
   const External& external = scene.externals[of.external];
   const rim::Rim& rim = plate.rims[index_of(scene.holes, external.on, &Hole::id)];
   const Eigen::Vector2d d = rim::unit_vector({external.direction, of.side});
-  const double whole = unit_force(scene, plate, of);
-  if (whole == 0)
+  if (of.unit_force == 0)
     reject(scene, fmt::format("/external/{}", of.external),
            fmt::format("the model has no rim of hole \"{}\" on the side that bears along +{}", external.on,
                        rim::name_of(external.direction)),
@@ -171,7 +179,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, const Tractio
     Eigen::MatrixX2d load = Eigen::MatrixX2d::Zero(rule.N.rows(), 2);
     for (int q = 0; q < rule.ds.size(); ++q) {
       const Eigen::Vector2d n = -rule.normal.col(q);
-      const double pressure = of.side * rim::cosine_bearing(n, d).contact / whole;
+      const double pressure = of.side * rim::cosine_bearing(n, d).contact / of.unit_force;
       load += plate.mesh.thickness[side.element] * rule.ds[q] * pressure * rule.N.col(q) * n.transpose();
     }
     add_load(problem, side.element, rule.modes, load.reshaped(), column, loads);
@@ -181,7 +189,7 @@ void add_pressure(const PlateScene& scene, const PlateMesh& plate, const Tractio
 /// Sets T_f and T_c: loads of a unit total force of every traction case, uniform on an edge or as cosine pressure on
 /// half of an open hole.
 void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlateProblem& problem) {
-  const auto list = traction_cases(scene, plate);
+  const auto& list = problem.tractions;
   Loads loads;
   for (int column = 0; column < count_of(list); ++column) {
     if (list[column].side != 0)
@@ -189,7 +197,7 @@ void add_traction_loads(const PlateScene& scene, const PlateMesh& plate, PlatePr
     else
       add_edge_load(plate, scene.externals[list[column].external], problem, column, loads);
   }
-  const auto n_f = problem.T_f.rows(), nc = problem.T_c.rows();
+  const int n_f = problem.unknowns.n_free.back(), nc = problem.unknowns.n_controlled();
   Eigen::SparseMatrix<double> T(n_f + nc, count_of(list));
   T.setFromTriplets(loads.begin(), loads.end());
   problem.T_f = T.topRows(n_f);
@@ -228,38 +236,6 @@ std::vector<int> rigid_externals(const PlateScene& scene) {
   return list;
 }
 
-std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate) {
-  std::vector<TractionCase> list;
-  for (int i = 0; i < count_of(scene.externals); ++i) {
-    const ExternalKind kind = scene.externals[i].kind;
-    if (kind == ExternalKind::traction || kind == ExternalKind::moment) list.push_back({i, 0});
-    if (kind != ExternalKind::bearing) continue;
-    list.push_back({i, 1});
-    if (unit_force(scene, plate, {i, -1}) > 0) list.push_back({i, -1});
-  }
-  return list;
-}
-
-int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point) {
-  return unknowns.n_discs() - (count_of(scene.points) - point) * count_of(scene.disc_directions);
-}
-
-Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate, const pfem::Numbering& numbering) {
-  Unknowns unknowns;
-  unknowns.dofs.setConstant(2, numbering.n_functions.back(), undecided);
-  for (const auto& support : scene.supports)
-    for (const rim::Axis direction : support.fix)
-      for (const auto& side : plate.sets.at(support.on))
-        for (const int function : functions_on(numbering, side))
-          unknowns.dofs(rim::coordinate(direction), function) = pfem::fixed_dof;
-  for (const int external : rigid_externals(scene))
-    control(scene, plate, numbering, external, unknowns.n_externals++, unknowns);
-  add_discs(scene, plate, unknowns);
-  number_free(unknowns);
-  unknowns.n_free = plate::count_free(numbering, unknowns.dofs);
-  return unknowns;
-}
-
 void add_load(const plate::PlateStiffness& plate, int element, const std::vector<int>& modes,
               const Eigen::VectorXd& values, int column, Loads& loads) {
   const auto [dof, sign] = pfem::element_dofs(plate.numbering, plate.unknowns.dofs, element, modes);
@@ -288,9 +264,8 @@ PlateProblem number_unknowns(const PlateScene& scene, const PlateMesh& plate) {
   const plate::SprungMesh sprung = sprung_mesh(scene, plate);
   plate::count_rim_cases(sprung, problem.unknowns);
   problem.elements = plate::classify_elements(sprung, problem.numbering, problem.unknowns);
-  const Eigen::Index n_tractions = traction_cases(scene, plate).size();
-  problem.T_f.resize(problem.unknowns.n_free.back(), n_tractions);
-  problem.T_c = Eigen::MatrixXd::Zero(problem.unknowns.n_controlled(), n_tractions);
+  problem.tractions = traction_cases(scene, plate);
+  problem.waves = sprung.waves;
   problem.ties = tie_points(scene, plate, problem.unknowns);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     if (problem.unknowns.n_cases[i] == 0) continue;

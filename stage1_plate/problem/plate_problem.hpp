@@ -20,11 +20,10 @@ using plate::Unknowns;
 /// and a negative force are separate cases.
 struct TractionCase {
   int external;  ///< index into PlateScene::externals
-  int side;      ///< 1 or -1: bearing half of the hole, along or against the direction; 0 on an edge or of a moment
+  int side = 0;  ///< 1 or -1: bearing half of the hole, along or against the direction; 0 on an edge or of a moment
+  /// Force per unit peak of the cosine pressure on that half of the rim, length^2; 0 if the model has no rim there.
+  double unit_force = 0;
 };
-
-/// The loads in the order of the externals. A hole has a case against its direction only if the model has a rim there.
-[[nodiscard]] std::vector<TractionCase> traction_cases(const PlateScene& scene, const PlateMesh& plate);
 
 /// An edge, weighted with its thickness.
 struct EdgeMoments {
@@ -34,18 +33,14 @@ struct EdgeMoments {
 };
 [[nodiscard]] EdgeMoments edge_moments(const PlateMesh& plate, const std::string& edge);
 
-/// First disc of a point spring; the discs of point springs come last.
-[[nodiscard]] int disc_of_point(const PlateScene& scene, const Unknowns& unknowns, int point);
-
-/// Applies supports and rigid externals. Throws InputError where two of them prescribe the same displacement.
-[[nodiscard]] Unknowns classify_unknowns(const PlateScene& scene, const PlateMesh& plate,
-                                         const pfem::Numbering& numbering);
-
 /// The discrete plate at the highest p: n_f free unknowns (by degree), nc controlled ones, h friction cases, q
 /// tractions. Stiffness and loads of the rims are stored by class of elements.
 struct PlateProblem : plate::PlateStiffness {
+  /// (q) in the order of the externals. A hole has a case against its direction only if the model has a rim there.
+  std::vector<TractionCase> tractions;
+  std::vector<std::optional<rim::Waves>> waves;              ///< (holes) of rim_waves
   std::vector<std::string> friction_hole, friction_bearing;  ///< (h)
-  Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of a unit total force on each traction; 0 until integrated
+  Eigen::SparseMatrix<double> T_f;  ///< (n_f, q) loads of a unit total force on each traction; empty until integrated
   Eigen::MatrixXd T_c;              ///< (nc, q) part of these loads on the controlled displacements
 };
 

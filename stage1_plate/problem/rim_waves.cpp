@@ -71,12 +71,12 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     if (in_contact) check_contact(scene, plate, i, pieces.size()), check_modulus(scene, plate, i);
     rim::Harmonics shape{rim::max_harmonics};
     if (!pieces.empty()) shape.start = pieces[0].from, shape.sweep = pieces[0].to - pieces[0].from;
+    const int resolved = resolved_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
     const bool is_linked = hole.spring && hole.spring->link > 0;
     if (!(rim_compliance(scene, plate, i)(0, 0) > 0 && shape.repeats())) {
       // The waves of the elements are all that there are. A short crack feels the stress of its place on the rim, for
       // which 16 are too few; more than the elements resolve do not help.
       constexpr int least_order = 16;
-      const int resolved = resolved_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
       const int order = plate.is_cracked[i] ? std::clamp(resolved, least_order, default_harmonics) : least_order;
       shape.highest = in_contact ? hole.spring->harmonics.value_or(order) : 0;
       if (in_contact) waves = {shape, true};
@@ -84,7 +84,6 @@ std::vector<std::optional<rim::Waves>> rim_waves(const PlateScene& scene, const 
     }
     if (in_contact) shape.highest = hole.spring->harmonics.value_or(default_harmonics);
     if (!in_contact && (!hole.stresses || is_linked)) continue;
-    const int resolved = resolved_order(scene.p_high, count_of(plate.rims[i].sides) * rim::full_turn / shape.sweep);
     shape.highest = std::min(shape.highest, hole.waves > 0 ? hole.waves : std::min(needed[i], resolved));
     waves = {shape, in_contact};
   }

@@ -6,10 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "common/errors.hpp"
-#include "common/pfem/extremes.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
 #include "stage1_plate/run/hoop_error.hpp"
 #include "stage1_plate/run/solve.hpp"
@@ -22,17 +20,6 @@ constexpr double max_wave_tolerance = 1e-2;
 
 bool has_free_rings(const PlateScene& scene, const Hole& hole) {
   return std::holds_alternative<GridGeometry>(scene.geometry) && !hole.has_rings;
-}
-
-std::unique_ptr<plate::PlateFactor> factorised(const PlateScene& scene, const PlateMesh& plate,
-                                               const PlateProblem& problem, const plate::Skeleton& skeleton, int p,
-                                               bool with_hoop) {
-  try {
-    return std::make_unique<plate::PlateFactor>(problem, skeleton, p, with_hoop);
-  } catch (const NumericalError& e) {
-    throw NumericalError(fmt::format("{}: {}: {}", scene.file, e.what(),
-                                     pfem::extremes(plate.mesh, scene.elasticity, plate::spring_stiffnesses(problem))));
-  }
 }
 
 /// Integrates once, then raises the degree until the targets are reached, at most to the scene's highest.
@@ -48,8 +35,7 @@ void raise_degree(Accuracy& model) {
                     model.scene.file));
   const int highest = model.scene.p_high;
   const bool with_hoop = std::isfinite(model.targets.hoop);
-  const auto waves = rim_waves(model.scene, plate);
-  if (with_hoop && std::ranges::none_of(waves, [](const auto& rim) { return rim.has_value(); }))
+  if (with_hoop && std::ranges::none_of(problem.waves, [](const auto& rim) { return rim.has_value(); }))
     throw InputError(
         fmt::format("{}: --peak-accuracy is the error of hoop stresses around holes, and no hole has any; allowed: a "
                     "scene with a hole that is not linked and has no \"stresses\": false",
@@ -60,17 +46,19 @@ void raise_degree(Accuracy& model) {
     const auto alone = Eigen::VectorXi::Constant(1, p);
     require_memory(model.scene.file, p, memory_need(problem, skeleton, alone));
     if (p == model.scene.p_low) integrate(model.scene, plate, problem);
-    const auto K = factorised(model.scene, plate, problem, skeleton, p, with_hoop);
-    auto cases = solve_degree(problem, *K, p).cases;
+    const auto K =
+        with_extremes(model.scene, plate, problem, [&] { return plate::PlateFactor(problem, skeleton, p, with_hoop); });
+    auto cases = solve_degree(problem, K, p).cases;
     levels.S.push_back(std::move(cases.S));
     levels.R.push_back(std::move(cases.R));
     levels.C.push_back(std::move(cases.C_t));
     if (with_hoop)
-      model.hoop_error = hoop_error(waves, cases.W, below, problem.unknowns.n_controlled(), levels.C.back().cols());
+      model.hoop_error =
+          hoop_error(problem.waves, cases.W, below, problem.unknowns.n_controlled(), levels.C.back().cols());
     below = std::move(cases.W);
     const auto degrees = Eigen::VectorXi::LinSpaced(p - model.scene.p_low + 1, model.scene.p_low, p);
-    model.errors = matrices::relative_errors(levels, degrees, K->diagonal_of_K_cc(),
-                                             matrices::max_rate_of(model.scene.elasticity));
+    model.errors =
+        matrices::relative_errors(levels, degrees, K.diagonal_of_K_cc(), matrices::max_rate_of(model.scene.elasticity));
     model.scene.p_high = p;
     if (model.is_reached()) return;
   }

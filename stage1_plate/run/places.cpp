@@ -49,18 +49,18 @@ Eigen::Vector2d center_of(const PlateScene& scene, const PlateMesh& plate, const
 
 }  // namespace
 
-formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns) {
+formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem) {
   formats::Places places;
+  const Unknowns& unknowns = problem.unknowns;
   places.disc.resize(unknowns.n_discs(), 2);
   for (int i = 0; i < unknowns.n_discs(); ++i) places.disc.row(i) = center_of(scene, plate, unknowns.disc_hole[i]);
   const auto externals = rigid_externals(scene);
   places.external.resize(std::ssize(externals), 2);
   for (int i = 0; i < count_of(externals); ++i)
     places.external.row(i) = range_of(scene, plate, scene.externals[externals[i]]);
-  const auto tractions = traction_cases(scene, plate);
-  places.traction.resize(std::ssize(tractions), 2);
-  for (int i = 0; i < count_of(tractions); ++i)
-    places.traction.row(i) = range_of(scene, plate, scene.externals[tractions[i].external]);
+  places.traction.resize(std::ssize(problem.tractions), 2);
+  for (int i = 0; i < count_of(problem.tractions); ++i)
+    places.traction.row(i) = range_of(scene, plate, scene.externals[problem.tractions[i].external]);
   places.support.resize(2, 2);
   places.support_middle.resize(2, 2);
   for (const rim::Axis axis : rim::both_axes) {

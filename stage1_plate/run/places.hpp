@@ -7,6 +7,6 @@
 namespace fastjoint::stage1 {
 
 /// Places at which discs, externals and supports act on the plate.
-[[nodiscard]] formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const Unknowns& unknowns);
+[[nodiscard]] formats::Places places_of(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem);
 
 }  // namespace fastjoint::stage1

@@ -11,7 +11,6 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/linalg/processor.hpp"
-#include "common/pfem/extremes.hpp"
 #include "common/plate/cracks.hpp"
 #include "common/plate/plate_states.hpp"
 #include "common/plate/sections.hpp"
@@ -53,14 +52,13 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.header = {generator, scene.name, scene.units, scene.text};
   a.mesh = plate.mesh;
   a.elasticity = scene.elasticity;
-  const auto sprung = sprung_mesh(scene, plate);
   for (int i = 0; i < count_of(scene.holes); ++i) {
     a.hole_id.push_back(scene.holes[i].id);
-    a.hole_spring.push_back(sprung.springs[i].value_or(rim::HoleSpring{}));
+    a.hole_spring.push_back(std::optional<rim::HoleSpring>(scene.holes[i].spring).value_or(rim::HoleSpring{}));
   }
   for (const bool loaded : {true, false})
     for (int i = 0; i < count_of(scene.holes); ++i) {
-      const auto& waves = sprung.waves[i];
+      const auto& waves = problem.waves[i];
       if (!waves || waves->loaded != loaded) continue;
       const double radius = plate.rims[i].radius, thickness = plate.mesh.thickness[plate.rims[i].sides[0].element];
       const double area = thickness * radius * waves->shape.sweep;
@@ -83,7 +81,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
   a.supported.assign(supported.begin(), supported.end());
   const Unknowns& unknowns = problem.unknowns;
   a.unknown = unknowns.dofs;
-  a.places = places_of(scene, plate, unknowns);
+  a.places = places_of(scene, plate, problem);
   if (scene.expansion) {
     a.expansion.resize(3);
     a.expansion << (*scene.expansion)(0, 0), (*scene.expansion)(1, 1), (*scene.expansion)(0, 1);
@@ -95,7 +93,7 @@ formats::PlateSolution to_solution(const PlateScene& scene, const PlateMesh& pla
     a.external_id.push_back(scene.externals[i].id);
     a.external_direction.push_back(rim::name_of(scene.externals[i].direction));
   }
-  for (const auto& [i, side] : traction_cases(scene, plate)) {
+  for (const auto& [i, side, unit_force] : problem.tractions) {
     const External& external = scene.externals[i];
     a.traction_id.push_back(external.id);
     const bool is_moment = external.kind == ExternalKind::moment;
@@ -193,12 +191,7 @@ SolvedPlate solve_plate(const PlateScene& scene, const std::string& generator, p
   integrate(scene, plate, problem);
   auto solution = to_solution(scene, plate, problem, generator);
   timings.phase("solve");
-  try {
-    solve_cases(problem, skeleton, solution);
-  } catch (const NumericalError& e) {
-    throw NumericalError(fmt::format("{}: {}: {}", scene.file, e.what(),
-                                     pfem::extremes(plate.mesh, scene.elasticity, plate::spring_stiffnesses(problem))));
-  }
+  with_extremes(scene, plate, problem, [&] { solve_cases(problem, skeleton, solution); });
   for (int i = 0; i < solution.p.size(); ++i) timings.set_unknowns(solution.p[i], solution.ndof[i]);
   return {need, std::move(solution), missing_symmetry(scene, plate, problem.unknowns), few_waves(scene, plate),
           plate.moved_lines};
@@ -232,7 +225,7 @@ MemoryNeed memory_need(const PlateProblem& problem, const plate::Skeleton& skele
             need.elimination + of_degree.elimination};
   }
   const double nc = problem.unknowns.n_prescribed(), all = problem.unknowns.n_border() + n_sections;
-  const double q = double(problem.T_c.cols());
+  const double q = count_of(problem.tractions);
   const double n_p = problem.unknowns.n_free[p[p.size() - 1]];
   // Successive steps keep each other's results: two copies of the fields, three of the condensed rows.
   const double fields = double(n_at_once) * (2 * n_p * (q + 2) + 3 * all * nc);

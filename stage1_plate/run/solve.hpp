@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <string>
 
+#include "common/errors.hpp"
 #include "common/formats/plate_solution.hpp"
+#include "common/pfem/extremes.hpp"
 #include "common/plate/plate_factor.hpp"
 #include "common/program/progress.hpp"
 #include "stage1_plate/problem/plate_problem.hpp"
@@ -47,6 +49,17 @@ struct SolvedCases {
 [[nodiscard]] SolvedCases solve_degree(const PlateProblem& problem, const plate::PlateFactor& K, int p,
                                        const plate::PlateFactor::Functions& sections = {},
                                        const plate::PlateFactor::Functions& intensities = {});
+
+/// Calls a function, and adds the file and the extremes of the plate's numbers to the message of its NumericalError.
+template <class Function>
+auto with_extremes(const PlateScene& scene, const PlateMesh& plate, const PlateProblem& problem, Function function) {
+  try {
+    return function();
+  } catch (const NumericalError& e) {
+    throw NumericalError(scene.file + ": " + e.what() + ": " +
+                         pfem::extremes(plate.mesh, scene.elasticity, plate::spring_stiffnesses(problem)));
+  }
+}
 
 /// Solves the unit cases at every degree, in parallel on several threads, and the probe at the highest.
 void solve_cases(const PlateProblem& problem, const plate::Skeleton& skeleton, formats::PlateSolution& solution);

@@ -8,106 +8,84 @@
 #include <numeric>
 #include <utility>
 
+#include "common/infinite.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
 using input::Value;
 
-struct Uniform final : Distribution {
-  double from, to;
-  Uniform(double low, double high) : from(low), to(high) {}
-  [[nodiscard]] double at(double probability) const override { return from + probability * (to - from); }
-};
-
-struct Triangular final : Distribution {
-  double from, mode, to;
-  Triangular(double low, double peak, double high) : from(low), mode(peak), to(high) {}
-  [[nodiscard]] double at(double probability) const override {
-    const double width = to - from;
-    if (probability * width <= mode - from) return from + std::sqrt(probability * width * (mode - from));
-    return to - std::sqrt((1 - probability) * width * (to - mode));
-  }
-};
-
-/// Normal, or lognormal if `of_logarithm`, between two limits of the normal number.
-struct Normal final : Distribution {
-  double mean, deviation;
-  bool of_logarithm;
-  double below, within;  ///< probabilities below and between the limits
-  Normal(double m, double s, bool logarithm, double low, double high)
-      : mean(m),
-        deviation(s),
-        of_logarithm(logarithm),
-        below(gsl_cdf_ugaussian_P((low - m) / s)),
-        within(gsl_cdf_ugaussian_P((high - m) / s) - below) {}
-  [[nodiscard]] double at(double probability) const override {
-    const double x = mean + deviation * gsl_cdf_ugaussian_Pinv(below + probability * within);
-    return of_logarithm ? std::exp(x) : x;
-  }
-};
-
-struct Discrete final : Distribution {
-  std::vector<double> values, sums;  ///< sums of the weights up to each, over that of all
-  Discrete(std::vector<double> all, const std::vector<double>& weights) : values(std::move(all)), sums(weights) {
-    std::partial_sum(sums.begin(), sums.end(), sums.begin());
-    const double sum = sums.back();
-    for (double& each : sums) each /= sum;
-  }
-  [[nodiscard]] double at(double probability) const override {
-    const auto found = std::upper_bound(sums.begin(), sums.end(), probability) - sums.begin();
-    return values[std::min<std::size_t>(found, values.size() - 1)];
-  }
-  [[nodiscard]] double largest() const override { return std::ranges::max(values); }
-};
-
-std::pair<double, double> limits(const Value& value, double lowest) {
-  const auto from = value.find("from"), to = value.find("to");
-  const double low = from ? from->number({.low = lowest}) : lowest;
-  return {low, to ? to->number({.low = low, .low_allowed = false}) : infinite};
+/// Distribution without a largest number that is reached with any probability.
+Distribution continuous(std::function<double(double)> at) {
+  const double largest = at(1 - 1e-15);
+  return {std::move(at), largest};
 }
 
-std::shared_ptr<const Distribution> read_normal(const Value& value, bool of_logarithm) {
+/// Normal distribution, or lognormal one of a normal number, between two limits.
+Distribution read_normal(const Value& value, bool of_logarithm) {
   value.only({"type", "mean", "deviation", "from", "to"});
   double mean = value.at("mean").number(of_logarithm ? input::positive : input::any_number);
   double deviation = value.at("deviation").number(input::positive);
-  auto [low, high] = limits(value, of_logarithm ? 0 : -infinite);
+  const auto from = value.find("from"), to = value.find("to");
+  const double lowest = of_logarithm ? 0 : -infinite, low = from ? from->number({.low = lowest}) : lowest,
+               high = to ? to->number({.low = low, .low_allowed = false}) : infinite;
   if (of_logarithm) {
     const double variance = std::log1p(std::pow(deviation / mean, 2));
     mean = std::log(mean) - variance / 2;
     deviation = std::sqrt(variance);
-    low = std::log(low), high = std::log(high);
   }
-  auto result = std::make_shared<Normal>(mean, deviation, of_logarithm, low, high);
-  if (!(result->within > 1e-6))
+  const auto up_to = [&](double x) {
+    return of_logarithm ? gsl_cdf_lognormal_P(x, mean, deviation) : gsl_cdf_gaussian_P(x - mean, deviation);
+  };
+  const double below = up_to(low), within = up_to(high) - below;
+  if (!(within > 1e-6))
     value.fail("too small a probability between \"from\" and \"to\"", "limits with a probability above 1e-6");
-  return result;
+  return continuous([=](double probability) {
+    const double whole = below + probability * within;
+    return of_logarithm ? gsl_cdf_lognormal_Pinv(whole, mean, deviation)
+                        : mean + gsl_cdf_gaussian_Pinv(whole, deviation);
+  });
 }
 
-std::shared_ptr<const Distribution> read_discrete(const Value& value) {
+Distribution triangular(double from, double mode, double to) {
+  return continuous([=, width = to - from](double probability) {
+    return probability * width <= mode - from ? from + std::sqrt(probability * width * (mode - from))
+                                              : to - std::sqrt((1 - probability) * width * (to - mode));
+  });
+}
+
+Distribution read_discrete(const Value& value) {
   value.only({"type", "values", "weights"});
   constexpr std::size_t max_values = 1000000;
   auto values = value.at("values").numbers(1, max_values, input::any_number);
-  if (const auto weights = value.find("weights"))
-    return std::make_shared<Discrete>(values, weights->numbers(values.size(), values.size(), input::positive));
-  return discrete(std::move(values));
+  const auto weights = value.find("weights");
+  const auto n = values.size();
+  return discrete(std::move(values), weights ? weights->numbers(n, n, input::positive) : std::vector<double>());
 }
 
 }  // namespace
 
-std::shared_ptr<const Distribution> discrete(std::vector<double> values) {
-  const std::vector<double> weights(values.size(), 1.0);
-  return std::make_shared<Discrete>(std::move(values), weights);
+Distribution discrete(std::vector<double> values, std::vector<double> weights) {
+  if (weights.empty()) weights.assign(values.size(), 1);
+  std::partial_sum(weights.begin(), weights.end(), weights.begin());
+  const double largest = std::ranges::max(values), sum = weights.back();
+  for (double& up_to : weights) up_to /= sum;
+  return {[values = std::move(values), sums = std::move(weights)](double probability) {
+            const auto found = std::ranges::upper_bound(sums, probability) - sums.begin();
+            return values[std::min<std::size_t>(found, values.size() - 1)];
+          },
+          largest};
 }
 
-std::shared_ptr<const Distribution> read_distribution(const Value& value) {
+Distribution read_distribution(const Value& value) {
   const std::string type = value.at("type").choice({"uniform", "normal", "lognormal", "triangular", "discrete"});
   if (type == "normal" || type == "lognormal") return read_normal(value, type == "lognormal");
   if (type == "discrete") return read_discrete(value);
   const bool is_uniform = type == "uniform";
   is_uniform ? value.only({"type", "from", "to"}) : value.only({"type", "from", "mode", "to"});
   const double from = value.at("from").number(), to = value.at("to").number({.low = from, .low_allowed = false});
-  if (is_uniform) return std::make_shared<Uniform>(from, to);
-  return std::make_shared<Triangular>(from, value.at("mode").number({.low = from, .high = to}), to);
+  if (is_uniform) return continuous([=](double probability) { return from + probability * (to - from); });
+  return triangular(from, value.at("mode").number({.low = from, .high = to}), to);
 }
 
 }  // namespace fastjoint::stage3

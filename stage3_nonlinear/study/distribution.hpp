@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <vector>
 
-#include "common/infinite.hpp"
 #include "common/input/value.hpp"
 
 namespace fastjoint::stage3 {
 
 /// Distribution of a number, by its quantiles.
-class Distribution {
- public:
-  virtual ~Distribution() = default;
-  /// Quantile of a probability in (0, 1).
-  [[nodiscard]] virtual double at(double probability) const = 0;
-  /// The largest number, or one that is exceeded with negligible probability.
-  [[nodiscard]] virtual double largest() const { return at(1 - 1e-15); }
+struct Distribution {
+  std::function<double(double)> at{};  ///< quantile of a probability in (0, 1)
+  double largest = 0;                  ///< the largest number, or one that is exceeded with negligible probability
 };
 
 /// Reads {"type": "uniform" | "normal" | "lognormal" | "triangular" | "discrete", ...}; normal and lognormal ones may
 /// be truncated by "from" and "to". Throws InputError.
-[[nodiscard]] std::shared_ptr<const Distribution> read_distribution(const input::Value& value);
+[[nodiscard]] Distribution read_distribution(const input::Value& value);
 
-/// Values of equal probability, in their order.
-[[nodiscard]] std::shared_ptr<const Distribution> discrete(std::vector<double> values);
+/// Values in their order. @param weights Proportional to their probabilities; empty: equal ones.
+[[nodiscard]] Distribution discrete(std::vector<double> values, std::vector<double> weights = {});
 
 }  // namespace fastjoint::stage3

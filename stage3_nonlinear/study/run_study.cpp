@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <filesystem>
 #include <limits>
@@ -32,8 +31,6 @@
 
 namespace fastjoint::stage3 {
 namespace {
-
-constexpr std::array sampling_names{"grid", "random", "latin hypercube"};
 
 struct Slice {
   int number = 1, n = 1;
@@ -96,29 +93,22 @@ JointScene with_all_friction(const Study& study, SampledJoint& sampled) {
 formats::StudyOrigin origin_of(const Study& study, const JointModel& joint, std::uint64_t seed) {
   formats::StudyOrigin origin{
       program::generator(program_name), study.joint_text.text, study.study_text.text, std::to_string(seed), {}, {}};
-  origin.file.emplace_back("polynomial degree");
-  origin.digest.push_back(std::to_string(joint.p));
-  for (const auto& plate : joint.plates) {
-    origin.file.push_back(fmt::format("matrices of plate {}", plate.name));
-    origin.digest.push_back(plate.matrices_digest);
-  }
+  const auto add = [&](const std::string& name, const std::string& digest) {
+    origin.file.push_back(name), origin.digest.push_back(digest);
+  };
+  add("polynomial degree", std::to_string(joint.p));
+  for (const auto& plate : joint.plates) add(fmt::format("matrices of plate {}", plate.name), plate.matrices_digest);
   for (const auto& [name, law] : study.joint.laws)
-    if (!law.law->file().empty()) {
-      origin.file.push_back(fmt::format("file of law {}", name));
-      origin.digest.push_back(h5::digest(law.law->file()));
-    }
+    if (const auto file = law.law->file(); !file.empty()) add(fmt::format("file of law {}", name), h5::digest(file));
   for (const auto& variable : study.scene.variables)
-    if (!variable.table.empty()) {
-      origin.file.push_back(fmt::format("table of {}", variable.name));
-      origin.digest.push_back(h5::digest(variable.table));
-    }
+    if (!variable.table.empty()) add(fmt::format("table of {}", variable.name), h5::digest(variable.table));
   return origin;
 }
 
 std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& study, bool may_draw, std::ostream& log) {
   if (study.seed) return *study.seed;
   if (const auto before = StudyBlocks::seed_in(arguments.output)) return *before;
-  const bool draws = std::ranges::any_of(study.variables, [](const auto& each) { return each.column.empty(); });
+  const bool draws = std::ranges::any_of(study.variables, [](const auto& its) { return its.table.empty(); });
   if (study.sampling == Sampling::grid || !draws) return 0;
   if (!may_draw)
     throw InputError(

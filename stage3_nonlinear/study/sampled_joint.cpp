@@ -16,13 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-/// Index of the load in "/cases/I/loads/J/force".
-std::size_t load_number(const std::string& place) {
-  auto at = std::string::npos;
-  for (int slashes = 0; slashes < 4; ++slashes) at = place.find('/', at + 1);
-  return std::stoul(place.substr(at + 1));
-}
-
 /// Converts the path of a file in a document to one relative to the folder of another document.
 void turn_path(json& path, const std::filesystem::path& from, const std::filesystem::path& to) {
   const std::filesystem::path file = path.get<std::string>();
@@ -37,43 +30,37 @@ SampledJoint::SampledJoint(const input::Document& joint, const StudyScene& study
       document_{joint.file, joint.text, root_},
       study_(study.file),
       scene_(std::move(scene)) {
-  for (const auto& variable : study.variables) {
-    use_.push_back(variable.use);
-    auto& targets = targets_.emplace_back();
-    for (const auto& place : variable.places) {
+  for (std::size_t i = 0; i < study.variables.size(); ++i)
+    for (const auto& place : study.variables[i].places) {
       const json::json_pointer pointer(place);
       const bool is_there = root_->contains(pointer);
       json& number = (*root_)[pointer];
-      targets.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer()});
-      const auto end = place.find('/', 1);
-      const std::string part = place.substr(1, end - 1),
-                        name = json::json_pointer(place.substr(0, place.find('/', end + 1))).back();
-      if (part == "laws")
-        parts_.laws.insert(name);
-      else if (part == "fasteners")
-        parts_.fasteners.insert(std::stoul(name));
-      else if (part == "loads")
-        parts_.loads.insert({0, std::stoul(name)});
+      targets_.push_back({&number, is_there ? number.get<double>() : 0, is_there && number.is_number_integer(),
+                          study.variables[i].use, i});
+      const auto parts = parts_of_pointer(place);
+      if (parts[0] == "laws")
+        parts_.laws.insert(parts[1]);
+      else if (parts[0] == "fasteners")
+        parts_.fasteners.insert(std::stoul(parts[1]));
+      else if (parts[0] == "loads")
+        parts_.loads.insert({0, std::stoul(parts[1])});
       else
-        parts_.loads.insert({std::stoul(name), load_number(place)});
+        parts_.loads.insert({std::stoul(parts[1]), std::stoul(parts[3])});
     }
-  }
 }
 
 void SampledJoint::put(const std::vector<double>& values) {
-  for (std::size_t i = 0; i < targets_.size(); ++i)
-    for (const auto& [number, before, is_integer] : targets_[i]) {
-      const double value = use_[i] == Use::value    ? values[i]
-                           : use_[i] == Use::factor ? before * values[i]
-                                                    : before + values[i];
-      if (!std::isfinite(value))
-        throw InputError(study_ + ": a number of the sample is too large; allowed: finite numbers");
-      constexpr double max_integer = 1e15;
-      if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
-        *number = static_cast<std::int64_t>(value);
-      else
-        *number = value;
-    }
+  for (const auto& [number, before, is_integer, use, variable] : targets_) {
+    const double drawn = values[variable];
+    const double value = use == Use::value ? drawn : use == Use::factor ? before * drawn : before + drawn;
+    if (!std::isfinite(value))
+      throw InputError(study_ + ": a number of the sample is too large; allowed: finite numbers");
+    constexpr double max_integer = 1e15;
+    if (is_integer && value == std::floor(value) && std::abs(value) < max_integer)
+      *number = static_cast<std::int64_t>(value);
+    else
+      *number = value;
+  }
 }
 
 const JointScene& SampledJoint::scene(const std::vector<double>& values) {

@@ -30,12 +30,13 @@ class SampledJoint {
     nlohmann::json* number;
     double before;
     bool is_integer;
+    Use use;
+    std::size_t variable;
   };
   std::shared_ptr<nlohmann::json> root_;
   input::Document document_;
   std::string study_;  ///< file, for messages
-  std::vector<Use> use_;
-  std::vector<std::vector<Target>> targets_;  ///< of each variable
+  std::vector<Target> targets_;
   SceneParts parts_;
   JointScene scene_;
 };

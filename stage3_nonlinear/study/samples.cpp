@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/study/samples.hpp"
 
-#include <limits>
 #include <utility>
 
 #include "common/errors.hpp"
+#include "common/infinite.hpp"
 #include "common/linalg/processor.hpp"
 
 namespace fastjoint::stage3 {
-
-std::vector<double> middle_values(const StudyScene& study) {
-  std::vector<double> values;
-  for (const auto& variable : study.variables) values.push_back(middle_of(variable));
-  return values;
-}
 
 Samples::Samples(const Study& study, std::uint64_t seed, const StudySolver& solver)
     : study_(study), seed_(seed), solver_(solver), middle_(middle_values(study.scene)) {
@@ -36,36 +30,34 @@ void Samples::solve_block(const StudyBlocks& blocks, int block) {
   const std::uint64_t first = blocks.first(block);
   const Index n = Index(blocks.end(block) - first);
   Eigen::VectorXi status(n);
-  formats::StudyRows values(n, solver_.outputs().size());
+  formats::StudyRows values = formats::StudyRows::Constant(n, solver_.outputs().size(), infinite);
   linalg::for_each_index(n, [&](std::size_t i) {
     const auto numbers = of_values(sample_values(study_.scene, seed_, first + i));
-    const Index row = Index(i);
-    status[row] = int(numbers.status);
-    values.row(row) = numbers.status == SampleStatus::solved
-                          ? Eigen::RowVectorXd(numbers.all.transpose())
-                          : Eigen::RowVectorXd::Constant(values.cols(), std::numeric_limits<double>::infinity());
+    status[Index(i)] = int(numbers.status);
+    if (numbers.status == SampleStatus::solved) values.row(Index(i)) = numbers.all.transpose();
   });
   blocks.write(block, std::move(status), std::move(values));
 }
 
 void Samples::find_slopes() {
   const Index v = std::ssize(middle_);
-  slopes_.resize(solver_.outputs().size(), v);
+  slopes_ = MatrixXd::Zero(solver_.outputs().size(), v);
   MatrixXd c_slopes = MatrixXd::Zero(solver_.middle().c.size(), v);
   linalg::for_each_index(v, [&](std::size_t i) {
     constexpr double part = 1e-3;
-    const Index column = Index(i);
     const double step = part * spread_of(study_.scene.variables[i]);
+    if (step == 0) return;
     auto values = middle_;
     values[i] += step;
     const auto above = of_values(values);
     values[i] -= 2 * step;
     const auto below = of_values(values);
-    const bool known = above.status == SampleStatus::solved && below.status == SampleStatus::solved;
-    if (known && step > 0 && c_slopes.rows() > 0) c_slopes.col(column) = (above.c - below.c) / (2 * step);
-    slopes_.col(column) = step == 0 ? VectorXd::Zero(slopes_.rows())
-                          : known   ? VectorXd((above.all - below.all) / (2 * step))
-                                    : VectorXd::Constant(slopes_.rows(), std::numeric_limits<double>::infinity());
+    if (above.status != SampleStatus::solved || below.status != SampleStatus::solved) {
+      slopes_.col(Index(i)).setConstant(infinite);
+      return;
+    }
+    slopes_.col(Index(i)) = (above.all - below.all) / (2 * step);
+    if (c_slopes.rows() > 0) c_slopes.col(Index(i)) = (above.c - below.c) / (2 * step);
   });
   c_slopes_ = std::move(c_slopes);
 }

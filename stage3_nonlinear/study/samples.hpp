@@ -19,8 +19,6 @@ struct Study {
   StudyScene scene;
 };
 
-[[nodiscard]] std::vector<double> middle_values(const StudyScene& study);
-
 /// Samples of a study on all threads. Each starts from the solution with all variables in their middle, so that it does
 /// not depend on other samples.
 class Samples {

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -33,37 +32,10 @@ struct Found {
   bool is_new = false;  ///< true if the joint has no number there yet
 };
 
-/// Keys of the members of an object, or indices of an array.
-std::vector<std::string> keys_of(const json& value) {
-  std::vector<std::string> keys;
-  if (value.is_object())
-    for (const auto& [key, member] : value.items()) keys.push_back(key);
-  if (value.is_array())
-    for (std::size_t i = 0; i < value.size(); ++i) keys.push_back(std::to_string(i));
-  return keys;
-}
-
-/// The member of a value with a key or index; null if there is none.
-const json* member_of(const json& value, const std::string& key) {
-  if (value.is_object()) {
-    const auto found = value.find(key);
-    return found == value.end() ? nullptr : &*found;
-  }
-  std::size_t at = 0;
-  std::from_chars(key.data(), key.data() + key.size(), at);
-  return value.is_array() && key == std::to_string(at) && at < value.size() ? &value[at] : nullptr;
-}
-
 std::string plain(std::string key) {
   for (const auto& [from, to] : {std::pair("~1", "/"), std::pair("~0", "~")})
     for (auto at = key.find(from); at != std::string::npos; at = key.find(from, at + 1)) key.replace(at, 2, to);
   return key;
-}
-
-std::string escaped(const std::string& key) {
-  std::string result;
-  for (const char c : key) c == '~' ? result += "~0" : c == '/' ? result += "~1" : result += c;
-  return result;
 }
 
 /// Follows the parts of a pointer from the k-th on. The last may be a key that an object does not have yet.
@@ -73,22 +45,27 @@ void look_up(const json& at, const std::vector<std::string>& parts, std::size_t 
     if (at.is_number()) found.push_back(so_far);
     return;
   }
+  if (!at.is_structured()) return;
   const bool any = parts[k] == "*";
-  for (const auto& key : any ? keys_of(at) : std::vector{plain(parts[k])}) {
-    Found next{so_far.pointer + "/" + escaped(key), so_far.words, so_far.counted, so_far.is_new};
-    const json* member = member_of(at, key);
-    const bool has_id =
-        member != nullptr && member->is_object() && member->contains("id") && (*member)["id"].is_string();
-    const std::string id = has_id ? (*member)["id"].get<std::string>() : key;
-    if (any && member != nullptr) next.words += (next.words.empty() ? "" : " ") + id;
-    if (!any && has_id) next.counted = id;
-    if (member != nullptr) {
-      look_up(*member, parts, k + 1, next, found);
-    } else if (k + 1 == parts.size() && at.is_object()) {
-      next.is_new = true;
-      found.push_back(next);
-    }
+  const auto next = [&](const std::string& key) {
+    Found its = so_far;
+    its.pointer += (json::json_pointer() / key).to_string();
+    return its;
+  };
+  bool is_there = false;
+  for (const auto& [key, member] : at.items()) {
+    if (!any && key != parts[k]) continue;
+    is_there = true;
+    Found its = next(key);
+    const bool has_id = member.is_object() && member.contains("id") && member["id"].is_string();
+    const std::string id = has_id ? member["id"].get<std::string>() : key;
+    if (any) its.words += (its.words.empty() ? "" : " ") + id;
+    if (!any && has_id) its.counted = id;
+    look_up(member, parts, k + 1, its, found);
   }
+  if (any || is_there || k + 1 < parts.size() || !at.is_object()) return;
+  found.push_back(next(parts[k]));
+  found.back().is_new = true;
 }
 
 std::vector<Found> places_of(const Value& place, const json& joint) {
@@ -96,15 +73,9 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
       "JSON pointers to numbers of laws, fasteners or loads, such as \"/laws/NAME/k\", \"/fasteners/*/clearance\", "
       "\"/loads/0/force\" or \"/cases/0/loads/0/force\"";
   const std::string text = place.text();
-  std::vector<std::string> parts;
-  for (std::size_t at = 0; at < text.size();) {
-    if (text[at] != '/') place.not_allowed(allowed);
-    const auto end = std::min(text.find('/', at + 1), text.size());
-    parts.push_back(text.substr(at + 1, end - at - 1));
-    at = end;
-  }
+  const auto parts = parts_of_pointer(text);
   const std::set<std::string> varied{"laws", "fasteners", "loads", "cases"};
-  if (parts.size() < 3 || !varied.contains(parts[0]) ||
+  if (text[0] != '/' || parts.size() < 3 || !varied.contains(parts[0]) ||
       (parts[0] == "cases" && (parts.size() < 5 || parts[2] != "loads")))
     place.not_allowed(allowed);
   std::vector<Found> found;
@@ -114,6 +85,12 @@ std::vector<Found> places_of(const Value& place, const json& joint) {
                fmt::format("{}; fasteners count from 0 to {}, whatever their ids", allowed,
                            joint.value("fasteners", json::array()).size() - 1));
   return found;
+}
+
+/// Reads one of the words of an enumeration, which stand in the order of its values.
+template <class Choice>
+Choice read_choice(const Value& value, const std::vector<std::string>& words) {
+  return static_cast<Choice>(std::ranges::find(words, value.choice(words)) - words.begin());
 }
 
 std::vector<double> read_grid(const Value& grid) {
@@ -139,15 +116,15 @@ void read_numbers(const Value& value, Variable& variable) {
              distribution = value.find("distribution");
   if (!!values + !!grid + !!table + !!distribution != 1)
     value.fail("not one source of its numbers", "one of \"values\", \"grid\", \"table\" and \"distribution\"");
-  if (values) variable.levels = values->numbers(1, max_levels, input::any_number);
-  if (grid) variable.levels = read_grid(*grid);
-  if (distribution) variable.distribution = read_distribution(*distribution);
-  if (!variable.levels.empty()) variable.distribution = discrete(variable.levels);
+  if (values) variable.listed = values->numbers(1, max_levels, input::any_number);
+  if (grid) variable.listed = read_grid(*grid);
+  if (values || grid) variable.distribution = std::make_shared<Distribution>(discrete(variable.listed));
+  if (distribution) variable.distribution = std::make_shared<Distribution>(read_distribution(*distribution));
   if (table) {
     table->only({"file", "column"});
     const auto path = std::filesystem::path(value.file()).parent_path() / table->at("file").text();
     variable.table = path.string();
-    variable.column = read_column(variable.table, table->at("column").text());
+    variable.listed = read_column(variable.table, table->at("column").text());
   }
 }
 
@@ -163,29 +140,22 @@ void read_variable(const Value& value, const json& joint, std::vector<Variable>&
   for (const auto& place : found)
     if (!places.insert(place.pointer).second)
       at.fail(fmt::format("\"{}\" stands twice", place.pointer), "each place once");
-  if (const auto use = value.find("use")) {
-    const std::vector<std::string> words{"value", "factor", "offset"};
-    variable.use = static_cast<Use>(std::ranges::find(words, use->choice(words)) - words.begin());
-  }
+  if (const auto use = value.find("use")) variable.use = read_choice<Use>(*use, {"value", "factor", "offset"});
   const auto name = value.find("name");
   variable.name = name ? name->text() : found.front().pointer;
-  const auto add_place = [](const Found& place, Variable& to) {
-    to.places.push_back(place.pointer);
-    if (!place.counted.empty())
-      to.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
-                                       place.is_new ? ", for which the joint itself gives none" : ""));
-  };
   read_numbers(value, variable);
   const auto each = value.find("each");
-  if (!each || !each->boolean()) {
-    for (const auto& place : found) add_place(place, variable);
-    variables.push_back(std::move(variable));
-    return;
-  }
+  const bool each_alone = each && each->boolean();
+  if (!each_alone) variables.push_back(variable);
   for (const auto& place : found) {
-    Variable& own = variables.emplace_back(variable);
-    add_place(place, own);
-    own.name = !name ? place.pointer : variable.name + " " + (place.words.empty() ? place.pointer : place.words);
+    if (each_alone) variables.push_back(variable);
+    Variable& its = variables.back();
+    its.places.push_back(place.pointer);
+    if (!place.counted.empty())
+      its.remarks.push_back(fmt::format("{} is of \"{}\"{}", place.pointer, place.counted,
+                                        place.is_new ? ", for which the joint itself gives none" : ""));
+    if (each_alone)
+      its.name = !name ? place.pointer : variable.name + " " + (place.words.empty() ? place.pointer : place.words);
   }
 }
 
@@ -207,10 +177,10 @@ void check_places(const StudyScene& study, const json& joint) {
 }
 
 Sampling read_sampling(const Value& root, const StudyScene& study) {
-  const std::vector<std::string> words{"grid", "random", "latin hypercube"};
-  const bool all_levels = std::ranges::all_of(study.variables, [](const auto& each) { return !each.levels.empty(); });
+  const bool all_levels =
+      std::ranges::all_of(study.variables, [](const auto& its) { return !its.listed.empty() && its.table.empty(); });
   if (const auto given = root.find("sampling")) {
-    const auto sampling = static_cast<Sampling>(std::ranges::find(words, given->choice(words)) - words.begin());
+    const auto sampling = read_choice<Sampling>(*given, sampling_names);
     if (sampling == Sampling::grid && !all_levels)
       given->fail("\"grid\", but not all variables have levels", "\"values\" or \"grid\" for every variable");
     return sampling;
@@ -225,26 +195,32 @@ void read_number(const Value& root, StudyScene& study) {
     if (given) given->fail("given for a grid", "no \"samples\": a grid has as many as its levels make");
     study.n_samples = 1;
     for (const auto& variable : study.variables) {
-      study.n_samples *= variable.levels.size();
+      study.n_samples *= variable.listed.size();
       if (study.n_samples > max_study_samples)
         root.at("variables").fail("a grid of too many samples", fmt::format("up to {}", max_study_samples));
     }
     return;
   }
-  std::uint64_t rows = std::numeric_limits<std::uint64_t>::max();
+  constexpr auto unlimited = std::numeric_limits<std::uint64_t>::max();
+  std::uint64_t rows = unlimited;
   for (const auto& variable : study.variables)
-    if (!variable.column.empty()) rows = std::min<std::uint64_t>(rows, variable.column.size());
-  const bool has_rows = rows != std::numeric_limits<std::uint64_t>::max();
-  if (!given && has_rows) {
-    study.n_samples = rows;
-    return;
-  }
-  study.n_samples = root.at("samples").integer(1, int(max_study_samples));
+    if (!variable.table.empty()) rows = std::min<std::uint64_t>(rows, variable.listed.size());
+  study.n_samples = given || rows == unlimited ? root.at("samples").integer(1, int(max_study_samples)) : rows;
   if (study.n_samples > rows)
     given->fail(fmt::format("{}", study.n_samples), fmt::format("up to the {} rows of the table", rows));
 }
 
 }  // namespace
+
+std::vector<std::string> parts_of_pointer(const std::string& pointer) {
+  std::vector<std::string> parts;
+  for (std::size_t at = 0; at < pointer.size();) {
+    const auto end = std::min(pointer.find('/', at + 1), pointer.size());
+    parts.push_back(plain(pointer.substr(at + 1, end - at - 1)));
+    at = end;
+  }
+  return parts;
+}
 
 StudyScene read_study_scene(const input::Document& document, const input::Document& joint) {
   const Value root(document);
@@ -286,11 +262,11 @@ std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, s
   std::uint64_t rest = sample;
   for (std::size_t i = study.variables.size(); i-- > 0;) {  // in a grid the last variable changes fastest
     const Variable& variable = study.variables[i];
-    if (!variable.column.empty()) {
-      values[i] = variable.column[sample];
+    if (!variable.table.empty()) {
+      values[i] = variable.listed[sample];
     } else if (study.sampling == Sampling::grid) {
-      values[i] = variable.levels[rest % variable.levels.size()];
-      rest /= variable.levels.size();
+      values[i] = variable.listed[rest % variable.listed.size()];
+      rest /= variable.listed.size();
     } else {
       double fraction = random_fraction(seed, sample, i);
       if (study.sampling == Sampling::latin_hypercube)
@@ -302,21 +278,25 @@ std::vector<double> sample_values(const StudyScene& study, std::uint64_t seed, s
 }
 
 double middle_of(const Variable& variable) {
-  std::vector<double> all = variable.levels.empty() ? variable.column : variable.levels;
-  if (all.empty()) return variable.distribution->at(0.5);
+  if (variable.listed.empty()) return variable.distribution->at(0.5);
+  std::vector<double> all = variable.listed;
   std::ranges::nth_element(all, all.begin() + std::ssize(all) / 2);
   return all[all.size() / 2];
 }
 
+std::vector<double> middle_values(const StudyScene& study) {
+  std::vector<double> values;
+  for (const auto& variable : study.variables) values.push_back(middle_of(variable));
+  return values;
+}
+
 double largest_of(const Variable& variable) {
-  const std::vector<double>& all = variable.levels.empty() ? variable.column : variable.levels;
-  return all.empty() ? variable.distribution->largest() : std::ranges::max(all);
+  return variable.listed.empty() ? variable.distribution->largest : std::ranges::max(variable.listed);
 }
 
 double spread_of(const Variable& variable) {
-  const std::vector<double>& all = variable.levels.empty() ? variable.column : variable.levels;
-  if (all.empty()) return (variable.distribution->at(5.0 / 6) - variable.distribution->at(1.0 / 6)) / 2;
-  const auto [low, high] = std::ranges::minmax(all);
+  if (variable.listed.empty()) return (variable.distribution->at(5.0 / 6) - variable.distribution->at(1.0 / 6)) / 2;
+  const auto [low, high] = std::ranges::minmax(variable.listed);
   return (high - low) / 3;
 }
 

@@ -18,6 +18,7 @@ namespace fastjoint::stage3 {
 enum class Use { value, factor, offset };
 
 enum class Sampling { grid, random, latin_hypercube };
+inline const std::vector<std::string> sampling_names{"grid", "random", "latin hypercube"};
 
 /// A number that a study varies, at one place of JOINT.json or at several places together.
 struct Variable {
@@ -27,11 +28,9 @@ struct Variable {
   std::string where;  ///< in STUDY.json, for messages
   /// For the summary: which fastener or load each place that is given by an index belongs to.
   std::vector<std::string> remarks{};
-  // One of these sources of its values:
-  std::shared_ptr<const Distribution> distribution{};  ///< given, or that of `levels` with equal probabilities
-  std::vector<double> levels{};                        ///< of "values" and "grid"
-  std::vector<double> column{};                        ///< value of each sample, from a table
-  std::string table{};                                 ///< path of that table
+  std::vector<double> listed{};  ///< levels of "values" and "grid", or the value of each sample from a table
+  std::string table{};           ///< path of that table
+  std::shared_ptr<const Distribution> distribution{};  ///< given, or that of levels with equal probabilities
 };
 
 /// The contents of STUDY.json (schemas/study.schema.json).
@@ -46,6 +45,9 @@ struct StudyScene {
   std::map<std::string, double> limits{};  ///< of outputs by name, whose exceedance is counted
 };
 
+/// Parts of a JSON pointer without the escapes of "/" and "~".
+[[nodiscard]] std::vector<std::string> parts_of_pointer(const std::string& pointer);
+
 /// Reads a study of a joint; wildcards in its places are resolved in the joint. Throws InputError.
 [[nodiscard]] StudyScene read_study_scene(const input::Document& study, const input::Document& joint);
 
@@ -54,6 +56,7 @@ struct StudyScene {
 
 /// Median of a variable.
 [[nodiscard]] double middle_of(const Variable& variable);
+[[nodiscard]] std::vector<double> middle_values(const StudyScene& study);
 /// Largest value of a variable, or one that is exceeded with negligible probability.
 [[nodiscard]] double largest_of(const Variable& variable);
 /// Half of the range of the middle two thirds of a distribution, or a third of the range of all levels or of a column.
