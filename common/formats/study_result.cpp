@@ -4,7 +4,7 @@
 namespace fastjoint::formats {
 namespace {
 
-const h5::Format study_format{"study-result", 1, 1};
+const h5::Format study_format{"study-result", 1, 2};
 
 void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   const std::string group = "statistics/" + a.name + "/";
@@ -12,7 +12,7 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
   file(group + "of", a.of, {n}, "1", "fastener, hole, external or crack tip that each number is of");
   file(group + "middle", a.middle, {n}, a.unit,
        "of the joint with every variable in its middle; infinite if not solved", h5::infinite_too);
-  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved");
+  file(group + "mean", a.mean, {n}, a.unit, "mean of the samples that were solved", h5::infinite_too);
   file(group + "deviation", a.deviation, {n}, a.unit, "standard deviation of the samples that were solved",
        h5::infinite_too);
   file(group + "by_sensitivities", a.by_sensitivities, {n}, a.unit,
@@ -32,6 +32,7 @@ void group_datasets(h5::Writer& file, const StudyGroup& a, Eigen::Index v) {
     file(group + "closed", a.closed, {n}, "1",
          "fraction of the solved samples in which the crack closes at its tip, K_I < 0");
   file(group + "limit", a.limit, {}, a.unit, "limit of STUDY.json, infinite if there is none", h5::infinite_too);
+  file(group + "limits", a.limits, {n}, a.unit, "limit of each; infinite if there is none", h5::infinite_too);
   file(group + "exceeds", a.exceeds, {n}, "1", "fraction of the solved samples above the limit");
   file(group + "exceeds_low", a.exceeds_low, {n}, "1", "lower limit of its exact 95 % confidence interval");
   file(group + "exceeds_high", a.exceeds_high, {n}, "1", "upper limit of its exact 95 % confidence interval");

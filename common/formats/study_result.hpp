@@ -24,7 +24,8 @@ struct StudyGroup {
   Eigen::MatrixXd sensitivity, correlation;  ///< (n, v) sensitivity in the middle; Spearman's rank correlation
   Eigen::VectorXd governs;                   ///< (n) fraction of the samples in which it is the largest
   Eigen::VectorXd closed;                    ///< (n) of K_I alone: fraction of the samples in which it is negative
-  double limit = std::numeric_limits<double>::infinity();  ///< limit for the next three; infinite without one
+  double limit = std::numeric_limits<double>::infinity();  ///< infinite without one, or if each has its own
+  Eigen::VectorXd limits;                                  ///< (n) for the next three; infinite without one
   Eigen::VectorXd exceeds, exceeds_low, exceeds_high;      ///< (n) fraction above it and its confidence limits
 };
 

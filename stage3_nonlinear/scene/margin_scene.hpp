@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -38,6 +39,11 @@ struct CheckScene {
   std::vector<std::string> cases;                  ///< whose increments are checked; empty: of all cases
   double safety_factor = 1, fitting_factor = 1;
   std::string where;
+
+  /// True if the increments of a case are checked.
+  [[nodiscard]] bool counts(const std::string& its_case) const {
+    return cases.empty() || std::ranges::find(cases, its_case) != cases.end();
+  }
 };
 
 /// Reads "margins". @param cases Names of the joint's cases. @throws InputError.

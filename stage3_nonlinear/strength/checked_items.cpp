@@ -224,6 +224,8 @@ class Collector {
     for (Index i = 0; i < std::ssize(plate.discs); ++i)
       if (plate.hole_of(plate.discs[i]) == hole) its.discs.emplace_back(i, plate.axis_of(plate.discs[i]));
     add(its, name, sections.is_filled());
+    all_.items.back().is_known =
+        !(kind == CheckKind::tension && sections.is_filled()) && !(kind == CheckKind::peak && !plate.has_peak(hole));
   }
 
   /// Adds a hole with the formula and the numbers of its check.

@@ -31,6 +31,7 @@ struct CheckedItem {
   const CheckScene* check;
   std::string of, formula, unit;
   std::function<Applied(const JointColumns&, Index step)> at;
+  bool is_known = true;                            ///< false if it is not at any increment
   const char* unknown = "its value is not known";  ///< why that may be
 
   /// allowable / (FS FF applied) - 1; infinite where nothing is applied.

@@ -24,9 +24,8 @@ struct WorstMargin {
 WorstMargin worst_of(const CheckedItem& item, const formats::JointResult& a, const JointColumns& columns,
                      bool& solved) {
   WorstMargin worst{&item};
-  const auto& cases = item.check->cases;
   for (Index step = 0; step < a.load_factor.size(); ++step) {
-    if (!cases.empty() && index_of(cases, a.case_name[a.case_of[step]]) == count_of(cases)) continue;
+    if (!item.check->counts(a.case_name[a.case_of[step]])) continue;
     solved = true;
     const Applied now = item.at(columns, step);
     if (!std::isfinite(now.applied)) continue;

@@ -201,6 +201,10 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
         fmt::format("{}: /outputs: \"cracks\", but no plate has cracks; allowed: at least one plate with \"cracks\" in "
                     "its PLATE.json",
                     study.scene.file));
+  if (study.scene.outputs.contains("margins") && study.joint.checks.empty())
+    throw InputError(
+        fmt::format("{}: /outputs: \"margins\", but the joint has no checks; allowed: with \"margins\" in {}",
+                    study.scene.file, study.joint.file));
   return joint;
 }
 
@@ -285,7 +289,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   require_memory_to_read(study.joint);
   JointModel joint = load_studied(arguments, study, sampled);
   const formats::StudyOrigin origin = origin_of(study, joint, seed);
-  StudyOutputs outputs(joint, study.scene);
+  StudyOutputs outputs(joint, study.joint, study.scene);
   const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, outputs.size());
   blocks.check();
   const auto cases = studied_cases(study);
@@ -298,7 +302,7 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   set_loads(joint, middle_scene, middle_scene.cases[cases.front()]);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
-    if (!study.scene.outputs.contains("peaks")) plate.stress_level.reset();
+    if (!study.scene.outputs.contains("peaks") && !study.scene.outputs.contains("margins")) plate.stress_level.reset();
   }
   const StudySolver solver(joint, middle_scene, cases, std::move(outputs));
   Samples samples(study, seed, solver);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "stage3_nonlinear/results/at_increment.hpp"
+#include "stage3_nonlinear/strength/checked_items.hpp"
 #include "stage3_nonlinear/study/study_scene.hpp"
 
 namespace fastjoint::stage3 {
@@ -15,19 +16,21 @@ struct OutputKind {
   columns::Dimension dimension;
   std::vector<std::string> of{};  ///< names of the things
   Index first = 0;                ///< column of the first among the numbers of a sample
-  double limit = infinite;        ///< whose exceedance is counted
+  std::vector<double> limit{};    ///< of each, whose exceedance is counted; infinite without one
 };
 
-/// The numbers that a study takes from each sample: the quantities that are outputs of studies and that it asks for.
+/// The numbers that a study takes from each sample: the quantities that are outputs of studies and that it asks for,
+/// and of checks the utilisation FS FF applied / allowable, which is above 1 where the margin is negative.
 class StudyOutputs {
  public:
-  StudyOutputs(const JointModel& joint, const StudyScene& study);
+  /// @param scene The joint's, whose checks are asked; outlives this.
+  StudyOutputs(const JointModel& joint, const JointScene& scene, const StudyScene& study);
 
   [[nodiscard]] const std::vector<OutputKind>& kinds() const { return kinds_; }
   /// How many numbers.
   [[nodiscard]] Index size() const { return size_; }
-  /// The numbers of one load case.
-  [[nodiscard]] VectorXd numbers(const JointAt& at) const;
+  /// The numbers of one load case; a utilisation that is not known is infinite.
+  [[nodiscard]] VectorXd numbers(const JointAt& at, const std::string& case_name) const;
   /// Takes the numbers of a case into the envelope of those before.
   void take(const VectorXd& its, VectorXd& all) const;
 
@@ -49,7 +52,12 @@ class StudyOutputs {
   template <class At, class Name>
   void add(columns::Group<At> group, Index plate, const StudyScene& study, Name name, std::vector<Asked<At>>& all);
 
+  void add_checks(const JointModel& joint, const JointScene& scene, const StudyScene& study);
+  /// Utilisation of each item of the checks.
+  [[nodiscard]] VectorXd utilisations(const JointAt& at, const std::string& case_name) const;
+
   std::vector<OutputKind> kinds_;
+  std::vector<CheckedItem> items_;
   std::vector<Asked<JointAt>> of_joint_;
   std::vector<Asked<PlateAt>> of_plates_;
   Index size_ = 0;

@@ -210,6 +210,36 @@ void read_number(const Value& root, StudyScene& study) {
     given->fail(fmt::format("{}", study.n_samples), fmt::format("up to the {} rows of the table", rows));
 }
 
+/// Limit of the load of all fasteners, or an object with one for each.
+void read_force_limits(const Value& limit, const Value& joint, StudyScene& study) {
+  if (!limit.is_object()) return void(study.limits["force"] = limit.number(input::positive));
+  std::vector<std::string> ids;
+  for (const auto& fastener : joint.at("fasteners").items()) ids.push_back(fastener.at("id").text());
+  for (const auto& [id, of_one] : limit.members()) {
+    if (std::ranges::find(ids, id) == ids.end()) of_one.fail("no fastener", fmt::format("{}", fmt::join(ids, ", ")));
+    study.fastener_limits[id] = of_one.number(input::positive);
+  }
+}
+
+/// Limits of outputs, and least margins of checks by their names.
+void read_limits(const Value& limits, const Value& joint, StudyScene& study) {
+  std::vector<std::string> allowed{"force", "peak", "K_I"};
+  if (const auto margins = joint.find("margins"))
+    for (const auto& check : margins->at("checks").items())
+      allowed.push_back(check.find("name").value_or(check.at("check")).text());
+  for (const auto& [name, limit] : limits.members()) {
+    const auto at = std::ranges::find(allowed, name) - allowed.begin();
+    if (at == std::ssize(allowed)) limit.fail("unknown key", fmt::format("{}", fmt::join(allowed, ", ")));
+    if (at == 0)
+      read_force_limits(limit, joint, study);
+    else if (at < 3)
+      study.limits[name] = limit.number(input::positive);
+    else
+      study.least_margins[name] = limit.number(input::not_negative);
+    study.outputs.insert(at == 0 ? "forces" : at == 1 ? "peaks" : at == 2 ? "cracks" : "margins");
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> parts_of_pointer(const std::string& pointer) {
@@ -238,22 +268,14 @@ StudyScene read_study_scene(const input::Document& document, const input::Docume
   if (const auto seed = root.find("seed")) study.seed = seed->integer(0, std::numeric_limits<int>::max());
   if (const auto outputs = root.find("outputs"))
     for (const auto& output : outputs->items())
-      study.outputs.insert(output.choice({"forces", "peaks", "displacements", "cracks"}));
+      study.outputs.insert(output.choice({"forces", "peaks", "displacements", "cracks", "margins"}));
   if (const auto cases = root.find("cases"))
     for (const auto& name : cases->items(1)) {
       if (std::ranges::find(study.cases, name.text()) != study.cases.end())
         name.fail(fmt::format("\"{}\" stands twice", name.text()), "each case once");
       study.cases.push_back(name.text());
     }
-  if (const auto limits = root.find("limits")) {
-    limits->only({"force", "peak", "K_I"});
-    for (const auto& [name, output] :
-         {std::pair("force", "forces"), std::pair("peak", "peaks"), std::pair("K_I", "cracks")})
-      if (const auto limit = limits->find(name)) {
-        study.limits[name] = limit->number(input::positive);
-        study.outputs.insert(output);
-      }
-  }
+  if (const auto limits = root.find("limits")) read_limits(*limits, Value(joint), study);
   return study;
 }
 

@@ -41,8 +41,9 @@ struct StudyScene {
   std::uint64_t n_samples = 0;
   std::optional<std::uint64_t> seed;  ///< none: a random one
   std::set<std::string> outputs{"forces"};
-  std::vector<std::string> cases{};        ///< of the joint; empty: all
-  std::map<std::string, double> limits{};  ///< of outputs by name, whose exceedance is counted
+  std::vector<std::string> cases{};  ///< of the joint; empty: all
+  // Limits whose exceedance is counted: of outputs by name, of loads by the ids of fasteners, and of margins by checks.
+  std::map<std::string, double> limits{}, fastener_limits{}, least_margins{};
 };
 
 /// Parts of a JSON pointer without the escapes of "/" and "~".

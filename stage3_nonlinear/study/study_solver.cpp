@@ -76,10 +76,11 @@ SampleNumbers StudySolver::nothing(SampleStatus status) const {
   return {status, VectorXd::Constant(outputs_.size(), std::numeric_limits<double>::quiet_NaN()), {}};
 }
 
-VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step) const {
+VectorXd StudySolver::numbers(const JointEquations& equations, const PathStep& step,
+                              const std::string& case_name) const {
   const JointState state = joint_state(joint_, equations, step);
   if (imbalance(equations, step, state, tolerance_)) return nothing(SampleStatus::out_of_balance).all;
-  return outputs_.numbers({joint_, equations, step, state, 0});
+  return outputs_.numbers({joint_, equations, step, state, 0}, case_name);
 }
 
 SampleNumbers StudySolver::solve(const JointScene& scene, const VectorXd& away) const {
@@ -88,8 +89,8 @@ SampleNumbers StudySolver::solve(const JointScene& scene, const VectorXd& away) 
     for (Index i = 0; i < std::ssize(cases_); ++i) {
       const Index r = away.size() / std::ssize(cases_);
       const bool solved = cases_[i].solve(scene, away.segment(i * r, r), [&](const auto& equations, const auto& step) {
-        const VectorXd its = numbers(equations, step);
-        if (!its.allFinite()) result.status = SampleStatus::out_of_balance;
+        const VectorXd its = numbers(equations, step, scene.cases[cases_[i].at()].name);
+        if (its.array().isNaN().any()) result.status = SampleStatus::out_of_balance;
         if (i == 0)
           result.all = its;
         else

@@ -32,6 +32,8 @@ class CaseSolver {
   CaseSolver(const JointModel& joint, const JointScene& scene, std::size_t at,
              std::shared_ptr<const CondensedSystem> system);
 
+  /// Number of the case.
+  [[nodiscard]] std::size_t at() const { return at_; }
   /// Last state with every variable in its middle; none if not solved.
   [[nodiscard]] const std::optional<PathStep>& middle() const { return middle_; }
   /// Passes the equations and the last state with the parameters of a scene to `use`; false if not solved.
@@ -84,7 +86,8 @@ class StudySolver {
 
  private:
   /// Numbers of one case; not finite if it is out of balance.
-  [[nodiscard]] VectorXd numbers(const JointEquations& equations, const PathStep& step) const;
+  [[nodiscard]] VectorXd numbers(const JointEquations& equations, const PathStep& step,
+                                 const std::string& case_name) const;
 
   const JointModel& joint_;
   double tolerance_;

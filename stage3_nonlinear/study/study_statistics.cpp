@@ -121,7 +121,6 @@ class Statistics {
     const Index n = std::ssize(its.of), v = std::ssize(a_.study.variables), levels = std::ssize(quantile_levels);
     formats::StudyGroup& group = result_.groups.emplace_back();
     group.name = its.name, group.unit = unit_of(its.kind->dimension, a_.units), group.of = its.of;
-    group.limit = its.kind->limit;
     for (VectorXd* each : {&group.middle, &group.mean, &group.deviation, &group.by_sensitivities, &group.exceeds,
                            &group.exceeds_low, &group.exceeds_high})
       each->resize(n);
@@ -158,12 +157,12 @@ class Statistics {
     for (Index k = 0; k < group.correlation.cols(); ++k)
       group.correlation(i, k) = rank_correlation(all.ranks, variable_ranks_[k]);
     std::ranges::sort(values);
-    const auto above = std::uint64_t(values.end() - std::ranges::upper_bound(values, group.limit));
+    const auto above = std::uint64_t(values.end() - std::ranges::upper_bound(values, group.limits[i]));
     if (group.closed.size() > 0)
       group.closed[i] =
           double(std::ranges::lower_bound(values, 0.0) - values.begin()) / double(std::max<std::uint64_t>(solved_, 1));
     Proportion fraction = proportion(above, solved_, failed_);
-    if (is_grid() || std::isinf(group.limit)) fraction.low = fraction.high = fraction.value;
+    if (is_grid() || std::isinf(group.limits[i])) fraction.low = fraction.high = fraction.value;
     group.exceeds[i] = fraction.value, group.exceeds_low[i] = fraction.low, group.exceeds_high[i] = fraction.high;
     if (solved_ == 0) return;
     for (std::size_t k = 0; k < quantiles_.size(); ++k) {
@@ -177,7 +176,7 @@ class Statistics {
 
   /// Sensitivities of a number; for the largest of some they are those of the one that is largest in the middle.
   [[nodiscard]] Eigen::RowVectorXd sensitivity_of(const Group& group, Index i) const {
-    const auto& [output, dimension, of, first, limit] = *group.kind;
+    const auto& [output, dimension, of, first, its_limits] = *group.kind;
     if (a_.middle.status != SampleStatus::solved)
       return Eigen::RowVectorXd::Constant(std::ssize(a_.study.variables), infinite);
     if (group.is_largest) a_.middle.all.segment(first, std::ssize(of)).maxCoeff(&i);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "common/infinite.hpp"
 #include "common/program/program.hpp"
 
 namespace fastjoint::stage3 {
@@ -16,12 +17,21 @@ using Eigen::Index;
 
 std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.5g}", x) : "-"; }
 
+/// What is counted against the limit of a group. A utilisation above 1 / (1 + m) is a margin below m.
+std::string limit_text(const formats::StudyGroup& a) {
+  if (!std::isfinite(a.limit)) return "P(> its limit)";
+  constexpr double rounding = 1e-9;
+  const double margin = 1 / a.limit - 1;
+  if (a.name.ends_with("utilisation")) return fmt::format("P(margin < {:g})", margin < rounding ? 0 : margin);
+  return fmt::format("P(> {:g})", a.limit);
+}
+
 std::string head(const formats::StudyGroup& a) {
-  const bool governs = a.of.size() > 1, limited = std::isfinite(a.limit);
+  const bool governs = a.of.size() > 1, limited = (a.limits.array() < infinite).any();
   std::string line = fmt::format("  {:<16}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>11}{:>22}{:>11}", a.name, "middle",
                                  "mean", "deviation", "by slopes", "5 %", "50 %", "95 %", "95 % lies within", "99 %");
   if (governs) line += fmt::format("{:>9}", "governs");
-  if (limited) line += fmt::format("{:>30}", fmt::format("P(> {:g})", a.limit));
+  if (limited) line += fmt::format("{:>30}", limit_text(a));
   return line + fmt::format("   [{}]\n", a.unit);
 }
 
@@ -33,7 +43,7 @@ std::string row(const formats::StudyGroup& a, Index i) {
   line += fmt::format("{:>22}{:>11}", fmt::format("{}..{}", number(a.low(i, 2)), number(a.high(i, 2))),
                       number(a.quantile(i, 3)));
   if (a.of.size() > 1) line += fmt::format("{:>7.1f} %", 100 * a.governs[i]);
-  if (std::isfinite(a.limit))
+  if (std::isfinite(a.limits[i]))
     line += fmt::format("{:>30}",
                         fmt::format("{:.4g} ({:.3g}..{:.3g})", a.exceeds[i], a.exceeds_low[i], a.exceeds_high[i]));
   return line + "\n";
