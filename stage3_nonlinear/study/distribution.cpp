@@ -47,13 +47,6 @@ Distribution read_normal(const Value& value, bool of_logarithm) {
   });
 }
 
-Distribution triangular(double from, double mode, double to) {
-  return continuous([=, width = to - from](double probability) {
-    return probability * width <= mode - from ? from + std::sqrt(probability * width * (mode - from))
-                                              : to - std::sqrt((1 - probability) * width * (to - mode));
-  });
-}
-
 Distribution read_discrete(const Value& value) {
   value.only({"type", "values", "weights"});
   constexpr std::size_t max_values = 1000000;
@@ -85,7 +78,11 @@ Distribution read_distribution(const Value& value) {
   is_uniform ? value.only({"type", "from", "to"}) : value.only({"type", "from", "mode", "to"});
   const double from = value.at("from").number(), to = value.at("to").number({.low = from, .low_allowed = false});
   if (is_uniform) return continuous([=](double probability) { return from + probability * (to - from); });
-  return triangular(from, value.at("mode").number({.low = from, .high = to}), to);
+  const double mode = value.at("mode").number({.low = from, .high = to}), width = to - from;
+  return continuous([=](double probability) {
+    return probability * width <= mode - from ? from + std::sqrt(probability * width * (mode - from))
+                                              : to - std::sqrt((1 - probability) * width * (to - mode));
+  });
 }
 
 }  // namespace fastjoint::stage3

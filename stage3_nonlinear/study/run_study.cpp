@@ -10,7 +10,6 @@
 #include <limits>
 #include <ostream>
 #include <random>
-#include <set>
 #include <thread>
 #include <utility>
 
@@ -308,13 +307,12 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
   Samples samples(study, seed, solver);
   const auto [first, end] = blocks.of_slice(slice.number, slice.n);
   if (!merge_only) solve_blocks(blocks, first, end, arguments.quiet, samples, log);
-  std::string summary;
-  if (slice.is_whole)
-    summary = merge(study, {study.scene, seed, solver.outputs(), joint.units, solver.middle(), samples.sensitivity()},
-                    blocks, origin, arguments.output, timings);
-  else
-    summary = fmt::format("{} of {} blocks of samples are in {}; --merge makes {} of all slices\n", end - first,
-                          blocks.n_blocks(), blocks.folder(), arguments.output);
+  const std::string summary =
+      slice.is_whole
+          ? merge(study, {study.scene, seed, solver.outputs(), joint.units, solver.middle(), samples.sensitivity()},
+                  blocks, origin, arguments.output, timings)
+          : fmt::format("{} of {} blocks of samples are in {}; --merge makes {} of all slices\n", end - first,
+                        blocks.n_blocks(), blocks.folder(), arguments.output);
   if (!arguments.quiet) out << summary;
 }
 
