@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
+#include <span>
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
 #include "stage3_nonlinear/output/output.hpp"
+#include "stage3_nonlinear/output/table.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -32,10 +34,9 @@ struct Largest {
 };
 
 std::string case_lines(const JointModel& joint, const JointResult& a) {
-  const std::string force = unit(joint.units, 0, 1), stress = unit(joint.units, -2, 1);
-  std::string text = fmt::format("  {:<32} {:>10}   {:<32} {}\n", "case", "increments",
-                                 fmt::format("largest load transferred [{}]", force),
-                                 fmt::format("highest peak hoop stress [{}]", stress));
+  Table cases("{:<32} {:>10}   {:<32} {}",
+              {{"case", "increments", fmt::format("largest load transferred [{}]", unit(joint.units, 0, 1)),
+                fmt::format("highest peak hoop stress [{}]", unit(joint.units, -2, 1))}});
   for (Index at = 0; at < std::ssize(a.case_name); ++at) {
     Largest load, peak;
     Index n = 0;
@@ -48,10 +49,9 @@ std::string case_lines(const JointModel& joint, const JointResult& a) {
         for (Index rim = 0; rim < std::ssize(plate.holes.hole); ++rim)
           peak.take(plate.columns["rim/peak_hoop"](row, rim), plate.name + ":" + plate.holes.hole[rim]);
     }
-    text +=
-        fmt::format("  {:<32} {:>10}   {:<32} {}\n", program::one_line(a.case_name[at]), n, load.text(), peak.text());
+    cases.row({program::one_line(a.case_name[at]), fmt::to_string(n), load.text(), peak.text()});
   }
-  return text;
+  return cases.text();
 }
 
 /// Table of a quantity's envelope: all rows in their order, or those of the largest magnitude. Smallest values are
@@ -63,16 +63,16 @@ std::string table(const JointResult& a, const EnvelopeTable& its, const char* me
   const auto size = [&](Index i) { return std::max(std::abs(its.largest[i]), std::abs(its.smallest[i])); };
   if (n > max_case_rows) std::ranges::stable_sort(order, std::greater(), size);
   const bool has_signs = its.smallest.minCoeff() < 0;
-  std::string text = fmt::format("  {:<24} {:>20} in", meaning, fmt::format("largest [{}]", its.unit));
-  text += has_signs ? fmt::format("{:<38} {:>14} in\n", "", "smallest") : "\n";
-  for (Index i = 0; i < std::min(n, max_case_rows); ++i) {
-    const Index at = order[i];
-    const std::string where = increment_of(a, its.largest_at[at]);
-    text += fmt::format("  {:<24} {:>20.6g} ", program::one_line(its.of[at]), its.largest[at]);
-    text += has_signs
-                ? fmt::format("{:<40} {:>14.6g} {}\n", where, its.smallest[at], increment_of(a, its.smallest_at[at]))
-                : where + "\n";
+  std::string format = "{:<24} {:>20.6g} {:<40}";
+  Table::Cells headings{meaning, fmt::format("largest [{}]", its.unit), "in"};
+  if (has_signs) format += " {:>14.6g} {}", headings.insert(headings.end(), {"smallest", "in"});
+  Table shown(format, {headings});
+  for (const Index i : std::span(order).first(std::min(n, max_case_rows))) {
+    Table::Cells cells{program::one_line(its.of[i]), its.largest[i], increment_of(a, its.largest_at[i])};
+    if (has_signs) cells.insert(cells.end(), {its.smallest[i], increment_of(a, its.smallest_at[i])});
+    shown.row(cells);
   }
+  std::string text = shown.text();
   if (n > max_case_rows) text += fmt::format("  ... and {} more with smaller ones\n", n - max_case_rows);
   return text;
 }

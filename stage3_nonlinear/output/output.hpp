@@ -3,11 +3,11 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "common/formats/joint_result.hpp"
 #include "common/program/warning.hpp"
+#include "stage3_nonlinear/output/warning_list.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/results/increments.hpp"
 
@@ -51,14 +51,10 @@ struct MoreStresses {
 
 /// Warnings about unlikely numbers, one sentence each: friction above 1, a gap or |delta| above a radius, distances
 /// between the centres of a fastener's holes (with three or more fasteners between two plates relative to the median,
-/// since plates may have coordinates of their own), contradictory diameters, a formula for other sheets or another
-/// number of them, F above d t E. Holes without data in MATRICES.h5 are not checked.
+/// since plates may have coordinates of their own), diameters that differ by more than 5 %, a formula for other sheets
+/// or another number of them, F above d t E. Holes without data in MATRICES.h5 are not checked.
 [[nodiscard]] std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
                                                                 const LoadPath& path);
-
-/// Warnings about diameters that differ by more than 5 % for any law: hole_diameter from that in the sheet, and those
-/// of the two holes of a shear plane, minus their gaps, from each other.
-[[nodiscard]] std::vector<program::Warning> diameter_warnings(const JointScene& scene, const JointModel& joint);
 
 /// Warnings about rims, one sentence of each kind with the hole and the increment where it is worst.
 [[nodiscard]] std::vector<program::Warning> rim_warnings(const JointModel& joint,
@@ -82,17 +78,12 @@ struct MoreStresses {
 /// Names of shear planes, separated by commas.
 [[nodiscard]] std::string names(const JointModel& joint, const std::vector<Index>& planes);
 
-/// Warns of the first increment that unloads planes after slip or yield, or on a curved law.
+/// Warns of the first increment that unloads planes after slip or yield, or on a curved law, and of the first at which
+/// the force of a fastener with friction falls or turns.
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                       std::vector<program::Warning>& result);
-/// Warns of the first increment at which the force of a fastener with friction falls or turns.
-void warn_of_turning_friction(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                              std::vector<program::Warning>& result);
+                       WarningList& list);
 
-/// A measure of how bad a warning is, > 0, and its sentence.
-using Doubt = std::pair<double, std::string>;
-
-/// Appends the worst warning of one kind about several fasteners or holes, with the number of the others.
-void add_worst(std::vector<program::Warning>& warnings, const char* code, const std::vector<Doubt>& kind);
+/// Index of a hole among those that its plate's matrices describe; none if they do not.
+[[nodiscard]] std::optional<Index> described(const JointModel& joint, const HoleModel& hole);
 
 }  // namespace fastjoint::stage3

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "common/count.hpp"
@@ -22,43 +23,44 @@ using Plates = std::pair<Index, Index>;
 /// hole like the first.
 struct KnownPlane {
   Index at;
-  Plates plates;           ///< ascending
-  Vector2d offset;         ///< between the centres, from the higher plate to the lower
-  Array2d t, d, E;         ///< of the first and the second hole; E along the joint's direction
-  Array2d shank;           ///< diameters minus the gaps
-  int n_sheets;            ///< that the fastener joins; 0 if it is grounded, since no thickness is known
-  bool first_of_fastener;  ///< the plane between its first two holes
+  const ShearPlane& plane;
+  const FastenerScene& fastener;
+  Plates plates;                       ///< ascending
+  int n_sheets;                        ///< that the fastener joins; 0 if it is grounded, since no thickness is known
+  bool first_of_fastener;              ///< the plane between its first two holes
+  Vector2d offset = Vector2d::Zero();  ///< between the centres, from the higher plate to the lower
+  Array2d t = Array2d::Zero(), d = t;  ///< of the first and the second hole
+  Array2d E = t;                       ///< along the joint's direction
+  Array2d shank = t;                   ///< diameters minus the gaps
+  [[nodiscard]] double radius() const { return d.minCoeff() / 2; }
   /// Index of the hole in the middle sheet of three, 0 or 1.
   [[nodiscard]] int middle() const { return first_of_fastener ? 1 : 0; }
 };
 
-std::vector<KnownPlane> known_planes(const JointModel& joint) {
+std::vector<KnownPlane> known_planes(const JointScene& scene, const JointModel& joint) {
   std::vector<KnownPlane> result;
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
-    const HoleModel &first = joint.holes(plane).front(), &second = joint.holes(plane).back();
+    const std::array holes{&joint.holes(plane).front(), &joint.holes(plane).back()};
     const FastenerModel& fastener = joint.fasteners[plane.fastener];
-    KnownPlane known{.at = j,
-                     .plates = std::minmax(first.plate, second.plate),
-                     .offset = Vector2d::Zero(),
-                     .t = {0, 0},
-                     .d = {0, 0},
-                     .E = {0, 0},
-                     .shank = {0, 0},
-                     .n_sheets = fastener.grounded ? 0 : count_of(fastener.holes),
-                     .first_of_fastener = plane.first == 0};
+    KnownPlane known{j,
+                     plane,
+                     scene.fasteners[plane.fastener],
+                     std::minmax(holes[0]->plate, holes[1]->plate),
+                     fastener.grounded ? 0 : count_of(fastener.holes),
+                     plane.first == 0};
     for (const Index side : {0, 1}) {
-      const HoleModel& hole = side == 0 ? first : second;
-      const auto& a = joint.plates[hole.plate].stresses;
-      const int at = index_of(a.rim_hole, joint.plates[hole.plate].hole_of(hole.disc));
-      if (at == count_of(a.rim_hole)) continue;
-      known.offset += ((side == 0) == (first.plate <= second.plate) ? 1 : -1) * a.rim_center.row(at).transpose();
-      known.t[side] = a.rim_thickness[at];
-      known.d[side] = 2 * a.rim_radius[at];
-      known.shank[side] = known.d[side] - 2 * hole.gap;
+      const auto at = described(joint, *holes[side]);
+      if (!at) continue;
+      const auto& a = joint.plates[holes[side]->plate].stresses;
+      known.offset +=
+          ((side == 0) == (holes[0]->plate <= holes[1]->plate) ? 1 : -1) * a.rim_center.row(*at).transpose();
+      known.t[side] = a.rim_thickness[*at];
+      known.d[side] = 2 * a.rim_radius[*at];
+      known.shank[side] = known.d[side] - 2 * holes[side]->gap;
       const bool one_E = joint.n_directions() == 1 ||
-                         std::abs(a.rim_modulus(at, 0) - a.rim_modulus(at, 1)) <= 1e-9 * a.rim_modulus(at, 0);
-      known.E[side] = one_E ? a.rim_modulus(at, joint.axes[0]) : 0;
+                         std::abs(a.rim_modulus(*at, 0) - a.rim_modulus(*at, 1)) <= 1e-9 * a.rim_modulus(*at, 0);
+      known.E[side] = one_E ? a.rim_modulus(*at, joint.axes[0]) : 0;
     }
     if (known.d.minCoeff() > 0) result.push_back(known);
   }
@@ -134,209 +136,175 @@ const char* shear_mismatch(const Source& formula, int n_sheets, double alike) {
   return "";
 }
 
-/// Adds a doubt if an interference strains the rim beyond what metals take without yielding.
-void add_interference(const FastenerScene& fastener, const JointModel& joint, const HoleModel& hole, double radius,
-                      double E, std::vector<Doubt>& doubts) {
-  constexpr double yields = 0.01;  // the hoop strain; 0.3 to 0.9 % of most metals
-  const double strain = -hole.gap / radius;
-  if (strain <= yields) return;
-  doubts.emplace_back(
-      strain,
-      fmt::format("{}: an interference of {:.6g} strains the rim of hole \"{}\" of radius {:.6g} by {:.2g} %{}, "
-                  "at which metals yield: stresses are those of an elastic sheet; or it is in another unit of "
-                  "length",
-                  fastener.where_gap(), -hole.gap, joint.name(hole), radius, 100 * strain,
-                  E > 0 ? fmt::format(", a stress of up to {:.3g}", E * strain) : ""));
+/// Doubts friction above that of dry metals.
+void check_friction(const JointScene& scene, WarningList& list) {
+  for (const auto& fastener : scene.fasteners)
+    if (const double mu = std::ranges::max(fastener.friction); mu > 1)
+      list.doubt("friction-unlikely", mu,
+                 "{}/friction: {} is above 1, more than dry metals reach: it may be a percentage", fastener.where, mu);
 }
 
-/// A kind of warning about rims, with its measure for a rim, 0 or NaN if there is no reason for it, and its text.
-struct RimDoubt {
-  const char* code;
-  double (*measure)(const RimState&, bool has_clearance);
-  const char* text;  ///< {at} is the worst hole with its increment and the number of others; see rim_warnings
-};
+/// Doubts the gaps and offsets of a plane beside the radius of its smaller hole.
+void check_gaps(const JointModel& joint, const KnownPlane& known, WarningList& list) {
+  constexpr double max_gap = 0.25, max_offset = 0.25;  // of the hole; ISO 273's coarse clearance holes: M8 in 10 mm
+  const char* code = "gap-unlikely";
+  const double radius = known.radius();
+  if (const double gap = known.plane.law->gap(known.plane.clearance); gap > radius)
+    list.doubt(code, gap / radius,
+               "{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius {:.6g} of the hole: one "
+               "of them may be in another unit of length",
+               known.fastener.where, gap, known.plane.law_name, radius);
+  const bool by_sheet = known.fastener.diameter && known.fastener.hole_diameter.empty();
+  for (const HoleModel& hole : joint.holes(known.plane))
+    if (hole.gap >= (by_sheet ? max_gap : 1) * radius)
+      list.doubt(code, std::abs(hole.gap) / radius,
+                 "{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length{}",
+                 known.fastener.where_gap(), hole.gap, joint.name(hole), radius,
+                 by_sheet ? "; if it is intended, give its \"hole_diameter\" too" : "");
+  for (const auto& [x, y] : known.fastener.offset)
+    if (const double offset = std::hypot(x, y); offset > max_offset * radius)
+      list.doubt(code, offset / radius,
+                 "{}/offset: a hole of radius {:.6g} is {:.6g} from its place in the free sheet: it may be in another "
+                 "unit of length",
+                 known.fastener.where, radius, offset);
+}
 
-constexpr double allowed_pull = 0.05, allowed_across = 0.01;  // of the bearing stress, of the bearing force
-constexpr double allowed_against = 20;                        // of friction against the slip, degrees
+/// Doubts interferences that strain the rim beyond what metals take without yielding.
+void check_interferences(const JointModel& joint, const KnownPlane& known, WarningList& list) {
+  constexpr double yields = 0.01;  // the hoop strain; 0.3 to 0.9 % of most metals
+  for (const HoleModel& hole : joint.holes(known.plane))
+    if (const double strain = -hole.gap / known.radius(), E = known.E.maxCoeff(); strain > yields)
+      list.doubt("interference-yields", strain,
+                 "{}: an interference of {:.6g} strains the rim of hole \"{}\" of radius {:.6g} by {:.2g} %{}, at "
+                 "which metals yield: stresses are those of an elastic sheet; or it is in another unit of length",
+                 known.fastener.where_gap(), -hole.gap, joint.name(hole), known.radius(), 100 * strain,
+                 E > 0 ? fmt::format(", a stress of up to {:.3g}", E * strain) : "");
+}
 
-constexpr std::array<RimDoubt, 7> doubts = {{
-    {"springs-wrong-arc", [](const RimState& rim, bool) { return rim.pulls ? rim.bearing_stress : 0; },
-     "the springs of {at} are in tension: they are on the arc that does not bear under these loads; give the hole's "
-     "spring the other \"arc\" in PLATE.json"},
-    {"springs-pull",
-     [](const RimState& rim, bool) { return rim.pull > allowed_pull * rim.bearing_stress ? rim.pull : 0; },
-     "the springs all around {at} have a tension of up to {pull:.4g} {unit}, with a bearing stress of {stress:.4g}: a "
-     "fastener cannot pull on the rim, and hoop peaks are too low; give the hole's spring \"compression_only\": true "
-     "in "
-     "PLATE.json"},
-    {"hole-filled",
-     [](const RimState& rim, bool has_clearance) {
-       return has_clearance && rim.filled ? std::max(rim.pull, rim.bearing_stress) : 0;
-     },
-     "a fastener with a clearance fills {at}, whose springs act all around: the sheet is too stiff and its hoop "
-     "peak, {peak:.4g} {unit}, too low; give the hole's spring \"compression_only\": true in PLATE.json, and the "
-     "fastener a \"gap\" instead of \"clearance\""},
-    {"kt-below-one",
-     [](const RimState& rim, bool) {
-       return rim.in_tension && rim.net_concentration > 0 && rim.pull > 0 ? 1 - rim.net_concentration : 0;
-     },
-     "Kt net is {net:.4g} at {at}: no hole's peak hoop stress is below the mean stress of its net section, unless "
-     "springs pull on its rim; give the hole's spring \"compression_only\": true in PLATE.json"},
-    {"disc-held-across",
-     [](const RimState& rim, bool) { return rim.across_ratio > allowed_across ? std::abs(rim.across) : 0; },
-     "the {axis} displacement of the disc of {at} is fixed, with a reaction of {across:.4g} {force} next to a bearing "
-     "force of {bearing:.4g}, which no other part of the joint carries; let the discs move: \"disc_directions\": "
-     "[\"x\", \"y\"] in "
-     "all PLATE.json"},
-    {"friction-against-slip",
-     [](const RimState& rim, bool) { return rim.against_slip > allowed_against ? rim.against_slip : 0; },
-     "friction acts against the slip that it makes on {against:.3g} degrees of the contact at {at}: it is "
-     "assumed to slip everywhere, but in reality sticks there; the effect on the loads is small, but the peak hoop "
-     "stress {peak:.4g} {unit} is uncertain: compare it with one without friction, and take the larger"},
-    {"friction-off-axes", [](const RimState& rim, bool) { return rim.by_components ? rim.bearing_stress : 0; },
-     "friction acts off the axes, by its components along x and y, at {at}: the loads are right, but peak hoop "
-     "stresses "
-     "there may be too low by the part of friction, most of all at 45 degrees"},
-}};
+/// Doubts the distance between the centres of a plane's holes. @param common Offset of its sheets.
+void check_distance(const JointModel& joint, const KnownPlane& known, const Vector2d& common, WarningList& list) {
+  constexpr double coaxial = 0.1;  // of the radius
+  const double apart = (known.offset - common).norm(), radius = known.radius();
+  if (apart > coaxial * radius)
+    list.doubt("holes-apart", apart / radius,
+               "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than a tenth of the radius "
+               "{:.6g}: one of them may be another fastener's hole, or the sheets are drawn in different coordinates",
+               known.fastener.where, joint.name(joint.first_hole(known.plane)),
+               joint.name(joint.second_hole(known.plane)), apart, radius);
+}
 
-}  // namespace
+/// Diameter of a hole in its sheet, length; 0 if the sheet's matrices do not have it.
+double diameter_in_sheet(const JointModel& joint, const HoleModel& hole) {
+  const PlateModel& plate = joint.plates[hole.plate];
+  const auto rim = std::ranges::find(plate.contact, plate.hole_of(hole.disc), &formats::ContactRim::hole);
+  if (rim != plate.contact.end()) return 2 * rim->radius;
+  const auto at = described(joint, hole);
+  return at ? 2 * plate.stresses.rim_radius[*at] : 0;
+}
 
-std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
-                                                  const LoadPath& path) {
-  std::vector<Doubt> friction, gaps, interferences, distances, movements;
-  std::vector<program::Warning> formulas;
-  for (const auto& fastener : scene.fasteners)
-    if (const double mu = *std::max_element(fastener.friction.begin(), fastener.friction.end()); mu > 1)
-      friction.emplace_back(
-          mu, fmt::format("{}/friction: {} is above 1, more than dry metals reach: it may be a percentage",
-                          fastener.where, mu));
-  const auto planes = known_planes(joint);
-  std::map<Plates, std::vector<Vector2d>> offsets;
-  for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
+/// Doubts diameters that differ for any law: hole_diameter from that in the sheet, and those of the two holes of a
+/// shear plane, minus their gaps, from each other.
+void check_diameters(const JointScene& scene, const JointModel& joint, WarningList& list) {
+  constexpr double same = 0.05 * (1 + 1e-9);  // relative difference of diameters that are taken for one
+  for (Index i = 0; i < std::ssize(scene.fasteners); ++i)
+    for (Index at = 0; at < std::ssize(scene.fasteners[i].hole_diameter); ++at) {
+      const HoleModel& hole = joint.fasteners[i].holes[at];
+      const double here = scene.fasteners[i].hole_diameter[at], in_sheet = diameter_in_sheet(joint, hole);
+      if (in_sheet > 0 && std::abs(here - in_sheet) > same * in_sheet)
+        list.doubt("hole-diameter-unlike", std::abs(here - in_sheet) / in_sheet,
+                   "{}/hole_diameter: {:.6g} for hole \"{}\", whose diameter in its sheet is {:.6g}: one of them may "
+                   "be a radius, another hole's, or in another unit of length",
+                   scene.fasteners[i].where, here, joint.name(hole), in_sheet);
+    }
+  for (const ShearPlane& plane : joint.planes) {
+    const FastenerScene& fastener = scene.fasteners[plane.fastener];
+    if (joint.is_to_ground(plane) || fastener.diameter) continue;  // the gaps follow from that diameter
+    const HoleModel &first = joint.first_hole(plane), &second = joint.second_hole(plane);
+    const double one = diameter_in_sheet(joint, first), other = diameter_in_sheet(joint, second);
+    const double apart = std::abs((one - 2 * first.gap) - (other - 2 * second.gap));
+    if (std::min(one, other) > 0 && apart > same * std::max(one, other) + 2 * plane.clearance)
+      list.doubt("sheet-diameters-unlike", apart / std::min(one, other),
+                 "{}/between: holes \"{}\" and \"{}\" have the diameters {:.6g} and {:.6g} in their sheets, which the "
+                 "gaps and the clearance of their one fastener do not explain: one of them may be another fastener's "
+                 "hole, or in another unit of length",
+                 fastener.where, joint.name(first), joint.name(second), one, other);
+  }
+}
+
+/// Warns of formulas that are for other sheets, of each law once.
+void check_formulas(const JointModel& joint, const LoadPath& path, const std::vector<KnownPlane>& planes,
+                    WarningList& list) {
   std::set<std::string> compared, sheared;
   for (const auto& known : planes) {
-    const ShearPlane& plane = joint.planes[known.at];
-    const std::string& where = scene.fasteners[plane.fastener].where;
-    const double radius = known.d.minCoeff() / 2;
-    if (const double gap = plane.law->gap(plane.clearance); gap > radius)
-      gaps.emplace_back(gap / radius,
-                        fmt::format("{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius "
-                                    "{:.6g} of the hole: one of them may be in another unit of length",
-                                    where, gap, plane.law_name, radius));
-    for (const HoleModel& hole : joint.holes(plane)) {
-      constexpr double max_gap = 0.25;  // of the hole; ISO 273's coarse clearance holes: M8 in 10 mm
-      const FastenerScene& fastener = scene.fasteners[plane.fastener];
-      const bool by_sheet = fastener.diameter && fastener.hole_diameter.empty();
-      add_interference(fastener, joint, hole, radius, known.E.maxCoeff(), interferences);
-      if (hole.gap < (by_sheet ? max_gap : 1) * radius) continue;
-      gaps.emplace_back(
-          std::abs(hole.gap) / radius,
-          fmt::format("{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length{}",
-                      fastener.where_gap(), hole.gap, joint.name(hole), radius,
-                      by_sheet ? "; if it is intended, give its \"hole_diameter\" too" : ""));
-    }
-    for (const auto& [x, y] : scene.fasteners[plane.fastener].offset)
-      if (constexpr double max_offset = 0.25; std::hypot(x, y) > max_offset * radius)
-        gaps.emplace_back(
-            std::hypot(x, y) / radius,
-            fmt::format("{}/offset: a hole of radius {:.6g} is {:.6g} from its place in the free sheet: it "
-                        "may be in another unit of length",
-                        where, radius, std::hypot(x, y)));
-    constexpr double coaxial = 0.1;  // of the radius
-    if (const double apart = (known.offset - common_offset(offsets[known.plates])).norm(); apart > coaxial * radius)
-      distances.emplace_back(
-          apart / radius,
-          fmt::format(
-              "{}/between: the centres of holes \"{}\" and \"{}\" are {:.6g} apart, more than a tenth of the radius "
-              "{:.6g}: one of them may be another fastener's hole, or the sheets are drawn in different coordinates",
-              where, joint.name(joint.first_hole(plane)), joint.name(joint.second_hole(plane)), apart, radius));
-    const auto formula = joint.is_to_ground(plane) ? std::nullopt : plane.law->source();
-    const std::string other = formula ? mismatches(*formula, known, plane.clearance) : "";
-    const std::string shear =
-        formula ? shear_mismatch(*formula, known.n_sheets, shear_alike(joint, path, known.at)) : "";
-    if (!shear.empty() && sheared.insert(plane.law_name).second)
-      formulas.push_back({"formula-shear-unlike", fmt::format("{}: /laws/{}/shear: {} ({})", joint.file, plane.law_name,
-                                                              shear, joint.name(plane))});
-    if (!other.empty() && compared.insert(plane.law_name).second)
-      formulas.push_back({"formula-sheets-unlike", fmt::format("{}: /laws/{}: the formula has {} of the sheets at {}: "
-                                                               "it may be for another fastener, or in other units",
-                                                               joint.file, plane.law_name, other, joint.name(plane))});
-    const double max_force = (known.d * known.t * known.E).minCoeff();  // 0: not known
-    for (const auto& step : path.steps) {
-      const double delta = std::abs(magnitudes(step.delta, joint.n_directions())[known.at]);
-      const double F = std::abs(magnitudes(step.F, joint.n_directions())[known.at]);
-      const bool far = delta > radius;
-      if (!far && !(max_force > 0 && F > max_force)) continue;
-      const std::string what =
-          far ? fmt::format("|delta| = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
-              : fmt::format("|F| = {:.6g} is above d t E = {:.6g} of a sheet", F, max_force);
-      movements.emplace_back(
-          std::max(delta / radius, max_force > 0 ? F / max_force : 0),
-          fmt::format("{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units",
-                      joint.file, joint.name(plane), what, &step - path.steps.data() + 1));
-      break;
-    }
+    const auto formula = joint.is_to_ground(known.plane) ? std::nullopt : known.plane.law->source();
+    if (!formula) continue;
+    const std::string other = mismatches(*formula, known, known.plane.clearance), name = joint.name(known.plane);
+    const std::string shear = shear_mismatch(*formula, known.n_sheets, shear_alike(joint, path, known.at));
+    if (!shear.empty() && sheared.insert(known.plane.law_name).second)
+      list.add("formula-shear-unlike", "{}: /laws/{}/shear: {} ({})", joint.file, known.plane.law_name, shear, name);
+    if (!other.empty() && compared.insert(known.plane.law_name).second)
+      list.add(
+          "formula-sheets-unlike",
+          "{}: /laws/{}: the formula has {} of the sheets at {}: it may be for another fastener, or in other units",
+          joint.file, known.plane.law_name, other, name);
   }
-  std::vector<program::Warning> result;
-  add_worst(result, "friction-unlikely", friction);
-  add_worst(result, "gap-unlikely", gaps);
-  add_worst(result, "interference-yields", interferences);
-  add_worst(result, "holes-apart", distances);
-  const auto diameters = diameter_warnings(scene, joint);
-  result.insert(result.end(), diameters.begin(), diameters.end());
-  result.insert(result.end(), formulas.begin(), formulas.end());
-  add_worst(result, "units-mixed", movements);
+}
+
+/// Doubts delta above the radius of the smaller hole, or F that no sheet carries, at the first increment with one.
+void check_movement(const JointModel& joint, const LoadPath& path, const KnownPlane& known, WarningList& list) {
+  const double radius = known.radius(), max_force = (known.d * known.t * known.E).minCoeff();  // 0: not known
+  for (const auto& step : path.steps) {
+    const double delta = std::abs(magnitudes(step.delta, joint.n_directions())[known.at]);
+    const double F = std::abs(magnitudes(step.F, joint.n_directions())[known.at]);
+    const bool far = delta > radius;
+    if (!far && !(max_force > 0 && F > max_force)) continue;
+    list.doubt("units-mixed", std::max(delta / radius, max_force > 0 ? F / max_force : 0),
+               "{}: {}: {} at increment {}: loads, laws, lengths or moduli may be in different units", joint.file,
+               joint.name(known.plane),
+               far ? fmt::format("|delta| = {:.6g} is above the radius {:.6g} of the hole", delta, radius)
+                   : fmt::format("|F| = {:.6g} is above d t E = {:.6g} of a sheet", F, max_force),
+               &step - path.steps.data() + 1);
+    return;
+  }
+}
+
+/// Warns of tables whose units are not those of the joint.
+void check_units(const JointScene& scene, const JointModel& joint, WarningList& list) {
   for (const auto& [name, law] : scene.laws) {
     const std::array<std::string, 2> own{joint.units.length, joint.units.force}, found = law.law->units();
     for (std::size_t i = 0; i < 2; ++i)
       if (!own[i].empty() && !found[i].empty() && own[i] != found[i])
-        result.push_back(
-            {"units-mixed",
-             fmt::format("{}: its first line names the unit \"{}\", the joint's is \"{}\": numbers are taken "
-                         "as they are, and none is converted",
-                         law.law->file(), found[i], own[i])});
+        list.add("units-mixed",
+                 "{}: its first line names the unit \"{}\", the joint's is \"{}\": numbers are taken as they are, and "
+                 "none is converted",
+                 law.law->file(), found[i], own[i]);
   }
-  return result;
 }
 
-std::vector<program::Warning> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
-  std::set<std::string> with_clearance;
-  for (const auto& plane : joint.planes)
-    for (const HoleModel& hole : joint.holes(plane))
-      if (plane.clearance > 0) with_clearance.insert(joint.name(hole));
-  const std::string& across = rim::axis_names[1 - joint.axes[0]];
-  std::vector<program::Warning> result;
-  for (const auto& doubt : doubts) {
-    double largest = 0;
-    std::string at;
-    const RimState* worst = nullptr;
-    std::set<std::string> holes;
-    for (Index step = 0; step < std::ssize(states); ++step)
-      for (Index i = 0; i < std::ssize(joint.plates); ++i)
-        for (Index rim = 0; rim < std::ssize(states[step].plates[i].rims); ++rim) {
-          const RimState& state = states[step].plates[i].rims[rim];
-          const std::string hole = joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim];
-          const double measure = doubt.measure(state, with_clearance.contains(hole));
-          if (measure > 0) holes.insert(hole);
-          if (!(measure > largest)) continue;
-          largest = measure;
-          worst = &state;
-          at = fmt::format("hole \"{}\" (increment {}", hole, step + 1);
-        }
-    if (!worst) continue;
-    const Index others = holes.size() - 1;
-    at += others == 0 ? ")" : fmt::format("; {} other hole{} too)", others, others == 1 ? "" : "s");
-    using fmt::arg;
-    result.push_back(
-        {doubt.code,
-         fmt::format(fmt::runtime("{file}: " + std::string(doubt.text)), arg("file", joint.file), arg("at", at),
-                     arg("axis", across), arg("pull", worst->pull), arg("stress", worst->bearing_stress),
-                     arg("peak", worst->peak_hoop), arg("net", worst->net_concentration),
-                     arg("against", worst->against_slip), arg("across", std::abs(worst->across)),
-                     arg("bearing", std::hypot(worst->bearing_load, worst->bearing_load_y)),
-                     arg("force", unit(joint.units, 0, 1)), arg("unit", unit(joint.units, -2, 1)))});
-  }
-  return result;
+}  // namespace
+
+std::optional<Index> described(const JointModel& joint, const HoleModel& hole) {
+  const PlateModel& plate = joint.plates[hole.plate];
+  const auto& holes = plate.stresses.rim_hole;
+  const int at = index_of(holes, plate.hole_of(hole.disc));
+  return at < count_of(holes) ? std::optional<Index>(at) : std::nullopt;
+}
+
+std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
+                                                  const LoadPath& path) {
+  WarningList list;
+  const auto planes = known_planes(scene, joint);
+  std::map<Plates, std::vector<Vector2d>> offsets;
+  for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
+  check_friction(scene, list);
+  for (const auto& each : planes) check_gaps(joint, each, list);
+  for (const auto& each : planes) check_interferences(joint, each, list);
+  for (const auto& each : planes) check_distance(joint, each, common_offset(offsets[each.plates]), list);
+  check_diameters(scene, joint, list);
+  check_formulas(joint, path, planes, list);
+  for (const auto& each : planes) check_movement(joint, path, each, list);
+  check_units(scene, joint, list);
+  return list.all();
 }
 
 }  // namespace fastjoint::stage3

@@ -41,10 +41,9 @@ std::optional<double> overlap_along(const JointModel& joint, const Eigen::Vector
     const FastenerModel& fastener = joint.fasteners[plane.fastener];
     if (fastener.grounded || fastener.holes.size() != 2) return std::nullopt;
     const HoleModel& hole = joint.holes(plane).front();
-    const auto& a = joint.plates[hole.plate].stresses;
-    const auto at = std::ranges::find(a.rim_hole, joint.plates[hole.plate].hole_of(hole.disc));
-    if (at == a.rim_hole.end()) return std::nullopt;
-    const double place = a.rim_center.row(at - a.rim_hole.begin()).dot(along);
+    const auto at = described(joint, hole);
+    if (!at) return std::nullopt;
+    const double place = joint.plates[hole.plate].stresses.rim_center.row(*at).dot(along);
     low = std::min(low, place);
     high = std::max(high, place);
   }

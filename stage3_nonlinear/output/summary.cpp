@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/secondary_bending.hpp"
+#include "stage3_nonlinear/output/table.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/section_stress.hpp"
 
@@ -56,39 +56,42 @@ std::optional<double> relative_error(const PlateModel& plate) {
 std::string fastener_table(const JointModel& joint, const PathStep& step, const JointState& state, std::size_t width) {
   const std::string length = unit(joint.units, 1, 0), force = unit(joint.units, 0, 1);
   const Index a = joint.n_directions(), n_components = a > 1 ? a : 0;
-  std::string text = fmt::format("  {:<{}} {:>16} {:>16}", "fastener", width, head("delta", length), head("F", force));
-  for (Index d = 0; d < n_components; ++d)
-    text += fmt::format(" {:>14}", head(fmt::format("F_{}", joint.axis_name(d)), force));
-  text += fmt::format(" {:>20} {:>9}\n", head("transferred", force), "share [%]");
+  std::string format = fmt::format("{{:<{}}} {{:>16.8g}} {{:>16.8g}}", width);
+  Table::Cells headings{"fastener", head("delta", length), head("F", force)};
+  for (Index d = 0; d < n_components; ++d) {
+    format += " {:>14.6g}";
+    headings.emplace_back(head("F_" + joint.axis_name(d), force));
+  }
+  headings.insert(headings.end(), {head("transferred", force), "share [%]"});
+  Table table(format + " {:>20.8g} {:>9.3f}", {headings});
   const VectorXd share = shares(joint, state.transferred_first);
   const VectorXd delta = magnitudes(step.delta, a), F = magnitudes(step.F, a);
   for (Index j = 0; j < std::ssize(F); ++j) {
-    text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g}", joint.short_name(joint.planes[j]), width, delta[j], F[j]);
-    for (Index d = 0; d < n_components; ++d)
-      text += fmt::format(" {:>14.6g}", rounded(step.F[j * a + d], state.largest_force));
-    text += fmt::format(" {:>20.8g} {:>9}\n", state.transferred_first[j],
-                        std::isfinite(share[j]) ? fmt::format("{:.3f}", share[j]) : "-");
+    Table::Cells cells{joint.short_name(joint.planes[j]), delta[j], F[j]};
+    for (Index d = 0; d < n_components; ++d) cells.emplace_back(rounded(step.F[j * a + d], state.largest_force));
+    cells.insert(cells.end(), {state.transferred_first[j], share[j]});
+    table.row(cells);
   }
-  return text;
+  return table.text();
 }
 
 std::string plate_table(const JointModel& joint, const JointState& state, std::size_t width) {
   const std::string force = unit(joint.units, 0, 1);
-  std::string text = fmt::format("  {:<{}} {:>16} {:>16} {:>20}\n", "on plate", width, head("applied", force),
-                                 head("fasteners", force), head("supports", force));
+  Table table(fmt::format("{{:<{}}} {{:>16.8g}} {{:>16.8g}} {{:>20.8g}}", width),
+              {{"on plate", head("applied", force), head("fasteners", force), head("supports", force)}});
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (const int axis : joint.axes) {
       const PlateState& plate = state.plates[i];
       const auto shown = [&](const Eigen::Vector2d& sum) { return rounded(sum[axis], state.largest_force); };
-      const std::string along = joint.n_directions() == 1 ? "" : fmt::format(" {}", rim::axis_names[axis]);
-      text += fmt::format("  {:<{}} {:>16.8g} {:>16.8g} {:>20.8g}\n", joint.plates[i].name + along, width,
-                          shown(plate.applied), shown(plate.by_fasteners), shown(plate.by_supports));
+      const std::string along = joint.n_directions() == 1 ? "" : " " + rim::axis_names[axis];
+      table.row(
+          {joint.plates[i].name + along, shown(plate.applied), shown(plate.by_fasteners), shown(plate.by_supports)});
     }
-  text += fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force, fastener by {:.1e}",
-                      state.out_of_balance, state.fasteners_out_of_balance);
-  if (state.plates_out_of_balance)
-    text += fmt::format(", sheet along axes without supports by {:.1e}", *state.plates_out_of_balance);
-  return text + "\n";
+  const auto& sheets = state.plates_out_of_balance;
+  return table.text() +
+         fmt::format("  equilibrium: worst row out of balance by {:.1e} of the largest force, fastener by {:.1e}{}\n",
+                     state.out_of_balance, state.fasteners_out_of_balance,
+                     sheets ? fmt::format(", sheet along axes without supports by {:.1e}", *sheets) : "");
 }
 
 /// Lines of the planes that have kept a set or dissipated energy.
@@ -122,140 +125,96 @@ std::string error_bar(const JointModel& joint, const formats::JointResult& resul
                      joint.name(joint.planes[plane]), step + 1);
 }
 
-/// The highest peak hoop stress of an increment with its error, and the holes whose peaks are not known; empty if no
-/// hole has one.
-std::string highest_peak(const JointModel& joint, const JointState& state) {
-  double highest = 0;
+/// Value, error and place of the highest peak at an increment, the first of several; empty if none is above 0.
+/// @param group Of its columns, "rim/" or "rim/near/".
+std::string highest(const formats::JointResult& result, const Units& units, const std::string& group, Index step) {
+  double value = 0;
   std::string text;
-  std::vector<std::string> unknown;
-  for (Index i = 0; i < std::ssize(joint.plates); ++i)
-    for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
-      const RimState& at = state.plates[i].rims[rim];
-      if (std::isnan(at.peak_hoop))
-        unknown.push_back(joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim]);
-      if (!(at.peak_hoop > highest)) continue;
-      highest = at.peak_hoop;
-      text = fmt::format(
-          "the highest peak is {:.6g} +- {:.1g} {} at {}:{}, {:.1f} degrees; the error is that of the sheets' "
-          "solutions, "
-          "not of the model\n",
-          at.peak_hoop, at.peak_error, unit(joint.units, -2, 1), joint.plates[i].name,
-          joint.plates[i].stresses.rim_hole[rim], at.peak_angle);
+  for (const auto& plate : result.plates)
+    for (Index i = 0; i < std::ssize(plate.holes.hole) && plate.columns.find(group + "peak_hoop"); ++i) {
+      const auto at = [&](const char* quantity) { return plate.columns[group + quantity](step, i); };
+      if (!(at("peak_hoop") > value)) continue;
+      value = at("peak_hoop");
+      text = fmt::format("{:.6g} +- {:.1g} {} at {}:{}, {:.1f} degrees", value, at("peak_error"), unit(units, -2, 1),
+                         plate.name, plate.holes.hole[i], at("peak_angle"));
     }
+  return text;
+}
+
+/// The highest peak hoop stress at an increment, the holes whose peaks are not known, and the highest hoop stress at a
+/// distance from the rims; each only if there is one.
+std::string highest_peaks(const formats::JointResult& result, const Units& units, Index step) {
+  std::string text;
+  const std::string peak = highest(result, units, "rim/", step), near = highest(result, units, "rim/near/", step);
+  std::vector<std::string> unknown;
+  std::optional<double> distance;
+  for (const auto& plate : result.plates) {
+    if (plate.holes.near_distance) distance = plate.holes.near_distance;
+    for (Index i = 0; i < std::ssize(plate.holes.hole); ++i)
+      if (std::isnan(plate.columns["rim/peak_hoop"](step, i)))
+        unknown.push_back(plate.name + ":" + plate.holes.hole[i]);
+  }
+  if (!peak.empty())
+    text = fmt::format("the highest peak is {}; the error is that of the sheets' solutions, not of the model\n", peak);
   if (!unknown.empty())
     text += fmt::format("the peak is not known at {}{}\n", program::listed(unknown),
-                        text.empty() ? "" : ", which may be higher");
+                        peak.empty() ? "" : ", which may be higher");
+  if (!near.empty())
+    text += fmt::format("{:g} {} from the rims the highest is {}\n", *distance, unit(units, 1, 0), near);
   return text;
-}
-
-/// The highest hoop stress at a distance from the rims at the last increment; empty if none is wanted or found.
-std::string highest_near(const formats::JointResult& result, const Units& units) {
-  double highest = 0;
-  std::string text;
-  for (const auto& plate : result.plates) {
-    const Index last = result.load_factor.size() - 1;
-    if (!plate.holes.near_distance || last < 0) continue;
-    const auto at = [&](const char* quantity, Index i) { return plate.columns[quantity](last, i); };
-    for (Index i = 0; i < std::ssize(plate.holes.hole); ++i)
-      if (at("rim/near/peak_hoop", i) > highest) {
-        highest = at("rim/near/peak_hoop", i);
-        text = fmt::format("{:g} {} from the rims the highest is {:.6g} +- {:.1g} {} at {}:{}, {:.1f} degrees\n",
-                           *plate.holes.near_distance, unit(units, 1, 0), highest, at("rim/near/peak_error", i),
-                           unit(units, -2, 1), plate.name, plate.holes.hole[i], at("rim/near/peak_angle", i));
-      }
-  }
-  return text;
-}
-
-/// Column of the summary's table.
-struct Column {
-  double RimState::*value;
-  const char* heading;
-  int width;
-  const char* format;
-  columns::Dimension unit = columns::ratio;  ///< printed below the heading, if it has one
-  bool needs_section = false, is_concentration = false;
-  const char* unknown = "-";
-};
-
-constexpr auto table_columns = std::to_array<Column>({
-    {&RimState::bearing_stress, "bearing stress", 14, "{:.6g}", columns::stress},
-    {&RimState::bypass_load, "bypass", 14, "{:.6g}", columns::force, true},
-    {&RimState::peak_hoop, "peak hoop", 14, "{:.6g}", columns::stress},
-    {&RimState::peak_angle, "at [deg]", 9, "{:.1f}"},
-    {&RimState::peak_error, "+-", 9, "{:.1e}", columns::ratio, false, false, "?"},
-    {&RimState::gross_concentration, "Kt gross", 8, "{:.3f}", columns::ratio, true, true},
-    {&RimState::net_concentration, "Kt net", 8, "{:.3f}", columns::ratio, true, true},
-    {&RimState::across, "reaction", 12, "{:.6g}", columns::force},
-});
-
-/// A row of the table. @param cell Text in each column, right-aligned.
-template <class Cell>
-std::string row(const std::string& name, Cell cell) {
-  std::string text = fmt::format("  {:<24}", name);
-  for (const auto& column : table_columns) text += fmt::format(" {:>{}}", cell(column), column.width);
-  return text + "\n";
 }
 
 /// Table of all holes of all plates at one increment; empty if no plate has stresses.
 std::string rim_table(const JointModel& joint, const JointState& state) {
-  std::string rows;
+  const std::string force = fmt::format("[{}]", unit(joint.units, 0, 1)),
+                    stress = fmt::format("[{}]", unit(joint.units, -2, 1));
+  Table table("{:<24} {:>14.6g} {:>14.6g} {:>14.6g} {:>9.1f} {:>9.1e} {:>8.3f} {:>8.3f} {:>12.6g}",
+              {{"hole", "bearing stress", "bypass", "peak hoop", "at [deg]", "+-", "Kt gross", "Kt net", "reaction"},
+               {"", stress, force, stress, "", "", "", "", force}});
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
-      const std::string& hole = joint.plates[i].stresses.rim_hole[rim];
+      const RimState& at = state.plates[i].rims[rim];
       const bool sections = HoleSections(joint.plates[i].stresses, rim).number() > 0;
-      rows += row(joint.plates[i].name + ":" + hole, [&](const Column& column) {
-        const double value = state.plates[i].rims[rim].*column.value;
-        if (column.value == &RimState::peak_error && std::isnan(state.plates[i].rims[rim].peak_hoop))
-          return std::string("-");
-        if (!std::isfinite(value) || (column.is_concentration && value == 0) || (column.needs_section && !sections))
-          return std::string(column.unknown);
-        return fmt::format(fmt::runtime(column.format), value == 0 ? 0 : value);
-      });
+      const auto known = [](double value, bool is_known) { return is_known ? value + 0.0 : NAN; };
+      const auto Kt = [&](double value) { return known(value, sections && value != 0); };
+      const bool lacks_error = std::isinf(at.peak_error) && !std::isnan(at.peak_hoop);
+      table.row({joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim], at.bearing_stress + 0.0,
+                 known(at.bypass_load, sections), at.peak_hoop + 0.0, at.peak_angle + 0.0,
+                 lacks_error ? Table::Cell("?") : at.peak_error, Kt(at.gross_concentration), Kt(at.net_concentration),
+                 at.across + 0.0});
     }
-  const auto unit_below = [&](const Column& each) {
-    const std::string unit = unit_of(each.unit, joint.units);
-    return unit == "1" ? "" : fmt::format("[{}]", unit);
-  };
-  return rows.empty() ? rows : row("hole", std::mem_fn(&Column::heading)) + row("", unit_below) + rows;
+  return table.text();
 }
 
 /// Table of all rims of contact at one increment; empty if there is none.
-std::string contact_table(const JointModel& joint, const formats::JointResult& result, Index step) {
-  std::string rows;
+std::string contact_table(const formats::JointResult& result, const Units& units, Index step) {
+  const std::string length = head("", unit(units, 1, 0)), stress = head("", unit(units, -2, 1));
+  Table table("{:<24} {:>14.6g} {:>10.2f} {:>10.2f} {:>10.2f} {:>14.6g} {:>9.1f} {:>14.6g}",
+              {{"contact", "gap", "touches", "from", "to", "peak pressure", "at", "gap left"},
+               {"", length, "[deg]", "[deg]", "[deg]", stress, "[deg]", length}});
   for (const auto& plate : result.plates)
     for (Index i = 0; i < std::ssize(plate.contact); ++i) {
       const auto at = [&](const char* quantity) { return plate.columns[quantity](step, i); };
-      rows += fmt::format("  {:<24} {:>14.6g} {:>10.2f} {:>10.2f} {:>10.2f} {:>14.6g} {:>9.1f} {:>14.6g}\n",
-                          plate.name + ":" + plate.contact[i].hole, plate.at_no_load.gap[i], at("contact/touching"),
-                          at("contact/from"), at("contact/to"), at("contact/peak_pressure"), at("contact/peak_angle"),
-                          at("contact/least_gap"));
+      table.row({plate.name + ":" + plate.contact[i].hole, plate.at_no_load.gap[i], at("contact/touching"),
+                 at("contact/from"), at("contact/to"), at("contact/peak_pressure"), at("contact/peak_angle"),
+                 at("contact/least_gap")});
     }
-  if (rows.empty()) return rows;
-  return fmt::format("  {:<24} {:>14} {:>10} {:>10} {:>10} {:>14} {:>9} {:>14}\n", "contact", "gap", "touches", "from",
-                     "to", "peak pressure", "at", "gap left") +
-         fmt::format("  {:<24} {:>14} {:>10} {:>10} {:>10} {:>14} {:>9} {:>14}\n", "",
-                     head("", unit(joint.units, 1, 0)), "[deg]", "[deg]", "[deg]", head("", unit(joint.units, -2, 1)),
-                     "[deg]", head("", unit(joint.units, 1, 0))) +
-         rows;
+  return table.text();
 }
 
 /// Table of all crack tips at one increment; empty if there is none.
-std::string crack_table(const JointModel& joint, const formats::JointResult& result, Index step) {
-  std::string rows;
+std::string crack_table(const formats::JointResult& result, const Units& units, Index step) {
+  const std::string length = head("", unit(units, 1, 0)), intensity = head("", unit(units, -1.5, 1));
+  Table table("{:<24} {:>12.6g} {:>14.6g} {:>9.1e} {:>14.6g} {:>9.1e}",
+              {{"crack", "length", "K_I", "+-", "K_II", "+-"}, {"", length, intensity, "", intensity}});
+  const auto error = [](double value) { return std::isfinite(value) ? Table::Cell(value) : "inf"; };
   for (const auto& plate : result.plates)
     for (Index t = 0; t < std::ssize(plate.tips.tip); ++t) {
       const auto at = [&](const char* quantity) { return plate.columns[quantity](step, t); };
-      rows += fmt::format("  {:<24} {:>12.6g} {:>14.6g} {:>9.1e} {:>14.6g} {:>9.1e}\n",
-                          plate.name + ":" + plate.tips.tip[t], plate.tips.length[t], at("crack/K_I"),
-                          at("crack/K_I_error"), at("crack/K_II"), at("crack/K_II_error"));
+      table.row({plate.name + ":" + plate.tips.tip[t], plate.tips.length[t], at("crack/K_I"),
+                 error(at("crack/K_I_error")), at("crack/K_II"), error(at("crack/K_II_error"))});
     }
-  if (rows.empty()) return rows;
-  const std::string intensity = head("", unit(joint.units, -1.5, 1));
-  return fmt::format("  {:<24} {:>12} {:>14} {:>9} {:>14} {:>9}\n", "crack", "length", "K_I", "+-", "K_II", "+-") +
-         fmt::format("  {:<24} {:>12} {:>14} {:>9} {:>14}\n", "", head("", unit(joint.units, 1, 0)), intensity, "",
-                     intensity) +
-         rows;
+  return table.text();
 }
 
 /// A line for each rim with interference.
@@ -295,7 +254,7 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
       !all && std::ranges::any_of(path.steps, [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
   for (Index i = all ? 0 : states.size() - 1; i < std::ssize(states); ++i)
     if (const std::string table =
-            rim_table(joint, states[i]) + contact_table(joint, result, i) + crack_table(joint, result, i);
+            rim_table(joint, states[i]) + contact_table(result, joint.units, i) + crack_table(result, joint.units, i);
         !table.empty())
       text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
                           past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",
@@ -345,8 +304,8 @@ std::string summary(const JointScene& scene, const JointModel& joint, const Load
                         arm > 0 ? unit(joint.units, 1, 1) + "/rad" : unit(joint.units, -1, 1));
   }
   return text + legend + interference_lines(joint, path, result) +
-         stress_tables(joint, path, states, result, all_stresses) + highest_peak(joint, states.back()) +
-         highest_near(result, joint.units) + secondary_bending(joint, states.back());
+         stress_tables(joint, path, states, result, all_stresses) + highest_peaks(result, joint.units, last) +
+         secondary_bending(joint, states.back());
 }
 
 }  // namespace fastjoint::stage3

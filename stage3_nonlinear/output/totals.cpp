@@ -9,6 +9,7 @@
 
 #include "stage3_nonlinear/output/csv.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
+#include "stage3_nonlinear/output/table.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -77,33 +78,28 @@ std::string row_table(const JointResult& a, const Units& units, Index step) {
       carried[plate.rows.direction[i]] += std::abs(plate.columns["row/force"](step, i));
   if (carried.empty()) return {};
   const std::string along = std::ranges::max_element(carried, {}, [](const auto& each) { return each.second; })->first;
-  const auto shown = [](double force) { return std::isfinite(force) ? fmt::format("{:.8g}", force + 0.0) : "-"; };
-  std::string lines;
+  const std::string force = fmt::format("[{}]", unit(units, 0, 1)), length = fmt::format("[{}]", unit(units, 1, 0));
+  Table table("{:<24} {:>12.6g} {:>6} {:>16.8g} {:>16.8g} {:>16.8g}",
+              {{"rows of holes on", along, "holes", "fasteners", "sheet before", "sheet after"},
+               {"", length, "", force, force, force}});
   for (const auto& plate : a.plates) {
     const auto& rows = plate.rows;
-    const auto cell = [&](const char* path, Index i) { return shown(plate.columns[path](step, i)); };
+    const auto at = [&](const char* path, Index i) { return plate.columns[path](step, i) + 0.0; };
     if (std::ranges::count(rows.direction, along) < 2) continue;
     for (Index i = 0; i < std::ssize(rows.direction); ++i)
       if (rows.direction[i] == along)
-        lines += fmt::format("  {:<24} {:>12.6g} {:>6} {:>16} {:>16} {:>16}\n", plate.name, rows.at[i], rows.holes[i],
-                             cell("row/force", i), cell("row/before", i), cell("row/after", i));
+        table.row({plate.name, rows.at[i], fmt::to_string(rows.holes[i]), at("row/force", i), at("row/before", i),
+                   at("row/after", i)});
   }
-  if (lines.empty()) return lines;
-  const std::string force = fmt::format("[{}]", unit(units, 0, 1));
-  return fmt::format("  {:<24} {:>12} {:>6} {:>16} {:>16} {:>16}\n", "rows of holes on", along, "holes", "fasteners",
-                     "sheet before", "sheet after") +
-         fmt::format("  {:<24} {:>12} {:>6} {:>16} {:>16} {:>16}\n", "", fmt::format("[{}]", unit(units, 1, 0)), "",
-                     force, force, force) +
-         lines;
+  return table.text();
 }
 
 std::string external_table(const JointResult& a, const Units& units, Index step) {
-  std::string lines;
+  Table table("{:<24} {:<14} {:>16.8g} {}", {{"external boundaries"}});
   for (const auto& plate : a.plates)
     for (const auto& [direction, of, at, quantity, value, its_unit] : totals(plate, units, step))
-      if (direction.empty())
-        lines += fmt::format("  {:<24} {:<14} {:>16.8g} {}\n", plate.name + ":" + of, quantity, value + 0.0, its_unit);
-  return lines.empty() ? lines : "  external boundaries\n" + lines;
+      if (direction.empty()) table.row({plate.name + ":" + of, quantity, value + 0.0, its_unit});
+  return table.text();
 }
 
 }  // namespace fastjoint::stage3

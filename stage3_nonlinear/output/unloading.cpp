@@ -10,7 +10,7 @@
 namespace fastjoint::stage3 {
 namespace {
 
-/// LargestVector vector of a plane so far.
+/// The largest vector of a plane so far.
 class LargestVector {
  public:
   explicit LargestVector(Index n_directions) : largest_(VectorXd::Zero(n_directions)) {}
@@ -38,57 +38,53 @@ Index first_hole(const JointModel& joint, const ShearPlane& plane) {
   return first;
 }
 
-}  // namespace
-
-void warn_of_turning_friction(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                              std::vector<program::Warning>& result) {
-  constexpr double rounding = 1e-9;
-  const Index a = equations.n_directions();
-  std::vector<LargestVector> largest(equations.n_planes(), LargestVector(a));
+/// Warns of the first increment at which planes unload.
+/// @param unloads Of a plane at an increment; called for all planes of the increments up to that.
+template <class Unloads>
+void warn_of_first(const char* code, const char* text, const JointModel& joint, const LoadPath& path, Unloads unloads,
+                   WarningList& list) {
   for (const PathStep& step : path.steps) {
-    std::vector<Index> turned;
-    for (Index j = 0; j < std::ssize(largest); ++j) {
-      const ShearPlane& plane = joint.planes[j];
-      const Index n_holes = std::ssize(joint.holes(plane));
-      const bool has_friction = equations.parameters.mu.segment(first_hole(joint, plane), n_holes).maxCoeff() > 0;
-      if (has_friction && largest[j].falls_short(step.F.segment(j * a, a), rounding * step.scale)) turned.push_back(j);
-    }
-    if (turned.empty()) continue;
-    result.push_back(
-        {"friction-turns",
-         fmt::format("{} unloads {}, where friction still acts as if it slipped in the direction of the force: real "
-                     "friction first sticks and then turns, so that real forces differ from this increment on",
-                     increment_text(path, step), names(joint, turned))});
+    std::vector<Index> planes;
+    for (Index j = 0; j < joint.n_planes(); ++j)
+      if (unloads(step, j)) planes.push_back(j);
+    if (planes.empty()) continue;
+    list.add(code, "{} unloads {}{}", increment_text(path, step), names(joint, planes), text);
     return;
   }
 }
 
+}  // namespace
+
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                       std::vector<program::Warning>& result) {
+                       WarningList& list) {
   const ContactCorners corners(equations);
   const Index a = equations.n_directions();
-  std::vector<LargestVector> largest(equations.n_planes(), LargestVector(a));
-  for (const PathStep& step : path.steps) {
-    std::vector<Index> unloaded;
-    for (Index j = 0; j < std::ssize(largest); ++j) {
-      const double before = largest[j].magnitude();
-      const bool falls = largest[j].falls_short(step.c.segment(j * a, a));
-      const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
-      const Contact& contact = equations.contacts[j];
-      const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
-      if (contact.law->remembers()) continue;
-      const bool curved =
-          !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(step.c, k * gap);
-      if (falls && (curved || std::any_of(corners.of(j).begin(), corners.of(j).end(), passed))) unloaded.push_back(j);
-    }
-    if (unloaded.empty()) continue;
-    result.push_back(
-        {"permanent-set",
-         fmt::format("{} unloads {} along its loading curve: this law keeps no permanent set, but real fasteners do, "
-                     "so that real forces differ from this increment on",
-                     increment_text(path, step), names(joint, unloaded))});
-    return;
-  }
+  std::vector<LargestVector> deflections(equations.n_planes(), LargestVector(a)), forces = deflections;
+  const auto unloads = [&](const PathStep& step, Index j) {
+    const double before = deflections[j].magnitude();
+    const bool falls = deflections[j].falls_short(step.c.segment(j * a, a));
+    const Contact& contact = equations.contacts[j];
+    if (!falls || contact.law->remembers()) return false;
+    const double k = contact.stiffness, gap = contact.law->gap(contact.clearance);
+    const auto passed = [&](const Corner& each) { return each.kind != CornerKind::contact && each.at < before; };
+    const bool curved =
+        !contact.law->corners(k, contact.clearance) && before > k * gap + corners.nearness(step.c, k * gap);
+    return curved || std::ranges::any_of(corners.of(j), passed);
+  };
+  const auto turns = [&](const PathStep& step, Index j) {
+    constexpr double rounding = 1e-9;
+    const ShearPlane& plane = joint.planes[j];
+    const auto mu = equations.parameters.mu.segment(first_hole(joint, plane), std::ssize(joint.holes(plane)));
+    return mu.maxCoeff() > 0 && forces[j].falls_short(step.F.segment(j * a, a), rounding * step.scale);
+  };
+  warn_of_first("permanent-set",
+                " along its loading curve: this law keeps no permanent set, but real fasteners do, so "
+                "that real forces differ from this increment on",
+                joint, path, unloads, list);
+  warn_of_first("friction-turns",
+                ", where friction still acts as if it slipped in the direction of the force: real "
+                "friction first sticks and then turns, so that real forces differ from this increment on",
+                joint, path, turns, list);
 }
 
 }  // namespace fastjoint::stage3

@@ -24,8 +24,7 @@ const PathStep* first_step(const LoadPath& path, Is is) {
 
 /// Warns of each plane at the first increment at which it is beyond the last point of its law.
 void warn_beyond_last_point(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                            std::vector<program::Warning>& result) {
-  std::vector<Doubt> beyond;
+                            WarningList& list) {
   for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     const Contact& contact = equations.contacts[j];
     const double last = contact.law->last_delta(contact.clearance);
@@ -34,12 +33,11 @@ void warn_beyond_last_point(const JointModel& joint, const JointEquations& equat
       return std::abs(delta(step)) > last && !(contact.one_sided && delta(step) < 0);
     };
     if (const PathStep* step = first_step(path, is_beyond))
-      beyond.emplace_back(std::abs(delta(*step)) / last,
-                          fmt::format("{}: delta = {:.6g} at {} is beyond the last point {:.6g} of its law (gap "
-                                      "included), which is extrapolated there",
-                                      joint.name(joint.planes[j]), delta(*step), increment_text(path, *step), last));
+      list.doubt("beyond-last-point", std::abs(delta(*step)) / last,
+                 "{}: delta = {:.6g} at {} is beyond the last point {:.6g} of its law (gap included), which is "
+                 "extrapolated there",
+                 joint.name(joint.planes[j]), delta(*step), increment_text(path, *step), last);
   }
-  add_worst(result, "beyond-last-point", beyond);
 }
 
 /// Motion of each plate by its discs: "plate \"b\" by 1 along x".
@@ -58,56 +56,54 @@ std::string motion_text(const JointModel& joint, const VectorXd& motion) {
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
-void warn_of_soft_plates(const JointModel& joint, std::vector<program::Warning>& result) {
+void warn_of_soft_plates(const JointModel& joint, WarningList& list) {
   constexpr double soft = 1e-8;
   const auto stiffness = [](const PlateModel& plate) { return plate.S.diagonal().maxCoeff(); };
   const PlateModel& stiffest = *std::ranges::max_element(joint.plates, {}, stiffness);
   for (const auto& plate : joint.plates)
     if (const double ratio = stiffness(plate) / stiffness(stiffest); ratio > 0 && ratio < soft)
-      result.push_back(
-          {"plate-soft",
-           fmt::format(
-               "plate \"{}\" is {:.1e} times as stiff as plate \"{}\": check that both have the same units, and "
-               "check its moduli and thickness",
-               plate.name, ratio, stiffest.name)});
+      list.add("plate-soft",
+               "plate \"{}\" is {:.1e} times as stiff as plate \"{}\": check that both have the same units, and check "
+               "its moduli and thickness",
+               plate.name, ratio, stiffest.name);
 }
 
 /// Warns once for each law.
-void warn_of_bearing_twice(const JointModel& joint, std::vector<program::Warning>& result) {
+void warn_of_bearing_twice(const JointModel& joint, WarningList& list) {
   std::set<std::string> said;
   for (const auto& plane : joint.planes) {
     const auto source = plane.law->source();
     if (!source || !source->bearing_of_plate) continue;
     for (const HoleModel& hole : joint.holes(plane))
       if (joint.plates[hole.plate].on_springs[hole.disc / joint.n_directions()] && said.insert(plane.law_name).second)
-        result.push_back(
-            {"bearing-twice",
-             fmt::format("/laws/{}: mode \"total\" includes the bearing of the sheets, which the springs around hole "
-                         "\"{}\" represent already: the joint is too soft; take \"fastener only\"",
-                         plane.law_name, joint.name(hole))});
+        list.add("bearing-twice",
+                 "/laws/{}: mode \"total\" includes the bearing of the sheets, which the springs around hole \"{}\" "
+                 "represent already: the joint is too soft; take \"fastener only\"",
+                 plane.law_name, joint.name(hole));
   }
 }
 
-void warn_of_mechanisms(const JointModel& joint, const LoadPath& path, std::vector<program::Warning>& result) {
-  const auto say = [&](bool limit, const char* code, const char* text, std::vector<Index> Mechanism::*planes) {
-    const auto is = [&](const PathStep& step) { return step.check.mechanism && step.check.at_limit_load() == limit; };
-    if (const PathStep* step = first_step(path, is))
-      result.push_back({code, fmt::format(fmt::runtime(text), increment_text(path, *step),
-                                          names(joint, *step->check.mechanism.*planes),
-                                          motion_text(joint, step->check.mechanism->motion))});
+void warn_of_mechanisms(const JointModel& joint, const LoadPath& path, WarningList& list) {
+  const auto first = [&](bool limit) {
+    return first_step(
+        path, [&](const PathStep& each) { return each.check.mechanism && each.check.at_limit_load() == limit; });
   };
-  say(false, "free-within-gaps",
-      "at {} the joint is a mechanism within the gaps of {}: the forces are determinate, the displacements are not; "
-      "in proportion, it is free to move {}",
-      &Mechanism::open);
-  say(true, "limit-load",
-      "limit load reached at {}: the laws of {} are at their maximum force, and the joint has no other stiffness; it "
-      "moves without more load, in proportion {}",
-      &Mechanism::level);
+  if (const PathStep* step = first(false))
+    list.add("free-within-gaps",
+             "at {} the joint is a mechanism within the gaps of {}: the forces are determinate, the displacements are "
+             "not; in proportion, it is free to move {}",
+             increment_text(path, *step), names(joint, step->check.mechanism->open),
+             motion_text(joint, step->check.mechanism->motion));
+  if (const PathStep* step = first(true))
+    list.add("limit-load",
+             "limit load reached at {}: the laws of {} are at their maximum force, and the joint has no other "
+             "stiffness; it moves without more load, in proportion {}",
+             increment_text(path, *step), names(joint, step->check.mechanism->level),
+             motion_text(joint, step->check.mechanism->motion));
 }
 
 void warn_of_other_solutions(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                             std::vector<program::Warning>& result) {
+                             WarningList& list) {
   if (const auto planes = planes_that_may_snap(equations); !planes.empty() && !path.steps.empty()) {
     const char* found =
         !path.left ? "the one given is followed from no load"
@@ -116,31 +112,27 @@ void warn_of_other_solutions(const JointModel& joint, const JointEquations& equa
               "its limit load, and the one given was found from a first guess (\"initial\")"
             : "it is followed from no load up to load factor {:.6g}, where it jumps: the one given from there on is "
               "another";
-    result.push_back(
-        {"several-solutions",
-         fmt::format("the law of {} falls more steeply than the stiffness of the plates: the solution may be one of "
-                     "several; {}",
-                     names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0))});
+    list.add(
+        "several-solutions",
+        "the law of {} falls more steeply than the stiffness of the plates: the solution may be one of several; {}",
+        names(joint, planes), fmt::format(fmt::runtime(found), path.left ? path.left->load_factor : 0));
   }
   const auto snaps = [](const PathStep& step) { return step.check.unstable > 0 && !step.check.locking; };
   if (const PathStep* step = first_step(path, snaps))
-    result.push_back(
-        {"unstable-balance",
-         fmt::format(
-             "at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality "
-             "it snaps through before; take a law that does not fall, or prescribe displacements instead of forces",
+    list.add("unstable-balance",
+             "at {} the joint balances, but is unstable in {} (negative eigenvalues of its tangent): in reality it "
+             "snaps through before; take a law that does not fall, or prescribe displacements instead of forces",
              increment_text(path, *step),
-             step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable))});
+             step->check.unstable == 1 ? "one way" : fmt::format("{} ways", step->check.unstable));
 }
 
 /// Warns of a hole that two externals press along x and y, each on the half of the rim that faces it: no pin does.
 void warn_of_oblique_bearing(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                             std::vector<program::Warning>& result) {
+                             WarningList& list) {
   if (path.steps.empty()) return;
+  constexpr double hardly = 1e-3;
   const VectorXd given = equations.parameters.given_at(path.steps.back().load_factor);
   const auto loads = loads_of(joint);
-  constexpr double hardly = 1e-3;
-  std::vector<Doubt> oblique;
   for (std::size_t i = 0; i < loads.size(); ++i)
     for (std::size_t k = 0; k < i; ++k) {
       const PlateModel& plate = joint.plates[loads[i].plate];
@@ -150,54 +142,44 @@ void warn_of_oblique_bearing(const JointModel& joint, const JointEquations& equa
       const double a = std::abs(given[Index(i)]), b = std::abs(given[Index(k)]);
       if (!presses(loads[i]) || !presses(loads[k]) || std::min(a, b) <= hardly * std::max(a, b)) continue;
       if (plate.traction_hole[loads[i].at] != plate.traction_hole[loads[k].at]) continue;
-      oblique.emplace_back(
-          std::min(a, b),
-          fmt::format(
-              "externals \"{0}\" and \"{1}\" press hole \"{2}:{3}\" along x and y at once, each on its own half "
-              "of the rim: a pin presses where the load points, and its peak hoop stress is higher, by a third "
-              "at 45 degrees; let a fastener in contact bring the load, or draw the sheet with the load along an "
-              "axis",
-              plate.tractions[loads[k].at], plate.tractions[loads[i].at], plate.name,
-              plate.traction_hole[loads[i].at]));
+      list.doubt("bearing-oblique", std::min(a, b),
+                 "externals \"{0}\" and \"{1}\" press hole \"{2}:{3}\" along x and y at once, each on its own half of "
+                 "the rim: a pin presses where the load points, and its peak hoop stress is higher, by a third at 45 "
+                 "degrees; let a fastener in contact bring the load, or draw the sheet with the load along an axis",
+                 plate.tractions[loads[k].at], plate.tractions[loads[i].at], plate.name,
+                 plate.traction_hole[loads[i].at]);
     }
-  add_worst(result, "bearing-oblique", oblique);
 }
 
 /// Sentence about self-locking. @param factor Friction reserve, at most 1.
 std::string locking_text(double factor) {
   return fmt::format(
       "with friction {:.4g} times as large the joint is self-locking: friction alone carries the load there, and "
-      "beyond "
-      "it a solution may not exist or not be unique",
+      "beyond it a solution may not exist or not be unique",
       factor);
 }
 
-void warn_of_locking(const LoadPath& path, std::vector<program::Warning>& result) {
+void warn_of_locking(const LoadPath& path, WarningList& list) {
   if (const PathStep* step = first_step(path, [](const PathStep& each) { return each.check.locking.has_value(); }))
-    result.push_back(
-        {"self-locking", fmt::format("at {}, {}", increment_text(path, *step), locking_text(*step->check.locking))});
+    list.add("self-locking", "at {}, {}", increment_text(path, *step), locking_text(*step->check.locking));
 }
 
 /// Warns of the rims of contact that stick, at the first increment of each.
 void warn_of_sticking(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
-                      std::vector<program::Warning>& result) {
-  std::vector<Doubt> sticking;
-  Index rim = 0;
-  for (const auto& plate : joint.plates)
-    for (const auto& contact : plate.contact) {
-      const RimProblem& problem = *equations.rims[rim];
-      const RimContact& its = problem.contact();
-      const auto sticks = [&](const PathStep& step) {
-        return its.mu() > 0 && !problem.solve(equations.of_rim(step.c, rim)).friction.slips;
-      };
-      if (const PathStep* step = first_step(path, sticks))
-        sticking.emplace_back(its.mu(),
-                              fmt::format("at {} the rim of hole \"{}:{}\" sticks: friction {} could carry more "
-                                          "than pressure does, and carries as much",
-                                          increment_text(path, *step), plate.name, contact.hole, its.mu()));
-      ++rim;
-    }
-  add_worst(result, "rim-sticks", sticking);
+                      WarningList& list) {
+  const auto names_of_rims = joint.rims();
+  for (Index rim = 0; rim < std::ssize(names_of_rims); ++rim) {
+    const RimProblem& problem = *equations.rims[rim];
+    const double mu = problem.contact().mu();
+    const auto sticks = [&](const PathStep& step) {
+      return mu > 0 && !problem.solve(equations.of_rim(step.c, rim)).friction.slips;
+    };
+    if (const PathStep* step = first_step(path, sticks))
+      list.doubt(
+          "rim-sticks", mu,
+          "at {} the rim of hole \"{}\" sticks: friction {} could carry more than pressure does, and carries as much",
+          increment_text(path, *step), names_of_rims[rim], mu);
+  }
 }
 
 }  // namespace
@@ -213,27 +195,19 @@ std::string names(const JointModel& joint, const std::vector<Index>& planes) {
 }
 
 std::vector<program::Warning> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
-  std::vector<program::Warning> result;
-  warn_of_soft_plates(joint, result);
-  warn_of_bearing_twice(joint, result);
-  warn_of_oblique_bearing(joint, equations, path, result);
-  warn_beyond_last_point(joint, equations, path, result);
-  warn_of_mechanisms(joint, path, result);
-  warn_of_other_solutions(joint, equations, path, result);
-  warn_of_locking(path, result);
-  warn_of_unloading(joint, equations, path, result);
-  warn_of_turning_friction(joint, equations, path, result);
-  warn_of_sticking(joint, equations, path, result);
+  WarningList list;
+  warn_of_soft_plates(joint, list);
+  warn_of_bearing_twice(joint, list);
+  warn_of_oblique_bearing(joint, equations, path, list);
+  warn_beyond_last_point(joint, equations, path, list);
+  warn_of_mechanisms(joint, path, list);
+  warn_of_other_solutions(joint, equations, path, list);
+  warn_of_locking(path, list);
+  warn_of_unloading(joint, equations, path, list);
+  warn_of_sticking(joint, equations, path, list);
+  auto result = list.all();
   for (auto& each : result) each.text.insert(0, joint.file + ": ");
   return result;
-}
-
-void add_worst(std::vector<program::Warning>& warnings, const char* code, const std::vector<Doubt>& kind) {
-  if (kind.empty()) return;
-  const std::string& worst = std::ranges::max_element(kind, {}, &Doubt::first)->second;
-  warnings.push_back({code, kind.size() == 1
-                                ? worst
-                                : fmt::format("{} ({} more of this kind, this is the worst)", worst, kind.size() - 1)});
 }
 
 std::string failure_message(const JointScene& scene, const CaseScene& its, const JointModel& joint,
@@ -242,9 +216,9 @@ std::string failure_message(const JointScene& scene, const CaseScene& its, const
   const std::string before = program::counted(failure.increment, "increment");
   const std::string kept = fmt::format("{} holds the {} before{} (complete = 0).", output, before,
                                        its.name.empty() ? "" : " of this case, and the other cases");
-  const std::string increment = fmt::format("{}increment {} of {} (load factor {:.6g})",
-                                            its.name.empty() ? "" : fmt::format("case \"{}\": ", its.name),
-                                            failure.increment + 1, path.n_increments, failure.load_factor);
+  const std::string of_case = its.name.empty() ? "" : fmt::format("case \"{}\": ", its.name);
+  const std::string increment = fmt::format("{}increment {} of {} (load factor {:.6g})", of_case, failure.increment + 1,
+                                            path.n_increments, failure.load_factor);
   if (failure.unbalanced)
     return fmt::format(
         "{}: {} converged, but {} is out of balance by {:.1e} of the largest force, allowed {:.1e}. {} {}", scene.file,
@@ -264,8 +238,7 @@ std::string failure_message(const JointScene& scene, const CaseScene& its, const
         "converge. {} {}Take smaller loads or displacements, or more or stronger fasteners; a joint without these "
         "shows "
         "the load of the others after their failure",
-        scene.file, its.name.empty() ? "" : fmt::format("case \"{}\": ", its.name), failure.reached,
-        names(joint, failure.level),
+        scene.file, of_case, failure.reached, names(joint, failure.level),
         failure.limit ? fmt::format(", and load factor {:.6g} is an upper bound of the limit load", *failure.limit)
                       : "",
         increment, kept, locking);

@@ -4,6 +4,7 @@
 
 The sweep kills a study 100 times, and takes a million samples for its memory."""
 import json
+import math
 import os
 import random
 import resource
@@ -303,22 +304,50 @@ def grids_and_tables(folder):
     assert "slices and --sample would not be" in run(folder, joint, {"samples": 3, "variables": [EACH_CLEARANCE]}, "--sample", "1", status=2)
 
 
+def margins(folder):
+    """One spring whose load is normal: P(margin < m) is that of a load above P_su / (1 + m)."""
+    P, deviation, P_su, least, n = 40.0, 0.1, 46.0, 0.1, 40000
+    row_of_pins(folder, 1, 1e9, "one")
+    joint = joint_of("one", 1, P) | {"margins": {"checks": [{"check": "fastener shear", "name": "shear", "P_su": P_su}, {"check": "fastener shear", "P_su": P_su}]}}
+    load = {"name": "load", "at": "/loads/0/force", "use": "factor", "distribution": {"type": "normal", "mean": 1, "deviation": deviation}}
+    said = run(folder, joint, {"samples": n, "seed": 3, "variables": [load], "outputs": ["margins"],
+                               "limits": {"shear": least, "force": {"1": 1.2 * P}}})
+    above = lambda factor: 0.5 * math.erfc((factor - 1) / deviation / math.sqrt(2))  # noqa: E731
+    with h5py.File(folder / "study.h5") as study:
+        of = study["statistics/utilisation"]
+        assert list(of["of"].asstr()) == ["shear: 1", "fastener shear: 1"]
+        for i, m in enumerate((least, 0)):
+            near(f"limit of margin {m}", of["limits"][i], 1 / (1 + m), 1e-12)
+            near(f"P(margin < {m})", of["exceeds"][i], above(P_su / P / (1 + m)), 0.05)
+            assert of["exceeds_low"][i] < of["exceeds"][i] < of["exceeds_high"][i]
+        near("limit of a fastener", study["statistics/force/exceeds"][0], above(1.2), 0.1)
+        near("utilisation in the middle", of["middle"][1], P / P_su, 1e-9)
+        assert np.allclose(study["samples/utilisation"][:, 1] * P_su, study["samples/force"][:, 0], rtol=1e-12)
+    assert "P(> its limit)" in said and "utilisation" in said, said
+    joint["margins"]["checks"].pop(0)
+    assert "P(margin < 0)" in run(folder, joint, {"samples": 20, "seed": 3, "variables": [load], "outputs": ["margins"]})
+    for limits, text in (({"shear": 0.1}, "force, peak, K_I, fastener shear"), ({"force": {"2": 1}}, "/limits/force/2: no fastener; allowed: 1")):
+        assert text in run(folder, joint, {"samples": 20, "seed": 3, "variables": [load], "limits": limits}, status=2), text
+    del joint["margins"]
+    assert "the joint has no checks" in run(folder, joint, {"samples": 20, "seed": 3, "variables": [load], "outputs": ["margins"]}, status=2)
+
+
 def memory(folder):
-    """It does not depend on the number of samples."""
+    """Statistics have the numbers of all samples at once, here of one group of two forces, with ranks and variables."""
     most = {}
     for n in (20000, 1000000 if SWEEP else 200000):
         study = {"samples": n, "seed": 1, "variables": [EACH_CLEARANCE]}
         run(folder, joint_of("two", 2, 200), study, "--quiet", "--timings", "times.json")
         most[n] = json.loads((folder / "times.json").read_text())["peak_memory_bytes"]
     few, many = most.values()
-    assert many < few + 8e6, most  # rank correlations keep the first 100 000 samples
+    assert many < few + 8 * 8 * (1000000 if SWEEP else 200000), most
     print(f"memory by samples: {most}")
 
 
 with tempfile.TemporaryDirectory() as name:
     os.environ.setdefault("OMP_NUM_THREADS", "1")
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    for check in (closed_forms, numbers_of_numpy, samples_are_runs, same_bytes, kills, failures, bad_studies, rare_friction, grids_and_tables, memory):
+    for check in (closed_forms, numbers_of_numpy, samples_are_runs, same_bytes, kills, failures, bad_studies, rare_friction, grids_and_tables, margins, memory):
         before = time.time()
         check(Path(name))
         print(f"{check.__name__}: {time.time() - before:.1f} s", flush=True)
