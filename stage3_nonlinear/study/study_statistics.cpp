@@ -121,6 +121,10 @@ class Statistics {
     const Index n = std::ssize(its.of), v = std::ssize(a_.study.variables), levels = std::ssize(quantile_levels);
     formats::StudyGroup& group = result_.groups.emplace_back();
     group.name = its.name, group.unit = unit_of(its.kind->dimension, a_.units), group.of = its.of;
+    const std::vector<double>& limits = its.kind->limit;
+    const bool is_one = std::ranges::adjacent_find(limits, std::ranges::not_equal_to()) == limits.end();
+    group.limit = is_one ? limits[0] : infinite;
+    group.limits = its.is_largest ? VectorXd::Constant(1, group.limit) : VectorXd(VectorXd::Map(limits.data(), n));
     for (VectorXd* each : {&group.middle, &group.mean, &group.deviation, &group.by_sensitivities, &group.exceeds,
                            &group.exceeds_low, &group.exceeds_high})
       each->resize(n);

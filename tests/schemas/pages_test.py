@@ -24,7 +24,8 @@ UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/len
          "of bypass_error": "force", "of bearing_stress": "force/length^2", "of peak_hoop": "force/length^2", "of peak_error": "force/length^2",
          "of contact_pressure": "force/length^2", "of peak_angle": "deg", "of against_slip": "deg", "of gross_concentration": "1",
          "of net_concentration": "1", "of net_stress": "force/length^2", "of bypass_stress": "force/length^2", "of bypass_across": "force/length^2", "of bypass_direction": "deg",
-         "of net_direction": "deg", "of K_I": "force/length^1.5", "of largest_K_I": "force/length^1.5", "of K_II": "force/length^1.5"}  # of a study's numbers
+         "of net_direction": "deg", "of K_I": "force/length^1.5", "of largest_K_I": "force/length^1.5", "of K_II": "force/length^1.5",
+         "of utilisation": "1", "of largest_utilisation": "1"}  # of a study's numbers
 JOINT = {
     "format": "joint", "version": 1,
     "plates": {"center": "center.matrices.h5", "doubler": "doubler.matrices.h5"},
@@ -35,7 +36,7 @@ JOINT = {
     "margins": {"checks": [{"check": "peak", "limit": 1000}]},
 }
 CRACK = {"from": "hole:1", "angle": 90, "length": 0.1}
-STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements", "cracks"],
+STUDY = {"format": "study", "version": 1, "samples": 4, "seed": 1, "outputs": ["peaks", "displacements", "cracks", "margins"],
          "variables": [{"at": "/laws/bolt/A", "distribution": {"type": "uniform", "from": 900, "to": 1100}}]}
 
 
