@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "common/formats/joint_result.hpp"
 
-#include <algorithm>
+#include <stdexcept>
 
 namespace fastjoint::formats {
 
@@ -234,9 +234,20 @@ void write_joint(h5::Writer& file, const JointResult& a) {
 }  // namespace
 
 std::vector<std::string> PlateHistory::names(Of of) const {
-  std::vector<std::string> all;
-  if (of == Of::contact) std::ranges::transform(contact, std::back_inserter(all), &ContactRim::hole);
-  return of == Of::hole ? holes.hole : of == Of::external ? external_id : of == Of::tip ? tips.tip : all;
+  std::vector<std::string> rims;
+  for (const auto& rim : contact) rims.push_back(rim.hole);
+  switch (of) {
+    case Of::hole:
+      return holes.hole;
+    case Of::external:
+      return external_id;
+    case Of::tip:
+      return tips.tip;
+    case Of::contact:
+      return rims;
+    default:
+      throw std::logic_error("things without names cannot stand in an envelope or a study");
+  }
 }
 
 void write(const std::string& path, const JointResult& a) {

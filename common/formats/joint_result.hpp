@@ -69,7 +69,8 @@ struct PlateHistory {
   std::string matrices_digest{}, plate_digest{};  ///< digests of its MATRICES.h5 and PLATE.h5; empty if unknown
   columns::Columns columns{};
 
-  /// Names of its things of one kind, for the kinds that have names.
+  /// Names of its things of one kind: holes, externals, tips or rims of contact, which alone may stand in envelopes and
+  /// studies.
   [[nodiscard]] std::vector<std::string> names(columns::Of of) const;
 };
 

@@ -1,47 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <utility>
 
-#include "common/count.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/results/contact_quantities.hpp"
-#include "stage3_nonlinear/results/hole_quantities.hpp"
+#include "stage3_nonlinear/results/crack_quantities.hpp"
 #include "stage3_nonlinear/results/joint_quantities.hpp"
 #include "stage3_nonlinear/results/near_peaks.hpp"
 #include "stage3_nonlinear/results/rim_stresses.hpp"
-#include "stage3_nonlinear/results/row_forces.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
-
-/// The things of a plate that quantities are of.
-formats::PlateHistory things_of(const PlateModel& plate) {
-  formats::PlateHistory a;
-  a.name = plate.name;
-  a.materials = plate.materials;
-  a.matrices_digest = plate.matrices_digest;
-  a.plate_digest = plate.plate_digest;
-  for (const Index i : plate.discs) {
-    a.disc_hole.push_back(plate.hole_of(i));
-    a.disc_direction.emplace_back(rim::axis_names[plate.axis_of(i)]);
-  }
-  a.external_id = plate.externals;
-  a.traction_id = plate.tractions;
-  a.traction_bearing = names_of(plate.traction_bearing);
-  a.traction_bearing.resize(plate.tractions.size());
-  a.traction_arm = plate.traction_arm;
-  a.traction_arm.resize(plate.tractions.size());
-  a.contact = plate.contact;
-  for (Index i = 0; i < std::ssize(plate.contact); ++i) {
-    a.waves.push_back(plate.waves[i]);
-    a.waves.back().waves = formats::waves_of_field(plate.contact[i], plate.waves[i]);
-  }
-  a.friction_hole = plate.friction_hole;
-  a.friction_bearing = names_of(plate.friction_bearing);
-  a.border = plate.border;
-  a.tips = {plate.cracks.tip, plate.cracks.at, plate.cracks.length};
-  if (plate.stress_level) a.holes = holes_of(plate.stresses);
-  return a;
-}
 
 /// A plate at increments. @param errors Of its cracks.
 formats::PlateHistory plate_history(const std::vector<JointAt>& increments, const PlateModel& plate, Index at,
@@ -49,15 +17,10 @@ formats::PlateHistory plate_history(const std::vector<JointAt>& increments, cons
                                     const CrackErrors& errors) {
   formats::PlateHistory a = things_of(plate);
   a.at_no_load = std::move(at_no_load);
-  const auto rows = disc_rows(plate);
-  a.rows = row_list(rows);
   std::vector<PlateAt> its;
   for (const JointAt& increment : increments) its.push_back({increment, at});
-  std::vector<PlateGroup> groups{hole_quantities(plate), contact_quantities(plate)};
-  for (auto& group : displacement_quantities(plate)) groups.push_back(std::move(group));
-  groups.push_back(crack_quantities(plate));
+  auto groups = plate_quantities(plate);
   groups.push_back(crack_error_quantities(plate, errors));
-  groups.push_back(row_quantities(rows));
   if (plate.stress_level && wanted.all_around) {
     set_points(its.empty() ? nullptr : &its[0].state(), a.holes);
     groups.push_back(rim_stresses(a.holes));

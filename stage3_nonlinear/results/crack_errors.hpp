@@ -3,7 +3,6 @@
 
 #include <vector>
 
-#include "stage3_nonlinear/results/at_increment.hpp"
 #include "stage3_nonlinear/results/case_run.hpp"
 
 namespace fastjoint::stage3 {
@@ -31,9 +30,5 @@ class CrackErrorEstimate {
   double tolerance_;
   std::vector<CaseRun> below_;  ///< at the lower degrees, the highest first
 };
-
-/// Stress intensity factors of a plate's tips, and their errors.
-[[nodiscard]] PlateGroup crack_quantities(const PlateModel& plate);
-[[nodiscard]] PlateGroup crack_error_quantities(const PlateModel& plate, const CrackErrors& errors);
 
 }  // namespace fastjoint::stage3

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/joint_quantities.hpp"
 
+#include <utility>
+
+#include "stage3_nonlinear/results/contact_quantities.hpp"
+#include "stage3_nonlinear/results/crack_quantities.hpp"
+#include "stage3_nonlinear/results/hole_quantities.hpp"
+#include "stage3_nonlinear/results/row_forces.hpp"
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -15,6 +22,62 @@ VectorXd alternating(const VectorXd& a, const VectorXd& b) {
 
 /// A free displacement, which is 0 if it is not known.
 VectorXd known(const VectorXd& free, Index n) { return free.size() == n ? free : VectorXd(VectorXd::Zero(n)); }
+
+/// Displacements of a plate's discs and externals, the forces on them, and their resultants.
+std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
+  using columns::force, columns::length;
+  const Index e = plate.n_externals(), q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
+  Index n_added = 0, n_w = 0;
+  for (Index i = 0; i < std::ssize(plate.contact); ++i) {
+    const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
+    n_added += of_field.size() + of_field.n_shears();
+    n_w += plate.contact[i].pressures.size();
+  }
+  return {
+      PlateGroup(Of::external, e,
+                 {formats::De, {"Pe", force, "force on each external", "external_force"}, formats::free_De},
+                 [e](const PlateAt& at) {
+                   const auto& all = at.of.equations.parameters.free_De;
+                   const VectorXd free = known(all.empty() ? VectorXd() : all[at.plate], e);
+                   return side_by_side({at.state().De + free, at.state().Pe, free});
+                 }),
+      PlateGroup(Of::disc, std::ssize(plate.discs),
+                 {formats::D,
+                  formats::free_D,
+                  {"disc/bearing", force, "bearing force of the fastener on each disc"},
+                  {"disc/friction", force, "resultant of its friction along each disc"}},
+                 [](const PlateAt& at) {
+                   const auto& state = at.state();
+                   const VectorXd free = known(at.model().free.D, at.model().n_discs());
+                   return MatrixXd(side_by_side({state.D + free, free, state.bearing, state.friction})(at.model().discs,
+                                                                                                       Eigen::all));
+                 }),
+      PlateGroup(Of::traction, q,
+                 {formats::traction_force,
+                  {"traction/displacement", length,
+                   "mean displacement of each traction boundary along its direction, of a moment rotation times arm",
+                   "", h5::infinite_too}},
+                 [q](const PlateAt& at) {
+                   const VectorXd free = known(at.model().free.traction, q);
+                   return side_by_side({at.state().traction, at.state().traction_displacement + free});
+                 }),
+      PlateGroup(Of::friction_case, h, {formats::Lambda}, [h](const PlateAt& at) { return at.state().Lambda.head(h); }),
+      PlateGroup(Of::wave, n_added, {formats::wave_amount}, [](const PlateAt& at) { return at.state().added; }),
+      PlateGroup(
+          Of::wave, n_w,
+          {{"contact/w", length,
+            "mean over the rim of the disc's normal displacement relative to the sheet times each distribution of "
+            "pressure, rim after rim"}},
+          [](const PlateAt& at) { return at.state().w; }),
+      PlateGroup(Of::axis, 2,
+                 {{"total/applied", force, "force of externals along x and y"},
+                  {"total/by_fasteners", force, "force of the fasteners along x and y"},
+                  {"total/by_supports", force,
+                   "minus the sum of these: the reaction of supports, or where there are none what is out of balance"}},
+                 [](const PlateAt& at) {
+                   return side_by_side({at.state().applied, at.state().by_fasteners, at.state().by_supports});
+                 })};
+}
 
 }  // namespace
 
@@ -71,59 +134,42 @@ std::vector<JointGroup> memory_quantities(const JointModel& joint, const JointEq
                      })};
 }
 
-std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
-  using columns::force, columns::length;
-  const Index e = plate.n_externals(), q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
-  Index n_added = 0, n_w = 0;
-  for (Index i = 0; i < std::ssize(plate.contact); ++i) {
-    const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
-    n_added += of_field.size() + of_field.n_shears();
-    n_w += plate.contact[i].pressures.size();
+std::vector<PlateGroup> plate_quantities(const PlateModel& plate) {
+  std::vector<PlateGroup> groups{hole_quantities(plate), contact_quantities(plate)};
+  for (auto& group : displacement_quantities(plate)) groups.push_back(std::move(group));
+  groups.push_back(crack_quantities(plate));
+  groups.push_back(row_quantities(disc_rows(plate)));
+  return groups;
+}
+
+formats::PlateHistory things_of(const PlateModel& plate) {
+  formats::PlateHistory a;
+  a.name = plate.name;
+  a.materials = plate.materials;
+  a.matrices_digest = plate.matrices_digest;
+  a.plate_digest = plate.plate_digest;
+  for (const Index i : plate.discs) {
+    a.disc_hole.push_back(plate.hole_of(i));
+    a.disc_direction.emplace_back(rim::axis_names[plate.axis_of(i)]);
   }
-  return {
-      PlateGroup(Of::external, e,
-                 {formats::De, {"Pe", force, "force on each external", "external_force"}, formats::free_De},
-                 [e](const PlateAt& at) {
-                   const auto& all = at.of.equations.parameters.free_De;
-                   const VectorXd free = known(all.empty() ? VectorXd() : all[at.plate], e);
-                   return side_by_side({at.state().De + free, at.state().Pe, free});
-                 }),
-      PlateGroup(Of::disc, std::ssize(plate.discs),
-                 {formats::D,
-                  formats::free_D,
-                  {"disc/bearing", force, "bearing force of the fastener on each disc"},
-                  {"disc/friction", force, "resultant of its friction along each disc"}},
-                 [](const PlateAt& at) {
-                   const auto& state = at.state();
-                   const VectorXd free = known(at.model().free.D, at.model().n_discs());
-                   return MatrixXd(side_by_side({state.D + free, free, state.bearing, state.friction})(at.model().discs,
-                                                                                                       Eigen::all));
-                 }),
-      PlateGroup(Of::traction, q,
-                 {formats::traction_force,
-                  {"traction/displacement", length,
-                   "mean displacement of each traction boundary along its direction, of a moment rotation times arm",
-                   "", h5::infinite_too}},
-                 [q](const PlateAt& at) {
-                   const VectorXd free = known(at.model().free.traction, q);
-                   return side_by_side({at.state().traction, at.state().traction_displacement + free});
-                 }),
-      PlateGroup(Of::friction_case, h, {formats::Lambda}, [h](const PlateAt& at) { return at.state().Lambda.head(h); }),
-      PlateGroup(Of::wave, n_added, {formats::wave_amount}, [](const PlateAt& at) { return at.state().added; }),
-      PlateGroup(
-          Of::wave, n_w,
-          {{"contact/w", length,
-            "mean over the rim of the disc's normal displacement relative to the sheet times each distribution of "
-            "pressure, rim after rim"}},
-          [](const PlateAt& at) { return at.state().w; }),
-      PlateGroup(Of::axis, 2,
-                 {{"total/applied", force, "force of externals along x and y"},
-                  {"total/by_fasteners", force, "force of the fasteners along x and y"},
-                  {"total/by_supports", force,
-                   "minus the sum of these: the reaction of supports, or where there are none what is out of balance"}},
-                 [](const PlateAt& at) {
-                   return side_by_side({at.state().applied, at.state().by_fasteners, at.state().by_supports});
-                 })};
+  a.external_id = plate.externals;
+  a.traction_id = plate.tractions;
+  a.traction_bearing = names_of(plate.traction_bearing);
+  a.traction_bearing.resize(plate.tractions.size());
+  a.traction_arm = plate.traction_arm;
+  a.traction_arm.resize(plate.tractions.size());
+  a.contact = plate.contact;
+  for (Index i = 0; i < std::ssize(plate.contact); ++i) {
+    a.waves.push_back(plate.waves[i]);
+    a.waves.back().waves = formats::waves_of_field(plate.contact[i], plate.waves[i]);
+  }
+  a.friction_hole = plate.friction_hole;
+  a.friction_bearing = names_of(plate.friction_bearing);
+  a.border = plate.border;
+  a.tips = {plate.cracks.tip, plate.cracks.at, plate.cracks.length};
+  if (plate.stress_level) a.holes = holes_of(plate.stresses);
+  a.rows = row_list(disc_rows(plate));
+  return a;
 }
 
 }  // namespace fastjoint::stage3

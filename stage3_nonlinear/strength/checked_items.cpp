@@ -252,8 +252,10 @@ class Collector {
       case CheckKind::peak:
         return put("limit", stress,
                    [](Hole h, Columns all, Index step) { return h.stress(all, step, "rim/peak_hoop", "limit"); });
-      default:
+      case CheckKind::bearing_bypass:
         return put("polygon", stress, [](Hole h, Columns all, Index step) { return h.bearing_bypass(all, step); });
+      case CheckKind::fastener_shear:
+        break;  // of no hole
     }
   }
 

@@ -4,59 +4,54 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stage3_nonlinear/results/crack_errors.hpp"
-#include "stage3_nonlinear/results/hole_quantities.hpp"
 #include "stage3_nonlinear/results/joint_quantities.hpp"
 
 namespace fastjoint::stage3 {
 
-template <class At, class Name>
-void StudyOutputs::add(columns::Group<At> group, Index plate, const StudyScene& study, Name name,
-                       std::vector<Asked<At>>& all) {
-  Asked<At> asked{std::move(group), plate, {}};
-  const Index parts = asked.group.parts ? std::ssize(*asked.group.parts) : 1;
-  for (Index column = 0; column < std::ssize(asked.group.quantities); ++column) {
-    const columns::Quantity& quantity = asked.group.quantities[column];
-    const auto& output = quantity.output;
-    if (!output || !study.outputs.contains(output->asked)) continue;
-    std::vector<std::string> names;
-    std::vector<Index> rows;
-    for (Index i = 0; i < asked.group.n; ++i)
-      if (const std::string its = name(asked.group.of, i); !its.empty())
-        names.push_back(its), rows.push_back(i * parts);
-    if (names.empty()) continue;
-    const auto is_it = [&](const OutputKind& each) { return each.output.name == std::string(output->name); };
-    auto kind = std::ranges::find_if(kinds_, is_it);
-    if (kind == kinds_.end()) kind = kinds_.insert(kind, {*output, quantity.dimension});
-    asked.sources.push_back({column, kind - kinds_.begin(), rows, std::ssize(kind->of), output->is_magnitude});
-    const auto limit = study.limits.find(output->name);
-    kind->of.insert(kind->of.end(), names.begin(), names.end());
-    kind->limit.resize(kind->of.size(), limit == study.limits.end() ? infinite : limit->second);
+template <class At, class Names>
+void StudyOutputs::add(const std::vector<columns::Group<At>>& groups, Index plate, const StudyScene& study,
+                       Names names) {
+  for (Index at = 0; at < std::ssize(groups); ++at) {
+    const auto& group = groups[at];
+    const Index parts = group.parts ? std::ssize(*group.parts) : 1;
+    for (Index column = 0; column < std::ssize(group.quantities); ++column) {
+      const auto& [path, dimension, meaning, envelope, allowed, output, needs_section] = group.quantities[column];
+      if (!output || !study.outputs.contains(output->asked) || group.n == 0) continue;
+      const auto is_it = [&](const OutputKind& each) { return each.output.name == std::string(output->name); };
+      auto kind = std::ranges::find_if(kinds_, is_it);
+      if (kind == kinds_.end()) kind = kinds_.insert(kind, {*output, dimension});
+      Source source{plate, at, column, kind - kinds_.begin(), {}, std::ssize(kind->of)};
+      const std::vector<std::string> all = names(group.of);
+      for (Index i = 0; i < group.n; ++i)
+        if (!all[i].empty()) kind->of.push_back(all[i]), source.rows.push_back(i * parts);
+      const auto limit = study.limits.find(output->name);
+      kind->limit.resize(kind->of.size(), limit == study.limits.end() ? infinite : limit->second);
+      sources_.push_back(std::move(source));
+    }
   }
-  if (!asked.sources.empty()) all.push_back(std::move(asked));
 }
 
-StudyOutputs::StudyOutputs(const JointModel& joint, const JointScene& scene, const StudyScene& study) {
-  for (auto& group : plane_quantities(joint))
-    add(
-        std::move(group), 0, study, [&](columns::Of, Index i) { return joint.short_name(joint.planes[i]); }, of_joint_);
-  for (Index j = 0; j < joint.n_planes() && !study.fastener_limits.empty(); ++j) {
-    const auto limit = study.fastener_limits.find(joint.fasteners[joint.planes[j].fastener].id);
-    if (limit != study.fastener_limits.end()) kinds_[0].limit[j] = limit->second;
-  }
+StudyOutputs::StudyOutputs(const JointModel& joint, const JointScene& scene, const StudyScene& study)
+    : of_joint_(plane_quantities(joint)) {
+  std::vector<std::string> planes;
+  for (const auto& plane : joint.planes) planes.push_back(joint.short_name(plane));
+  add(of_joint_, -1, study, [&](columns::Of) { return planes; });
+  for (Index j = 0; j < joint.n_planes(); ++j)
+    if (const auto limit = study.fastener_limits.find(joint.fasteners[joint.planes[j].fastener].id);
+        limit != study.fastener_limits.end())
+      kinds_[0].limit[j] = limit->second;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
-    const auto name = [&](columns::Of of, Index at) {
-      const auto& all = of == columns::Of::hole  ? plate.stresses.rim_hole
-                        : of == columns::Of::tip ? plate.cracks.tip
-                                                 : plate.externals;
-      return of == columns::Of::hole && !plate.has_peak(all[at]) ? "" : plate.name + ":" + all[at];
-    };
-    std::vector<PlateGroup> groups{hole_quantities(plate)};
-    for (auto& group : displacement_quantities(plate)) groups.push_back(std::move(group));
-    groups.push_back(crack_quantities(plate));
-    for (auto& group : groups) add(std::move(group), i, study, name, of_plates_);
+    const formats::PlateHistory things = things_of(plate);
+    of_plates_.push_back(plate_quantities(plate));
+    add(of_plates_.back(), i, study, [&](columns::Of of) {
+      auto names = things.names(of);
+      for (auto& name : names)
+        name = of == columns::Of::hole && !plate.has_peak(name) ? "" : plate.name + ":" + name;  // not known
+      return names;
+    });
   }
+  std::erase_if(sources_, [](const Source& each) { return each.rows.empty(); });
   if (study.outputs.contains("margins")) add_checks(joint, scene, study);
   for (auto& kind : kinds_) kind.first = size_, size_ += std::ssize(kind.of);
 }
@@ -77,14 +72,9 @@ void StudyOutputs::add_checks(const JointModel& joint, const JointScene& scene, 
 }
 
 VectorXd StudyOutputs::utilisations(const JointAt& at, const std::string& case_name) const {
-  const std::vector<JointAt> now{at};
-  const columns::Columns joint(plane_quantities(at.joint), now);
+  const columns::Columns joint(of_joint_, std::vector<JointAt>{at});
   std::vector<columns::Columns> plates;
-  for (Index i = 0; i < std::ssize(at.joint.plates); ++i) {
-    std::vector<PlateGroup> groups{hole_quantities(at.joint.plates[i])};
-    for (auto& group : displacement_quantities(at.joint.plates[i])) groups.push_back(std::move(group));
-    plates.emplace_back(groups, std::vector<PlateAt>{{at, i}});
-  }
+  for (Index i = 0; i < std::ssize(of_plates_); ++i) plates.emplace_back(of_plates_[i], std::vector<PlateAt>{{at, i}});
   JointColumns columns{&joint, {}};
   for (const auto& each : plates) columns.plates.push_back(&each);
   VectorXd all = VectorXd::Zero(std::ssize(items_));
@@ -99,15 +89,19 @@ VectorXd StudyOutputs::utilisations(const JointAt& at, const std::string& case_n
 
 VectorXd StudyOutputs::numbers(const JointAt& at, const std::string& case_name) const {
   VectorXd all(size_);
-  const auto put = [&](const auto& asked, const MatrixXd& values) {
-    for (const auto& [column, kind, rows, first, is_magnitude] : asked.sources)
-      for (Index i = 0; i < std::ssize(rows); ++i) {
-        const double value = values(rows[i], column);
-        all[kinds_[kind].first + first + i] = is_magnitude ? std::abs(value) : value;
-      }
-  };
-  for (const auto& asked : of_joint_) put(asked, asked.group.values(at));
-  for (const auto& asked : of_plates_) put(asked, asked.group.values({at, asked.plate}));
+  MatrixXd values;
+  const Source* before = nullptr;  // of the same group
+  for (const Source& source : sources_) {
+    if (before == nullptr || before->plate != source.plate || before->group != source.group)
+      values = source.plate < 0 ? of_joint_[source.group].values(at)
+                                : of_plates_[source.plate][source.group].values({at, source.plate});
+    before = &source;
+    const OutputKind& kind = kinds_[source.kind];
+    for (Index i = 0; i < std::ssize(source.rows); ++i) {
+      const double value = values(source.rows[i], source.column);
+      all[kind.first + source.first + i] = kind.output.is_magnitude ? std::abs(value) : value;
+    }
+  }
   if (!items_.empty()) all.tail(std::ssize(items_)) = utilisations(at, case_name);
   return all;
 }

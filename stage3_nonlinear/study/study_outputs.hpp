@@ -37,29 +37,23 @@ class StudyOutputs {
  private:
   /// Where a quantity of a group goes.
   struct Source {
-    Index column, kind;       ///< in the group; among kinds_
-    std::vector<Index> rows;  ///< of the group, which are taken
-    Index first = 0;          ///< column of the first number of a sample
-    bool is_magnitude = false;
+    Index plate, group, column;  ///< -1 for the joint
+    Index kind;                  ///< among kinds_
+    std::vector<Index> rows;     ///< of the values of the group, which are taken
+    Index first;                 ///< of the kind's numbers
   };
-  template <class At>
-  struct Asked {
-    columns::Group<At> group;
-    Index plate;
-    std::vector<Source> sources;
-  };
-  /// Adds what is asked for of a group. @param name Of a thing; empty for one whose numbers are not known.
-  template <class At, class Name>
-  void add(columns::Group<At> group, Index plate, const StudyScene& study, Name name, std::vector<Asked<At>>& all);
-
+  /// Adds what is asked for of groups. @param names Of things of a kind; empty for one whose numbers are not known.
+  template <class At, class Names>
+  void add(const std::vector<columns::Group<At>>& groups, Index plate, const StudyScene& study, Names names);
   void add_checks(const JointModel& joint, const JointScene& scene, const StudyScene& study);
   /// Utilisation of each item of the checks.
   [[nodiscard]] VectorXd utilisations(const JointAt& at, const std::string& case_name) const;
 
-  std::vector<OutputKind> kinds_;
-  std::vector<CheckedItem> items_;
-  std::vector<Asked<JointAt>> of_joint_;
-  std::vector<Asked<PlateAt>> of_plates_;
+  std::vector<OutputKind> kinds_{};
+  std::vector<Source> sources_{};
+  std::vector<CheckedItem> items_{};
+  std::vector<JointGroup> of_joint_;
+  std::vector<std::vector<PlateGroup>> of_plates_{};
   Index size_ = 0;
 };
 
