@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/crack_quantities.hpp"
 
+#include "common/infinite.hpp"
+
 namespace fastjoint::stage3 {
 
 PlateGroup crack_quantities(const PlateModel& plate) {
@@ -21,7 +23,8 @@ PlateGroup crack_error_quantities(const PlateModel& plate, const CrackErrors& er
           std::ssize(plate.cracks.tip),
           {{"crack/K_I_error", columns::intensity, "estimated error of K_I", "", h5::infinite_too},
            {"crack/K_II_error", columns::intensity, "estimated error of K_II", "", h5::infinite_too}},
-          [errors](const PlateAt& at) {
+          [errors, t = std::ssize(plate.cracks.tip)](const PlateAt& at) -> MatrixXd {
+            if (errors.K_I.rows() == 0) return MatrixXd::Constant(t, 2, infinite);  // not known
             return side_by_side({errors.K_I.row(at.of.increment), errors.K_II.row(at.of.increment)});
           }};
 }

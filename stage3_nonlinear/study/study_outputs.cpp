@@ -47,7 +47,10 @@ StudyOutputs::StudyOutputs(const JointModel& joint, const JointScene& scene, con
     add(of_plates_.back(), i, study, [&](columns::Of of) {
       auto names = things.names(of);
       for (auto& name : names)
-        name = of == columns::Of::hole && !plate.has_peak(name) ? "" : plate.name + ":" + name;  // not known
+        if (of == columns::Of::hole && !plate.has_peak(name))
+          name.clear();  // not known
+        else
+          name.insert(0, plate.name + ":");
       return names;
     });
   }
