@@ -17,7 +17,10 @@ const Column* Columns::find(const std::string& path) const {
   return found == all_.end() ? nullptr : &*found;
 }
 
-Column* Columns::find(const std::string& path) { return const_cast<Column*>(std::as_const(*this).find(path)); }
+void Columns::put(Column column) {
+  std::erase_if(all_, [&](const Column& each) { return each.quantity.path == column.quantity.path; });
+  all_.push_back(std::move(column));
+}
 
 const Eigen::MatrixXd& Columns::operator[](const std::string& path) const {
   if (const Column* found = find(path)) return found->rows;

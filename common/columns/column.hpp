@@ -60,6 +60,10 @@ struct Group {
   Group(Of its_things, Eigen::Index count, std::vector<Quantity> all, decltype(values) compute,
         decltype(parts) its_parts = {})
       : of(its_things), n(count), quantities(std::move(all)), values(std::move(compute)), parts(std::move(its_parts)) {}
+
+  /// How many numbers each quantity has, and all have, at one increment.
+  [[nodiscard]] Eigen::Index n_of_each() const { return n * (parts ? std::ssize(*parts) : 1); }
+  [[nodiscard]] Eigen::Index n_numbers() const { return n_of_each() * std::ssize(quantities); }
 };
 
 /// The numbers of a quantity at every increment.
@@ -85,13 +89,13 @@ class Columns {
   Columns(const std::vector<Group<At>>& groups, const std::vector<At>& increments) {
     for (const auto& group : groups) add(group, increments);
   }
-  void add(Column column) { all_.push_back(std::move(column)); }
+  /// Adds a column, in place of one with its path.
+  void put(Column column);
 
   [[nodiscard]] auto begin() const { return all_.begin(); }
   [[nodiscard]] auto end() const { return all_.end(); }
   /// The column of a path; null without it.
   [[nodiscard]] const Column* find(const std::string& path) const;
-  [[nodiscard]] Column* find(const std::string& path);
   /// The rows of a column that must be there, (steps, n parts).
   [[nodiscard]] const Eigen::MatrixXd& operator[](const std::string& path) const;
   /// Adds later increments of the same things below. Columns that they do not have are dropped.
@@ -100,10 +104,10 @@ class Columns {
  private:
   template <class At>
   void add(const Group<At>& group, const std::vector<At>& increments) {
-    const Eigen::Index steps = std::ssize(increments), n = group.n * (group.parts ? std::ssize(*group.parts) : 1);
+    const Eigen::Index steps = std::ssize(increments);
     const std::size_t first = all_.size();
     for (const auto& quantity : group.quantities)
-      all_.push_back({quantity, group.of, group.n, group.parts, Eigen::MatrixXd(steps, n)});
+      all_.push_back({quantity, group.of, group.n, group.parts, Eigen::MatrixXd(steps, group.n_of_each())});
     for (Eigen::Index step = 0; step < steps && !group.quantities.empty(); ++step) {
       const Eigen::MatrixXd values = group.values(increments[step]);
       for (std::size_t i = 0; i < group.quantities.size(); ++i)

@@ -44,7 +44,7 @@ void read_columns(h5::Reader& file, const std::string& group, PlateHistory& a, E
     columns::Column column{*quantity, of, n, {}, Eigen::MatrixXd::Zero(steps, n)};
     if ((quantity != &free_D && quantity != &free_De) || file.has(group + quantity->path))
       file(group + quantity->path, column.rows, {steps, n}, unit_of(quantity->dimension, units), quantity->meaning);
-    a.columns.add(std::move(column));
+    a.columns.put(std::move(column));
   }
 }
 
@@ -60,14 +60,13 @@ void case_datasets(File& file, const std::string& group, Plate& a, const Units& 
   const auto order_of = [](auto& rim) -> decltype(auto) { return (rim.waves.highest); };
   file(group + "wave/order", Column{a.waves, order_of}, {g}, "1", "highest order of the waves of each rim of contact",
        h5::integers(1, rim::max_harmonics));
-  for (Eigen::Index i = 0; File::reads && i < g; ++i) {
-    if constexpr (File::reads) {
+  if constexpr (File::reads)
+    for (Eigen::Index i = 0; i < g; ++i) {
       const int order = a.waves[i].waves.highest;
       a.waves[i].hole = a.contact[i].hole;
       a.waves[i].waves = a.contact[i].pressures;
       a.waves[i].waves.highest = order;
     }
-  }
   file(group + "friction/hole", a.friction_hole, {any}, "1", "hole of each friction case");
   file(group + "friction/bearing", a.friction_bearing, {std::ssize(a.friction_hole)}, "1",
        "bearing side of each friction case: +x, -x, +y, -y");

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -31,11 +30,6 @@ class Reader {
   /// Sets whether units are compared; by default they are.
   void compare_units(bool compare);
   [[nodiscard]] bool has(const std::string& dataset) const;
-  /// Creates the value of an optional dataset or group, and returns it to be read; null if the file does not have it.
-  template <class T>
-  [[nodiscard]] T* part(const std::string& dataset, std::optional<T>& value) const {
-    return has(dataset) ? &value.emplace() : nullptr;
-  }
 
   [[nodiscard]] int integer_attribute(const std::string& name) const;
   /// Root attribute; a missing one leaves the text unchanged.

@@ -4,7 +4,6 @@
 #include <functional>
 #include <memory>
 #include <numeric>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -48,11 +47,6 @@ class Writer {
       for_each_entry(value, [&](const auto& entry) { entries.push_back(entry); });
       put(name, shape, spans<const Scalar>(entries), unit, meaning, allowed);
     }
-  }
-  /// The value of an optional dataset or group; null if it is missing.
-  template <class T>
-  [[nodiscard]] const T* part(const std::string& /*name*/, const std::optional<T>& value) const {
-    return value ? &*value : nullptr;
   }
 
   /// Creates a dataset of numbers, double or int, to be filled by `rows`, so that it need not fit in memory. Only these

@@ -307,6 +307,12 @@ Index JointModel::n_moments() const {
 
 double JointModel::mu(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).mu; }
 
+std::optional<Index> JointModel::described(const HoleModel& hole) const {
+  const auto& holes = plates[hole.plate].stresses.rim_hole;
+  const int at = index_of(holes, plates[hole.plate].hole_of(hole.disc));
+  return at < count_of(holes) ? std::optional<Index>(at) : std::nullopt;
+}
+
 std::vector<std::string> JointModel::rims() const {
   std::vector<std::string> names;
   for (const auto& plate : plates)

@@ -224,6 +224,8 @@ struct JointModel {
   [[nodiscard]] bool is_to_ground(const ShearPlane& plane) const {
     return plane.first + 1 == std::ssize(fasteners[plane.fastener].holes);
   }
+  /// Index of a hole among those that its plate's matrices describe; none if they do not.
+  [[nodiscard]] std::optional<Index> described(const HoleModel& hole) const;
   /// "plate:hole" of each rim of contact, plate after plate.
   [[nodiscard]] std::vector<std::string> rims() const;
   /// "plate:hole"

@@ -8,6 +8,9 @@
 #include "common/infinite.hpp"
 
 namespace fastjoint::stage3 {
+
+using Eigen::Index, Eigen::MatrixXd;
+
 namespace {
 
 template <class Rows>
@@ -18,11 +21,12 @@ void add_rows(Rows& all, const Rows& more) {
 
 /// Gives a result columns for these loads, infinite for those that it does not have.
 void spread_loads(const std::vector<std::string>& loads, formats::JointResult& a) {
-  columns::Column& column = *a.columns.find("stiffness/tangent");
+  columns::Column column = *a.columns.find("stiffness/tangent");
   MatrixXd rows = MatrixXd::Constant(a.load_factor.size(), std::ssize(loads), infinite);
   for (Index i = 0; i < std::ssize(a.load_external); ++i)
     rows.col(index_of(loads, a.load_external[i])) = column.rows.col(i);
   column.n = rows.cols(), column.rows = std::move(rows);
+  a.columns.put(std::move(column));
   a.load_external = loads;
 }
 

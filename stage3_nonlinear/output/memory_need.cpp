@@ -6,6 +6,7 @@
 
 #include "common/program/memory.hpp"
 #include "stage3_nonlinear/results/joint_numbers.hpp"
+#include "stage3_nonlinear/results/joint_quantities.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -25,18 +26,19 @@ void require_memory_to_read(const JointScene& scene) {
 
 JointNeed joint_need(const JointModel& joint, bool with_csv, bool with_sensitivities, bool with_rim_stresses) {
   const JointNumbers numbers = joint_numbers(joint);
-  const double n = double(joint.n_planes());
-  double of_plane = with_csv ? 88 : 12;  // a line of the table has about 900 bytes in two copies
+  double of_plane = with_csv ? 76 : 0;  // a line of the table has about 900 bytes in two copies
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
-  constexpr double number = sizeof(double), of_stiffness = 24, of_rim = 18, of_plate = 60;
+  constexpr double number = sizeof(double), of_stiffness = 24, of_plate = 30;  // of a plate's state
   constexpr double of_points = 3 * 360,
                    of_loaded_rim = 600;  // stresses, and the waves and tractions that they follow from
-  double solving = 0, of_step = of_plane * n, around_rims = 0;
+  double solving = 0, of_step = of_plane * double(joint.n_planes()), around_rims = 0;
+  for (const auto& group : plane_quantities(joint)) of_step += double(group.n_numbers());
   for (const auto& plate : joint.plates) {
     const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
     solving += of_stiffness * number * unknowns * (unknowns + (numbers.friction.empty() ? 0 : cases / 2));
     const double n_rims = plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0;
-    of_step += of_plate + unknowns + cases + of_rim * n_rims;
+    of_step += of_plate + unknowns + cases;
+    for (const auto& group : plate_quantities(plate)) of_step += double(group.n_numbers());
     if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;
   }
   if (with_sensitivities) {  // derivatives of displacements and of friction loads

@@ -83,7 +83,4 @@ struct MoreStresses {
 void warn_of_unloading(const JointModel& joint, const JointEquations& equations, const LoadPath& path,
                        WarningList& list);
 
-/// Index of a hole among those that its plate's matrices describe; none if they do not.
-[[nodiscard]] std::optional<Index> described(const JointModel& joint, const HoleModel& hole);
-
 }  // namespace fastjoint::stage3

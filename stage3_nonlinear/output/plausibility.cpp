@@ -50,7 +50,7 @@ std::vector<KnownPlane> known_planes(const JointScene& scene, const JointModel& 
                      fastener.grounded ? 0 : count_of(fastener.holes),
                      plane.first == 0};
     for (const Index side : {0, 1}) {
-      const auto at = described(joint, *holes[side]);
+      const auto at = joint.described(*holes[side]);
       if (!at) continue;
       const auto& a = joint.plates[holes[side]->plate].stresses;
       known.offset +=
@@ -198,7 +198,7 @@ double diameter_in_sheet(const JointModel& joint, const HoleModel& hole) {
   const PlateModel& plate = joint.plates[hole.plate];
   const auto rim = std::ranges::find(plate.contact, plate.hole_of(hole.disc), &formats::ContactRim::hole);
   if (rim != plate.contact.end()) return 2 * rim->radius;
-  const auto at = described(joint, hole);
+  const auto at = joint.described(hole);
   return at ? 2 * plate.stresses.rim_radius[*at] : 0;
 }
 
@@ -282,13 +282,6 @@ void check_units(const JointScene& scene, const JointModel& joint, WarningList& 
 }
 
 }  // namespace
-
-std::optional<Index> described(const JointModel& joint, const HoleModel& hole) {
-  const PlateModel& plate = joint.plates[hole.plate];
-  const auto& holes = plate.stresses.rim_hole;
-  const int at = index_of(holes, plate.hole_of(hole.disc));
-  return at < count_of(holes) ? std::optional<Index>(at) : std::nullopt;
-}
 
 std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
                                                   const LoadPath& path) {

@@ -41,7 +41,7 @@ std::optional<double> overlap_along(const JointModel& joint, const Eigen::Vector
     const FastenerModel& fastener = joint.fasteners[plane.fastener];
     if (fastener.grounded || fastener.holes.size() != 2) return std::nullopt;
     const HoleModel& hole = joint.holes(plane).front();
-    const auto at = described(joint, hole);
+    const auto at = joint.described(hole);
     if (!at) return std::nullopt;
     const double place = joint.plates[hole.plate].stresses.rim_center.row(*at).dot(along);
     low = std::min(low, place);

@@ -6,7 +6,7 @@
 
 namespace fastjoint::stage3 {
 
-/// Where disc and rim touch, and the pressure there, at the rims of contact of a plate.
+/// Contact at the rims of a plate with compression-only springs: the arcs on which disc and rim touch, and pressures.
 [[nodiscard]] PlateGroup contact_quantities(const PlateModel& plate);
 
 /// The rims of contact of a plate before it is loaded.

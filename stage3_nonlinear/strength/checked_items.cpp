@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <stdexcept>
 
 #include "common/count.hpp"
 #include "stage3_nonlinear/results/section_stress.hpp"
@@ -99,14 +100,14 @@ struct CheckedHole {
     const auto left = [](const Applied& a) { return a.applied > 0 ? a.allowable / a.applied : infinite; };
     return left(other) < left(larger) ? other : larger;
   }
-  [[nodiscard]] Applied stress(const JointColumns& all, Index step, const char* quantity, const char* name) const {
-    const double value = check->allowable.at(infinite);
-    return {of(all, quantity, step), value, fmt::format("{} = {:g}", name, value)};
-  }
   [[nodiscard]] Applied tension(const JointColumns& all, Index step) const {
-    Applied now = stress(all, step, "rim/net_stress", "F_tu");
-    now.direction = of(all, "rim/net_direction", step);
-    return now;
+    const double value = check->allowable.at(infinite);
+    return {of(all, "rim/net_stress", step), value, fmt::format("F_tu = {:g}", value), infinite,
+            of(all, "rim/net_direction", step)};
+  }
+  [[nodiscard]] Applied peak(const JointColumns& all, Index step) const {
+    const double value = check->allowable.at(infinite);
+    return {of(all, "rim/peak_hoop", step), value, fmt::format("limit = {:g}", value)};
   }
 };
 
@@ -120,7 +121,8 @@ class Collector {
       check_ = &check;
       left_out_.clear();
       check.kind == CheckKind::fastener_shear ? of_fasteners() : of_holes();
-      for (const auto& [reason, holes] : left_out_) all_.left_out.push_back(left_out(scene_, check, reason, holes));
+      for (const auto& [reason, holes] : left_out_)
+        all_.left_out.push_back(left_out_warning(scene_, check, reason, holes));
     }
     return std::move(all_);
   }
@@ -156,13 +158,13 @@ class Collector {
   [[nodiscard]] double modelled_part(const ShearPlane& plane) const {
     const HoleModel& hole = joint_.first_hole(plane);
     const PlateModel& plate = joint_.plates[hole.plate];
-    const int rim = index_of(plate.stresses.rim_hole, plate.hole_of(hole.disc));
-    if (rim == count_of(plate.stresses.rim_hole)) return 1;
-    const double whole = 2 * plate.stresses.rim_radius[rim] * plate.stresses.rim_thickness[rim];
+    const auto rim = joint_.described(hole);
+    if (!rim) return 1;
+    const double whole = 2 * plate.stresses.rim_radius[*rim] * plate.stresses.rim_thickness[*rim];
     double part = 1;
     for (Index d = 0; d < joint_.n_directions(); ++d)
       if (plate.has_disc(hole.disc + d) && whole > 0)
-        part = std::min(part, plate.stresses.bearing_area(rim, plate.axis_of(hole.disc + d)) / whole);
+        part = std::min(part, plate.stresses.bearing_area(*rim, plate.axis_of(hole.disc + d)) / whole);
     constexpr double nearly = 1 - 1e-6;  // thickness may differ around a hole
     return part < nearly && std::abs(part - 0.5) < 0.05 ? 0.5 : 1;
   }
@@ -173,11 +175,10 @@ class Collector {
     const FastenerScene& fastener = scene_.fasteners[plane.fastener];
     if (fastener.diameter) return *fastener.diameter;
     const HoleModel& hole = joint_.first_hole(plane);
-    const PlateModel& plate = joint_.plates[hole.plate];
-    const int rim = index_of(plate.stresses.rim_hole, plate.hole_of(hole.disc));
-    if (rim == count_of(plate.stresses.rim_hole))
+    const auto rim = joint_.described(hole);
+    if (!rim)
       fail(fmt::format("the diameter of fastener \"{}\" is not known", fastener.id), "\"diameter\" in the check");
-    return 2 * (plate.stresses.rim_radius[rim] - hole.gap);
+    return 2 * (joint_.plates[hole.plate].stresses.rim_radius[*rim] - hole.gap);
   }
 
   void of_holes() {
@@ -223,40 +224,35 @@ class Collector {
     CheckedHole its{check_, &plate, at, rim, 2 * s.rim_radius[rim], s.rim_thickness[rim]};
     for (Index i = 0; i < std::ssize(plate.discs); ++i)
       if (plate.hole_of(plate.discs[i]) == hole) its.discs.emplace_back(i, plate.axis_of(plate.discs[i]));
-    add(its, name, sections.is_filled());
-    all_.items.back().is_known =
-        !(kind == CheckKind::tension && sections.is_filled()) && !(kind == CheckKind::peak && !plate.has_peak(hole));
+    CheckedItem& item = all_.items.emplace_back(item_of(its, name));
+    if (kind == CheckKind::peak) item.is_known = plate.has_peak(hole);
+    if (kind != CheckKind::tension || !sections.is_filled()) return;
+    item.is_known = false;
+    item.unknown = "it fills most of the strip between cell lines, whose net section says nothing of the sheet";
   }
 
-  /// Adds a hole with the formula and the numbers of its check.
-  void add(const CheckedHole& hole, const std::string& name, bool is_filled) {
+  /// What its check asks of a hole, with the formula.
+  [[nodiscard]] CheckedItem item_of(const CheckedHole& hole, const std::string& name) const {
     const std::string force = unit(joint_.units, 0, 1), stress = unit(joint_.units, -2, 1);
-    const auto put = [&](const char* formula, const std::string& unit, auto compute) {
-      all_.items.push_back(
-          {check_, name, formula, unit, [=](const JointColumns& all, Index step) { return compute(hole, all, step); }});
+    const auto item = [&](const char* formula, const std::string& unit, auto compute) -> CheckedItem {
+      return {check_, name, formula, unit,
+              [=](const JointColumns& all, Index step) { return (hole.*compute)(all, step); }};
     };
-    using Hole = const CheckedHole&;
-    using Columns = const JointColumns&;
     switch (check_->kind) {
       case CheckKind::bearing:
-        return put("F_br d t", force, [](Hole h, Columns all, Index step) { return h.bearing(all, step); });
+        return item("F_br d t", force, &CheckedHole::bearing);
       case CheckKind::shear_out:
-        return put("2 F_su t (e - d cos 40 / 2)", force,
-                   [](Hole h, Columns all, Index step) { return h.shear_out(all, step); });
+        return item("2 F_su t (e - d cos 40 / 2)", force, &CheckedHole::shear_out);
       case CheckKind::tension:
-        put("F_tu", stress, [](Hole h, Columns all, Index step) { return h.tension(all, step); });
-        if (is_filled)
-          all_.items.back().unknown =
-              "it fills most of the strip between cell lines, whose net section says nothing of the sheet";
-        return;
+        return item("F_tu", stress, &CheckedHole::tension);
       case CheckKind::peak:
-        return put("limit", stress,
-                   [](Hole h, Columns all, Index step) { return h.stress(all, step, "rim/peak_hoop", "limit"); });
+        return item("limit", stress, &CheckedHole::peak);
       case CheckKind::bearing_bypass:
-        return put("polygon", stress, [](Hole h, Columns all, Index step) { return h.bearing_bypass(all, step); });
+        return item("polygon", stress, &CheckedHole::bearing_bypass);
       case CheckKind::fastener_shear:
-        break;  // of no hole
+        break;
     }
+    throw std::logic_error("a check of fasteners is not one of holes");
   }
 
   const JointScene& scene_;
@@ -272,8 +268,8 @@ double CheckedItem::margin(const Applied& now) const {
   return now.applied > 0 ? now.allowable / (check->safety_factor * check->fitting_factor * now.applied) - 1 : infinite;
 }
 
-program::Warning left_out(const JointScene& scene, const CheckScene& check, const std::string& reason,
-                          const std::vector<std::string>& items) {
+program::Warning left_out_warning(const JointScene& scene, const CheckScene& check, const std::string& reason,
+                                  const std::vector<std::string>& items) {
   return {"check-left-out", fmt::format("{}: check \"{}\" is not made for {}: {}", scene.file, check.name,
                                         program::listed(items), reason)};
 }

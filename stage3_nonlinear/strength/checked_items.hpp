@@ -49,7 +49,7 @@ struct CheckedItems {
 [[nodiscard]] CheckedItems checked_items(const JointScene& scene, const JointModel& joint);
 
 /// Warning of items that a check leaves out.
-[[nodiscard]] program::Warning left_out(const JointScene& scene, const CheckScene& check, const std::string& reason,
-                                        const std::vector<std::string>& items);
+[[nodiscard]] program::Warning left_out_warning(const JointScene& scene, const CheckScene& check,
+                                                const std::string& reason, const std::vector<std::string>& items);
 
 }  // namespace fastjoint::stage3

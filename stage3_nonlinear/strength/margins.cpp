@@ -51,9 +51,7 @@ formats::MarginTable margins(const JointScene& scene, const std::vector<CheckedI
     else if (result.load_factor.size() > 0)
       missing[{item.check, solved ? item.unknown : "none of its cases was solved"}].push_back(item.of);
   }
-  for (const auto& check : scene.checks)
-    for (const auto& [of, names] : missing)
-      if (of.first == &check) left_out.push_back(stage3::left_out(scene, check, of.second, names));
+  for (const auto& [of, names] : missing) left_out.push_back(left_out_warning(scene, *of.first, of.second, names));
   // Equal ones, but for rounding, stay in the order of the joint.
   std::ranges::stable_sort(rows, {}, [](const WorstMargin& row) { return std::round(1e9 * row.margin); });
   const Index n = std::ssize(rows);

@@ -35,7 +35,7 @@ class StudyOutputs {
   void take(const VectorXd& its, VectorXd& all) const;
 
  private:
-  /// Where a quantity of a group goes.
+  /// Places of the numbers of a quantity: in the values of its group, and among those of a sample.
   struct Source {
     Index plate, group, column;  ///< -1 for the joint
     Index kind;                  ///< among kinds_

@@ -19,11 +19,12 @@ std::string number(double x) { return std::isfinite(x) ? fmt::format("{:.5g}", x
 
 /// What is counted against the limit of a group. A utilisation above 1 / (1 + m) is a margin below m.
 std::string limit_text(const formats::StudyGroup& a) {
-  if (!std::isfinite(a.limit)) return "P(> its limit)";
+  const bool is_margin = a.name.ends_with("utilisation");
+  if (!std::isfinite(a.limit)) return is_margin ? "P(margin < its limit)" : "P(> its limit)";
   constexpr double rounding = 1e-9;
   const double margin = 1 / a.limit - 1;
-  if (a.name.ends_with("utilisation")) return fmt::format("P(margin < {:g})", margin < rounding ? 0 : margin);
-  return fmt::format("P(> {:g})", a.limit);
+  return is_margin ? fmt::format("P(margin < {:g})", margin < rounding ? 0 : margin)
+                   : fmt::format("P(> {:g})", a.limit);
 }
 
 std::string head(const formats::StudyGroup& a) {

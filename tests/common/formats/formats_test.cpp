@@ -252,7 +252,7 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     a.residual = Eigen::VectorXd::Zero(steps);
     a.event.assign(steps, "1 closes");
     for (const char* path : {"F", "delta", "F_vector", "delta_vector", "transferred"})
-      a.columns.add(
+      a.columns.put(
           {{path, columns::force, "of planes"}, columns::Of::plane, 3, {}, Eigen::MatrixXd::Random(steps, 3)});
     PlateHistory& plate = a.plates.emplace_back();
     plate.name = "top";
@@ -269,8 +269,8 @@ TEST(JointResult, ReadsBackAlsoWithoutAnyIncrement) {
     for (const auto& [quantity, n] :
          {std::pair(&De, 0), std::pair(&free_De, 0), std::pair(&D, 1), std::pair(&free_D, 1),
           std::pair(&wave_amount, 18), std::pair(&Lambda, 2), std::pair(&traction_force, 0)})
-      plate.columns.add({*quantity, {}, n, {}, Eigen::MatrixXd::Random(steps, n)});
-    plate.columns.add({angle, {}, 1, {{"x", "y"}}, Eigen::MatrixXd::Constant(steps, 2, std::nan(""))});
+      plate.columns.put({*quantity, {}, n, {}, Eigen::MatrixXd::Random(steps, n)});
+    plate.columns.put({angle, {}, 1, {{"x", "y"}}, Eigen::MatrixXd::Constant(steps, 2, std::nan(""))});
     write(folder.path("r.h5"), a);
     const JointResult b = read_joint_result(folder.path("r.h5"));
     EXPECT_EQ(b.header.units, a.header.units);

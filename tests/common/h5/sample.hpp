@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -41,7 +40,6 @@ struct Sample {
   std::vector<std::string> names;
   std::string text;
   double number = 0;
-  std::optional<Eigen::VectorXd> given, absent;
   std::vector<Item> items;
   friend bool operator==(const Sample&, const Sample&) = default;
 };
@@ -64,8 +62,6 @@ void datasets(File& file, AnySample& a) {
   file("names", a.names, {any}, "1", "strings");
   file("text", a.text, {}, "1", "a text");
   file("number", a.number, {1}, "1", "a number");
-  if (auto* given = file.part("given", a.given)) file("given", *given, {any}, "1", "there");
-  if (auto* absent = file.part("absent", a.absent)) file("absent", *absent, {any}, "1", "not there");
   file("item/number", Column{a.items, &Sample::Item::number}, {any}, "1", "a member");
   file("item/range", Column{a.items, [](auto& item) { return std::tie(item.from, item.to); }}, {2, 2}, "1", "two");
   file("item/place", Column{a.items, &Sample::Item::place}, {2, 2}, "1", "a vector in each");
@@ -87,7 +83,6 @@ inline Sample sample() {
   a.names = {"one", "", "dr\u00fci"};
   a.text = "{}";
   a.number = 0.25;
-  a.given = A.row(0);
   a.items = {{1, 2, 3, {4, 5}, "six"}, {7, 8, 9, {10, 11}, ""}};
   return a;
 }

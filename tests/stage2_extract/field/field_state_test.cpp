@@ -111,7 +111,7 @@ class StateOfAJoint : public testing::Test {
                                  .friction_hole = plate.friction_hole,
                                  .friction_bearing = plate.friction_bearing};
     const auto add = [&](const columns::Quantity& quantity, Eigen::Index n, double offset) {
-      result.columns.add(
+      result.columns.put(
           {quantity, {}, n, {}, Eigen::Vector2d(1, 2) * Eigen::RowVectorXd::LinSpaced(n, offset, offset + 0.1)});
     };
     for (const auto& [quantity, n, offset] :
