@@ -23,6 +23,7 @@
 #include "stage3_nonlinear/output/memory_need.hpp"
 #include "stage3_nonlinear/output/output.hpp"
 #include "stage3_nonlinear/output/secondary_bending.hpp"
+#include "stage3_nonlinear/output/stress_range_lines.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
 #include "stage3_nonlinear/results/crack_errors.hpp"
 #include "stage3_nonlinear/strength/margins.hpp"
@@ -117,6 +118,7 @@ void require_memory(const JointScene& scene, const JointModel& joint, const std:
 /// What a load case comes to.
 struct SolvedCase {
   formats::JointResult result;
+  std::vector<SpotExtremes> spots;
   std::vector<program::Warning> warnings;
   std::string failure;  ///< empty if all increments converged
   std::string summary;  ///< of every increment, of one case of several its secondary bending alone
@@ -142,7 +144,8 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
   const auto& states = increments.states;
   path.interference = search_interference(equations, solving, path);
   const auto errors = cracks.of(joint, at, path, states, solving);
-  SolvedCase solved{joint_result(joint, equations, path, increments, wanted, errors), {}, {}, {}};
+  SolvedCase solved{
+      joint_result(joint, equations, path, increments, wanted, errors), std::move(increments.spots), {}, {}, {}};
   if (missing) {
     solved.result.complete = false;
     solved.failure = fmt::format("{}: case \"{}\" comes after \"{}\", which was not solved", scene.file, its.name,
@@ -202,10 +205,12 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   program::report_share(0);
   CrackErrorEstimate cracks(scene, cases.joint());
   formats::JointResult result;
+  std::vector<SpotExtremes> spots;
   CaseWarnings found;
   std::vector<std::string> texts, failures;
   for (const std::size_t at : chosen) {
     SolvedCase its = solve_case(arguments, scene, cases, cracks, at, chosen.size() == 1, log);
+    append(spots, std::move(its.spots), result.load_factor.size());
     append(result, scene.cases[at].name, std::move(its.result));
     found.add(scene.cases[at].name, its.warnings);
     if (!its.failure.empty()) failures.push_back(std::move(its.failure));
@@ -224,6 +229,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   }
   for (const auto& each : failures) warnings.push_back({"not-solved", each});
   set_governing(result);
+  result.stress_ranges = stress_ranges(spots, result);
   for (const auto& each : warnings) {
     result.warning_code.emplace_back(each.code);
     result.warning.push_back(each.text);
@@ -238,7 +244,7 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
     const int of = result.governing > 0 ? result.case_of[result.governing - 1] : 0;
     if (chosen.size() > 1) out << case_summary(scene, joint, result);
     if (chosen.size() > 1 && !texts[of].empty()) out << fmt::format("case \"{}\":\n", result.case_name[of]);
-    out << texts[of] << margin_lines(scene, result);
+    out << texts[of] << stress_range_lines(result) << margin_lines(scene, result);
   }
   check_solved(failures, chosen.size());
 }

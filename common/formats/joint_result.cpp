@@ -29,7 +29,7 @@ namespace {
 using h5::any;
 using h5::Column;
 
-const h5::Format result_format{"joint-result", 1, 16};
+const h5::Format result_format{"joint-result", 1, 17};
 
 /// Reads the columns of a field. Files before version 1.13 do not have the free parts.
 void read_columns(h5::Reader& file, const std::string& group, PlateHistory& a, Eigen::Index steps, const Units& units) {
@@ -183,6 +183,25 @@ void write_margins(h5::Writer& file, const MarginTable& a, Eigen::Index steps) {
   file("margin/inputs", a.inputs, {m}, "1", "its numbers and the factors");
 }
 
+void write_stress_ranges(h5::Writer& file, const StressRangeTable& a, Eigen::Index steps, const Units& units) {
+  const std::string stress = unit(units, -2, 1);
+  using R = StressRange;
+  file("stress_range/of", Column{a, &R::of}, {any}, "1",
+       "plate:hole with a known hoop stress, that with the largest range first");
+  const Eigen::Index r = std::ssize(a);
+  file("stress_range/angle", Column{a, &R::angle}, {r}, "deg",
+       "spot of its rim at which the hoop stress varies most over all increments, counter-clockwise from x");
+  file("stress_range/range", Column{a, &R::range}, {r}, stress, "largest less smallest hoop stress there");
+  file("stress_range/error", Column{a, &R::error}, {r}, stress,
+       "estimated error of it: the sum of those of the hole's peaks at both increments", h5::infinite_too);
+  file("stress_range/largest", Column{a, &R::largest}, {r}, stress, "largest hoop stress there");
+  file("stress_range/largest_at", Column{a, &R::largest_at}, {r}, "1", "row where it stands",
+       h5::integers(0, int(steps) - 1));
+  file("stress_range/smallest", Column{a, &R::smallest}, {r}, stress, "smallest hoop stress there");
+  file("stress_range/smallest_at", Column{a, &R::smallest_at}, {r}, "1", "row where it stands",
+       h5::integers(0, int(steps) - 1));
+}
+
 /// What the file says of the whole joint, for both directions.
 template <class File, class Result>
 void increment_datasets(File& file, Result& a) {
@@ -227,6 +246,7 @@ void write_joint(h5::Writer& file, const JointResult& a) {
   columns::write(file, "", a.columns, a.header.units);
   write_envelope(file, a.envelope, steps);
   if (!a.margins.check.empty()) write_margins(file, a.margins, steps);
+  if (!a.stress_ranges.empty()) write_stress_ranges(file, a.stress_ranges, steps, a.header.units);
   if (a.sensitivity) write_sensitivity(file, *a.sensitivity, n, a.header.units);
 }
 

@@ -91,6 +91,16 @@ struct MarginTable {
   Eigen::VectorXi at{};         ///< (m) increment that governs, among all
 };
 
+/// How much the hoop stress at one spot of a hole's rim varies over all increments of all load cases.
+struct StressRange {
+  std::string of{};                     ///< "plate:hole"
+  double angle = 0;                     ///< of the spot, counter-clockwise from x, degrees
+  double range = 0, error = 0;          ///< largest - smallest, and its estimated error, stress
+  double largest = 0, smallest = 0;     ///< stress
+  int largest_at = 0, smallest_at = 0;  ///< increments where they are, among all
+};
+using StressRangeTable = std::vector<StressRange>;
+
 /// A kind of input numbers by which results are differentiated.
 struct Slopes {
   const char* by;                ///< name of the dataset
@@ -133,6 +143,7 @@ struct JointResult {
   std::vector<PlateHistory> plates;
   std::vector<EnvelopeTable> envelope{};          ///< of a joint with "cases"
   MarginTable margins{};                          ///< of a joint with "margins"
+  StressRangeTable stress_ranges{};               ///< of two or more increments, the largest range first
   int governing = 0;                              ///< increment that governs, among all; 0: the file does not know
   std::string governing_reason{};                 ///< why it does
   std::vector<std::string> warning_code{};        ///< (a) of each warning that stage3_nonlinear printed

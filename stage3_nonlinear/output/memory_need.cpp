@@ -29,6 +29,7 @@ JointNeed joint_need(const JointModel& joint, bool with_csv, bool with_sensitivi
   double of_plane = with_csv ? 76 : 0;  // a line of the table has about 900 bytes in two copies
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
   constexpr double number = sizeof(double), of_stiffness = 24, of_plate = 30;  // of a plate's state
+  constexpr double of_spots = 2 * 3 * TractionWaves::n_points;                 // extremes of a case, and of all
   constexpr double of_points = 3 * 360,
                    of_loaded_rim = 600;  // stresses, and the waves and tractions that they follow from
   double solving = 0, of_step = of_plane * double(joint.n_planes()), around_rims = 0;
@@ -37,6 +38,7 @@ JointNeed joint_need(const JointModel& joint, bool with_csv, bool with_sensitivi
     const auto cases = double(plate.R.cols()), unknowns = double(plate.n_unknowns());
     solving += of_stiffness * number * unknowns * (unknowns + (numbers.friction.empty() ? 0 : cases / 2));
     const double n_rims = plate.stress_level ? double(plate.stresses.rim_hole.size()) : 0;
+    solving += number * of_spots * n_rims;
     of_step += of_plate + unknowns + cases;
     for (const auto& group : plate_quantities(plate)) of_step += double(group.n_numbers());
     if (with_rim_stresses) around_rims += (of_points + of_loaded_rim) * n_rims;

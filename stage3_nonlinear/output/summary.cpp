@@ -11,7 +11,7 @@
 #include "stage3_nonlinear/output/secondary_bending.hpp"
 #include "stage3_nonlinear/output/table.hpp"
 #include "stage3_nonlinear/output/totals.hpp"
-#include "stage3_nonlinear/results/section_stress.hpp"
+#include "stage3_nonlinear/strength/section_stress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -165,15 +165,18 @@ std::string highest_peaks(const formats::JointResult& result, const Units& units
 }
 
 /// Table of all holes of all plates at one increment; empty if no plate has stresses.
-std::string rim_table(const JointModel& joint, const JointState& state) {
+std::string rim_table(const JointModel& joint, const JointState& state, const formats::JointResult& result,
+                      Index step) {
   const std::string force = fmt::format("[{}]", unit(joint.units, 0, 1)),
                     stress = fmt::format("[{}]", unit(joint.units, -2, 1));
-  Table table("{:<24} {:>14.6g} {:>14.6g} {:>14.6g} {:>9.1f} {:>9.1e} {:>8.3f} {:>8.3f} {:>12.6g}",
-              {{"hole", "bearing stress", "bypass", "peak hoop", "at [deg]", "+-", "Kt gross", "Kt net", "reaction"},
-               {"", stress, force, stress, "", "", "", "", force}});
+  Table table("{:<24} {:>14.6g} {:>14.6g} {:>14.6g} {:>9.1f} {:>9.1e} {:>8.3f} {:>8.3f} {:>10.3f} {:>12.6g}",
+              {{"hole", "bearing stress", "bypass", "peak hoop", "at [deg]", "+-", "Kt gross", "Kt net", "Kt bearing",
+                "reaction"},
+               {"", stress, force, stress, "", "", "", "", "", force}});
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index rim = 0; rim < std::ssize(state.plates[i].rims); ++rim) {
       const RimState& at = state.plates[i].rims[rim];
+      const double by_bearing = result.plates[i].columns["rim/bearing_concentration"](step, rim);
       const bool sections = HoleSections(joint.plates[i].stresses, rim).number() > 0;
       const auto known = [](double value, bool is_known) { return is_known ? value + 0.0 : NAN; };
       const auto Kt = [&](double value) { return known(value, sections && value != 0); };
@@ -181,7 +184,7 @@ std::string rim_table(const JointModel& joint, const JointState& state) {
       table.row({joint.plates[i].name + ":" + joint.plates[i].stresses.rim_hole[rim], at.bearing_stress + 0.0,
                  known(at.bypass_load, sections), at.peak_hoop + 0.0, at.peak_angle + 0.0,
                  lacks_error ? Table::Cell("?") : at.peak_error, Kt(at.gross_concentration), Kt(at.net_concentration),
-                 at.across + 0.0});
+                 known(by_bearing, by_bearing != 0), at.across + 0.0});
     }
   return table.text();
 }
@@ -253,8 +256,8 @@ std::string stress_tables(const JointModel& joint, const LoadPath& path, const s
   const bool past_peak =
       !all && std::ranges::any_of(path.steps, [&](const PathStep& step) { return std::abs(step.load_factor) > last; });
   for (Index i = all ? 0 : states.size() - 1; i < std::ssize(states); ++i)
-    if (const std::string table =
-            rim_table(joint, states[i]) + contact_table(result, joint.units, i) + crack_table(result, joint.units, i);
+    if (const std::string table = rim_table(joint, states[i], result, i) + contact_table(result, joint.units, i) +
+                                  crack_table(result, joint.units, i);
         !table.empty())
       text += fmt::format("stresses at {}{}\n{}", all ? fmt::format("increment {}", i + 1) : "the last increment",
                           past_peak ? ", whose load is not the largest (--all-stresses prints every increment)" : "",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/results/hole_quantities.hpp"
 
+#include <cmath>
+
 namespace fastjoint::stage3 {
 namespace {
 
@@ -16,6 +18,12 @@ struct HoleQuantity {
   h5::Allowed allowed{};
   std::optional<columns::Output> output{};
 };
+
+/// Severity by bearing: peak hoop stress over bearing stress.
+double bearing_concentration(const RimState& hole) {
+  constexpr double most = 1000;  // beyond, the peak has nothing to do with the fastener
+  return std::abs(hole.peak_hoop) < most * hole.bearing_stress ? hole.peak_hoop / hole.bearing_stress : 0;
+}
 
 const std::vector<HoleQuantity>& all_of_a_hole() {
   using R = RimState;
@@ -45,6 +53,8 @@ const std::vector<HoleQuantity>& all_of_a_hole() {
       {"net_direction", angle, "direction of the net stress, counter-clockwise from x", &R::net_direction, true},
       {"bypass_across", stress, "principal stress across the direction of the bypass load", &R::bypass_across, true,
        h5::infinite_too},
+      {"bearing_concentration", ratio, "peak over the bearing stress, 0 of a fastener that hardly bears",
+       bearing_concentration},
   };
   return all;
 }

@@ -38,7 +38,9 @@ class PeakSearch {
     const Curve hoop = curve(0, rim_.rim.waves, tractions);
     const auto peak = top(hoop, rim_.kinks);
     if (!peak) return std::nullopt;
-    return HoopPeak{peak->value, turn(peak->angle / rim::degree), error(hoop, *peak, tractions)};
+    const auto known = [&](Index i) { return is_allowed(hoop.angles[i]) ? hoop.values[i] : std::nan(""); };
+    return HoopPeak{peak->value, turn(peak->angle / rim::degree), error(hoop, *peak, tractions),
+                    VectorXd::NullaryExpr(hoop.angles.size(), known)};
   }
 
  private:

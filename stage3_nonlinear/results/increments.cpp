@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/errors.hpp"
 
@@ -30,6 +31,18 @@ std::optional<Imbalance> imbalance(const JointEquations& equations, const PathSt
 }
 
 namespace {
+
+/// Hoop stress at the spots of all holes of each plate, which is taken out of their state.
+std::vector<SpotExtremes> spots_of(JointState& state) {
+  std::vector<SpotExtremes> spots;
+  for (auto& plate : state.plates) {
+    MatrixXd hoop = MatrixXd::Constant(TractionWaves::n_points, std::ssize(plate.rims), std::nan(""));
+    for (Index i = 0; i < hoop.cols(); ++i)
+      if (VectorXd its = std::exchange(plate.rims[i].hoop, {}); its.size() > 0) hoop.col(i) = its;
+    spots.emplace_back(hoop);
+  }
+  return spots;
+}
 
 /// Throws InputError where a plane is not on the curve of its law, whose derivatives by the law's numbers are known.
 void require_first_loading(const JointModel& joint, const SolvedPoint& point) {
@@ -70,6 +83,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
       slopes = state_slopes(all.numbers, point);
       all.sensitivity.push_back(sensitivity(slopes, point));
     }
+    append(all.spots, spots_of(state), std::ssize(all.states));
     if (!wanted.keep_loaded_rims)
       for (auto& plate : state.plates) std::vector<std::optional<LoadedRim>>().swap(plate.loaded);
     all.states.push_back(std::move(state));

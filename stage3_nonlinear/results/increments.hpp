@@ -13,6 +13,7 @@
 #include "stage3_nonlinear/results/load_stiffness.hpp"
 #include "stage3_nonlinear/results/peak_sensitivity.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
+#include "stage3_nonlinear/strength/stress_ranges.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -26,6 +27,7 @@ struct Wanted {
 /// Results of all increments of a path, computed with the tangent of each solution.
 struct Increments {
   std::vector<JointState> states;
+  std::vector<SpotExtremes> spots;                     ///< of the plates
   std::optional<MatrixXd> F_error;                     ///< (steps, n) force; none if not known (ForceErrors)
   std::vector<std::vector<LoadStiffness>> stiffness;   ///< of each increment
   JointNumbers numbers;                                ///< parameters of the derivatives, if wanted

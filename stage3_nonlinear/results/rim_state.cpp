@@ -11,7 +11,6 @@
 #include "common/count.hpp"
 #include "common/rim/angles.hpp"
 #include "stage3_nonlinear/results/hoop_peak.hpp"
-#include "stage3_nonlinear/results/section_stress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -78,47 +77,6 @@ std::vector<double> jumps_of_contact(const Eigen::Vector2d& bearing, const Eigen
   return opposite > 0.01 * there ? std::vector{direction, direction + 180} : std::vector{direction};
 }
 
-/// Sets the bypass load, its error, the net stress and the concentrations.
-/// @param forces       At the joint's degree, then at the one below, if there is one.
-/// @param T            Force of the fastener, friction included.
-/// @param largest      Largest force on the plate.
-/// @param energy_error Relative error of the plate's fields in the energy norm; resultants of stresses have about the
-///                     same.
-void read_sections(const HoleSections& sections, const std::vector<SectionForces>& forces, const Eigen::Vector2d& T,
-                   double largest, double energy_error, RimState& state) {
-  if (sections.number() == 0) return;
-  const auto load = [&](const Principal& stress) {
-    return stress.value * sections.gross_area_across(stress.direction);
-  };
-  const auto bypass = [&](std::size_t level) { return larger_principal(sections.bypass(forces[level], T, largest)); };
-  constexpr double rounding = 1e-9;
-  const MeanStress passing_by = sections.bypass(forces[0], T, largest);
-  const Principal passing = larger_principal(passing_by);
-  state.bypass_load = load(passing);
-  state.bypass_stress = passing.value;
-  state.bypass_across = passing_by[0] + passing_by[1] - passing.value;  // the trace is that of any axes
-  if (!passing_by.allFinite()) state.bypass_across = infinite;
-  if (std::abs(state.bypass_load) > rounding * largest) state.bypass_direction = passing.direction;
-  state.bypass_error = forces.size() > 1
-                           ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest)
-                           : unknown_stress;
-  const Principal net = largest_tension(sections.net(forces[0], T, largest));
-  state.net_stress = net.value;
-  const Principal gross = larger_principal(sections.gross(forces[0], T, largest));
-  const double carried = std::abs(load(gross));
-  // Where sections carry hardly anything of the load, the peak has nothing to do with what they carry.
-  constexpr double hardly = 1e-3;
-  if (!std::isfinite(carried) || !(carried > hardly * std::max(largest, T.norm()))) return;
-  state.net_direction = net.direction;
-  // Interference makes stresses without resultants, so that these are errors only.
-  if (forces.size() > 1 && carried < state.bypass_error) return;
-  state.in_tension = gross.value > 0;
-  if (std::isnan(state.peak_hoop)) return;
-  state.gross_concentration = state.peak_hoop / std::abs(gross.value);
-  const double share = sections.net_share(gross.direction);
-  if (std::isfinite(net.value)) state.net_concentration = state.gross_concentration * share;
-}
-
 /// Sets the peak, and the values that follow from the pressure around the rim.
 /// @param axes Directions of its disc.
 void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen::Vector2d& friction,
@@ -130,6 +88,7 @@ void read_rim(const LoadedRim& rim, const Eigen::Vector2d& bearing, const Eigen:
     state.peak_hoop = peak->value;
     state.peak_angle = peak->angle;
     state.peak_error = peak->error;
+    state.hoop = peak->at_points;
     state.against_slip = rim.against_slip();
   }
   const RimPressure around(rim);
@@ -173,8 +132,8 @@ std::vector<RimState> rim_states(const formats::PlateStresses& a, const formats:
     const auto found =
         std::ranges::find_if(rims, [&](const auto& rim) { return rim && rim->rim.hole == a.rim_hole[i]; });
     if (found != rims.end()) read_rim(**found, bearing, friction, axes, largest, a.bearing_area.row(i), state);
-    read_sections(HoleSections(a, i, &border), forces, bearing + friction, largest, std::sqrt(a.stiffness_error[level]),
-                  state);
+    static_cast<SectionState&>(state) = section_state(HoleSections(a, i, &border), forces, bearing + friction, largest,
+                                                      std::sqrt(a.stiffness_error[level]), state.peak_hoop);
     states.push_back(state);
   }
   return states;

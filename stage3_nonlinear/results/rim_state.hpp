@@ -10,20 +10,16 @@
 #include "common/formats/joint_result.hpp"
 #include "common/formats/plate_matrices.hpp"
 #include "stage3_nonlinear/results/loaded_rims.hpp"
+#include "stage3_nonlinear/strength/section_state.hpp"
 
 namespace fastjoint::stage3 {
 
 /// One hole of a plate at one increment: its quantities in RESULT.h5, and what the summary and warnings ask of it.
-struct RimState {
+struct RimState : SectionState {
   double bearing_load = 0, bearing_load_y = 0, bearing_stress = 0;
-  double bypass_load = 0, bypass_error = 0;
-  double peak_hoop = 0, peak_angle = 0, peak_error = 0;   ///< NaN, NaN and infinite where it is not known
-  double against_slip = 0;                                ///< in contact with friction
-  double gross_concentration = 0, net_concentration = 0;  ///< for the larger section force; 0 without one
-  double net_stress = 0;                                  ///< largest tension over the net sections, in any direction
-  double bypass_stress = 0;                               ///< bypass load over the gross section, tension positive
-  double bypass_across = 0;                               ///< the other principal stress of what passes by
-  double bypass_direction = 0, net_direction = 0;         ///< of these two, degrees
+  double peak_hoop = 0, peak_angle = 0, peak_error = 0;  ///< NaN, NaN and infinite where it is not known
+  VectorXd hoop = {};                                    ///< HoopPeak::at_points; none where there is no peak
+  double against_slip = 0;                               ///< in contact with friction
   /// The springs are in tension: they are on the side that does not bear.
   bool pulls = false;
   bool filled = false;  ///< springs act all around
@@ -35,7 +31,6 @@ struct RimState {
   double across_ratio = 0;  ///< over the bearing load, or over 1 % of the plate's largest force if that is more
   /// Friction acts along both axes: its stresses are not those of friction along the force.
   bool by_components = false;
-  bool in_tension = false;  ///< the section used for the concentrations is in tension
 };
 
 /// Forces of the fasteners on the m discs of a plate.
@@ -47,11 +42,9 @@ struct LoadedDiscs {
 
 /// States of all holes of a plate.
 ///
-/// A concentration is 0 if the force of its section is within rounding or within the error of the bypass load. The
-/// error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points within 7.5 degrees
-/// of a jump of friction are excluded from the search for the peak if the jump is more than 1 % of the bearing stress
-/// (11.5). The error of the bypass load is its change from the degree below, but at least the square root of the
-/// relative error of S times the largest force on the plate (11.6).
+/// The error of the peak is that of docs/theory.md, section 11.4 (tests/pipeline/peaks_test.py). Points within 7.5
+/// degrees of a jump of friction are excluded from the search for the peak if the jump is more than 1 % of the bearing
+/// stress (11.5).
 /// @param level    Index in `a` of the joint's degree; the one below, if there is one, gives the errors.
 /// @param coefficients  Of the unit cases, (n_cases).
 /// @param scale    Reference force of the joint's residuals, for rounding.

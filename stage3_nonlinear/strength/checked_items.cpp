@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "common/count.hpp"
-#include "stage3_nonlinear/results/section_stress.hpp"
+#include "stage3_nonlinear/strength/section_stress.hpp"
 
 namespace fastjoint::stage3 {
 namespace {

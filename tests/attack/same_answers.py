@@ -202,6 +202,8 @@ class SameAnswers:
                 same_derived.compare_holes(guise, original, answers, turns, (a, b), _rounding_of_forces(original))
         if not ends_only and not free and not _is_by_any_angle(guise):
             same_derived.compare_margins(guise, original, answers)
+            if guise.sign > 0:
+                same_derived.compare_ranges(guise, original, answers, turns, _rounding_of_forces(original))
 
     def _compare_step(self, guise, original, answers, turns, a, b, free):
         factors = {"force": guise.force * guise.sign, "length": guise.length * guise.sign}

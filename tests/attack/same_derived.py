@@ -9,7 +9,7 @@ SAME = 1e-6  # of the largest value of a column
 ROUNDING = 1e-3  # of the largest in the joint: columns below count as that large, so that 1e-9 of it is nothing
 FORCE, STRESS, RATIO = (1, 0), (1, -2), (0, 0)
 QUANTITIES = {"bearing_stress": STRESS, "bypass_load": FORCE, "bypass_stress": STRESS, "bypass_across": STRESS, "net_stress": STRESS, "peak_hoop": STRESS,
-              "gross_concentration": RATIO, "net_concentration": RATIO}
+              "gross_concentration": RATIO, "net_concentration": RATIO, "bearing_concentration": RATIO}
 
 
 def _differ(guise, what, mine, others, allowed):
@@ -52,6 +52,20 @@ def compare_holes(guise, original, answers, turns, steps, rounding):
             if unit == RATIO:  # none where a section carries less than a thousandth of the load
                 others = np.where((mine == 0) | (others == 0), mine, others)
             _differ(guise, f"{quantity} of {name} at increment {a}", mine, others, allowed)
+
+
+def compare_ranges(guise, original, answers, turns, rounding):
+    """Stress ranges, sorted, of a joint that is loaded.
+
+    @param rounding: force below which nothing is known.
+    """
+    mine, others = (np.sort(result.get("stress_range/range", [])) for result in (original.result, answers.result))
+    if len(mine) != len(others):
+        raise Fall(f"{guise.name}: {len(mine)} stress ranges and {len(others)}")
+    if not len(mine) or _largest(original.result, turns, ("Pe", "disc/bearing", "traction/force")) < 100 * rounding:
+        return
+    largest = _largest(original.result, turns, ("rim/peak_hoop", "rim/peak_error", "rim/bearing_stress"))  # of a coarse mesh rounding is a share of the error
+    _differ(guise, "stress ranges", mine, others / (guise.force ** STRESS[0] * guise.length ** STRESS[1]), SAME * largest)
 
 
 def compare_margins(guise, original, answers):

@@ -23,7 +23,7 @@ UNITS = {"of force": "force", "of largest_force": "force", "of peak": "force/len
          "of transferred_second": "force", "of F": "force", "of bearing_load": "force", "of bearing_load_y": "force", "of bypass_load": "force",
          "of bypass_error": "force", "of bearing_stress": "force/length^2", "of peak_hoop": "force/length^2", "of peak_error": "force/length^2",
          "of contact_pressure": "force/length^2", "of peak_angle": "deg", "of against_slip": "deg", "of gross_concentration": "1",
-         "of net_concentration": "1", "of net_stress": "force/length^2", "of bypass_stress": "force/length^2", "of bypass_across": "force/length^2", "of bypass_direction": "deg",
+         "of net_concentration": "1", "of bearing_concentration": "1", "of net_stress": "force/length^2", "of bypass_stress": "force/length^2", "of bypass_across": "force/length^2", "of bypass_direction": "deg",
          "of net_direction": "deg", "of K_I": "force/length^1.5", "of largest_K_I": "force/length^1.5", "of K_II": "force/length^1.5",
          "of utilisation": "1", "of largest_utilisation": "1"}  # of a study's numbers
 JOINT = {

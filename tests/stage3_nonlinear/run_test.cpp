@@ -152,7 +152,8 @@ TEST_F(Run, WritesACsvWithAllDigits) {
   EXPECT_THAT(test::read_file(csv_),
               HasSubstr(",net_concentration_second,net_stress_second [lbf/in^2],against_slip_second [deg],"
                         "bypass_stress_second [lbf/in^2],bypass_direction_second [deg],net_direction_second "
-                        "[deg],bypass_across_second [lbf/in^2],F_error [lbf],event,joint,case\n"));
+                        "[deg],bypass_across_second [lbf/in^2],bearing_concentration_second,F_error "
+                        "[lbf],event,joint,case\n"));
   std::istringstream lines(test::read_file(csv_));
   std::string header, line;
   std::getline(lines, header);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/results/section_stress.hpp"
+#include "stage3_nonlinear/strength/section_stress.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "stage3_nonlinear/output/secondary_bending.hpp"
+#include "stage3_nonlinear/strength/bending_factors.hpp"
 
 #include <gtest/gtest.h>
 

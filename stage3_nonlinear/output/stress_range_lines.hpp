@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "common/formats/joint_result.hpp"
+
+namespace fastjoint::stage3 {
+
+/// Lines of the summary for the largest stress ranges of a joint with several increments; empty without any.
+[[nodiscard]] std::string stress_range_lines(const formats::JointResult& result);
+
+}  // namespace fastjoint::stage3

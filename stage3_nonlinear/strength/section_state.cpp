@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/strength/section_state.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/infinite.hpp"
+
+namespace fastjoint::stage3 {
+
+SectionState section_state(const HoleSections& sections, const std::vector<SectionForces>& forces,
+                           const Eigen::Vector2d& T, double largest, double energy_error, double peak) {
+  SectionState state;
+  if (sections.number() == 0) return state;
+  const auto load = [&](const Principal& stress) {
+    return stress.value * sections.gross_area_across(stress.direction);
+  };
+  const auto bypass = [&](std::size_t level) { return larger_principal(sections.bypass(forces[level], T, largest)); };
+  constexpr double rounding = 1e-9;
+  const MeanStress passing_by = sections.bypass(forces[0], T, largest);
+  const Principal passing = larger_principal(passing_by);
+  state.bypass_load = load(passing);
+  state.bypass_stress = passing.value;
+  state.bypass_across = passing_by[0] + passing_by[1] - passing.value;  // the trace is that of any axes
+  if (!passing_by.allFinite()) state.bypass_across = infinite;
+  if (std::abs(state.bypass_load) > rounding * largest) state.bypass_direction = passing.direction;
+  state.bypass_error =
+      forces.size() > 1 ? std::max(std::abs(load(bypass(1)) - state.bypass_load), energy_error * largest) : infinite;
+  const Principal net = largest_tension(sections.net(forces[0], T, largest));
+  state.net_stress = net.value;
+  const Principal gross = larger_principal(sections.gross(forces[0], T, largest));
+  const double carried = std::abs(load(gross));
+  // Where sections carry hardly anything of the load, the peak has nothing to do with what they carry.
+  constexpr double hardly = 1e-3;
+  if (!std::isfinite(carried) || !(carried > hardly * std::max(largest, T.norm()))) return state;
+  state.net_direction = net.direction;
+  // Interference makes stresses without resultants, so that these are errors only.
+  if (forces.size() > 1 && carried < state.bypass_error) return state;
+  state.in_tension = gross.value > 0;
+  if (std::isnan(peak)) return state;
+  state.gross_concentration = peak / std::abs(gross.value);
+  const double share = sections.net_share(gross.direction);
+  if (std::isfinite(net.value)) state.net_concentration = state.gross_concentration * share;
+  return state;
+}
+
+}  // namespace fastjoint::stage3
