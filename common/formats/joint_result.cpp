@@ -149,57 +149,65 @@ void write_sensitivity(h5::Writer& file, const SensitivityHistory& a, Eigen::Ind
   }
 }
 
+/// @param rows Extremes or what is derived from them.
+template <class Rows>
+void write_extremes(h5::Writer& file, const std::string& group, const Rows& rows, const std::string& unit,
+                    Eigen::Index steps) {
+  const Eigen::Index k = std::ssize(rows);
+  const h5::Allowed row = h5::integers(0, int(steps) - 1);
+  file(group + "largest", Column{rows, &Extremes::largest}, {k}, unit, "largest value over all increments of all cases",
+       h5::infinite_too);
+  file(group + "largest_at", Column{rows, &Extremes::largest_at}, {k}, "1", "row where it stands", row);
+  file(group + "smallest", Column{rows, &Extremes::smallest}, {k}, unit, "smallest value", h5::infinite_too);
+  file(group + "smallest_at", Column{rows, &Extremes::smallest_at}, {k}, "1", "row where it stands", row);
+}
+
 void write_envelope(h5::Writer& file, const std::vector<EnvelopeTable>& all, Eigen::Index steps) {
   file("envelope/quantity", Column{all, &EnvelopeTable::quantity}, {any}, "1",
        "quantities of the envelope, each with a group; none if the joint has no cases");
-  for (auto& a : all) {
-    const std::string group = "envelope/" + a.quantity + "/";
-    file(group + "of", a.of, {any}, "1", "shear plane, plate:hole, plate:external or plate:tip");
-    const Eigen::Index k = std::ssize(a.of);
-    file(group + "largest", a.largest, {k}, a.unit, "largest value over all increments of all cases", h5::infinite_too);
-    file(group + "largest_at", a.largest_at, {k}, "1", "row where it stands", h5::integers(0, int(steps) - 1));
-    file(group + "smallest", a.smallest, {k}, a.unit, "smallest value", h5::infinite_too);
-    file(group + "smallest_at", a.smallest_at, {k}, "1", "row where it stands", h5::integers(0, int(steps) - 1));
+  for (const auto& [quantity, unit, rows] : all) {
+    const std::string group = "envelope/" + quantity + "/";
+    file(group + "of", Column{rows, &Extremes::of}, {any}, "1", "shear plane, plate:hole, plate:external or plate:tip");
+    write_extremes(file, group, rows, unit, steps);
   }
 }
 
-void write_margins(h5::Writer& file, const MarginTable& a, Eigen::Index steps) {
-  file("margin/check", a.check, {any}, "1", "check of each margin, the smallest margin first");
-  const Eigen::Index m = std::ssize(a.check);
-  file("margin/of", a.of, {m}, "1", "shear plane, or plate:hole");
-  file("margin/margin", a.margin, {m}, "1", "allowable / (FS FF applied) - 1; infinite where nothing is applied",
-       h5::infinite_too);
-  file("margin/allowable", a.allowable, {m}, "1", "allowable load or stress", h5::infinite_too);
-  file("margin/applied", a.applied, {m}, "1", "applied load or stress", h5::infinite_too);
-  file("margin/edge_ratio", a.edge_ratio, {m}, "1",
-       "distance of the hole's centre from the edge along its load over its diameter; infinite if it plays no part",
-       h5::infinite_too);
-  file("margin/direction", a.direction, {m}, "deg",
-       "direction of the applied load or stress, counter-clockwise from x; infinite if it plays no part",
-       h5::infinite_too);
-  file("margin/at", a.at, {m}, "1", "row of the increment that governs", h5::integers(0, int(steps) - 1));
-  file("margin/unit", a.unit, {m}, "1", "unit of the allowable and of what is applied");
-  file("margin/formula", a.formula, {m}, "1", "formula of the allowable");
-  file("margin/inputs", a.inputs, {m}, "1", "its numbers and the factors");
+void write_margins(h5::Writer& file, const std::vector<Margin>& a, Eigen::Index steps) {
+  using M = Margin;
+  const Eigen::Index m = std::ssize(a);
+  const auto column = [&](const char* name, auto member, const std::string& unit, const char* meaning,
+                          const h5::Allowed& allowed = {}) {
+    file(std::string("margin/") + name, Column{a, member}, {m}, unit, meaning, allowed);
+  };
+  column("check", &M::check, "1", "check of each margin, the smallest margin first");
+  column("of", &M::of, "1", "shear plane, or plate:hole");
+  column("margin", &M::margin, "1", "allowable / (FS FF applied) - 1; infinite where nothing is applied",
+         h5::infinite_too);
+  column("allowable", &M::allowable, "1", "allowable load or stress", h5::infinite_too);
+  column("applied", &M::applied, "1", "applied load or stress", h5::infinite_too);
+  column("edge_ratio", &M::edge_ratio, "1",
+         "distance of the hole's centre from the edge along its load over its diameter; infinite if it plays no part",
+         h5::infinite_too);
+  column("direction", &M::direction, "deg",
+         "direction of the applied load or stress, counter-clockwise from x; infinite if it plays no part",
+         h5::infinite_too);
+  column("at", &M::at, "1", "row of the increment that governs", h5::integers(0, int(steps) - 1));
+  column("unit", &M::unit, "1", "unit of the allowable and of what is applied");
+  column("formula", &M::formula, "1", "formula of the allowable");
+  column("inputs", &M::inputs, "1", "its numbers and the factors");
 }
 
-void write_stress_ranges(h5::Writer& file, const StressRangeTable& a, Eigen::Index steps, const Units& units) {
-  const std::string stress = unit(units, -2, 1);
-  using R = StressRange;
-  file("stress_range/of", Column{a, &R::of}, {any}, "1",
-       "plate:hole with a known hoop stress, that with the largest range first");
+void write_stress_ranges(h5::Writer& file, const std::vector<StressRange>& a, Eigen::Index steps, const Units& units) {
+  const std::string stress = unit(units, -2, 1), group = "stress_range/";
   const Eigen::Index r = std::ssize(a);
-  file("stress_range/angle", Column{a, &R::angle}, {r}, "deg",
+  file(group + "of", Column{a, &Extremes::of}, {any}, "1",
+       "plate:hole with a known hoop stress, that with the largest range first");
+  file(group + "angle", Column{a, &StressRange::angle}, {r}, "deg",
        "spot of its rim at which the hoop stress varies most over all increments, counter-clockwise from x");
-  file("stress_range/range", Column{a, &R::range}, {r}, stress, "largest less smallest hoop stress there");
-  file("stress_range/error", Column{a, &R::error}, {r}, stress,
+  file(group + "range", Column{a, &StressRange::range}, {r}, stress, "largest less smallest hoop stress there");
+  file(group + "error", Column{a, &StressRange::error}, {r}, stress,
        "estimated error of it: the sum of those of the hole's peaks at both increments", h5::infinite_too);
-  file("stress_range/largest", Column{a, &R::largest}, {r}, stress, "largest hoop stress there");
-  file("stress_range/largest_at", Column{a, &R::largest_at}, {r}, "1", "row where it stands",
-       h5::integers(0, int(steps) - 1));
-  file("stress_range/smallest", Column{a, &R::smallest}, {r}, stress, "smallest hoop stress there");
-  file("stress_range/smallest_at", Column{a, &R::smallest_at}, {r}, "1", "row where it stands",
-       h5::integers(0, int(steps) - 1));
+  write_extremes(file, group, a, stress, steps);
 }
 
 /// What the file says of the whole joint, for both directions.
@@ -245,7 +253,7 @@ void write_joint(h5::Writer& file, const JointResult& a) {
   file("stiffness/external", a.load_external, {any}, "1", "plate:external of each load other than zero");
   columns::write(file, "", a.columns, a.header.units);
   write_envelope(file, a.envelope, steps);
-  if (!a.margins.check.empty()) write_margins(file, a.margins, steps);
+  if (!a.margins.empty()) write_margins(file, a.margins, steps);
   if (!a.stress_ranges.empty()) write_stress_ranges(file, a.stress_ranges, steps, a.header.units);
   if (a.sensitivity) write_sensitivity(file, *a.sensitivity, n, a.header.units);
 }

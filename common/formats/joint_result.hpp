@@ -74,32 +74,33 @@ struct PlateHistory {
   [[nodiscard]] std::vector<std::string> names(columns::Of of) const;
 };
 
-/// Largest and smallest values of one quantity over all increments of all load cases.
+/// Largest and smallest value of a number over all increments of all load cases.
+struct Extremes {
+  std::string of{};  ///< shear plane, "plate:hole", "plate:external" or "plate:tip"
+  double largest = 0, smallest = 0;
+  int largest_at = 0, smallest_at = 0;  ///< increments where they are, among all, from 0
+};
+
+/// Those of one quantity.
 struct EnvelopeTable {
   std::string quantity, unit;
-  std::vector<std::string> of{};                ///< (k) shear planes, or "plate:hole", "plate:external", "plate:tip"
-  Eigen::VectorXd largest{}, smallest{};        ///< (k)
-  Eigen::VectorXi largest_at{}, smallest_at{};  ///< (k) increments where they are, among all, from 0
+  std::vector<Extremes> rows{};
 };
 
-/// Margins of the checks of a joint, the smallest first.
-struct MarginTable {
-  std::vector<std::string> check{}, of{}, formula{}, inputs{}, unit{};  ///< (m)
-  Eigen::VectorXd margin{}, allowable{}, applied{};                     ///< (m)
-  Eigen::VectorXd edge_ratio{};                                         ///< (m) e/D; infinite if it plays no part
-  Eigen::VectorXd direction{};  ///< (m) of the applied load or stress, degrees; infinite if it plays no part
-  Eigen::VectorXi at{};         ///< (m) increment that governs, among all
+/// The spot of a hole's rim whose hoop stress varies most.
+struct StressRange : Extremes {
+  double angle = 0;             ///< of the spot, counter-clockwise from x, degrees
+  double range = 0, error = 0;  ///< largest - smallest, and its estimated error, stress
 };
 
-/// How much the hoop stress at one spot of a hole's rim varies over all increments of all load cases.
-struct StressRange {
-  std::string of{};                     ///< "plate:hole"
-  double angle = 0;                     ///< of the spot, counter-clockwise from x, degrees
-  double range = 0, error = 0;          ///< largest - smallest, and its estimated error, stress
-  double largest = 0, smallest = 0;     ///< stress
-  int largest_at = 0, smallest_at = 0;  ///< increments where they are, among all
+/// A margin of a check: the worst of all increments of the check's cases.
+struct Margin {
+  std::string check{}, of{}, formula{}, inputs{}, unit{};
+  double margin = 0, allowable = 0, applied = 0;
+  double edge_ratio = 0;  ///< e/D; infinite if it plays no part
+  double direction = 0;   ///< of the applied load or stress, degrees; infinite if it plays no part
+  int at = 0;             ///< increment that governs, among all
 };
-using StressRangeTable = std::vector<StressRange>;
 
 /// A kind of input numbers by which results are differentiated.
 struct Slopes {
@@ -142,8 +143,8 @@ struct JointResult {
   columns::Columns columns{};                        ///< of its shear planes and loads
   std::vector<PlateHistory> plates;
   std::vector<EnvelopeTable> envelope{};          ///< of a joint with "cases"
-  MarginTable margins{};                          ///< of a joint with "margins"
-  StressRangeTable stress_ranges{};               ///< of two or more increments, the largest range first
+  std::vector<Margin> margins{};                  ///< of a joint with "margins", the smallest first
+  std::vector<StressRange> stress_ranges{};       ///< of two or more increments, the largest range first
   int governing = 0;                              ///< increment that governs, among all; 0: the file does not know
   std::string governing_reason{};                 ///< why it does
   std::vector<std::string> warning_code{};        ///< (a) of each warning that stage3_nonlinear printed

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <array>
-#include <numeric>
-#include <span>
+#include <functional>
 
 #include "common/program/program.hpp"
 #include "stage3_nonlinear/output/envelope.hpp"
@@ -17,9 +16,10 @@ namespace fastjoint::stage3 {
 namespace {
 
 using formats::EnvelopeTable;
+using formats::Extremes;
 using formats::JointResult;
 
-constexpr Index max_case_rows = 16;
+constexpr std::size_t max_case_rows = 16;
 
 /// The largest transferred load of a case, and the highest peak if there is one: "412.3 at 7", "98.1 at upper:3".
 struct Largest {
@@ -57,19 +57,21 @@ std::string case_lines(const JointModel& joint, const JointResult& a) {
 /// Table of a quantity's envelope: all rows in their order, or those of the largest magnitude. Smallest values are
 /// shown where some are negative.
 std::string table(const JointResult& a, const EnvelopeTable& its, const char* meaning) {
-  const Index n = std::ssize(its.of);
-  std::vector<Index> order(n);
-  std::iota(order.begin(), order.end(), Index{0});
-  const auto size = [&](Index i) { return std::max(std::abs(its.largest[i]), std::abs(its.smallest[i])); };
-  if (n > max_case_rows) std::ranges::stable_sort(order, std::greater(), size);
-  const bool has_signs = its.smallest.minCoeff() < 0;
+  std::vector<Extremes> rows = its.rows;
+  const auto size = [](const Extremes& each) { return std::max(std::abs(each.largest), std::abs(each.smallest)); };
+  const std::size_t n = rows.size();
+  if (n > max_case_rows) {
+    std::ranges::stable_sort(rows, std::greater(), size);
+    rows.resize(max_case_rows);
+  }
+  const bool has_signs = std::ranges::any_of(its.rows, [](const Extremes& each) { return each.smallest < 0; });
   std::string format = "{:<24} {:>20.6g} {:<40}";
   Table::Cells headings{meaning, fmt::format("largest [{}]", its.unit), "in"};
   if (has_signs) format += " {:>14.6g} {}", headings.insert(headings.end(), {"smallest", "in"});
   Table shown(format, {headings});
-  for (const Index i : std::span(order).first(std::min(n, max_case_rows))) {
-    Table::Cells cells{program::one_line(its.of[i]), its.largest[i], increment_of(a, its.largest_at[i])};
-    if (has_signs) cells.insert(cells.end(), {its.smallest[i], increment_of(a, its.smallest_at[i])});
+  for (const Extremes& each : rows) {
+    Table::Cells cells{program::one_line(each.of), each.largest, increment_of(a, each.largest_at)};
+    if (has_signs) cells.insert(cells.end(), {each.smallest, increment_of(a, each.smallest_at)});
     shown.row(cells);
   }
   std::string text = shown.text();

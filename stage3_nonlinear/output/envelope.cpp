@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include "stage3_nonlinear/output/csv.hpp"
 
@@ -26,20 +25,14 @@ EnvelopeTable& table_of(const std::string& quantity, const std::string& unit, st
 /// Takes in the numbers of a thing at all increments; not if they are unknown at each.
 void add(const std::string& quantity, const std::string& unit, const std::string& of, const Eigen::VectorXd& values,
          std::vector<EnvelopeTable>& tables) {
-  Index largest = -1, smallest = -1;
-  for (Index i = 0; i < values.size(); ++i) {
+  int largest = -1, smallest = -1;
+  for (int i = 0; i < values.size(); ++i) {
     if (!std::isfinite(values[i])) continue;
     if (largest < 0 || values[i] > values[largest]) largest = i;
     if (smallest < 0 || values[i] < values[smallest]) smallest = i;
   }
-  if (largest < 0) return;
-  EnvelopeTable& table = table_of(quantity, unit, tables);
-  const Index n = std::ssize(table.of);
-  table.of.push_back(of);
-  for (const auto& [list, at] : {std::pair(&table.largest, largest), std::pair(&table.smallest, smallest)})
-    list->conservativeResize(n + 1), (*list)[n] = values[at];
-  for (const auto& [list, at] : {std::pair(&table.largest_at, largest), std::pair(&table.smallest_at, smallest)})
-    list->conservativeResize(n + 1), (*list)[n] = int(at);
+  if (largest >= 0)
+    table_of(quantity, unit, tables).rows.push_back({of, values[largest], values[smallest], largest, smallest});
 }
 
 /// Takes in all columns of things with these names.
@@ -89,12 +82,11 @@ std::string increment_of(const JointResult& a, Index row) {
 
 std::string envelope_csv(const JointResult& a) {
   Csv csv("joint,quantity,of,unit,largest,largest in case,at increment,smallest,smallest in case,at increment");
-  for (const auto& table : a.envelope)
-    for (Index i = 0; i < std::ssize(table.of); ++i) {
+  for (const auto& [quantity, unit, rows] : a.envelope)
+    for (const auto& [of, largest, smallest, largest_at, smallest_at] : rows) {
       const auto case_at = [&](Index row) -> const auto& { return a.case_name[a.case_of[row]]; };
-      const Index largest = table.largest_at[i], smallest = table.smallest_at[i];
-      csv.line(a.header.name, table.quantity, table.of[i], table.unit, table.largest[i], case_at(largest),
-               increment_number(a, largest), table.smallest[i], case_at(smallest), increment_number(a, smallest));
+      csv.line(a.header.name, quantity, of, unit, largest, case_at(largest_at), increment_number(a, largest_at),
+               smallest, case_at(smallest_at), increment_number(a, smallest_at));
     }
   return csv.text();
 }

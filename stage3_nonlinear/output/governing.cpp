@@ -12,8 +12,8 @@ void set_governing(formats::JointResult& a) {
   if (n == 0) return;
   const auto govern = [&](int row, const std::string& reason) { a.governing = row + 1, a.governing_reason = reason; };
   if (!a.complete && a.case_name.size() == 1) return govern(n - 1, "the last that was solved");
-  if (a.margins.margin.size() > 0 && std::isfinite(a.margins.margin[0]))
-    return govern(a.margins.at[0], fmt::format("the smallest margin, {} of {}", a.margins.check[0], a.margins.of[0]));
+  if (!a.margins.empty() && std::isfinite(a.margins[0].margin))
+    return govern(a.margins[0].at, fmt::format("the smallest margin, {} of {}", a.margins[0].check, a.margins[0].of));
   constexpr double same_peak = 1e-9;  // the later of equal ones
   double highest = 0;
   for (const auto& plate : a.plates) {

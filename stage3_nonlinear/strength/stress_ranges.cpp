@@ -43,8 +43,9 @@ void append(std::vector<SpotExtremes>& all, std::vector<SpotExtremes> later, Ind
   }
 }
 
-formats::StressRangeTable stress_ranges(const std::vector<SpotExtremes>& plates, const formats::JointResult& result) {
-  formats::StressRangeTable table;
+std::vector<formats::StressRange> stress_ranges(const std::vector<SpotExtremes>& plates,
+                                                const formats::JointResult& result) {
+  std::vector<formats::StressRange> table;
   if (result.load_factor.size() < 2) return table;
   for (std::size_t i = 0; i < plates.size(); ++i) {
     const SpotExtremes& its = plates[i];
@@ -53,7 +54,8 @@ formats::StressRangeTable stress_ranges(const std::vector<SpotExtremes>& plates,
       if (spot < 0) continue;
       const formats::PlateHistory& plate = result.plates[i];
       const auto error = [&](int row) { return plate.columns["rim/peak_error"](row, hole); };
-      formats::StressRange range{.of = plate.name + ":" + plate.holes.hole[hole]};
+      formats::StressRange range;
+      range.of = plate.name + ":" + plate.holes.hole[hole];
       range.angle = std::remainder(360.0 * double(spot) / double(its.largest.rows()), 360);
       range.largest = its.largest(spot, hole), range.smallest = its.smallest(spot, hole);
       range.largest_at = its.largest_at(spot, hole), range.smallest_at = its.smallest_at(spot, hole);

@@ -28,7 +28,7 @@ void append(std::vector<SpotExtremes>& all, std::vector<SpotExtremes> later, Eig
 /// Of each hole the spot whose stress varies most over all increments, the largest range first; none of holes without a
 /// spot that is known at all increments, and with less than two increments.
 /// @param plates As those of the result, whose errors of the peaks give that of a range.
-[[nodiscard]] formats::StressRangeTable stress_ranges(const std::vector<SpotExtremes>& plates,
-                                                      const formats::JointResult& result);
+[[nodiscard]] std::vector<formats::StressRange> stress_ranges(const std::vector<SpotExtremes>& plates,
+                                                              const formats::JointResult& result);
 
 }  // namespace fastjoint::stage3
