@@ -97,10 +97,11 @@ void warn(std::ostream& log, const std::vector<program::Warning>& warnings, std:
 
 /// Throws InputError if there is too little memory for the matrices, for solving and for the results of all increments
 /// of the chosen cases.
-void require_memory(const JointScene& scene, const JointModel& joint, const std::vector<std::size_t>& chosen,
-                    bool with_csv, bool with_sensitivities, bool with_rim_stresses) {
+void require_memory(const JointScene& scene, const JointModel& joint, const Parameters& parameters,
+                    const std::vector<std::size_t>& chosen, bool with_csv, bool with_sensitivities,
+                    bool with_rim_stresses) {
   using program::bytes_text;
-  const auto [solving, of_step] = joint_need(joint, with_csv, with_sensitivities, with_rim_stresses);
+  const auto [solving, of_step] = joint_need(joint, parameters, with_csv, with_sensitivities, with_rim_stresses);
   const double read = matrices_need(scene);
   Index n_steps = 0;
   for (const std::size_t at : chosen)
@@ -132,15 +133,14 @@ MoreStresses stresses_wanted(const program::Arguments& arguments) {
 }
 
 /// Solves a load case. @param alone It is the only one, whose increments the summary tells.
-SolvedCase solve_case(const program::Arguments& arguments, const JointScene& scene, CaseRun& cases,
-                      CrackErrorEstimate& cracks, std::size_t at, bool alone, std::ostream& log) {
+SolvedCase solve_case(const program::Arguments& arguments, const JointScene& scene, const JointModel& joint,
+                      CaseRun& cases, CrackErrorEstimate& cracks, std::size_t at, bool alone, std::ostream& log) {
   const CaseScene& its = scene.cases[at];
   const PathOptions solving{scene.initial, scene.solver, arguments.flag("--verbose") ? &log : nullptr};
   const MoreStresses wanted = stresses_wanted(arguments);
   const bool with_slopes = arguments.flag("--sensitivities");
   auto [equations, path, increments, missing] = cases.follow(
       at, its.load_factors, solving, {scene.solver.tolerance, with_slopes, wanted.all_around || wanted.distance});
-  const JointModel& joint = cases.joint();
   const auto& states = increments.states;
   path.interference = search_interference(equations, solving, path);
   const auto errors = cracks.of(joint, at, path, states, solving);
@@ -153,8 +153,8 @@ SolvedCase solve_case(const program::Arguments& arguments, const JointScene& sce
     return solved;
   }
   for (const auto& some :
-       {warnings(joint, equations, path), implausible_numbers(scene, joint, path), rim_warnings(joint, states),
-        crack_warnings(joint, states, errors),
+       {warnings(joint, equations, path), implausible_numbers(scene, joint, equations.parameters, path),
+        rim_warnings(joint, equations.parameters, states), crack_warnings(joint, states, errors),
         wanted.distance ? distance_warnings(joint, *wanted.distance) : std::vector<program::Warning>()})
     solved.warnings.insert(solved.warnings.end(), some.begin(), some.end());
   if (with_slopes) solved.result.sensitivity = sensitivity_history(joint, increments);
@@ -197,19 +197,21 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   std::vector<program::Warning> warnings;
   warn(log, scene.warnings, warnings);
   require_memory_to_read(scene);
-  CaseRun cases(scene, load_joint(scene, p));
-  require_memory(scene, cases.joint(), chosen, !arguments.text("--csv").empty(), arguments.flag("--sensitivities"),
+  const JointModel joint = load_joint(scene, p);
+  const Parameters first = parameters_of(joint, scene, scene.cases.front());
+  require_memory(scene, joint, first, chosen, !arguments.text("--csv").empty(), arguments.flag("--sensitivities"),
                  arguments.flag("--rim-stresses"));
-  const CheckedItems checked = checked_items(scene, cases.joint());  // ends before solving if a check cannot be made
+  const CheckedItems checked = checked_items(scene, joint, first);  // ends before solving if a check cannot be made
   timings.phase("solve");
   program::report_share(0);
-  CrackErrorEstimate cracks(scene, cases.joint());
+  CaseRun cases(scene, joint);
+  CrackErrorEstimate cracks(scene, joint);
   formats::JointResult result;
   std::vector<SpotExtremes> spots;
   CaseWarnings found;
   std::vector<std::string> texts, failures;
   for (const std::size_t at : chosen) {
-    SolvedCase its = solve_case(arguments, scene, cases, cracks, at, chosen.size() == 1, log);
+    SolvedCase its = solve_case(arguments, scene, joint, cases, cracks, at, chosen.size() == 1, log);
     append(spots, std::move(its.spots), result.load_factor.size());
     append(result, scene.cases[at].name, std::move(its.result));
     found.add(scene.cases[at].name, its.warnings);
@@ -218,7 +220,6 @@ void run(const program::Arguments& arguments, std::ostream& out, std::ostream& l
   }
   program::report_share(1);
   warn(log, found.all(chosen.size()), warnings);
-  const JointModel& joint = cases.joint();
   result.header = {program::generator(program_name), scene.name, joint.units, document.text};
   if (!scene.cases.front().name.empty()) result.envelope = envelope(joint, result);
   if (!scene.checks.empty()) {

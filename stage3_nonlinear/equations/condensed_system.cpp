@@ -110,10 +110,10 @@ void set_reference(CondensedSystem& system, const VectorXd& own, const std::vect
   system.metric = matrices::inverse_of_positive(std::move(W)).value();
 }
 
-CondensedSystem condense(const JointModel& joint) {
+CondensedSystem condense(const JointModel& joint, const Held& held) {
   const MatrixXd S = stiffness_of_plates(joint);
   CondensedSystem system{};
-  system.rigid = RigidJoint(joint, S);
+  system.rigid = RigidJoint(joint, held, S);
   const auto& Y = system.rigid.Y();
   const MatrixXd SY = S * Y;
   const MatrixXd half = system.rigid.half_solve(SY);
@@ -121,7 +121,8 @@ CondensedSystem condense(const JointModel& joint) {
   system.S_ud = Y.transpose() * SY;
   system.S_ud.noalias() -= half.transpose() * half;
   system.n_moments = joint.n_moments();
-  system.cases = load_cases(joint);
+  system.held = held;
+  system.cases = load_cases(joint, held);
   const auto [loads, given] = unit_loads(joint, system.cases);
   system.Q = system.D_delta.transpose() * loads;
   system.Q_scale.resize(loads.cols());

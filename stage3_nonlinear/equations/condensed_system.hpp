@@ -11,8 +11,8 @@
 namespace fastjoint::stage3 {
 
 /// Linear part of a joint, condensed on its n shear planes in a directions and on the moments of its rims of contact,
-/// for any stack of plates (docs/theory.md, section 7.1). It depends on the plates and fasteners only, not on
-/// Parameters: loads, laws, clearances, gaps and coefficients of friction.
+/// for any stack of plates (docs/theory.md, section 7.1). It depends on the plates and fasteners and on
+/// Parameters::held only, not on the other Parameters: loads, laws, clearances, gaps and coefficients of friction.
 ///
 /// The r rows are those of the planes, then those of the moments: delta holds the moments too, and F the forces of
 /// their springs. The rows S D + R Lambda + T f + B F = P (per disc and rigid external) and delta = B^T D reduce to
@@ -26,7 +26,8 @@ struct CondensedSystem {
   VectorXd Q_scale = VectorXd::Ones(Q.cols());  ///< (l) largest force of each load case, for rounding
   MatrixXd H = MatrixXd(S_ud.rows(), 0);        ///< (r, t) forces by friction, per unit of each amplitude
   std::vector<LoadCase> cases = {};             ///< (l)
-  FrictionLayout friction = {};                 ///< (t)
+  Held held = {};
+  FrictionLayout friction = {};  ///< (t)
   // Displacements of the joint's N unknowns, given ones included.
   MatrixXd D_load = {};   ///< (N, l) per unit of each load case at delta = 0
   MatrixXd D_delta = {};  ///< (N, r) per relative displacement, dimensionless
@@ -49,6 +50,6 @@ struct CondensedSystem {
 void set_reference(CondensedSystem& system, const VectorXd& own, const std::vector<Index>& rims = {});
 
 /// Condenses a joint. @throws NumericalError naming the plates that can move freely.
-[[nodiscard]] CondensedSystem condense(const JointModel& joint);
+[[nodiscard]] CondensedSystem condense(const JointModel& joint, const Held& held);
 
 }  // namespace fastjoint::stage3

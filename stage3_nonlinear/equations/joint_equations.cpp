@@ -28,7 +28,7 @@ void check_friction(const JointModel& joint, const Parameters& parameters) {
   Index at = 0;
   for (const auto& fastener : joint.fasteners)
     for (const auto& hole : fastener.holes)
-      if (parameters.mu[at++] != 0 && hole.mu == 0)
+      if (parameters.mu[at++] != 0 && !hole.has_friction)
         throw std::logic_error("make_equations: friction in a hole that has none in the condensed joint");
 }
 
@@ -67,7 +67,7 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
                 JointEquations& equations) {
   const auto places = rim_places(joint);
   for (Index i = 0; i < std::ssize(places); ++i) {
-    const auto& [plate, at, hole] = places[i];
+    const auto& [plate, at, hole, may_rub] = places[i];
     const auto& rim = joint.plates[plate].contact[at];
     const double gap = hole < 0 ? 0 : equations.parameters.gap[hole], mu = hole < 0 ? 0 : equations.parameters.mu[hole];
     const auto& waves = joint.plates[plate].short_waves[at];
@@ -77,8 +77,7 @@ void place_rims(const JointModel& joint, const std::vector<std::shared_ptr<const
             ? like[i]->with(gap, mu)
             : RimProblem(RimContact(rim.pressures, contact_stiffness(rim, *waves, k), gap, mu), waves, rim.area, k)));
     equations.has_friction = equations.has_friction || mu != 0;
-    place(std::make_shared<RimInterface>(equations.rims.back(), i, equations.system->friction.rim_has_friction[i]),
-          equations.interfaces);
+    place(std::make_shared<RimInterface>(equations.rims.back(), i, may_rub), equations.interfaces);
   }
 }
 
@@ -114,10 +113,6 @@ JointEquations make_equations(const JointModel& joint, std::shared_ptr<const Con
   equations.q = rigid_forces_by(*equations.system, equations.load_rates(1));
   equations.q_reversed = rigid_forces_by(*equations.system, equations.load_rates(-1));
   return equations;
-}
-
-JointEquations make_equations(const JointModel& joint) {
-  return make_equations(joint, std::make_shared<const CondensedSystem>(condense(joint)), parameters_of(joint));
 }
 
 Index JointEquations::entry_of(Index row) const {

@@ -88,13 +88,11 @@ struct JointEquations {
   [[nodiscard]] MatrixXd friction_matrix(const VectorXd& F) const;
 };
 
-/// @param system Condensed system of the joint. @param parameters Used instead of those in JOINT.json.
+/// @param system Condensed system of the joint, held as in the parameters.
 /// @param like Rims of other equations of the same joint to copy from; the new rims start at their last solutions.
 [[nodiscard]] JointEquations make_equations(const JointModel& joint, std::shared_ptr<const CondensedSystem> system,
                                             Parameters parameters,
                                             const std::vector<std::shared_ptr<const RimProblem>>& like = {});
-/// Condenses the joint and takes the parameters in JOINT.json.
-[[nodiscard]] JointEquations make_equations(const JointModel& joint);
 
 /// @param c Contact coordinates, shape (r), force.
 [[nodiscard]] ContactState contact_state(const JointEquations& equations, const VectorXd& c);

@@ -57,21 +57,22 @@ SparseMatrix relative_motions(const JointModel& joint) {
 
 /// Matrix Z: each independent unknown has its own column, all discs of a fastener have that of its reference hole, tied
 /// externals that of the first; the ground has none.
-SparseMatrix free_unknowns(const JointModel& joint) {
+SparseMatrix free_unknowns(const JointModel& joint, const Held& held) {
   const Index N = joint.n_unknowns();
   std::vector<Index> leader(N);
   std::iota(leader.begin(), leader.end(), Index{0});
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
-    for (Index e = 0; e < plate.n_externals(); ++e)
-      if (plate.external_displacement[e]) leader[joint.offset(i) + plate.n_discs() + e] = -1;
     for (Index unknown = plate.first_moment(); unknown < plate.n_unknowns(); ++unknown)
       leader[joint.offset(i) + unknown] = -1;
   }
   const auto unknown = [&](const std::pair<Index, Index>& external) {
     return joint.offset(external.first) + joint.plates[external.first].n_discs() + external.second;
   };
-  for (const auto& group : joint.ties)
+  const auto loads = loads_of(joint);
+  for (std::size_t i = 0; i < loads.size(); ++i)
+    if (held.displaced[i]) leader[unknown({loads[i].plate, loads[i].at})] = -1;
+  for (const auto& group : held.ties)
     for (const auto& external : group) leader[unknown(external)] = unknown(group.front());
   for (const auto& fastener : joint.fasteners) {
     const Index at = reference(joint, fastener);
@@ -116,8 +117,8 @@ MatrixXd motions_without_stiffness(const MatrixXd& S_z) {
 
 }  // namespace
 
-RigidJoint::RigidJoint(const JointModel& joint, const MatrixXd& S)
-    : Z_(free_unknowns(joint)), Y_(relative_motions(joint)), scale_(VectorXd::Zero(Z_.cols())) {
+RigidJoint::RigidJoint(const JointModel& joint, const Held& held, const MatrixXd& S)
+    : Z_(free_unknowns(joint, held)), Y_(relative_motions(joint)), scale_(VectorXd::Zero(Z_.cols())) {
   VectorXd own(joint.n_unknowns());  // stiffness of the plate of each unknown
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     own.segment(joint.offset(i), joint.plates[i].n_unknowns()).setConstant(own_stiffness(joint.plates[i]));

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-#include "stage3_nonlinear/model/joint_model.hpp"
+#include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -21,7 +21,7 @@ class RigidJoint {
 
   RigidJoint() = default;
   /// @param S (N, N) stiffness of all plates. @throws NumericalError naming the plates that can move freely.
-  RigidJoint(const JointModel& joint, const MatrixXd& S);
+  RigidJoint(const JointModel& joint, const Held& held, const MatrixXd& S);
 
   [[nodiscard]] const SparseMatrix& Z() const { return Z_; }  ///< (N, z) of 0 and 1
   [[nodiscard]] const SparseMatrix& Y() const { return Y_; }  ///< (N, r) of -1, 0 and 1

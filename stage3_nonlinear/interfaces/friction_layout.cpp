@@ -35,11 +35,10 @@ void add_fastener(const JointModel& joint, const FastenerModel& fastener, Fricti
 FrictionLayout friction_layout(const JointModel& joint) {
   FrictionLayout layout;
   for (const auto& fastener : joint.fasteners) add_fastener(joint, fastener, layout);
-  for (const auto& [plate, at, hole] : rim_places(joint)) {
+  for (const auto& [plate, at, hole, has_friction] : rim_places(joint)) {
     const PlateModel& its = joint.plates[plate];
     const auto& rim = its.contact[at];
-    layout.rim_has_friction.push_back(joint.mu(plate, rim.hole) != 0);
-    for (Index i = 0; layout.rim_has_friction.back() && i < its.waves[at].waves.n_shears(); ++i)
+    for (Index i = 0; has_friction && i < its.waves[at].waves.n_shears(); ++i)
       layout.columns.push_back({plate, its.first_shear(rim) + i, 0});
   }
   return layout;

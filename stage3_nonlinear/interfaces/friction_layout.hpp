@@ -21,7 +21,6 @@ struct FrictionLayout {
   std::vector<FrictionColumn> columns;
   std::vector<std::vector<FrictionHole>> friction_holes;  ///< of each fastener
   std::vector<Index> n_columns;                           ///< of each fastener
-  std::vector<bool> rim_has_friction;                     ///< of each of rim_places
 };
 [[nodiscard]] FrictionLayout friction_layout(const JointModel& joint);
 

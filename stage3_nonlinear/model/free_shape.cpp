@@ -62,7 +62,10 @@ void expand(const CaseScene& its, const PlateModel& plate, double temperature, F
   for (Index i = 0; i < plate.n_externals(); ++i) {
     const int axis = plate.external_axis[i];
     shape.De[i] += strain(axis, axis) * (plate.places.external.row(i).mean() - fixed[axis]);
-    if (strain(0, 1) != 0 && plate.external_displacement[i])
+    const auto displaces = [&](const LoadScene& load) {
+      return load.is_displacement && load.external.plate == plate.name && load.external.name == plate.externals[i];
+    };
+    if (strain(0, 1) != 0 && std::ranges::any_of(its.loads, displaces))
       fail(its, plate,
            fmt::format("\"{}\" has a given displacement, and this sheet expands in shear too", plate.externals[i]),
            "a force on it, or a sheet whose axes are x and y");
@@ -71,12 +74,15 @@ void expand(const CaseScene& its, const PlateModel& plate, double temperature, F
 
 }  // namespace
 
+FreeShape undisplaced(const PlateModel& plate) {
+  return {VectorXd::Zero(plate.n_discs()), VectorXd::Zero(plate.n_externals()),
+          VectorXd::Zero(std::ssize(plate.tractions))};
+}
+
 std::vector<FreeShape> free_shapes(const JointModel& joint, const JointScene& scene, const CaseScene& its) {
   std::vector<FreeShape> shapes;
   for (const auto& plate : joint.plates) {
-    FreeShape& shape =
-        shapes.emplace_back(FreeShape{VectorXd::Zero(plate.n_discs()), VectorXd::Zero(plate.n_externals()),
-                                      VectorXd::Zero(std::ssize(plate.tractions))});
+    FreeShape& shape = shapes.emplace_back(undisplaced(plate));
     if (const double temperature = temperature_of(its, plate.name); temperature != 0)
       expand(its, plate, temperature, shape);
   }

@@ -7,6 +7,15 @@
 
 namespace fastjoint::stage3 {
 
+/// Displacements of the discs and externals of a sheet without forces, as it lies before the joint is made.
+struct FreeShape {
+  VectorXd D, De;     ///< (m), (e) length
+  VectorXd traction;  ///< (q) mean along each traction, length; 0 of a moment
+};
+
+/// The shape of a sheet in the place and at the temperature of its matrices.
+[[nodiscard]] FreeShape undisplaced(const PlateModel& plate);
+
 /// Shapes of the free sheets of a joint in a load case: their expansion by temperature about the supports, and holes
 /// that are off their place (docs/theory.md, section 4.6). Forces follow from what displacements differ from them.
 ///

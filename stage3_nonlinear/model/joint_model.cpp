@@ -7,14 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <ranges>
 #include <set>
 
 #include "common/count.hpp"
 #include "common/errors.hpp"
-#include "stage3_nonlinear/model/fastener_gaps.hpp"
-#include "stage3_nonlinear/model/free_shape.hpp"
 #include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
@@ -146,8 +143,7 @@ HoleModel make_hole(const JointModel& model, const JointScene& scene, const Fast
     refuse(hole.where, fmt::format("hole \"{}\" does not exist in {}", hole.name, plate.file),
            fmt::format("{}", fmt::join(plate.holes, ", ")));
   const double mu = fastener.friction[at];
-  HoleModel result{plate_at, index * model.n_directions(), mu, {}, gap_of(fastener, at, plate)};
-  check_gap(fastener, hole.name, plate, result.gap);
+  HoleModel result{plate_at, index * model.n_directions(), mu != 0};
   if (directions_at(plate, result.disc) == "x and y") check_rim_all_around(plate, hole.name);
   if (mu == 0) return result;
   if (plate.is_in_contact(hole.name)) return result;
@@ -172,13 +168,11 @@ void add_fastener(JointModel& model, const JointScene& scene, const FastenerScen
       refuse(fastener.where + "/law",
              fmt::format("law \"{}\" is one_sided, but the discs move along x and y", fastener.law[plane]),
              "laws that bear all around, or plates whose discs have one direction");
-    model.planes.push_back(
-        {std::ssize(model.fasteners), plane, law.law, fastener.law[plane], fastener.clearance[plane], law.one_sided});
+    model.planes.push_back({std::ssize(model.fasteners), plane, fastener.law[plane], law.one_sided});
   }
   FastenerModel result{fastener.id, {}, fastener.law_includes_friction, fastener.grounded};
   for (Index i = 0; i < std::ssize(fastener.between); ++i) result.holes.push_back(make_hole(model, scene, fastener, i));
   check_directions(model, fastener, result);
-  check_clearance(model, fastener, result);
   for (const auto& hole : result.holes)  // at a rim of contact the force on the disc includes friction already
     result.law_includes_friction |= model.plates[hole.plate].is_in_contact(model.plates[hole.plate].hole_of(hole.disc));
   model.fasteners.push_back(std::move(result));
@@ -189,102 +183,7 @@ std::string second_plate(const JointModel& joint, const ShearPlane& plane) {
   return joint.is_to_ground(plane) ? ground_name : joint.plates[joint.second_hole(plane).plate].name;
 }
 
-/// The hole of a plate with its fastener; one without gap and friction if no fastener is in it.
-const HoleModel& fastened(const JointModel& joint, Index plate, const std::string& hole) {
-  static const HoleModel none;
-  for (const auto& fastener : joint.fasteners)
-    for (const auto& its : fastener.holes)
-      if (its.plate == plate && joint.plates[plate].hole_of(its.disc) == hole) return its;
-  return none;
-}
-
-/// @param factors The requested load factors.
-void apply_load(JointModel& model, const LoadScene& load, const std::vector<double>& factors) {
-  const Reference& name = load.external;
-  PlateModel& plate = model.plates[index_of(model.plates, name.plate, &PlateModel::name)];
-  const Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
-  if (rigid < plate.n_externals() && load.is_moment)
-    refuse(name.where, fmt::format("\"{}\" moves along an axis and takes no moment", name.name),
-           "\"force\" or \"displacement\", or an external of kind \"moment\"");
-  if (rigid < plate.n_externals() && load.is_displacement) {
-    plate.external_displacement[rigid] = load.value;
-  } else if (rigid < plate.n_externals()) {
-    plate.external_force[rigid] = load.value;
-  } else if (traction < plate.traction_force.size()) {
-    if (load.is_displacement)
-      refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
-             plate.is_moment(traction) ? "\"moment\"" : "\"force\", or an external of kind \"rigid\"");
-    const bool is_moment = plate.is_moment(traction);
-    if (is_moment != load.is_moment)
-      refuse(name.where, fmt::format("\"{}\" carries a {}", name.name, is_moment ? "moment" : "force"),
-             is_moment ? "\"moment\", force x length" : "\"force\", or an external of kind \"moment\"");
-    for (Index i = traction; i < std::ssize(plate.tractions); ++i)
-      if (plate.tractions[i] == name.name)
-        plate.traction_force[i] = is_moment ? load.value / plate.traction_arm[i] : load.value;
-    check_side(plate, traction, load, factors);
-  } else {
-    auto known = plate.externals;
-    std::ranges::unique_copy(plate.tractions, std::back_inserter(known));
-    refuse(name.where, fmt::format("external \"{}\" does not exist in {}", name.name, plate.file),
-           known.empty() ? "none: this plate has no external boundary" : fmt::format("{}", fmt::join(known, ", ")));
-  }
-}
-
 }  // namespace
-
-void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
-  for (const double factor : factors) {
-    bool has_side = load.value * factor == 0;
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      has_side = has_side || (plate.tractions[i] == plate.tractions[traction] &&
-                              is_active(plate.bearing_sign(i), factor * load.value));
-    if (!has_side)
-      refuse(load.external.where,
-             fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
-                         "that would bear",
-                         load.external.name, factor * load.value, factor, plate.file),
-             "a force of the other sign, or a sheet that has the whole hole");
-  }
-}
-
-/// Ties the externals of a load.
-void tie(JointModel& joint, const LoadScene& load) {
-  std::vector<Reference> names{load.external};
-  names.insert(names.end(), load.tied.begin(), load.tied.end());
-  auto& group = joint.ties.emplace_back();
-  for (const auto& name : names) {
-    const Index at = index_of(joint.plates, name.plate, &PlateModel::name);
-    const PlateModel& plate = joint.plates[at];
-    const Index external = index_of(plate.externals, name.name);
-    if (external == plate.n_externals())
-      refuse(name.where, fmt::format("\"{}:{}\" is no rigid external", name.plate, name.name),
-             "externals of kind \"rigid\" in a tie");
-    if (!group.empty() && plate.external_axis[external] != joint.plates[group[0].first].external_axis[group[0].second])
-      refuse(name.where, fmt::format("\"{}:{}\" moves along another axis than the first", name.plate, name.name),
-             "externals of one direction in a tie");
-    group.emplace_back(at, external);
-  }
-}
-
-void set_loads(JointModel& joint, const JointScene& scene, const CaseScene& its) {
-  joint.ties.clear();
-  for (auto& plate : joint.plates) {
-    plate.external_force.setZero();
-    plate.external_displacement.assign(plate.externals.size(), std::nullopt);
-    plate.traction_force.setZero();
-  }
-  for (const auto& load : its.loads) {
-    apply_load(joint, load, its.wanted_load_factors());
-    if (!load.tied.empty()) tie(joint, load);
-  }
-  auto shapes = free_shapes(joint, scene, its);
-  for (std::size_t i = 0; i < shapes.size(); ++i) joint.plates[i].free = std::move(shapes[i]);
-  for (Index i = 0; i < std::ssize(joint.fasteners); ++i)
-    for (Index at = 0; at < std::ssize(joint.fasteners[i].holes); ++at) {
-      HoleModel& hole = joint.fasteners[i].holes[at];
-      hole.gap = gap_of(scene.fasteners[i], at, joint.plates[hole.plate]) + gap_growth(joint, scene, its, i, at);
-    }
-}
 
 Index JointModel::offset(Index plate) const {
   Index offset = 0;
@@ -305,7 +204,11 @@ Index JointModel::n_moments() const {
   return n;
 }
 
-double JointModel::mu(Index plate, const std::string& hole) const { return fastened(*this, plate, hole).mu; }
+Index JointModel::number_of_first_hole(const ShearPlane& plane) const {
+  Index first = plane.first;
+  for (Index i = 0; i < plane.fastener; ++i) first += std::ssize(fasteners[i].holes);
+  return first;
+}
 
 std::optional<Index> JointModel::described(const HoleModel& hole) const {
   const auto& holes = plates[hole.plate].stresses.rim_hole;
@@ -350,8 +253,7 @@ JointModel load_joint(const JointScene& scene, int p) {
   for (Index i = 0; i < std::ssize(all); ++i)
     model.plates.push_back(make_plate(scene.plates[i].name, files[i], std::move(all[i]), model.p, model.axes));
   for (const auto& fastener : scene.fasteners) add_fastener(model, scene, fastener);
-  for (const auto& each : scene.cases) set_loads(model, scene, each);  // checks all of them
-  set_loads(model, scene, scene.cases.front());
+  for (const auto& each : scene.cases) (void)parameters_of(model, scene, each);  // checks them
   return model;
 }
 

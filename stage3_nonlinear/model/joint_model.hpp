@@ -34,12 +34,6 @@ struct PlateDegrees {
 ///
 /// The external forces in equilibrium with them are S u + R Lambda + T f (docs/theory.md, section 4). S does not hold
 /// the springs of a rim of contact: the force that they transmit is minus the force on its moments.
-/// Displacements of the discs and externals of a sheet without forces, as it lies before the joint is made.
-struct FreeShape {
-  VectorXd D, De;       ///< (m), (e) length
-  VectorXd traction{};  ///< (q) mean along each traction, length; 0 of a moment
-};
-
 struct PlateModel {
   std::string name, file;
   std::string materials;                                 ///< JSON text of them in its PLATE.json; empty if unknown
@@ -78,11 +72,6 @@ struct PlateModel {
   std::vector<std::string> traction_hole{};  ///< (q) hole that each traction presses on, "" for an edge
   VectorXd traction_unit_force{};            ///< (q) force per unit peak of its cosine pressure, length^2
   VectorXd expansion{};                      ///< (3) formats::UnitCases::expansion
-  FreeShape free{};                          ///< of the load case
-  // Loads at load factor 1.
-  VectorXd external_force;                                   ///< (e), 0 where a displacement is given
-  std::vector<std::optional<double>> external_displacement;  ///< (e)
-  VectorXd traction_force;                                   ///< (q) the same for both sides of a hole
   /// (q) side of the hole that bears under the force of this case; none or no list for edges
   std::vector<BearingSide> traction_bearing{};
 
@@ -156,11 +145,11 @@ struct FrictionCase {
 struct HoleModel {
   Index plate = 0;
   Index disc = 0;  ///< first unknown of its disc among the plate's
-  double mu = 0;   ///< coefficient of friction
+  /// True if it may have friction in a run.
+  bool has_friction = false;
   /// Friction by direction of the joint, then by Side: each component of the bearing force has its own friction case.
   /// Empty without friction, and at a rim of contact, whose friction follows its pressure (RimFriction).
-  std::vector<std::array<FrictionCase, 2>> friction;
-  double gap = 0;  ///< radial, between the fastener and a rim with compression-only springs, length
+  std::vector<std::array<FrictionCase, 2>> friction{};
 };
 
 /// A fastener through its holes in their order.
@@ -178,13 +167,12 @@ struct FastenerModel {
 struct ShearPlane {
   Index fastener = 0;
   Index first = 0;  ///< hole of the fastener; the second is the next, or the ground after the last
-  LawPointer law;
   std::string law_name;
-  double clearance = 0;  ///< length
   bool one_sided = false;
 };
 
-/// Plates with their loads and fasteners; indices instead of names.
+/// Plates and fasteners, with indices instead of names: what is the same in all runs of a joint. The numbers of a run
+/// are its Parameters.
 ///
 /// Vectors of the shear planes have one entry for each plane and direction, directions inner.
 struct JointModel {
@@ -195,8 +183,6 @@ struct JointModel {
   std::vector<PlateModel> plates;
   std::vector<FastenerModel> fasteners;
   std::vector<ShearPlane> planes;
-  /// Groups of rigid externals that move as one, each by plate and external; the first carries the load of all.
-  std::vector<std::vector<std::pair<Index, Index>>> ties{};
 
   [[nodiscard]] Index n_directions() const { return axes.size(); }
   [[nodiscard]] Index n_planes() const { return planes.size(); }
@@ -215,8 +201,8 @@ struct JointModel {
   [[nodiscard]] const HoleModel& second_hole(const ShearPlane& plane) const {
     return fasteners[plane.fastener].holes[plane.first + 1];
   }
-  /// Coefficient of friction of the fastener in a hole of a plate; 0 without a fastener.
-  [[nodiscard]] double mu(Index plate, const std::string& hole) const;
+  /// Index of the first hole of a plane among all holes of fasteners, fastener after fastener.
+  [[nodiscard]] Index number_of_first_hole(const ShearPlane& plane) const;
   /// Holes of the plane: the first alone if it is to the ground.
   [[nodiscard]] std::span<const HoleModel> holes(const ShearPlane& plane) const {
     return {&first_hole(plane), is_to_ground(plane) ? 1U : 2U};
@@ -236,14 +222,7 @@ struct JointModel {
   [[nodiscard]] std::string short_name(const ShearPlane& plane) const;
 };
 
-/// Refuses a force on a side of a hole that the model does not have. @param factors The requested load factors.
-void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors);
-
-/// Sets the loads of the plates, their free shapes and the gaps of the fasteners to those of a case. Throws InputError
-/// where one is not allowed.
-void set_loads(JointModel& joint, const JointScene& scene, const CaseScene& its);
-
-/// Reads the matrices of all plates and resolves every name; loads are those of the first case.
+/// Reads the matrices of all plates, resolves every name, and checks the numbers of all cases.
 ///
 /// @param p Degree, or 0 for the highest that all plates have.
 /// Throws FileError, or InputError with the place in the joint's file or the dataset of a plate's.

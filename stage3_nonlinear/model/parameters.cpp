@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "stage3_nonlinear/model/parameters.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "common/count.hpp"
 #include "stage3_nonlinear/model/fastener_gaps.hpp"
-#include "stage3_nonlinear/model/free_shape.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -12,23 +17,23 @@ std::vector<Load> loads_of(const JointModel& joint) {
   std::vector<Load> loads;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
-    for (Index at = 0; at < plate.n_externals(); ++at)
-      loads.push_back({i, at, false, plate.external_displacement[at].has_value()});
+    for (Index at = 0; at < plate.n_externals(); ++at) loads.push_back({i, at, false});
     for (Index at = 0; at < std::ssize(plate.tractions); ++at)
-      if (!plate.is_other_side(at)) loads.push_back({i, at, true, false});
+      if (!plate.is_other_side(at)) loads.push_back({i, at, true});
   }
   return loads;
 }
 
-std::vector<LoadCase> load_cases(const JointModel& joint) {
+std::vector<LoadCase> load_cases(const JointModel& joint, const Held& held) {
   std::vector<LoadCase> cases;
   const auto loads = loads_of(joint);
   for (Index load = 0; load < std::ssize(loads); ++load) {
-    const auto& [at_plate, first, is_traction, is_displacement] = loads[load];
+    const auto& [at_plate, first, is_traction] = loads[load];
     const PlateModel& plate = joint.plates[at_plate];
     Index at = first;
     do {
-      cases.push_back({load, at_plate, at, is_traction, is_displacement, is_traction ? plate.bearing_sign(at) : 0});
+      cases.push_back(
+          {load, at_plate, at, is_traction, held.displaced[load], is_traction ? plate.bearing_sign(at) : 0});
     } while (is_traction && plate.is_other_side(++at));
   }
   return cases;
@@ -36,79 +41,121 @@ std::vector<LoadCase> load_cases(const JointModel& joint) {
 
 namespace {
 
-void set_free_shapes(const JointModel& joint, const std::vector<FreeShape>& shapes, Parameters& all) {
-  if (std::ranges::any_of(shapes, [](const FreeShape& each) { return each.D.size() == 0 && each.De.size() == 0; }))
-    return;  // not set
-  all.offset = free_offsets(joint, shapes);
-  all.free_De.clear();
-  for (const auto& shape : shapes) all.free_De.push_back(shape.De);
-  const auto loads = loads_of(joint);
-  VectorXd given = VectorXd::Zero(std::ssize(loads));
-  for (Index i = 0; i < given.size(); ++i)
-    if (loads[i].is_displacement) given[i] = shapes[loads[i].plate].De[loads[i].at];
-  all.free_given = given.isZero(0) ? VectorXd() : given;
+/// Refuses a force on a side of a hole that the model does not have. @param factors The requested load factors.
+void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
+  for (const double factor : factors) {
+    bool has_side = load.value * factor == 0;
+    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+      has_side = has_side || (plate.tractions[i] == plate.tractions[traction] &&
+                              is_active(plate.bearing_sign(i), factor * load.value));
+    if (!has_side)
+      refuse(load.external.where,
+             fmt::format("\"{}\" carries the force {:g} at load factor {:g}, and {} has no rim on the side of the hole "
+                         "that would bear",
+                         load.external.name, factor * load.value, factor, plate.file),
+             "a force of the other sign, or a sheet that has the whole hole");
+  }
+}
+
+/// Refuses a load that a traction cannot carry.
+void check_traction(const PlateModel& plate, Index traction, const LoadScene& load) {
+  const Reference& name = load.external;
+  const bool is_moment = plate.is_moment(traction);
+  if (load.is_displacement)
+    refuse(name.where, fmt::format("\"{}\" carries a traction and has no single displacement", name.name),
+           is_moment ? "\"moment\"" : "\"force\", or an external of kind \"rigid\"");
+  if (is_moment != load.is_moment)
+    refuse(name.where, fmt::format("\"{}\" carries a {}", name.name, is_moment ? "moment" : "force"),
+           is_moment ? "\"moment\", force x length" : "\"force\", or an external of kind \"moment\"");
+}
+
+/// Ties the externals of a load.
+void tie(const JointModel& joint, const LoadScene& load, Held& held) {
+  std::vector<Reference> names{load.external};
+  names.insert(names.end(), load.tied.begin(), load.tied.end());
+  auto& group = held.ties.emplace_back();
+  for (const auto& name : names) {
+    const Index at = index_of(joint.plates, name.plate, &PlateModel::name);
+    const PlateModel& plate = joint.plates[at];
+    const Index external = index_of(plate.externals, name.name);
+    if (external == plate.n_externals())
+      refuse(name.where, fmt::format("\"{}:{}\" is no rigid external", name.plate, name.name),
+             "externals of kind \"rigid\" in a tie");
+    if (!group.empty() && plate.external_axis[external] != joint.plates[group[0].first].external_axis[group[0].second])
+      refuse(name.where, fmt::format("\"{}:{}\" moves along another axis than the first", name.plate, name.name),
+             "externals of one direction in a tie");
+    group.emplace_back(at, external);
+  }
+}
+
+/// @param factors The requested load factors.
+void set_load(const JointModel& joint, const LoadScene& load, const std::vector<double>& factors, Parameters& all) {
+  const Reference& name = load.external;
+  const Index at_plate = index_of(joint.plates, name.plate, &PlateModel::name);
+  const PlateModel& plate = joint.plates[at_plate];
+  const Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
+  const bool is_rigid = rigid < plate.n_externals();
+  if (is_rigid && load.is_moment)
+    refuse(name.where, fmt::format("\"{}\" moves along an axis and takes no moment", name.name),
+           "\"force\" or \"displacement\", or an external of kind \"moment\"");
+  if (!is_rigid && traction == std::ssize(plate.tractions)) {
+    auto known = plate.externals;
+    std::ranges::unique_copy(plate.tractions, std::back_inserter(known));
+    refuse(name.where, fmt::format("external \"{}\" does not exist in {}", name.name, plate.file),
+           known.empty() ? "none: this plate has no external boundary" : fmt::format("{}", fmt::join(known, ", ")));
+  }
+  if (!is_rigid) {
+    check_traction(plate, traction, load);
+    check_side(plate, traction, load, factors);
+  }
+  const Index at = index_of(loads_of(joint), Load{at_plate, is_rigid ? rigid : traction, !is_rigid});
+  all.load[at] = load.is_moment ? load.value / plate.traction_arm[traction] : load.value;
+  all.held.displaced[at] = load.is_displacement;
+  if (!load.tied.empty()) tie(joint, load, all.held);
+}
+
+/// Sets the laws, clearances, friction and gaps.
+void set_fasteners(const JointModel& joint, const JointScene& scene, const CaseScene& its_case, Parameters& all) {
+  std::vector<double> clearance, mu, gap;
+  for (Index i = 0; i < std::ssize(joint.fasteners); ++i) {
+    const FastenerScene& its = scene.fasteners[i];
+    for (const auto& name : its.law) all.law.push_back(scene.laws.at(name).law);
+    clearance.insert(clearance.end(), its.clearance.begin(), its.clearance.end());
+    mu.insert(mu.end(), its.friction.begin(), its.friction.end());
+    check_clearance(joint, its, joint.fasteners[i]);
+    for (Index j = 0; j < std::ssize(its.between); ++j) {
+      const PlateModel& plate = joint.plates[joint.fasteners[i].holes[j].plate];
+      const double at_rest = gap_of(its, j, plate);
+      check_gap(its, its.between[j].name, plate, at_rest);
+      gap.push_back(at_rest + gap_growth(joint, scene, its_case, i, j));
+    }
+  }
+  const auto vector = [](const std::vector<double>& list) { return VectorXd::Map(list.data(), std::ssize(list)); };
+  all.clearance = vector(clearance);
+  all.mu = vector(mu);
+  all.gap = vector(gap);
 }
 
 }  // namespace
 
-Parameters parameters_of(const JointModel& joint) {
-  Parameters all;
+void set_free_shapes(const JointModel& joint, std::vector<FreeShape> shapes, Parameters& all) {
+  all.offset = free_offsets(joint, shapes);
   const auto loads = loads_of(joint);
-  all.load.resize(std::ssize(loads));
-  for (Index i = 0; i < all.load.size(); ++i) {
-    const auto& [plate, at, is_traction, is_displacement] = loads[i];
-    const PlateModel& its = joint.plates[plate];
-    all.load[i] = is_traction       ? its.traction_force[at]
-                  : is_displacement ? *its.external_displacement[at]
-                                    : its.external_force[at];
-  }
-  std::vector<FreeShape> shapes;
-  for (const auto& plate : joint.plates) shapes.push_back(plate.free);
-  set_free_shapes(joint, shapes, all);
-  all.clearance.resize(joint.n_planes());
-  for (Index j = 0; j < joint.n_planes(); ++j) {
-    all.law.push_back(joint.planes[j].law);
-    all.clearance[j] = joint.planes[j].clearance;
-  }
-  std::vector<double> mu, gap;
-  for (const auto& fastener : joint.fasteners)
-    for (const auto& hole : fastener.holes) mu.push_back(hole.mu), gap.push_back(hole.gap);
-  all.mu = VectorXd::Map(mu.data(), std::ssize(mu));
-  all.gap = VectorXd::Map(gap.data(), std::ssize(gap));
-  return all;
+  VectorXd given = VectorXd::Zero(std::ssize(loads));
+  for (Index i = 0; i < given.size(); ++i)
+    if (all.held.displaced[i]) given[i] = shapes[loads[i].plate].De[loads[i].at];
+  all.free_given = given.isZero(0) ? VectorXd() : given;
+  all.free = std::move(shapes);
 }
 
-Parameters parameters_of(const JointModel& joint, const JointScene& scene, const CaseScene& its_case) {
-  Parameters all = parameters_of(joint);
-  Index plane = 0, hole = 0;
-  for (Index i = 0; i < std::ssize(joint.fasteners); ++i) {
-    const FastenerScene& its = scene.fasteners[i];
-    for (Index j = 0; j < std::ssize(its.law); ++j, ++plane) {
-      all.law[plane] = scene.laws.at(its.law[j]).law;
-      all.clearance[plane] = its.clearance[j];
-    }
-    check_clearance(joint, its, joint.fasteners[i]);
-    for (Index j = 0; j < std::ssize(its.between); ++j, ++hole) {
-      const PlateModel& plate = joint.plates[joint.fasteners[i].holes[j].plate];
-      all.mu[hole] = its.friction[j];
-      all.gap[hole] = gap_of(its, j, plate);
-      check_gap(its, its.between[j].name, plate, all.gap[hole]);
-      all.gap[hole] += gap_growth(joint, scene, its_case, i, j);
-    }
-  }
-  set_free_shapes(joint, free_shapes(joint, scene, its_case), all);
-  const auto loads = loads_of(joint);
-  for (Index i = 0; i < std::ssize(loads); ++i) {
-    const auto& [plate_at, at, is_traction, is_displacement] = loads[i];
-    const PlateModel& plate = joint.plates[plate_at];
-    const std::string& name = is_traction ? plate.tractions[at] : plate.externals[at];
-    all.load[i] = 0;
-    for (const auto& load : its_case.loads) {
-      if (load.external.plate != plate.name || load.external.name != name) continue;
-      all.load[i] = load.is_moment ? load.value / plate.traction_arm[at] : load.value;
-      if (is_traction) check_side(plate, at, load, its_case.wanted_load_factors());
-    }
-  }
+Parameters parameters_of(const JointModel& joint, const JointScene& scene, const CaseScene& its) {
+  Parameters all;
+  const Index n_loads = std::ssize(loads_of(joint));
+  all.load = VectorXd::Zero(n_loads);
+  all.held.displaced.resize(n_loads);
+  for (const auto& load : its.loads) set_load(joint, load, its.wanted_load_factors(), all);
+  set_fasteners(joint, scene, its, all);
+  set_free_shapes(joint, free_shapes(joint, scene, its), all);
   return all;
 }
 
@@ -121,7 +168,7 @@ std::vector<RimPlace> rim_places(const JointModel& joint) {
       for (const auto& fastener : joint.fasteners)
         for (const auto& its : fastener.holes) {
           if (its.plate == i && joint.plates[i].hole_of(its.disc) == joint.plates[i].contact[at].hole)
-            place.hole = hole;
+            place.hole = hole, place.has_friction = its.has_friction;
           ++hole;
         }
     }

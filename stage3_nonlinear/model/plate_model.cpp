@@ -388,9 +388,6 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
       rows << a.W[level - before], others;
     }
   }
-  plate.external_force = VectorXd::Zero(a.n_externals());
-  plate.external_displacement.resize(a.external_id.size());
-  plate.traction_force = VectorXd::Zero(a.n_tractions());
   return plate;
 }
 

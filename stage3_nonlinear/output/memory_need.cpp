@@ -24,8 +24,9 @@ void require_memory_to_read(const JointScene& scene) {
                           "matrices of fewer holes, or of stage2_extract --loads-only");
 }
 
-JointNeed joint_need(const JointModel& joint, bool with_csv, bool with_sensitivities, bool with_rim_stresses) {
-  const JointNumbers numbers = joint_numbers(joint);
+JointNeed joint_need(const JointModel& joint, const Parameters& parameters, bool with_csv, bool with_sensitivities,
+                     bool with_rim_stresses) {
+  const JointNumbers numbers = joint_numbers(joint, parameters);
   double of_plane = with_csv ? 76 : 0;  // a line of the table has about 900 bytes in two copies
   if (with_sensitivities) of_plane += double(numbers.n_derivatives());
   constexpr double number = sizeof(double), of_stiffness = 24, of_plate = 30;  // of a plate's state

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "stage3_nonlinear/model/joint_model.hpp"
+#include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -15,7 +15,7 @@ void require_memory_to_read(const JointScene& scene);
 struct JointNeed {
   double solving, of_step;  ///< to solve it, and for the results of each increment
 };
-[[nodiscard]] JointNeed joint_need(const JointModel& joint, bool with_csv, bool with_sensitivities,
-                                   bool with_rim_stresses);
+[[nodiscard]] JointNeed joint_need(const JointModel& joint, const Parameters& parameters, bool with_csv,
+                                   bool with_sensitivities, bool with_rim_stresses);
 
 }  // namespace fastjoint::stage3

@@ -54,10 +54,10 @@ struct MoreStresses {
 /// since plates may have coordinates of their own), diameters that differ by more than 5 %, a formula for other sheets
 /// or another number of them, F above d t E. Holes without data in MATRICES.h5 are not checked.
 [[nodiscard]] std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
-                                                                const LoadPath& path);
+                                                                const Parameters& parameters, const LoadPath& path);
 
 /// Warnings about rims, one sentence of each kind with the hole and the increment where it is worst.
-[[nodiscard]] std::vector<program::Warning> rim_warnings(const JointModel& joint,
+[[nodiscard]] std::vector<program::Warning> rim_warnings(const JointModel& joint, const Parameters& parameters,
                                                          const std::vector<JointState>& states);
 
 /// Warning about the crack whose tip closes most: its faces overlap in the model.

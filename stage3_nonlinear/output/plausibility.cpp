@@ -25,6 +25,9 @@ struct KnownPlane {
   Index at;
   const ShearPlane& plane;
   const FastenerScene& fastener;
+  const Law& law;
+  double clearance;
+  Array2d gap;                         ///< in the first and the second hole
   Plates plates;                       ///< ascending
   int n_sheets;                        ///< that the fastener joins; 0 if it is grounded, since no thickness is known
   bool first_of_fastener;              ///< the plane between its first two holes
@@ -37,15 +40,19 @@ struct KnownPlane {
   [[nodiscard]] int middle() const { return first_of_fastener ? 1 : 0; }
 };
 
-std::vector<KnownPlane> known_planes(const JointScene& scene, const JointModel& joint) {
+std::vector<KnownPlane> known_planes(const JointScene& scene, const JointModel& joint, const Parameters& parameters) {
   std::vector<KnownPlane> result;
   for (Index j = 0; j < joint.n_planes(); ++j) {
     const ShearPlane& plane = joint.planes[j];
     const std::array holes{&joint.holes(plane).front(), &joint.holes(plane).back()};
     const FastenerModel& fastener = joint.fasteners[plane.fastener];
+    const auto gaps = parameters.gap.segment(joint.number_of_first_hole(plane), std::ssize(joint.holes(plane)));
     KnownPlane known{j,
                      plane,
                      scene.fasteners[plane.fastener],
+                     *parameters.law[j],
+                     parameters.clearance[j],
+                     {gaps.head<1>().value(), gaps.tail<1>().value()},
                      std::minmax(holes[0]->plate, holes[1]->plate),
                      fastener.grounded ? 0 : count_of(fastener.holes),
                      plane.first == 0};
@@ -57,7 +64,7 @@ std::vector<KnownPlane> known_planes(const JointScene& scene, const JointModel& 
           ((side == 0) == (holes[0]->plate <= holes[1]->plate) ? 1 : -1) * a.rim_center.row(*at).transpose();
       known.t[side] = a.rim_thickness[*at];
       known.d[side] = 2 * a.rim_radius[*at];
-      known.shank[side] = known.d[side] - 2 * holes[side]->gap;
+      known.shank[side] = known.d[side] - 2 * known.gap[side];
       const bool one_E = joint.n_directions() == 1 ||
                          std::abs(a.rim_modulus(*at, 0) - a.rim_modulus(*at, 1)) <= 1e-9 * a.rim_modulus(*at, 0);
       known.E[side] = one_E ? a.rim_modulus(*at, joint.axes[0]) : 0;
@@ -80,7 +87,7 @@ Vector2d common_offset(std::vector<Vector2d> offsets) {
 
 /// Differences between the numbers of a formula and those of the sheets, "t = 3, 3 instead of 1.6, 2", if its sheet 1
 /// is that of hole `one`, 0 or 1.
-std::vector<std::string> mismatches(const Source& formula, const KnownPlane& known, double clearance, int one) {
+std::vector<std::string> mismatches(const Source& formula, const KnownPlane& known, int one) {
   constexpr double same_t = 0.01, same_E = 0.2, same_d = 0.05;  // a hole is slightly wider than its shank
   std::vector<std::string> parts;
   const auto compare = [&](const char* key, const Array2d& said, const Array2d& by_hole, double tolerance,
@@ -92,17 +99,17 @@ std::vector<std::string> mismatches(const Source& formula, const KnownPlane& kno
   };
   compare("t", {formula.t[0], formula.t[1]}, known.t, same_t, 0);
   compare("E", {formula.E[0], formula.E[1]}, known.E, same_E, 0);
-  compare("d", {formula.d, formula.d}, known.shank, same_d, 2 * clearance);
+  compare("d", {formula.d, formula.d}, known.shank, same_d, 2 * known.clearance);
   return parts;
 }
 
 /// The same for the order of sheets in the formula: in double shear the middle one first, else the order that fits
 /// better.
-std::string mismatches(const Source& formula, const KnownPlane& known, double clearance) {
+std::string mismatches(const Source& formula, const KnownPlane& known) {
   const bool ordered = formula.n_shear == 2 && known.n_sheets == 3;
-  auto parts = mismatches(formula, known, clearance, ordered ? known.middle() : 0);
+  auto parts = mismatches(formula, known, ordered ? known.middle() : 0);
   if (!ordered && !parts.empty())
-    if (auto other = mismatches(formula, known, clearance, 1); other.size() < parts.size()) parts = std::move(other);
+    if (auto other = mismatches(formula, known, 1); other.size() < parts.size()) parts = std::move(other);
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 
@@ -149,17 +156,18 @@ void check_gaps(const JointModel& joint, const KnownPlane& known, WarningList& l
   constexpr double max_gap = 0.25, max_offset = 0.25;  // of the hole; ISO 273's coarse clearance holes: M8 in 10 mm
   const char* code = "gap-unlikely";
   const double radius = known.radius();
-  if (const double gap = known.plane.law->gap(known.plane.clearance); gap > radius)
+  if (const double gap = known.law.gap(known.clearance); gap > radius)
     list.doubt(code, gap / radius,
                "{}/clearance: the gap {:.6g} (that of law \"{}\" included) is above the radius {:.6g} of the hole: one "
                "of them may be in another unit of length",
                known.fastener.where, gap, known.plane.law_name, radius);
   const bool by_sheet = known.fastener.diameter && known.fastener.hole_diameter.empty();
-  for (const HoleModel& hole : joint.holes(known.plane))
-    if (hole.gap >= (by_sheet ? max_gap : 1) * radius)
-      list.doubt(code, std::abs(hole.gap) / radius,
+  const auto holes = joint.holes(known.plane);
+  for (std::size_t i = 0; i < holes.size(); ++i)
+    if (const double gap = known.gap[Index(i)]; gap >= (by_sheet ? max_gap : 1) * radius)
+      list.doubt(code, std::abs(gap) / radius,
                  "{}: a gap of {:.6g} at hole \"{}\" of radius {:.6g}: it may be in another unit of length{}",
-                 known.fastener.where_gap(), hole.gap, joint.name(hole), radius,
+                 known.fastener.where_gap(), gap, joint.name(holes[i]), radius,
                  by_sheet ? "; if it is intended, give its \"hole_diameter\" too" : "");
   for (const auto& [x, y] : known.fastener.offset)
     if (const double offset = std::hypot(x, y); offset > max_offset * radius)
@@ -172,12 +180,13 @@ void check_gaps(const JointModel& joint, const KnownPlane& known, WarningList& l
 /// Doubts interferences that strain the rim beyond what metals take without yielding.
 void check_interferences(const JointModel& joint, const KnownPlane& known, WarningList& list) {
   constexpr double yields = 0.01;  // the hoop strain; 0.3 to 0.9 % of most metals
-  for (const HoleModel& hole : joint.holes(known.plane))
-    if (const double strain = -hole.gap / known.radius(), E = known.E.maxCoeff(); strain > yields)
+  const auto holes = joint.holes(known.plane);
+  for (std::size_t i = 0; i < holes.size(); ++i)
+    if (const double gap = known.gap[Index(i)], strain = -gap / known.radius(), E = known.E.maxCoeff(); strain > yields)
       list.doubt("interference-yields", strain,
                  "{}: an interference of {:.6g} strains the rim of hole \"{}\" of radius {:.6g} by {:.2g} %{}, at "
                  "which metals yield: stresses are those of an elastic sheet; or it is in another unit of length",
-                 known.fastener.where_gap(), -hole.gap, joint.name(hole), known.radius(), 100 * strain,
+                 known.fastener.where_gap(), -gap, joint.name(holes[i]), known.radius(), 100 * strain,
                  E > 0 ? fmt::format(", a stress of up to {:.3g}", E * strain) : "");
 }
 
@@ -204,7 +213,8 @@ double diameter_in_sheet(const JointModel& joint, const HoleModel& hole) {
 
 /// Doubts diameters that differ for any law: hole_diameter from that in the sheet, and those of the two holes of a
 /// shear plane, minus their gaps, from each other.
-void check_diameters(const JointScene& scene, const JointModel& joint, WarningList& list) {
+void check_diameters(const JointScene& scene, const JointModel& joint, const Parameters& parameters,
+                     WarningList& list) {
   constexpr double same = 0.05 * (1 + 1e-9);  // relative difference of diameters that are taken for one
   for (Index i = 0; i < std::ssize(scene.fasteners); ++i)
     for (Index at = 0; at < std::ssize(scene.fasteners[i].hole_diameter); ++at) {
@@ -216,13 +226,15 @@ void check_diameters(const JointScene& scene, const JointModel& joint, WarningLi
                    "be a radius, another hole's, or in another unit of length",
                    scene.fasteners[i].where, here, joint.name(hole), in_sheet);
     }
-  for (const ShearPlane& plane : joint.planes) {
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[j];
     const FastenerScene& fastener = scene.fasteners[plane.fastener];
     if (joint.is_to_ground(plane) || fastener.diameter) continue;  // the gaps follow from that diameter
     const HoleModel &first = joint.first_hole(plane), &second = joint.second_hole(plane);
     const double one = diameter_in_sheet(joint, first), other = diameter_in_sheet(joint, second);
-    const double apart = std::abs((one - 2 * first.gap) - (other - 2 * second.gap));
-    if (std::min(one, other) > 0 && apart > same * std::max(one, other) + 2 * plane.clearance)
+    const auto gap = parameters.gap.segment<2>(joint.number_of_first_hole(plane));
+    const double apart = std::abs((one - 2 * gap[0]) - (other - 2 * gap[1]));
+    if (std::min(one, other) > 0 && apart > same * std::max(one, other) + 2 * parameters.clearance[j])
       list.doubt("sheet-diameters-unlike", apart / std::min(one, other),
                  "{}/between: holes \"{}\" and \"{}\" have the diameters {:.6g} and {:.6g} in their sheets, which the "
                  "gaps and the clearance of their one fastener do not explain: one of them may be another fastener's "
@@ -236,9 +248,9 @@ void check_formulas(const JointModel& joint, const LoadPath& path, const std::ve
                     WarningList& list) {
   std::set<std::string> compared, sheared;
   for (const auto& known : planes) {
-    const auto formula = joint.is_to_ground(known.plane) ? std::nullopt : known.plane.law->source();
+    const auto formula = joint.is_to_ground(known.plane) ? std::nullopt : known.law.source();
     if (!formula) continue;
-    const std::string other = mismatches(*formula, known, known.plane.clearance), name = joint.name(known.plane);
+    const std::string other = mismatches(*formula, known), name = joint.name(known.plane);
     const std::string shear = shear_mismatch(*formula, known.n_sheets, shear_alike(joint, path, known.at));
     if (!shear.empty() && sheared.insert(known.plane.law_name).second)
       list.add("formula-shear-unlike", "{}: /laws/{}/shear: {} ({})", joint.file, known.plane.law_name, shear, name);
@@ -284,16 +296,16 @@ void check_units(const JointScene& scene, const JointModel& joint, WarningList& 
 }  // namespace
 
 std::vector<program::Warning> implausible_numbers(const JointScene& scene, const JointModel& joint,
-                                                  const LoadPath& path) {
+                                                  const Parameters& parameters, const LoadPath& path) {
   WarningList list;
-  const auto planes = known_planes(scene, joint);
+  const auto planes = known_planes(scene, joint, parameters);
   std::map<Plates, std::vector<Vector2d>> offsets;
   for (const auto& known : planes) offsets[known.plates].push_back(known.offset);
   check_friction(scene, list);
   for (const auto& each : planes) check_gaps(joint, each, list);
   for (const auto& each : planes) check_interferences(joint, each, list);
   for (const auto& each : planes) check_distance(joint, each, common_offset(offsets[each.plates]), list);
-  check_diameters(scene, joint, list);
+  check_diameters(scene, joint, parameters, list);
   check_formulas(joint, path, planes, list);
   for (const auto& each : planes) check_movement(joint, path, each, list);
   check_units(scene, joint, list);

@@ -68,11 +68,12 @@ constexpr std::array<RimDoubt, 7> doubts = {{
 
 }  // namespace
 
-std::vector<program::Warning> rim_warnings(const JointModel& joint, const std::vector<JointState>& states) {
+std::vector<program::Warning> rim_warnings(const JointModel& joint, const Parameters& parameters,
+                                           const std::vector<JointState>& states) {
   std::set<std::string> with_clearance;
-  for (const auto& plane : joint.planes)
-    for (const HoleModel& hole : joint.holes(plane))
-      if (plane.clearance > 0) with_clearance.insert(joint.name(hole));
+  for (Index j = 0; j < joint.n_planes(); ++j)
+    for (const HoleModel& hole : joint.holes(joint.planes[j]))
+      if (parameters.clearance[j] > 0) with_clearance.insert(joint.name(hole));
   const std::string& across = rim::axis_names[1 - joint.axes[0]];
   std::vector<program::Warning> result;
   for (const auto& doubt : doubts) {

@@ -31,13 +31,6 @@ class LargestVector {
   VectorXd largest_;
 };
 
-/// First hole of a plane among all holes of fasteners.
-Index first_hole(const JointModel& joint, const ShearPlane& plane) {
-  Index first = plane.first;
-  for (Index i = 0; i < plane.fastener; ++i) first += std::ssize(joint.fasteners[i].holes);
-  return first;
-}
-
 /// Warns of the first increment at which planes unload.
 /// @param unloads Of a plane at an increment; called for all planes of the increments up to that.
 template <class Unloads>
@@ -74,7 +67,7 @@ void warn_of_unloading(const JointModel& joint, const JointEquations& equations,
   const auto turns = [&](const PathStep& step, Index j) {
     constexpr double rounding = 1e-9;
     const ShearPlane& plane = joint.planes[j];
-    const auto mu = equations.parameters.mu.segment(first_hole(joint, plane), std::ssize(joint.holes(plane)));
+    const auto mu = equations.parameters.mu.segment(joint.number_of_first_hole(plane), std::ssize(joint.holes(plane)));
     return mu.maxCoeff() > 0 && forces[j].falls_short(step.F.segment(j * a, a), rounding * step.scale);
   };
   warn_of_first("permanent-set",

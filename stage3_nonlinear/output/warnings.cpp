@@ -69,10 +69,11 @@ void warn_of_soft_plates(const JointModel& joint, WarningList& list) {
 }
 
 /// Warns once for each law.
-void warn_of_bearing_twice(const JointModel& joint, WarningList& list) {
+void warn_of_bearing_twice(const JointModel& joint, const Parameters& parameters, WarningList& list) {
   std::set<std::string> said;
-  for (const auto& plane : joint.planes) {
-    const auto source = plane.law->source();
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const ShearPlane& plane = joint.planes[j];
+    const auto source = parameters.law[j]->source();
     if (!source || !source->bearing_of_plate) continue;
     for (const HoleModel& hole : joint.holes(plane))
       if (joint.plates[hole.plate].on_springs[hole.disc / joint.n_directions()] && said.insert(plane.law_name).second)
@@ -197,7 +198,7 @@ std::string names(const JointModel& joint, const std::vector<Index>& planes) {
 std::vector<program::Warning> warnings(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
   WarningList list;
   warn_of_soft_plates(joint, list);
-  warn_of_bearing_twice(joint, list);
+  warn_of_bearing_twice(joint, equations.parameters, list);
   warn_of_oblique_bearing(joint, equations, path, list);
   warn_beyond_last_point(joint, equations, path, list);
   warn_of_mechanisms(joint, path, list);

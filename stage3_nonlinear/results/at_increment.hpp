@@ -23,6 +23,7 @@ struct PlateAt {
 
   [[nodiscard]] const PlateModel& model() const { return of.joint.plates[plate]; }
   [[nodiscard]] const PlateState& state() const { return of.state.plates[plate]; }
+  [[nodiscard]] const FreeShape& free() const { return of.equations.parameters.free[plate]; }
 };
 
 using JointGroup = columns::Group<JointAt>;

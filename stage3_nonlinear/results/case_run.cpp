@@ -5,27 +5,13 @@
 #include <utility>
 
 namespace fastjoint::stage3 {
-namespace {
-
-std::vector<bool> displaced_externals(const JointModel& joint) {
-  std::vector<bool> displaced;
-  for (const auto& plate : joint.plates)
-    for (const auto& given : plate.external_displacement) displaced.push_back(given.has_value());
-  return displaced;
-}
-
-}  // namespace
 
 JointEquations CaseRun::equations(std::size_t at, const End* before) {
-  load(at);
-  auto displaced = displaced_externals(joint_);
-  if (!system_ || displaced != displaced_ || joint_.ties != ties_) {
-    system_ = std::make_shared<const CondensedSystem>(condense(joint_));
-    displaced_ = std::move(displaced);
-    ties_ = joint_.ties;
+  Parameters parameters = parameters_of(joint_, scene_, scene_.cases[at]);
+  if (!system_ || system_->held != parameters.held) {
+    system_ = std::make_shared<const CondensedSystem>(condense(joint_, parameters.held));
     rims_.clear();  // their coordinates have the stiffness of the system before
   }
-  Parameters parameters = parameters_of(joint_);
   if (before != nullptr && !before->load.isZero(0)) parameters.load_before = before->load;
   JointEquations result = make_equations(joint_, system_, std::move(parameters), rims_);
   if (before != nullptr) result.history = before->history;
@@ -46,10 +32,8 @@ FollowedCase CaseRun::follow(std::size_t at, const std::vector<double>& load_fac
                              const Wanted& wanted) {
   const CaseScene& its = scene_.cases[at];
   const End* before = its.after ? end_of(*its.after, options, wanted) : nullptr;
-  if (its.after && before == nullptr) {
-    load(at);
+  if (its.after && before == nullptr)
     return {.equations = equations(at, nullptr), .path = {}, .increments = {}, .missing = its.after};
-  }
   if (before != nullptr) options.start = before->c;
   JointEquations now = equations(at, before);
   auto [path, increments] = follow_with_results(joint_, now, load_factors, std::move(options), wanted);

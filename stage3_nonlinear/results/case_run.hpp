@@ -18,18 +18,11 @@ struct FollowedCase {
 };
 
 /// Follows the load cases of a joint, each from no load or from the last state of the case that it comes after. The
-/// joint is condensed once for all cases in which the same externals have given displacements.
+/// joint is condensed once for all cases that hold the same externals.
 class CaseRun {
  public:
-  /// @param scene Its cases and solver are used; outlives this. @param joint Its loads are set to those of each case.
-  CaseRun(const JointScene& scene, JointModel joint) : scene_(scene), joint_(std::move(joint)) {}
-
-  /// The joint, with the loads of the case that was followed last.
-  [[nodiscard]] const JointModel& joint() const { return joint_; }
-  /// Gives the joint back, whose copy may be large.
-  [[nodiscard]] JointModel take_joint() && { return std::move(joint_); }
-  /// Sets the loads of the joint to those of a case.
-  void load(std::size_t at) { set_loads(joint_, scene_, scene_.cases[at]); }
+  /// @param scene Its cases and solver are used; outlives this. @param joint Outlives this.
+  CaseRun(const JointScene& scene, const JointModel& joint) : scene_(scene), joint_(joint) {}
 
   /// Follows a case, and before it those that it comes after, as far as they have not been.
   ///
@@ -49,9 +42,7 @@ class CaseRun {
   JointEquations equations(std::size_t at, const End* before);
 
   const JointScene& scene_;
-  JointModel joint_;
-  std::vector<bool> displaced_;  ///< externals with given displacements in the condensed system, plate after plate
-  std::vector<std::vector<std::pair<Index, Index>>> ties_;  ///< likewise
+  const JointModel& joint_;
   std::shared_ptr<const CondensedSystem> system_;
   std::vector<std::shared_ptr<const RimProblem>> rims_;
   std::map<std::size_t, std::optional<End>> ends_;  ///< of the cases that others come after

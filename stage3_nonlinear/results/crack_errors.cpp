@@ -49,8 +49,7 @@ VectorXd errors_of(const std::vector<const CrackState*>& sequence, VectorXd Crac
 CrackErrorEstimate::CrackErrorEstimate(const JointScene& scene, const JointModel& joint)
     : tolerance_(scene.solver.tolerance) {
   if (std::ranges::all_of(joint.plates, [](const auto& plate) { return plate.cracks.tip.empty(); })) return;
-  for (int p = joint.p - 1; p >= joint.p - 2 && has_degree(joint, p); --p)
-    below_.emplace_back(scene, load_joint(scene, p));
+  for (int p = joint.p - 1; p >= joint.p - 2 && has_degree(joint, p); --p) below_.emplace_back(scene, p);
 }
 
 std::vector<CrackErrors> CrackErrorEstimate::of(const JointModel& joint, std::size_t its_case, const LoadPath& path,
@@ -61,7 +60,7 @@ std::vector<CrackErrors> CrackErrorEstimate::of(const JointModel& joint, std::si
   if (!has_cracks || states.empty()) return errors;
   std::vector<std::vector<JointState>> below;  // of the lower degrees, the lowest first
   for (auto& degree : below_) {
-    auto lower = states_at(degree, its_case, path, options, tolerance_);
+    auto lower = states_at(degree.cases, its_case, path, options, tolerance_);
     if (lower.empty()) break;
     below.insert(below.begin(), std::move(lower));
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <deque>
 #include <vector>
 
 #include "stage3_nonlinear/results/case_run.hpp"
@@ -27,8 +28,14 @@ class CrackErrorEstimate {
                                             const std::vector<JointState>& states, const PathOptions& options);
 
  private:
+  /// The joint at a lower degree.
+  struct Degree {
+    JointModel joint;
+    CaseRun cases;
+    Degree(const JointScene& scene, int p) : joint(load_joint(scene, p)), cases(scene, joint) {}
+  };
   double tolerance_;
-  std::vector<CaseRun> below_;  ///< at the lower degrees, the highest first
+  std::deque<Degree> below_;  ///< the highest first
 };
 
 }  // namespace fastjoint::stage3

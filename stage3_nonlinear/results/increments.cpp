@@ -68,7 +68,7 @@ std::pair<LoadPath, Increments> follow_with_results(const JointModel& joint, con
                                                     const std::vector<double>& load_factors, PathOptions options,
                                                     const Wanted& wanted) {
   Increments all;
-  if (wanted.sensitivities) all.numbers = joint_numbers(joint);
+  if (wanted.sensitivities) all.numbers = joint_numbers(joint, equations.parameters);
   const ForceErrors errors(joint, equations);
   std::vector<VectorXd> F_error;
   std::optional<SolvedPoint> last;

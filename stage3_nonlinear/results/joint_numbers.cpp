@@ -6,45 +6,46 @@
 namespace fastjoint::stage3 {
 namespace {
 
-void add_laws(const JointModel& joint, JointNumbers& numbers) {
+void add_laws(const JointModel& joint, const Parameters& parameters, JointNumbers& numbers) {
   const Index first_column = 1 + joint.n_planes();
   std::map<std::string, Index> first;
-  for (const auto& plane : joint.planes) {
-    const auto [at, is_new] = first.try_emplace(plane.law_name, first_column + std::ssize(numbers.law));
+  for (Index j = 0; j < joint.n_planes(); ++j) {
+    const std::string& name = joint.planes[j].law_name;
+    const auto [at, is_new] = first.try_emplace(name, first_column + std::ssize(numbers.law));
     numbers.of_law.push_back(at->second);
     if (!is_new) continue;
-    for (const auto& parameter : plane.law->parameters()) numbers.law.emplace_back(plane.law_name, parameter);
+    for (const auto& parameter : parameters.law[j]->parameters()) numbers.law.emplace_back(name, parameter);
   }
 }
 
-void add_friction(const JointModel& joint, JointNumbers& numbers) {
-  Index column = 1 + numbers.n_planes + std::ssize(numbers.law);
+void add_friction(const JointModel& joint, const Parameters& parameters, JointNumbers& numbers) {
+  Index column = 1 + numbers.n_planes + std::ssize(numbers.law), number = 0;
   for (const auto& fastener : joint.fasteners)
     for (const auto& hole : fastener.holes) {
-      const bool has_friction = hole.mu > 0 && !hole.friction.empty();
+      const bool has_friction = parameters.mu[number++] > 0 && !hole.friction.empty();
       numbers.of_friction.push_back(has_friction ? column++ : -1);
       if (has_friction) numbers.friction.push_back(joint.name(hole));
     }
   numbers.gap = joint.rims();
   const auto places = rim_places(joint);
   for (Index i = 0; i < std::ssize(places); ++i) {
-    const auto& [plate, at, hole] = places[i];
-    const bool has_friction = joint.mu(plate, joint.plates[plate].contact[at].hole) != 0;
+    const bool has_friction = places[i].hole >= 0 && parameters.mu[places[i].hole] != 0;
     numbers.of_rim.push_back(has_friction ? column++ : -1);
     if (has_friction) numbers.rim_friction.push_back(numbers.gap[i]);
   }
 }
 
-void add_loads(const JointModel& joint, JointNumbers& numbers) {
+void add_loads(const JointModel& joint, const std::vector<bool>& displaced, JointNumbers& numbers) {
   const auto loads = loads_of(joint);
-  for (const auto& load : loads) {
+  for (std::size_t i = 0; i < loads.size(); ++i) {
+    const Load& load = loads[i];
     const PlateModel& plate = joint.plates[load.plate];
-    (load.is_displacement ? numbers.displacement : numbers.force)
+    (displaced[i] ? numbers.displacement : numbers.force)
         .push_back(plate.name + ":" + (load.is_traction ? plate.tractions : plate.externals)[load.at]);
   }
   Index displacement = numbers.first_gap() - std::ssize(numbers.displacement);
   Index force = displacement - std::ssize(numbers.force);
-  for (const auto& load : loads) numbers.of_load.push_back(load.is_displacement ? displacement++ : force++);
+  for (const bool is_displaced : displaced) numbers.of_load.push_back(is_displaced ? displacement++ : force++);
 }
 
 }  // namespace
@@ -81,12 +82,12 @@ std::vector<formats::Slopes> JointNumbers::kinds() const {
   return all;
 }
 
-JointNumbers joint_numbers(const JointModel& joint) {
+JointNumbers joint_numbers(const JointModel& joint, const Parameters& parameters) {
   JointNumbers numbers;
   numbers.n_planes = joint.n_planes();
-  add_laws(joint, numbers);
-  add_friction(joint, numbers);
-  add_loads(joint, numbers);
+  add_laws(joint, parameters, numbers);
+  add_friction(joint, parameters, numbers);
+  add_loads(joint, parameters.held.displaced, numbers);
   return numbers;
 }
 

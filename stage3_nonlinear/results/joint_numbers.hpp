@@ -38,6 +38,6 @@ struct JointNumbers {
   /// The kinds of numbers in the order of the columns.
   [[nodiscard]] std::vector<formats::Slopes> kinds() const;
 };
-[[nodiscard]] JointNumbers joint_numbers(const JointModel& joint);
+[[nodiscard]] JointNumbers joint_numbers(const JointModel& joint, const Parameters& parameters);
 
 }  // namespace fastjoint::stage3

@@ -20,9 +20,6 @@ VectorXd alternating(const VectorXd& a, const VectorXd& b) {
   return all;
 }
 
-/// A free displacement, which is 0 if it is not known.
-VectorXd known(const VectorXd& free, Index n) { return free.size() == n ? free : VectorXd(VectorXd::Zero(n)); }
-
 /// Displacements of a plate's discs and externals, the forces on them, and their resultants.
 std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
   using columns::force, columns::length;
@@ -36,9 +33,8 @@ std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
   return {
       PlateGroup(Of::external, e,
                  {formats::De, {"Pe", force, "force on each external", "external_force"}, formats::free_De},
-                 [e](const PlateAt& at) {
-                   const auto& all = at.of.equations.parameters.free_De;
-                   const VectorXd free = known(all.empty() ? VectorXd() : all[at.plate], e);
+                 [](const PlateAt& at) {
+                   const VectorXd& free = at.free().De;
                    return side_by_side({at.state().De + free, at.state().Pe, free});
                  }),
       PlateGroup(Of::disc, std::ssize(plate.discs),
@@ -48,7 +44,7 @@ std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
                   {"disc/friction", force, "resultant of its friction along each disc"}},
                  [](const PlateAt& at) {
                    const auto& state = at.state();
-                   const VectorXd free = known(at.model().free.D, at.model().n_discs());
+                   const VectorXd& free = at.free().D;
                    return MatrixXd(side_by_side({state.D + free, free, state.bearing, state.friction})(at.model().discs,
                                                                                                        Eigen::all));
                  }),
@@ -57,9 +53,8 @@ std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
                   {"traction/displacement", length,
                    "mean displacement of each traction boundary along its direction, of a moment rotation times arm",
                    "", h5::infinite_too}},
-                 [q](const PlateAt& at) {
-                   const VectorXd free = known(at.model().free.traction, q);
-                   return side_by_side({at.state().traction, at.state().traction_displacement + free});
+                 [](const PlateAt& at) {
+                   return side_by_side({at.state().traction, at.state().traction_displacement + at.free().traction});
                  }),
       PlateGroup(Of::friction_case, h, {formats::Lambda}, [h](const PlateAt& at) { return at.state().Lambda.head(h); }),
       PlateGroup(Of::wave, n_added, {formats::wave_amount}, [](const PlateAt& at) { return at.state().added; }),

@@ -82,9 +82,9 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 
 /// @param rim_F     (k) forces of the moments of the plate's rims.
 /// @param on_discs  (m) results of forces_on_discs.
-/// @param is_tied   (e) externals whose force follows from that of their group.
+/// @param is_held   (e) externals that are displaced or tied, whose forces are reactions.
 /// @param worst_row Maximum of its value and the largest imbalance of a row of the plate, force.
-void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, const VectorXd& rim_F,
+void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, const VectorXd& rim_F,
                    const VectorXd& on_discs, double scale, PlateState& state, double& worst_row) {
   const Index m = plate.n_discs(), k = rim_F.size();
   VectorXd u(plate.n_unknowns());
@@ -106,7 +106,7 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, co
   worst_row = std::max({worst_row, (required.head(m) - on_discs).cwiseAbs().maxCoeff(),
                         (required.tail(k) + rim_F).lpNorm<Eigen::Infinity>()});
   for (Index i = 0; i < std::ssize(state.Pe); ++i) {
-    if (plate.external_displacement[i] || is_tied[i]) state.Pe[i] = required[m + i];
+    if (is_held[i]) state.Pe[i] = required[m + i];
     worst_row = std::max(worst_row, std::abs(required[m + i] - state.Pe[i]));
     state.applied[plate.external_axis[i]] += state.Pe[i];
   }
@@ -119,20 +119,22 @@ void balance_plate(const PlateModel& plate, const std::vector<bool>& is_tied, co
   state.by_supports = -(state.applied + state.by_fasteners);
 }
 
-/// Externals of each plate that are in a group of ties.
-std::vector<std::vector<bool>> tied_externals(const JointModel& joint) {
-  std::vector<std::vector<bool>> tied;
-  for (const auto& plate : joint.plates) tied.emplace_back(plate.n_externals(), false);
-  for (const auto& group : joint.ties)
-    for (const auto& [plate, external] : group) tied[plate][external] = true;
-  return tied;
+/// Externals of each plate that are displaced or tied.
+std::vector<std::vector<bool>> held_externals(const JointModel& joint, const CondensedSystem& system) {
+  std::vector<std::vector<bool>> held;
+  for (const auto& plate : joint.plates) held.emplace_back(plate.n_externals(), false);
+  for (const auto& its : system.cases)
+    if (its.is_displacement) held[its.plate][its.at] = true;
+  for (const auto& group : system.held.ties)
+    for (const auto& [plate, external] : group) held[plate][external] = true;
+  return held;
 }
 
 /// Force on all externals of each tie.
-VectorXd tie_forces(const JointModel& joint, const std::vector<PlateState>& plates) {
-  VectorXd sums = VectorXd::Zero(std::ssize(joint.ties));
+VectorXd tie_forces(const Held& held, const std::vector<PlateState>& plates) {
+  VectorXd sums = VectorXd::Zero(std::ssize(held.ties));
   for (Index i = 0; i < sums.size(); ++i)
-    for (const auto& [plate, external] : joint.ties[i]) sums[i] += plates[plate].Pe[external];
+    for (const auto& [plate, external] : held.ties[i]) sums[i] += plates[plate].Pe[external];
   return sums;
 }
 
@@ -231,14 +233,14 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   state.transferred_first = transferred(equations, step.F, 0);
   state.transferred_second = transferred(equations, step.F, 1);
   state.largest_force = std::max(step.F.lpNorm<Eigen::Infinity>(), step.scale);
-  const auto is_tied = tied_externals(joint);
-  const VectorXd on_ties = tie_forces(joint, state.plates);
+  const auto is_held = held_externals(joint, system);
+  const VectorXd on_ties = tie_forces(system.held, state.plates);
   Index first_moment = 0;
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     PlateState& its = state.plates[i];
     const Index k = its.moments.size();
-    balance_plate(plate, is_tied[i], step.rim_F.segment(first_moment, k),
+    balance_plate(plate, is_held[i], step.rim_F.segment(first_moment, k),
                   on_discs.segment(joint.offset(i), plate.n_discs()), step.scale, its, state.out_of_balance);
     first_moment += k;
     // The matrices alone do not show the axes: a sheet with statically determinate supports has no stiffness either.
@@ -249,7 +251,7 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
   }
   if (on_ties.size() > 0)
     state.out_of_balance =
-        std::max(state.out_of_balance, (tie_forces(joint, state.plates) - on_ties).lpNorm<Eigen::Infinity>());
+        std::max(state.out_of_balance, (tie_forces(system.held, state.plates) - on_ties).lpNorm<Eigen::Infinity>());
   state.fasteners_out_of_balance = worst_fastener(joint, state.plates);
   if (!(state.largest_force > 0)) return state;
   for (double* worst : {&state.out_of_balance, &state.fasteners_out_of_balance}) *worst /= state.largest_force;

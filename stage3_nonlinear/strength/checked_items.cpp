@@ -114,7 +114,8 @@ struct CheckedHole {
 /// Collects what the checks of a joint ask.
 class Collector {
  public:
-  Collector(const JointScene& scene, const JointModel& joint) : scene_(scene), joint_(joint) {}
+  Collector(const JointScene& scene, const JointModel& joint, const Parameters& parameters)
+      : scene_(scene), joint_(joint), parameters_(parameters) {}
 
   CheckedItems run() {
     for (const auto& check : scene_.checks) {
@@ -178,7 +179,8 @@ class Collector {
     const auto rim = joint_.described(hole);
     if (!rim)
       fail(fmt::format("the diameter of fastener \"{}\" is not known", fastener.id), "\"diameter\" in the check");
-    return 2 * (joint_.plates[hole.plate].stresses.rim_radius[*rim] - hole.gap);
+    return 2 *
+           (joint_.plates[hole.plate].stresses.rim_radius[*rim] - parameters_.gap[joint_.number_of_first_hole(plane)]);
   }
 
   void of_holes() {
@@ -257,6 +259,7 @@ class Collector {
 
   const JointScene& scene_;
   const JointModel& joint_;
+  const Parameters& parameters_;
   const CheckScene* check_ = nullptr;
   CheckedItems all_;
   std::map<std::string, std::vector<std::string>> left_out_;  ///< holes of the check by the reason
@@ -274,6 +277,8 @@ program::Warning left_out_warning(const JointScene& scene, const CheckScene& che
                                         program::listed(items), reason)};
 }
 
-CheckedItems checked_items(const JointScene& scene, const JointModel& joint) { return Collector(scene, joint).run(); }
+CheckedItems checked_items(const JointScene& scene, const JointModel& joint, const Parameters& parameters) {
+  return Collector(scene, joint, parameters).run();
+}
 
 }  // namespace fastjoint::stage3

@@ -8,7 +8,7 @@
 #include "common/columns/column.hpp"
 #include "common/infinite.hpp"
 #include "common/program/program.hpp"
-#include "stage3_nonlinear/model/joint_model.hpp"
+#include "stage3_nonlinear/model/parameters.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -45,8 +45,9 @@ struct CheckedItems {
 };
 
 /// Throws InputError if a check names what is not there, or needs stresses or an edge distance that are not known.
-/// @param scene, joint Outlive the items.
-[[nodiscard]] CheckedItems checked_items(const JointScene& scene, const JointModel& joint);
+/// @param scene, joint Outlive the items. @param parameters Its gaps are used.
+[[nodiscard]] CheckedItems checked_items(const JointScene& scene, const JointModel& joint,
+                                         const Parameters& parameters);
 
 /// Warning of items that a check leaves out.
 [[nodiscard]] program::Warning left_out_warning(const JointScene& scene, const CheckScene& check,

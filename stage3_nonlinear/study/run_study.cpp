@@ -120,12 +120,10 @@ std::uint64_t seed_of(const program::Arguments& arguments, const StudyScene& stu
 }
 
 /// Warnings of a run of the joint with all variables in their middle, at the last increment of every case.
-/// @param given The joint, which has the loads of the last case afterwards.
-std::vector<program::Warning> middle_warnings(JointModel& given, const JointScene& scene,
+std::vector<program::Warning> middle_warnings(const JointModel& joint, const JointScene& scene,
                                               const std::vector<std::size_t>& cases) {
   const PathOptions solving{scene.initial, scene.solver};
-  CaseRun run(scene, std::move(given));
-  const JointModel& joint = run.joint();
+  CaseRun run(scene, joint);
   CrackErrorEstimate cracks(scene, joint);
   CaseWarnings found;
   for (const std::size_t at : cases) {
@@ -133,11 +131,12 @@ std::vector<program::Warning> middle_warnings(JointModel& given, const JointScen
         run.follow(at, {scene.cases[at].wanted_load_factors().back()}, solving, {scene.solver.tolerance});
     if (missing) continue;
     const auto errors = cracks.of(joint, at, path, increments.states, solving);
-    for (const auto& some : {warnings(joint, equations, path), implausible_numbers(scene, joint, path),
-                             rim_warnings(joint, increments.states), crack_warnings(joint, increments.states, errors)})
+    for (const auto& some :
+         {warnings(joint, equations, path), implausible_numbers(scene, joint, equations.parameters, path),
+          rim_warnings(joint, equations.parameters, increments.states),
+          crack_warnings(joint, increments.states, errors)})
       found.add(scene.cases[at].name, some);
   }
-  given = std::move(run).take_joint();
   std::vector<program::Warning> all = scene.warnings;
   for (const auto& each : found.all(cases.size())) all.push_back(each);
   for (auto& each : all) each.text += " (with every variable of the study in its middle)";
@@ -184,9 +183,9 @@ std::string failures_text(const StudyBlocks& blocks) {
 }
 
 /// Loads the joint of the study, whose matrices must have the requested results.
-JointModel load_studied(const program::Arguments& arguments, const Study& study, SampledJoint& sampled) {
-  JointModel joint =
-      load_joint(with_all_friction(study, sampled), arguments.integer("--p", 1, formats::highest_degree, 0));
+/// @param scene With all friction.
+JointModel load_studied(const program::Arguments& arguments, const Study& study, const JointScene& scene) {
+  JointModel joint = load_joint(scene, arguments.integer("--p", 1, formats::highest_degree, 0));
   const bool has_peaks =
       std::ranges::any_of(joint.plates, [](const auto& plate) { return plate.stress_level.has_value(); });
   if (study.scene.outputs.contains("peaks") && !has_peaks)
@@ -209,10 +208,11 @@ JointModel load_studied(const program::Arguments& arguments, const Study& study,
 
 /// Throws InputError if there is too little memory for the matrices, and for samples on all threads or the statistics
 /// after them.
-void require_memory(const Study& study, const JointModel& joint, const StudyOutputs& outputs, int threads) {
+void require_memory(const Study& study, const JointModel& joint, const Parameters& parameters,
+                    const StudyOutputs& outputs, int threads) {
   using program::bytes_text;
   constexpr double of_tangent = 8 * sizeof(double);  // its factors and the matrices that it is made of
-  const auto [solving, of_step] = joint_need(joint, false, false, false);
+  const auto [solving, of_step] = joint_need(joint, parameters, false, false, false);
   const auto r = double(joint.n_planes() * joint.n_directions() + joint.n_moments());
   const double read = matrices_need(study.joint), samples = solving + threads * (of_step + of_tangent * r * r);
   const double statistics = statistics_need(study.scene, outputs);
@@ -286,19 +286,20 @@ void run_study(const program::Arguments& arguments, std::ostream& out, std::ostr
     return;
   }
   require_memory_to_read(study.joint);
-  JointModel joint = load_studied(arguments, study, sampled);
+  const JointScene rubbing = with_all_friction(study, sampled);
+  JointModel joint = load_studied(arguments, study, rubbing);
+  const Parameters parameters = parameters_of(joint, rubbing, rubbing.cases.front());
   const formats::StudyOrigin origin = origin_of(study, joint, seed);
-  StudyOutputs outputs(joint, study.joint, study.scene);
+  StudyOutputs outputs(joint, parameters, study.joint, study.scene);
   const StudyBlocks blocks(arguments.output, origin, study.scene.n_samples, outputs.size());
   blocks.check();
   const auto cases = studied_cases(study);
-  require_memory(study, joint, outputs, threads);
+  require_memory(study, joint, parameters, outputs, threads);
   if (merge_only) check_all_there(blocks, arguments.output);
   timings.phase("solve");
   const JointScene middle_scene = sampled.scene(middle_values(study.scene));
   if (slice.is_whole)
     for (const auto& each : middle_warnings(joint, middle_scene, cases)) program::warn(log, program_name, each);
-  set_loads(joint, middle_scene, middle_scene.cases[cases.front()]);
   for (auto& plate : joint.plates) {
     plate.peaks_alone = true;
     if (!study.scene.outputs.contains("peaks") && !study.scene.outputs.contains("margins")) plate.stress_level.reset();

@@ -31,7 +31,8 @@ void StudyOutputs::add(const std::vector<columns::Group<At>>& groups, Index plat
   }
 }
 
-StudyOutputs::StudyOutputs(const JointModel& joint, const JointScene& scene, const StudyScene& study)
+StudyOutputs::StudyOutputs(const JointModel& joint, const Parameters& parameters, const JointScene& scene,
+                           const StudyScene& study)
     : of_joint_(plane_quantities(joint)) {
   std::vector<std::string> planes;
   for (const auto& plane : joint.planes) planes.push_back(joint.short_name(plane));
@@ -55,16 +56,17 @@ StudyOutputs::StudyOutputs(const JointModel& joint, const JointScene& scene, con
     });
   }
   std::erase_if(sources_, [](const Source& each) { return each.rows.empty(); });
-  if (study.outputs.contains("margins")) add_checks(joint, scene, study);
+  if (study.outputs.contains("margins")) add_checks(joint, parameters, scene, study);
   for (auto& kind : kinds_) kind.first = size_, size_ += std::ssize(kind.of);
 }
 
-void StudyOutputs::add_checks(const JointModel& joint, const JointScene& scene, const StudyScene& study) {
+void StudyOutputs::add_checks(const JointModel& joint, const Parameters& parameters, const JointScene& scene,
+                              const StudyScene& study) {
   OutputKind kind{
       {"utilisation", "margins", "FS FF applied / allowable of each check; its margin is 1 over this less 1",
        "largest FS FF applied / allowable of all"},
       columns::ratio};
-  for (auto& item : checked_items(scene, joint).items) {
+  for (auto& item : checked_items(scene, joint, parameters).items) {
     if (!item.is_known) continue;
     kind.of.push_back(item.check->name + ": " + item.of);
     const auto least = study.least_margins.find(item.check->name);

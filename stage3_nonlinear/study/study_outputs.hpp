@@ -24,7 +24,7 @@ struct OutputKind {
 class StudyOutputs {
  public:
   /// @param scene The joint's, whose checks are asked; outlives this.
-  StudyOutputs(const JointModel& joint, const JointScene& scene, const StudyScene& study);
+  StudyOutputs(const JointModel& joint, const Parameters& parameters, const JointScene& scene, const StudyScene& study);
 
   [[nodiscard]] const std::vector<OutputKind>& kinds() const { return kinds_; }
   /// How many numbers.
@@ -45,7 +45,8 @@ class StudyOutputs {
   /// Adds what is asked for of groups. @param names Of things of a kind; empty for one whose numbers are not known.
   template <class At, class Names>
   void add(const std::vector<columns::Group<At>>& groups, Index plate, const StudyScene& study, Names names);
-  void add_checks(const JointModel& joint, const JointScene& scene, const StudyScene& study);
+  void add_checks(const JointModel& joint, const Parameters& parameters, const JointScene& scene,
+                  const StudyScene& study);
   /// Utilisation of each item of the checks.
   [[nodiscard]] VectorXd utilisations(const JointAt& at, const std::string& case_name) const;
 

@@ -67,7 +67,8 @@ std::optional<PathStep> CaseSolver::from_no_load(const JointScene& scene) const 
 StudySolver::StudySolver(const JointModel& joint, const JointScene& scene, const std::vector<std::size_t>& cases,
                          StudyOutputs outputs)
     : joint_(joint), tolerance_(scene.solver.tolerance), outputs_(std::move(outputs)) {
-  const auto system = std::make_shared<const CondensedSystem>(condense(joint));
+  const Held held = parameters_of(joint, scene, scene.cases[cases.front()]).held;
+  const auto system = std::make_shared<const CondensedSystem>(condense(joint, held));
   for (const std::size_t at : cases) cases_.emplace_back(joint, scene, at, system);
   middle_ = solve(scene);
 }

@@ -63,24 +63,24 @@ test::Lap rows(std::mt19937& random, Family family, int n) {
 
 /// A joint whose laws are still to come: of plates, or of a stiffness and a load alone.
 struct Base {
-  std::optional<stage3::JointModel> joint;
+  std::optional<test::HandMade> joint;
   MatrixXd S_ud;
   VectorXd q;
 
   /// @param contacts One for each plane; without plates with the plates' own stiffness.
   [[nodiscard]] stage3::JointEquations with(const std::vector<Contact>& contacts) const {
     if (!joint) return test::equations_of(S_ud, q, contacts);
-    stage3::JointModel its = *joint;
+    test::HandMade its = *joint;
     for (Index j = 0; j < std::ssize(contacts); ++j) {
-      its.planes[j].law = contacts[j].law;
-      its.planes[j].clearance = contacts[j].clearance;
+      its.law[j] = contacts[j].law;
+      its.clearance[j] = contacts[j].clearance;
       its.planes[j].one_sided = contacts[j].one_sided;
     }
     return make_equations(its);
   }
 };
 
-Base base_of(stage3::JointModel joint) {
+Base base_of(test::HandMade joint) {
   const auto equations = make_equations(joint);
   return {std::move(joint), equations.system->S_ud, equations.q};
 }
@@ -105,8 +105,7 @@ Base three_plates(std::mt19937& random, int n_planes) {
   auto joint = test::joint_of({plate(random, {n, k, true, chance(random, 0.5) ? k : 0}),
                                plate(random, {n, k * decades(random, 0.1, 10), false, k}), decades(random, 1e-3, 1e6)},
                               law);
-  joint.fasteners.clear();
-  joint.planes.clear();
+  joint.remove_fasteners();
   joint.plates.push_back(stage3::make_plate(
       "c", "c.h5", plate(random, {n, k * decades(random, 0.1, 10), false, chance(random, 0.5) ? k : 0}), 8));
   for (int j = 0; j < n; ++j) test::add_fastener(joint, {{1, j}, {0, j}, {2, j}}, law);

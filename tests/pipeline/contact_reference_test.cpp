@@ -209,15 +209,16 @@ TEST_F(ContactReference, JointsComeCloserWithEveryWave) {
     EXPECT_LT(exact.steps, mu > 0 ? 100 : 15);
     double before = 1;
     for (const int harmonics : {4, 8, 16, 32}) {
-      stage3::JointModel joint;
+      test::HandMade joint;
       joint.file = "joint.json";
       joint.plates = {stage3::make_plate("strip", "strip.h5", with_harmonics(harmonics), p)};
       joint.axes = {0, 1};
-      joint.plates[0].external_force[0] = -force;
+      joint.force[{0, 0}] = -force;
       test::add_fastener(joint, {{0, 0}}, test::law_of(R"({"type": "rigid"})"), true);
-      joint.fasteners[0].holes[0].gap = gap;
-      joint.fasteners[0].holes[0].mu = mu;
-      const auto equations = stage3::make_equations(joint);
+      stage3::HoleModel& hole = joint.fasteners[0].holes[0];
+      joint.gap[joint.at(hole)] = gap;
+      joint.set_mu(hole, mu);
+      const auto equations = make_equations(joint);
       const auto path = stage3::follow(equations, {1}, {});
       ASSERT_FALSE(path.failure);
       const auto& step = path.steps[0];

@@ -95,9 +95,6 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
   if (kind.mu > 0) add_shears(random, H, G, body);
   body.degrees = {Eigen::VectorXi::Constant(1, 8), {body.S}, {body.R}, {body.T}, {MatrixXd::Zero(0, 0)}};
   body.S_error = MatrixXd::Zero(body.S.rows(), body.S.rows());
-  body.external_force = VectorXd::Zero(1);
-  body.external_displacement.resize(1);
-  body.traction_force = VectorXd::Zero(0);
   return body;
 }
 
@@ -119,21 +116,21 @@ double decades(std::mt19937& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
 
-JointModel random_contact_joint(std::mt19937& random, const ContactKind& kind) {
-  JointModel joint;
+test::HandMade random_contact_joint(std::mt19937& random, const ContactKind& kind) {
+  test::HandMade joint;
   joint.file = "joint.json";
   joint.p = 8;
   joint.plates = {random_body(random, kind, kind.floating), random_body(random, kind, false)};
   joint.plates[0].name = std::string("a"), joint.plates[1].name = std::string("b");
   joint.axes = joint.plates[0].axes;
-  joint.plates[0].external_force[0] = 1;
-  if (!kind.floating && uniform(random, 0, 1) < 0.3) joint.plates[0].external_displacement[0] = 0.01;
+  joint.force[{0, 0}] = 1;
+  if (!kind.floating && uniform(random, 0, 1) < 0.3) joint.displacement[{0, 0}] = 0.01;
   for (Index i = 0; i < kind.n_holes; ++i) {
     test::add_fastener(joint, {{0, i * kind.n_directions}, {1, i * kind.n_directions}}, random_law(random));
     joint.planes.back().law_name = joint.fasteners.back().id;
-    for (HoleModel& hole : joint.fasteners.back().holes) hole.mu = kind.mu;
+    for (HoleModel& hole : joint.fasteners.back().holes) joint.set_mu(hole, kind.mu);
     for (HoleModel& hole : joint.fasteners.back().holes)
-      hole.gap = (uniform(random, 0, 1) < 0.3 ? -1 : 1) * kind.gaps * 0.003 * uniform(random, 0, 1);
+      joint.gap[joint.at(hole)] = (uniform(random, 0, 1) < 0.3 ? -1 : 1) * kind.gaps * 0.003 * uniform(random, 0, 1);
   }
   return joint;
 }

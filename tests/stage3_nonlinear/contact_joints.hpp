@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "stage3_nonlinear/model/joint_model.hpp"
+#include "tests/stage3_nonlinear/hand_made.hpp"
 
 namespace fastjoint::stage3 {
 
@@ -23,7 +23,7 @@ struct ContactKind {
 };
 
 /// Two elastic bodies of random stiffness, joined through holes whose rims push but do not pull.
-[[nodiscard]] JointModel random_contact_joint(std::mt19937& random, const ContactKind& kind);
+[[nodiscard]] test::HandMade random_contact_joint(std::mt19937& random, const ContactKind& kind);
 
 class ContactJoint : public testing::Test {
  protected:

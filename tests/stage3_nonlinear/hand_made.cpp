@@ -123,30 +123,67 @@ void add_friction(PlateMatrices& plate, std::mt19937& random) {
   }
 }
 
-stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law) {
-  stage3::JointModel joint;
+void HandMade::remove_fasteners() { fasteners.clear(), planes.clear(), law.clear(), clearance.clear(); }
+
+stage3::Parameters HandMade::numbers() const {
+  const auto value = [](const std::map<At, double>& all, const At& key) {
+    const auto found = all.find(key);
+    return found == all.end() ? 0 : found->second;
+  };
+  stage3::Parameters all;
+  const auto loads = loads_of(*this);
+  all.load.resize(std::ssize(loads));
+  for (Index i = 0; i < std::ssize(loads); ++i) {
+    const At key{loads[i].plate, loads[i].at};
+    all.held.displaced.push_back(!loads[i].is_traction && displacement.contains(key));
+    all.load[i] = value(loads[i].is_traction ? traction : all.held.displaced[i] ? displacement : force, key);
+  }
+  all.law = law;
+  all.clearance = Eigen::VectorXd::Map(clearance.data(), std::ssize(clearance));
+  std::vector<double> mus, gaps;
+  for (const auto& fastener : fasteners)
+    for (const auto& hole : fastener.holes) mus.push_back(value(mu, at(hole))), gaps.push_back(value(gap, at(hole)));
+  all.mu = Eigen::VectorXd::Map(mus.data(), std::ssize(mus));
+  all.gap = Eigen::VectorXd::Map(gaps.data(), std::ssize(gaps));
+  std::vector<stage3::FreeShape> shapes;
+  for (const auto& plate : plates) shapes.push_back(undisplaced(plate));
+  set_free_shapes(*this, std::move(shapes), all);
+  return all;
+}
+
+stage3::JointEquations make_equations(const HandMade& joint) {
+  stage3::Parameters numbers = joint.numbers();
+  const auto system = std::make_shared<const stage3::CondensedSystem>(condense(joint, numbers.held));
+  return make_equations(joint, system, std::move(numbers));
+}
+
+HandMade joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law) {
+  HandMade joint;
   joint.file = "joint.json";
   joint.units = lap.a.header.units;
   joint.p = 8;
   joint.plates = {stage3::make_plate("a", "a.h5", lap.a, 8), stage3::make_plate("b", "b.h5", lap.b, 8)};
-  joint.plates[0].external_force[0] = lap.force;
+  joint.force[{0, 0}] = lap.force;
   for (Index j = 0; j < std::min(lap.a.n_discs(), lap.b.n_discs()); ++j) add_fastener(joint, {{0, j}, {1, j}}, law);
   return joint;
 }
 
-void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Index, Index>>& holes,
+void add_fastener(HandMade& joint, const std::vector<std::pair<Index, Index>>& holes,
                   const std::shared_ptr<const stage3::Law>& law, bool grounded) {
   stage3::FastenerModel fastener{std::to_string(joint.fasteners.size() + 1), {}, false, grounded};
-  for (const auto& [plate, disc] : holes) fastener.holes.push_back({plate, disc, 0, {}});
-  for (Index first = 0; first < fastener.n_planes(); ++first)
-    joint.planes.push_back({std::ssize(joint.fasteners), first, law, "law", 0, false});
+  for (const auto& [plate, disc] : holes) fastener.holes.push_back({plate, disc});
+  for (Index first = 0; first < fastener.n_planes(); ++first) {
+    joint.planes.push_back({std::ssize(joint.fasteners), first, "law"});
+    joint.law.push_back(law);
+    joint.clearance.push_back(0);
+  }
   joint.fasteners.push_back(std::move(fastener));
 }
 
-void set_friction(stage3::JointModel& joint, Index fastener, double mu) {
+void set_friction(HandMade& joint, Index fastener, double mu) {
   for (auto& hole : joint.fasteners[fastener].holes) {
     const stage3::PlateModel& plate = joint.plates[hole.plate];
-    hole.mu = mu;
+    joint.set_mu(hole, mu);
     hole.friction.resize(1);
     for (const auto side : {stage3::plus_side, stage3::minus_side}) {
       const Index column = 2 * hole.disc + (side == stage3::plus_side ? 0 : 1);
@@ -211,18 +248,18 @@ stage3::ContactState state_of(const std::vector<stage3::Contact>& contacts, cons
   return contact_state(interfaces_of(contacts, a), {}, a, n, c);
 }
 
-Eigen::VectorXd linear_solution(const stage3::JointModel& joint, double k) {
+Eigen::VectorXd linear_solution(const HandMade& joint, double k) {
   const auto equations = make_equations(joint);
   return linear_forces(equations, Eigen::VectorXd::Constant(equations.n_unknowns(), 1 / k), 1).F;
 }
 
-Eigen::VectorXd displacements_of(const stage3::JointModel& joint, const Eigen::VectorXd& delta) {
+Eigen::VectorXd displacements_of(const HandMade& joint, const Eigen::VectorXd& delta) {
   const auto equations = make_equations(joint);
   return displacements(joint, *equations.system, equations.load_rates(1), delta,
                        Eigen::VectorXd::Zero(equations.system->n_friction()));
 }
 
-stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
+HandMade random_joint(std::mt19937& random, const RandomJoint& kind) {
   const int n = std::uniform_int_distribution<int>(1, 12)(random);
   const double k_a = decades(random, 1e3, 1e5);
   const double k_b = decades(random, 1e3, 1e5);
@@ -239,8 +276,8 @@ stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind) {
   auto joint = joint_of(lap, linear_law(1));
   for (Index j = 0; j < std::ssize(joint.planes); ++j) {
     auto& plane = joint.planes[j];
-    plane.law = random_law(random, kind);
-    if (kind.clearances && uniform(random, 0, 1) < 0.6) plane.clearance = decades(random, 1e-4, 1e-1);
+    joint.law[j] = random_law(random, kind);
+    if (kind.clearances && uniform(random, 0, 1) < 0.6) joint.clearance[j] = decades(random, 1e-4, 1e-1);
     plane.one_sided = kind.one_sided && uniform(random, 0, 1) < 0.5;
     if (kind.friction && uniform(random, 0, 1) < 0.7) set_friction(joint, j, uniform(random, 0, 0.4));
   }

@@ -48,15 +48,37 @@ struct Lap {
   double force = 1;
 };
 
+/// A joint made by hand, with the numbers of a run of it.
+struct HandMade : stage3::JointModel {
+  using At = std::pair<Eigen::Index, Eigen::Index>;  ///< plate, and external, traction or disc
+  std::map<At, double> force, displacement;  ///< of externals; without a displacement they have a force, or none
+  std::map<At, double> traction;             ///< force on a traction
+  std::vector<stage3::LawPointer> law;       ///< of each plane
+  std::vector<double> clearance;             ///< of each plane, length
+  std::map<At, double> mu, gap;              ///< of holes; others 0
+
+  [[nodiscard]] static At at(const stage3::HoleModel& hole) { return {hole.plate, hole.disc}; }
+  void set_mu(stage3::HoleModel& hole, double value) {
+    hole.has_friction = value != 0;
+    mu[at(hole)] = value;
+  }
+  void remove_fasteners();
+  /// All numbers of the run.
+  [[nodiscard]] stage3::Parameters numbers() const;
+};
+
+/// Condenses the joint, and puts its numbers in.
+[[nodiscard]] stage3::JointEquations make_equations(const HandMade& joint);
+
 /// A joint of those two without files, all fasteners with this law.
-[[nodiscard]] stage3::JointModel joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law);
+[[nodiscard]] HandMade joint_of(const Lap& lap, const std::shared_ptr<const stage3::Law>& law);
 
 /// Adds a fastener through these holes (plate, disc), into the ground if `grounded`, all its planes with one law.
-void add_fastener(stage3::JointModel& joint, const std::vector<std::pair<Eigen::Index, Eigen::Index>>& holes,
+void add_fastener(HandMade& joint, const std::vector<std::pair<Eigen::Index, Eigen::Index>>& holes,
                   const std::shared_ptr<const stage3::Law>& law, bool grounded = false);
 
 /// Gives a fastener of `joint` friction mu on all its plates, from the friction cases of the plates.
-void set_friction(stage3::JointModel& joint, Eigen::Index fastener, double mu);
+void set_friction(HandMade& joint, Eigen::Index fastener, double mu);
 
 /// Gives a hole a friction case of its own for a side that bears: the loads on the plate's unknowns and the force of
 /// friction, both per unit bearing force and unit coefficient.
@@ -75,7 +97,7 @@ struct RandomJoint {
 };
 
 /// A lap joint of 1 to 12 fasteners with random stiffness, laws and gaps.
-[[nodiscard]] stage3::JointModel random_joint(std::mt19937& random, const RandomJoint& kind);
+[[nodiscard]] HandMade random_joint(std::mt19937& random, const RandomJoint& kind);
 
 /// Equations of planes without plates, each a fastener of its own, under a load q at load factor 1.
 /// @param contacts With the stiffness of the plates themselves, which is replaced.
@@ -86,10 +108,10 @@ struct RandomJoint {
 [[nodiscard]] stage3::ContactState state_of(const std::vector<stage3::Contact>& contacts, const Eigen::VectorXd& c);
 
 /// Forces of linear fasteners of stiffness k at load factor 1.
-[[nodiscard]] Eigen::VectorXd linear_solution(const stage3::JointModel& joint, double k);
+[[nodiscard]] Eigen::VectorXd linear_solution(const HandMade& joint, double k);
 
 /// Displacements of all unknowns without friction at load factor 1.
-[[nodiscard]] Eigen::VectorXd displacements_of(const stage3::JointModel& joint, const Eigen::VectorXd& delta);
+[[nodiscard]] Eigen::VectorXd displacements_of(const HandMade& joint, const Eigen::VectorXd& delta);
 
 /// The solution of a step.
 [[nodiscard]] inline stage3::SolvedPoint point_of(const stage3::JointEquations& equations,

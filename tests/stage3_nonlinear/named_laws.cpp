@@ -60,19 +60,16 @@ PlateModel random_plate(std::mt19937& random, const std::string& name, Index n_h
   plate.S = uniform(random, 300, 3000) * random_stiffness(random, static_cast<int>(n));
   plate.R = MatrixXd::Zero(n, 0);
   plate.T = MatrixXd::NullaryExpr(n, 1, [&] { return uniform(random, -0.5, 0.5); });
-  plate.external_force = VectorXd::Zero(1);
-  plate.external_displacement.resize(1);
-  plate.traction_force = VectorXd::Zero(1);
   return plate;
 }
 
 /// Friction cases of about the size and in the sense that real plates have (hand_made's add_friction), any direction.
-void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
+void add_random_friction(std::mt19937& random, HandMade& joint) {
   for (auto& fastener : joint.fasteners) {
     fastener.law_includes_friction = fastener.id == "2";
     for (auto& hole : fastener.holes) {
       if (uniform(random, 0, 1) < 0.3) continue;
-      hole.mu = uniform(random, 0.02, 0.3);
+      joint.set_mu(hole, uniform(random, 0.02, 0.3));
       for (Index d = 0; d < joint.n_directions(); ++d) {
         auto& sides = hole.friction.emplace_back();
         for (const auto side : {stage3::plus_side, stage3::minus_side}) {
@@ -89,18 +86,17 @@ void add_random_friction(std::mt19937& random, stage3::JointModel& joint) {
 
 /// Plates with fasteners through all of them, the second of which and every other one the ground may hold; forces, a
 /// traction and a given displacement.
-stage3::JointModel random_stack(std::mt19937& random, Index n_plates, const std::vector<int>& axes,
-                                bool grounded = false) {
+HandMade random_stack(std::mt19937& random, Index n_plates, const std::vector<int>& axes, bool grounded = false) {
   const Index n = std::uniform_int_distribution<Index>(2, 4)(random);
-  stage3::JointModel joint;
+  HandMade joint;
   joint.file = "joint.json";
   joint.units = {"in", "lbf"};
   joint.axes = axes;
   for (Index i = 0; i < n_plates; ++i)
     joint.plates.push_back(random_plate(random, std::string(1, static_cast<char>('a' + i)), n, axes));
-  joint.plates[0].external_force[0] = 1000;
-  joint.plates[0].traction_force[0] = 300;
-  joint.plates.back().external_displacement[0] = 0.05;
+  joint.force[{0, 0}] = 1000;
+  joint.traction[{0, 0}] = 300;
+  joint.displacement[{n_plates - 1, 0}] = 0.05;
   for (Index j = 0; j < n; ++j) {
     std::vector<std::pair<Index, Index>> holes;
     for (Index i = 0; i < n_plates; ++i) holes.emplace_back(i, j * joint.n_directions());
@@ -109,7 +105,7 @@ stage3::JointModel random_stack(std::mt19937& random, Index n_plates, const std:
   return joint;
 }
 
-stage3::JointModel random_model(std::mt19937& random, int kind) {
+HandMade random_model(std::mt19937& random, int kind) {
   const std::vector<int> x{0}, xy{0, 1};
   switch (kind) {
     case 0:
@@ -157,7 +153,7 @@ std::shared_ptr<const stage3::Law> LawText::law() const {
 stage3::JointEquations NamedJoint::equations() {
   std::map<std::string, std::shared_ptr<const stage3::Law>> made;
   for (const auto& [name, text] : laws) made[name] = text.law();
-  for (auto& plane : model.planes) plane.law = made.at(plane.law_name);
+  for (Index j = 0; j < model.n_planes(); ++j) model.law[j] = made.at(model.planes[j].law_name);
   return make_equations(model);
 }
 
@@ -175,9 +171,8 @@ NamedJoint named_joint(std::mt19937& random, int kind) {
   for (Index i = 0; i < std::ssize(names); ++i) joint.laws[names[i]] = random_law(random, first + i, F, d);
   if (kind > 7) joint.laws["middle"] = {"rigid", {}};
   for (Index j = 0; j < std::ssize(joint.model.planes); ++j) {
-    auto& plane = joint.model.planes[j];
-    plane.law_name = names[(j * 2 + first) % 3];
-    plane.clearance = uniform(random, 0, 1) < 0.5 ? 0 : d * uniform(random, 0, 0.4);
+    joint.model.planes[j].law_name = names[(j * 2 + first) % 3];
+    joint.model.clearance[j] = uniform(random, 0, 1) < 0.5 ? 0 : d * uniform(random, 0, 0.4);
   }
   joint.load_factor = uniform(random, 0.5, 1.5) * (kind == 2 || uniform(random, 0, 1) < 0.7 ? 1 : -1);
   return joint;

@@ -23,7 +23,7 @@ struct LawText {
 
 /// A joint with named laws at a load factor.
 struct NamedJoint {
-  stage3::JointModel model;
+  HandMade model;
   std::map<std::string, LawText> laws;
   double load_factor = 1;
 

@@ -202,7 +202,7 @@ LoadPath path_of(const JointEquations& equations, std::array<double, 2> F, std::
 }
 
 TEST(Warnings, SayNothingOfUnloadingWithinAGap) {
-  const JointModel joint = test::joint_of(test::two_fastener_lap(), test::power_law(900, 0.7, 0.1));
+  const test::HandMade joint = test::joint_of(test::two_fastener_lap(), test::power_law(900, 0.7, 0.1));
   const JointEquations equations = make_equations(joint);
   EXPECT_THAT(warnings(joint, equations, path_of(equations, {0, 0}, {0.05, 0.02})), IsEmpty());
   EXPECT_THAT(warnings(joint, equations, path_of(equations, {90, 0}, {0.14, 0.02})),
@@ -210,7 +210,7 @@ TEST(Warnings, SayNothingOfUnloadingWithinAGap) {
 }
 
 TEST(Warnings, TellThatFrictionDoesNotTurn) {
-  const JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
+  const test::HandMade joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
   JointEquations equations = make_equations(joint);
   EXPECT_THAT(warnings(joint, equations, path_of(equations, {50, 40}, {0.05, 0.04})), IsEmpty());
   equations.parameters.mu[2] = 0.2;  // of the second fastener in its first hole
@@ -221,7 +221,7 @@ TEST(Warnings, TellThatFrictionDoesNotTurn) {
 }
 
 TEST(Warnings, TellOfASolutionPastTheLargestLoad) {
-  const JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1));
+  const test::HandMade joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1));
   PathStep step{.load_factor = 0.5,
                 .F = Eigen::Vector2d::Zero(),
                 .delta = Eigen::Vector2d::Zero(),

@@ -24,8 +24,8 @@ formats::PlateMatrices disc_plate(const MatrixXd& S, const std::vector<std::stri
   return plate;
 }
 
-stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates) {
-  stage3::JointModel joint;
+HandMade joint_of(const std::vector<formats::PlateMatrices>& plates) {
+  HandMade joint;
   joint.file = "joint.json";
   joint.units = plates[0].header.units;
   joint.p = 8;
@@ -37,14 +37,14 @@ stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates) {
   return joint;
 }
 
-void load_discs(stage3::JointModel& joint, Index plate, const VectorXd& forces) {
+void load_discs(HandMade& joint, Index plate, const VectorXd& forces) {
   joint.plates[plate].T = -forces;
   joint.plates[plate].tractions = {"T"};
-  joint.plates[plate].traction_force = VectorXd::Ones(1);
+  joint.traction[{plate, 0}] = 1;
   joint.plates[plate].traction_axis = {joint.axes[0]};
 }
 
-stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions, bool grounded) {
+HandMade random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions, bool grounded) {
   std::uniform_real_distribution<double> number(-1, 1);
   const std::vector<std::string> directions =
       n_directions == 1 ? std::vector<std::string>{"x"} : std::vector<std::string>{"x", "y"};
@@ -68,7 +68,7 @@ stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes,
   return joint;
 }
 
-LoosePlates loose_plates(const stage3::JointModel& joint) {
+LoosePlates loose_plates(const HandMade& joint) {
   const Index n = joint.n_unknowns();
   LoosePlates result{MatrixXd::Zero(n, n), VectorXd(n)};
   for (Index plate = 0; plate < std::ssize(joint.plates); ++plate) {
@@ -81,14 +81,14 @@ LoosePlates loose_plates(const stage3::JointModel& joint) {
 
 double stiffness_of(const stage3::Law& law) { return law.at(1, 1, 0).F / law.at(1, 1, 0).delta; }
 
-stage3::PathStep solved(const stage3::JointModel& joint) {
-  const auto path = stage3::follow(stage3::make_equations(joint), {1}, {.initial = {}, .solver = {.tolerance = 1e-13}});
+stage3::PathStep solved(const HandMade& joint) {
+  const auto path = stage3::follow(make_equations(joint), {1}, {.initial = {}, .solver = {.tolerance = 1e-13}});
   EXPECT_FALSE(path.failure);
   return path.steps.at(0);
 }
 
-stage3::JointState state_of(const stage3::JointModel& joint, const stage3::PathStep& step) {
-  return stage3::joint_state(joint, stage3::make_equations(joint), step);
+stage3::JointState state_of(const HandMade& joint, const stage3::PathStep& step) {
+  return stage3::joint_state(joint, make_equations(joint), step);
 }
 
 }  // namespace fastjoint::test

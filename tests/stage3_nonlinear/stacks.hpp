@@ -18,28 +18,28 @@ namespace fastjoint::test {
                                                 const std::vector<std::string>& directions = {"x"});
 
 /// A joint of plates "a", "b", ... without fasteners and loads.
-[[nodiscard]] stage3::JointModel joint_of(const std::vector<formats::PlateMatrices>& plates);
+[[nodiscard]] HandMade joint_of(const std::vector<formats::PlateMatrices>& plates);
 
 /// Forces on the discs of a plate themselves, in place of those before, shape (m).
-void load_discs(stage3::JointModel& joint, Eigen::Index plate, const Eigen::VectorXd& forces);
+void load_discs(HandMade& joint, Eigen::Index plate, const Eigen::VectorXd& forces);
 
 /// Random plates, stiff in every motion, with discs in a directions and fasteners through 2 to all of them: the first
 /// through all, in a random order; with `grounded` it and every other one into the ground.
-[[nodiscard]] stage3::JointModel random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions,
-                                              bool grounded = false);
+[[nodiscard]] HandMade random_stack(std::mt19937& random, int n_plates, int n_holes, int n_directions,
+                                    bool grounded = false);
 
 /// Stiffness and load of the plates of a joint without fasteners, in the joint's list of unknowns.
 struct LoosePlates {
   Eigen::MatrixXd S;     ///< (N, N)
   Eigen::VectorXd load;  ///< (N)
 };
-[[nodiscard]] LoosePlates loose_plates(const stage3::JointModel& joint);
+[[nodiscard]] LoosePlates loose_plates(const HandMade& joint);
 
 /// Stiffness of a law that is linear without gap.
 [[nodiscard]] double stiffness_of(const stage3::Law& law);
 
 /// The state at load factor 1, to a residual of 1e-13.
-[[nodiscard]] stage3::PathStep solved(const stage3::JointModel& joint);
-[[nodiscard]] stage3::JointState state_of(const stage3::JointModel& joint, const stage3::PathStep& step);
+[[nodiscard]] stage3::PathStep solved(const HandMade& joint);
+[[nodiscard]] stage3::JointState state_of(const HandMade& joint, const stage3::PathStep& step);
 
 }  // namespace fastjoint::test

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "common/errors.hpp"
-#include "stage3_nonlinear/model/joint_model.hpp"
 #include "stage3_nonlinear/path/walk.hpp"
 #include "stage3_nonlinear/results/sensitivity.hpp"
 #include "tests/stage3_nonlinear/exact_path.hpp"
@@ -24,7 +23,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 /// Plates of one free disc each, loaded by these forces, one fastener through all into the ground.
-JointModel hung(const std::vector<double>& forces, const std::shared_ptr<const Law>& law) {
+test::HandMade hung(const std::vector<double>& forces, const std::shared_ptr<const Law>& law) {
   std::vector<std::pair<Index, Index>> holes;
   for (Index i = 0; i < std::ssize(forces); ++i) holes.emplace_back(i, 0);
   auto joint =
@@ -52,7 +51,7 @@ TEST(Ground, HoldsAPlateThatHangsOnOneFastener) {
 TEST(Ground, HoldsPlatesInSeries) {
   constexpr double k1 = 50, k2 = 20, P = 10, Q = 4;
   auto joint = hung({P, Q}, test::linear_law(k1));
-  joint.planes[1].law = test::linear_law(k2);
+  joint.law[1] = test::linear_law(k2);
   const PathStep step = test::solved(joint);
   EXPECT_NEAR(step.delta[0], P / k1, 1e-14);
   EXPECT_NEAR(step.delta[1], (P + Q) / k2, 1e-14);
@@ -70,7 +69,7 @@ TEST(Ground, SharesALoadByTheStiffnessOfTheFasteners) {
   constexpr double K = 70, k = 30, s = 55, P = 10, stiff = 1e9;
   auto joint = test::joint_of(
       {test::spring_plate(2, 1, {{0, 2, stiff}, {1, 2, stiff}}), test::spring_plate(1, 0, {{0, test::ground, s}})});
-  joint.plates[0].external_force[0] = P;
+  joint.force[{0, 0}] = P;
   test::add_fastener(joint, {{0, 0}}, test::linear_law(K), true);
   test::add_fastener(joint, {{0, 1}, {1, 0}}, test::linear_law(k));
   const double other = 1 / (1 / k + 1 / s);
@@ -81,28 +80,27 @@ TEST(Ground, SharesALoadByTheStiffnessOfTheFasteners) {
 
 /// The joint with one more plate in place of the ground, whose discs springs s hold: planes to it are stiffer, so that
 /// both in series are as before.
-JointModel with_wall(const JointModel& grounded, double s) {
-  JointModel joint = grounded;
+test::HandMade with_wall(const test::HandMade& grounded, double s) {
+  test::HandMade joint = grounded;
   const Index a = joint.n_directions(), n = joint.fasteners.size(), wall = joint.plates.size();
   const std::vector<std::string> directions{"x", "y"};
   joint.plates.push_back(make_plate(
       "wall", "wall.h5",
       test::disc_plate(s * MatrixXd::Identity(n * a, n * a), {directions.begin(), directions.begin() + a}), 8));
   test::load_discs(joint, wall, VectorXd::Zero(n * a));
-  for (auto& plane : joint.planes)
-    if (grounded.is_to_ground(plane)) {
-      plane.law = test::linear_law(1 / (1 / test::stiffness_of(*plane.law) - 1 / s));
-    }
+  for (Index j = 0; j < joint.n_planes(); ++j)
+    if (grounded.is_to_ground(joint.planes[j]))
+      joint.law[j] = test::linear_law(1 / (1 / test::stiffness_of(*joint.law[j]) - 1 / s));
   for (Index i = 0; i < n; ++i) {
     FastenerModel& fastener = joint.fasteners[i];
     if (!fastener.grounded) continue;
     fastener.grounded = false;
-    fastener.holes.push_back({wall, i * a, 0, {}});
+    fastener.holes.push_back({wall, i * a});
   }
   return joint;
 }
 
-void expect_same(const JointModel& grounded, const JointModel& walled, const std::string& what) {
+void expect_same(const test::HandMade& grounded, const test::HandMade& walled, const std::string& what) {
   const PathStep a = test::solved(grounded), b = test::solved(walled);
   EXPECT_LT((a.F - b.F).norm(), 1e-12 * b.F.norm()) << what;
   const JointState at = test::state_of(grounded, a), there = test::state_of(walled, b);
@@ -119,7 +117,7 @@ void expect_same(const JointModel& grounded, const JointModel& walled, const std
 TEST(Ground, IsOneMorePlateThatDoesNotMove) {
   std::mt19937 random(31);
   for (int i = 0; i < 60; ++i) {
-    const JointModel joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
+    const test::HandMade joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
     expect_same(joint, with_wall(joint, 5000), fmt::format("joint {}", i));
   }
 }
@@ -132,8 +130,7 @@ TEST(Ground, BearsWithFrictionInThePlatesAlone) {
     test::add_friction(lap.b, random);
     for (Index side = 0; side < lap.a.friction_resultant.size(); side += 2) lap.a.friction_resultant[side] *= 0.8;
     auto joint = test::joint_of(lap, test::linear_law(1));
-    joint.fasteners.clear();
-    joint.planes.clear();
+    joint.remove_fasteners();
     test::add_fastener(joint, {{0, 0}}, test::linear_law(300), true);
     test::add_fastener(joint, {{0, 1}, {1, 1}}, test::linear_law(200), true);
     test::add_fastener(joint, {{1, 2}, {0, 2}}, test::linear_law(100));
@@ -147,7 +144,8 @@ TEST(Ground, BearsWithFrictionInThePlatesAlone) {
     const JointState state = test::state_of(joint, step);
     const HoleModel& hole = joint.fasteners[0].holes[0];
     const FrictionCase& rim = hole.friction[0][step.F[0] > 0 ? minus_side : plus_side];
-    const double Q = i % 2 == 1 ? step.F[0] : step.F[0] * (1 + hole.mu * rim.resultant / rim.unit_force);
+    const double Q =
+        i % 2 == 1 ? step.F[0] : step.F[0] * (1 + joint.mu.at(joint.at(hole)) * rim.resultant / rim.unit_force);
     EXPECT_NEAR(state.transferred_first[0], Q, 1e-13 * std::abs(Q)) << "F is the bearing force of the only hole";
     EXPECT_LT(state.out_of_balance, 1e-11);
   }
@@ -156,10 +154,11 @@ TEST(Ground, BearsWithFrictionInThePlatesAlone) {
 TEST(Ground, SensitivitiesAreThoseOfThePlateThatDoesNotMove) {
   std::mt19937 random(33);
   for (int i = 0; i < 20; ++i) {
-    const JointModel grounded = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
-    const auto of = [](const JointModel& joint) {
+    const test::HandMade grounded = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
+    const auto of = [](const test::HandMade& joint) {
       const JointEquations equations = make_equations(joint);
-      return test::sensitivity_at(joint_numbers(joint), test::point_of(equations, test::solved(joint)));
+      return test::sensitivity_at(joint_numbers(joint, joint.numbers()),
+                                  test::point_of(equations, test::solved(joint)));
     };
     const test::Sensitivity a = of(grounded), b = of(with_wall(grounded, 5000));
     EXPECT_LT((a.load_factor - b.load_factor).norm(), 1e-11 * b.load_factor.norm()) << i;
@@ -172,8 +171,8 @@ TEST(Ground, ExactPathsAreThoseOfTheSolver) {
   for (int i = 0; i < 30; ++i) {
     auto joint = test::random_stack(random, 1 + i % 3 + 1, 1 + i % 4, 1, true);
     for (Index j = 0; j < joint.n_planes(); ++j) {
-      joint.planes[j].law = j % 2 == 0 ? test::law_of(R"({"type": "rigid"})") : test::bilinear_law(60, 5, 9);
-      joint.planes[j].clearance = j % 3 == 0 ? 0.02 : 0;
+      joint.law[j] = j % 2 == 0 ? test::law_of(R"({"type": "rigid"})") : test::bilinear_law(60, 5, 9);
+      joint.clearance[j] = j % 3 == 0 ? 0.02 : 0;
     }
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {0.2, 0.5, 1}, test::tight);

@@ -117,7 +117,7 @@ TEST(JointEquations, TellsASheetThatNothingHolds) {
   lap.a = test::chain(2, 1, 1000, {{1, 2, 1000}, {0, test::ground, 1000}});
   lap.b = test::chain(2, 0, 1000, {});
   auto joint = test::joint_of(lap, test::linear_law(5));
-  for (auto& plane : joint.planes) plane.clearance = 1;
+  joint.clearance.assign(joint.n_planes(), 1);
   const JointEquations equations = make_equations(joint);
   const auto open_at = [&](double c0, double c1) {
     return SolvedPoint(equations, 1, Eigen::Vector2d(c0, c1)).check().mechanism;

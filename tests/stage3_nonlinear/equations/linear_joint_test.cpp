@@ -92,12 +92,12 @@ TEST(LinearJoint, FrictionThatOutweighsItsForceHasNoConsistentSigns) {
   test::add_friction(lap.b, random);
   auto joint = test::joint_of(lap, test::linear_law(1));
   test::set_friction(joint, 0, 0.3);
-  auto system = condense(joint);
+  auto system = condense(joint, joint.numbers().held);
   const FrictionLayout& layout = system.friction;
   for (const FrictionHole& hole : layout.friction_holes[0])
     for (const Side side : {plus_side, minus_side}) system.H(0, hole.sides[side].column) = 1e3;
   const auto equations =
-      make_equations(joint, std::make_shared<const CondensedSystem>(std::move(system)), parameters_of(joint));
+      make_equations(joint, std::make_shared<const CondensedSystem>(std::move(system)), joint.numbers());
   EXPECT_FALSE(linear_forces(equations, VectorXd::Constant(1, 1.0), 1).consistent);
 }
 

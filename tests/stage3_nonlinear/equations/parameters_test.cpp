@@ -18,33 +18,22 @@ namespace {
 const PathOptions tight{{}, {.tolerance = 1e-13}};
 
 /// Gives every number of a joint another value, of its size.
-void change(JointModel& joint, std::mt19937& random) {
+void change(test::HandMade& joint, std::mt19937& random) {
   const auto changed = [&](double& number) { number *= uniform(random, 0.7, 1.2); };
-  for (auto& plate : joint.plates) {
-    for (double& force : plate.external_force) changed(force);
-    for (double& force : plate.traction_force) changed(force);
-    for (auto& given : plate.external_displacement)
-      if (given) changed(*given);
-  }
-  for (auto& plane : joint.planes) {
-    changed(plane.clearance);
-    plane.law = test::power_law(uniform(random, 100, 10000), uniform(random, 0.6, 1));
-  }
-  for (auto& fastener : joint.fasteners)
-    for (auto& hole : fastener.holes) {
-      changed(hole.gap);
-      changed(hole.mu);
-    }
+  for (auto* numbers : {&joint.force, &joint.traction, &joint.displacement, &joint.gap, &joint.mu})
+    for (auto& [at, number] : *numbers) changed(number);
+  for (double& clearance : joint.clearance) changed(clearance);
+  for (auto& law : joint.law) law = test::power_law(uniform(random, 100, 10000), uniform(random, 0.6, 1));
 }
 
 /// A joint that is condensed once takes other numbers, in memory, as if it had been made with them.
-void expect_same_with_other_numbers(const JointModel& joint, std::mt19937& random, const std::string& where) {
-  const auto system = std::make_shared<const CondensedSystem>(condense(joint));
+void expect_same_with_other_numbers(const test::HandMade& joint, std::mt19937& random, const std::string& where) {
+  const auto system = std::make_shared<const CondensedSystem>(condense(joint, joint.numbers().held));
   for (int run = 0; run < 3; ++run) {
-    JointModel other = joint;
+    test::HandMade other = joint;
     change(other, random);
     const LoadPath anew = follow(make_equations(other), {0.4, 1}, tight);
-    const LoadPath path = follow(make_equations(joint, system, parameters_of(other)), {0.4, 1}, tight);
+    const LoadPath path = follow(make_equations(joint, system, other.numbers()), {0.4, 1}, tight);
     ASSERT_EQ(path.failure.has_value(), anew.failure.has_value()) << where;
     ASSERT_EQ(path.steps.size(), anew.steps.size()) << where;
     for (std::size_t i = 0; i < path.steps.size(); ++i)
@@ -138,9 +127,9 @@ TEST(LoadsBefore, DoNotChangeTheForcesOfAllLoads) {
   for (int i = 0; i < 2 * test::n_kinds; ++i) {
     auto named = test::named_joint(random, i % test::n_kinds);
     static_cast<void>(named.equations());
-    const JointModel& joint = named.model;
-    const auto system = std::make_shared<const CondensedSystem>(condense(joint));
-    Parameters parameters = parameters_of(joint);
+    const test::HandMade& joint = named.model;
+    const auto system = std::make_shared<const CondensedSystem>(condense(joint, joint.numbers().held));
+    Parameters parameters = joint.numbers();
     const VectorXd end = parameters.load;
     const LoadPath direct = follow(make_equations(joint, system, parameters), {1}, tight);
     parameters.load = VectorXd::NullaryExpr(end.size(), [&](Index at) { return uniform(random, 0.2, 1) * end[at]; });

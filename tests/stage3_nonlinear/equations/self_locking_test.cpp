@@ -106,11 +106,11 @@ TEST_F(Locking, LevelIsTheSingularityOfTheMatrix) {
     for (auto& fastener : joint.fasteners) {
       auto& hole = fastener.holes[1];
       hole.friction.resize(1);
-      hole.mu = mu;
+      joint.set_mu(hole, mu);
       hole.friction[0][plus_side] = {2 * hole.disc, 1, 0};  // without a resultant, which would share out the bearing
       hole.friction[0][minus_side] = {2 * hole.disc + 1, 1, 0};
     }
-    joint.plates[0].external_displacement[0] = 1;
+    joint.displacement[{0, 0}] = 1;
     const JointEquations equations = make_equations(joint);
     const auto level = self_locking(equations, Eigen::Vector2d(1, 1));
     EXPECT_EQ(level.has_value(), mu > 0.5) << mu;

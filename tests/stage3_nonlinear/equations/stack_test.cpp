@@ -25,8 +25,8 @@ using Eigen::VectorXd;
 MatrixXd one(double k) { return MatrixXd::Constant(1, 1, k); }
 
 /// Plates of one disc each, held by these springs and pulled by these forces, one fastener through all.
-JointModel single_stack(const std::vector<double>& springs, const VectorXd& forces,
-                        const std::shared_ptr<const Law>& law) {
+test::HandMade single_stack(const std::vector<double>& springs, const VectorXd& forces,
+                            const std::shared_ptr<const Law>& law) {
   std::vector<formats::PlateMatrices> plates;
   std::vector<std::pair<Index, Index>> holes;
   for (Index i = 0; i < std::ssize(springs); ++i) {
@@ -60,8 +60,8 @@ TEST(Stack, PlanesShareByTheirStiffness) {
   auto joint = test::joint_of({test::spring_plate(1, 1, {{0, 1, k1}}), test::spring_plate(1, 0, {{0, test::ground, k}}),
                                test::spring_plate(1, 1, {{0, 1, k2}})});
   test::add_fastener(joint, {{0, 0}, {1, 0}, {2, 0}}, test::linear_law(K1));
-  joint.planes[1].law = test::linear_law(K2);
-  for (const Index strap : {0, 2}) joint.plates[strap].external_displacement[0] = u;
+  joint.law[1] = test::linear_law(K2);
+  for (const Index strap : {0, 2}) joint.displacement[{strap, 0}] = u;
   const double s1 = 1 / (1 / k1 + 1 / K1), s2 = 1 / (1 / k2 + 1 / K2);
   const double middle = (s1 + s2) * u / (k + s1 + s2);
   const PathStep step = test::solved(joint);
@@ -78,9 +78,9 @@ TEST(Stack, EachPlaneHasItsOwnLawAndClearance) {
   constexpr double k1 = 300, k2 = 700, K1 = 90, K2 = 40, g1 = 0.1, g2 = 0.25;
   const double s1 = 1 / (1 / k1 + 1 / K1), s2 = 1 / (1 / k2 + 1 / K2);
   auto joint = single_stack({k1, 0, k2}, Vector3d(0, 1, 0), test::power_law(K1, 1));
-  joint.planes[1].law = test::power_law(K2, 1);
-  joint.planes[0].clearance = g1;
-  joint.planes[1].clearance = g2;
+  joint.law[1] = test::power_law(K2, 1);
+  joint.clearance[0] = g1;
+  joint.clearance[1] = g2;
   const double closes = s1 * (g2 - g1);
   const LoadPath path = follow(make_equations(joint), {0.5 * closes, 0.99 * closes, 1.01 * closes, 30, -30}, {});
   ASSERT_FALSE(path.failure);
@@ -114,7 +114,7 @@ TEST(Stack, OfThreeAndMoreLayersIsThatOfTheDisplacementMethod) {
   // Linear planes are springs between discs: (S + B K B') u = loads, without any condensation.
   std::mt19937 random(11);
   for (int i = 0; i < 60; ++i) {
-    const JointModel joint = test::random_stack(random, 2 + i % 5, 1 + i % 4, 1);
+    const test::HandMade joint = test::random_stack(random, 2 + i % 5, 1 + i % 4, 1);
     const auto [A, load] = test::loose_plates(joint);
     MatrixXd B = MatrixXd::Zero(joint.n_unknowns(), joint.n_planes());
     VectorXd K(joint.n_planes());
@@ -122,7 +122,7 @@ TEST(Stack, OfThreeAndMoreLayersIsThatOfTheDisplacementMethod) {
       const ShearPlane& plane = joint.planes[j];
       for (const auto& [hole, sign] : {std::pair{joint.first_hole(plane), 1}, std::pair{joint.second_hole(plane), -1}})
         B(joint.offset(hole.plate) + hole.disc, j) = sign;
-      K[j] = test::stiffness_of(*plane.law);
+      K[j] = test::stiffness_of(*joint.law[j]);
     }
     const VectorXd u = (A + B * K.asDiagonal() * B.transpose()).llt().solve(load);
     const VectorXd F = K.asDiagonal() * (B.transpose() * u);
@@ -154,15 +154,15 @@ TEST(Stack, OfEqualStrapsIsOneStrapOfTwiceTheStiffness) {
 }
 
 /// R mu / c of the one hole of a plate, by sign of the bearing force.
-double friction_at(const JointModel& joint, Index plate, double bearing) {
+double friction_at(const test::HandMade& joint, Index plate, double bearing) {
   const HoleModel& hole = joint.fasteners[0].holes[plate];
   const FrictionCase& its = hole.friction[0][bearing < 0 ? minus_side : plus_side];
-  return joint.plates[plate].R(0, its.column) * hole.mu / its.unit_force;
+  return joint.plates[plate].R(0, its.column) * joint.mu.at(joint.at(hole)) / its.unit_force;
 }
 
 /// Equations of three plates of one disc each: k D + r |b| = b + P with b = -F1, F1 - F2, F2, and D_a - D_b = F1 / K1,
 /// D_b - D_c = F2 / K2: all solutions, by trying all signs of the three bearing forces.
-std::vector<Vector2d> by_hand(const JointModel& joint, const Vector3d& k, const Vector3d& P, const Vector2d& K) {
+std::vector<Vector2d> by_hand(const test::HandMade& joint, const Vector3d& k, const Vector3d& P, const Vector2d& K) {
   const Eigen::Matrix<double, 3, 2> bearing{{-1, 0}, {1, -1}, {0, 1}};
   std::vector<Vector2d> solutions;
   for (int signs = 0; signs < 8; ++signs) {
@@ -192,7 +192,7 @@ TEST(Stack, FrictionOfAMiddlePlateIsThatOfTheNetBearingForce) {
   for (int i = 0; i < 200; ++i) {
     const Vector3d P(force(random), force(random), force(random));
     auto joint = single_stack({k[0], k[1], k[2]}, P, test::linear_law(K[0]));
-    joint.planes[1].law = test::linear_law(K[1]);
+    joint.law[1] = test::linear_law(K[1]);
     for (auto& plate : joint.plates) {
       auto rubbing = test::disc_plate(one(1));
       test::add_friction(rubbing, random);
@@ -222,12 +222,10 @@ TEST(Stack, FrictionOfAMiddlePlateIsThatOfTheNetBearingForce) {
 TEST(Stack, HolesInReversedOrderTurnTheSigns) {
   std::mt19937 random(14);
   for (int i = 0; i < 20; ++i) {
-    JointModel joint = test::random_stack(random, 4, 3, 1);
-    for (auto& plane : joint.planes) {
-      plane.law = test::power_law(40, 0.7);
-      plane.clearance = 0.01;
-    }
-    JointModel reversed = joint;
+    test::HandMade joint = test::random_stack(random, 4, 3, 1);
+    joint.law.assign(joint.n_planes(), test::power_law(40, 0.7));
+    joint.clearance.assign(joint.n_planes(), 0.01);
+    test::HandMade reversed = joint;
     for (auto& fastener : reversed.fasteners) std::reverse(fastener.holes.begin(), fastener.holes.end());
     const PathStep step = test::solved(joint), back = test::solved(reversed);
     const JointState state = test::state_of(joint, step), turned = test::state_of(reversed, back);

@@ -18,10 +18,10 @@ std::shared_ptr<const Law> rigid_law() { return test::law_of(R"({"type": "rigid"
 TEST(RigidLaw, IsTheLimitOfStiffLinearOnes) {
   std::mt19937 random(34);
   for (int i = 0; i < 40; ++i) {
-    JointModel joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
-    for (Index j = 0; j < joint.n_planes(); j += 1 + i % 3) joint.planes[j].law = test::linear_law(1e12);
+    test::HandMade joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2, true);
+    for (Index j = 0; j < joint.n_planes(); j += 1 + i % 3) joint.law[j] = test::linear_law(1e12);
     const PathStep stiff = test::solved(joint);
-    for (Index j = 0; j < joint.n_planes(); j += 1 + i % 3) joint.planes[j].law = rigid_law();
+    for (Index j = 0; j < joint.n_planes(); j += 1 + i % 3) joint.law[j] = rigid_law();
     const PathStep step = test::solved(joint);
     EXPECT_LT((step.F - stiff.F).norm(), 1e-6 * stiff.F.norm()) << i;
     const Index a = joint.n_directions();
@@ -36,7 +36,7 @@ TEST(RigidLaw, HasAClearance) {
   // The joint of load_path_test.cpp at K = infinity: contact at P* = g / f, then both share what comes.
   constexpr double f = 1e-3, g = 0.06;
   auto joint = test::joint_of(test::two_fastener_lap(), rigid_law());
-  joint.planes[1].clearance = g;
+  joint.clearance[1] = g;
   const JointEquations equations = make_equations(joint);
   for (const double sign : {1.0, -1.0}) {
     const ExactPath exact = exact_path(equations, sign);
@@ -58,7 +58,7 @@ TEST(RigidLaw, BearsOnOneSideOfTheGround) {
   test::load_discs(joint, 0, VectorXd::Constant(1, 10));
   test::add_fastener(joint, {{0, 0}}, rigid_law(), true);
   joint.planes[0].one_sided = true;
-  joint.planes[0].clearance = g;
+  joint.clearance[0] = g;
   const JointEquations equations = make_equations(joint);
   const LoadPath path = follow(equations, {-1, 0.2, 1}, test::tight);
   ASSERT_FALSE(path.failure);
@@ -74,7 +74,7 @@ TEST(RigidLaw, HasACircleForAClearance) {
   auto joint = test::joint_of({test::disc_plate(s * MatrixXd::Identity(2, 2), {"x", "y"})});
   test::load_discs(joint, 0, Vector2d(6, -8));
   test::add_fastener(joint, {{0, 0}}, rigid_law(), true);
-  joint.planes[0].clearance = g;
+  joint.clearance[0] = g;
   const LoadPath path = follow(make_equations(joint), {0.2, 1}, test::tight);
   ASSERT_FALSE(path.failure);
   EXPECT_LT((path.steps[0].delta - Vector2d(1.2, -1.6) / s).norm(), 1e-12);

@@ -16,12 +16,12 @@ using testing::Not;
 
 /// Warnings of a joint of two plates, whose hole "1" of the first is in a state.
 std::vector<program::Warning> warnings_of(const RimState& rim) {
-  JointModel joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
+  test::HandMade joint = test::joint_of(test::two_fastener_lap(), test::linear_law(1000));
   joint.plates[0].stresses.rim_hole = {"1"};
   JointState state;
   state.plates.resize(2);
   state.plates[0].rims = {rim};
-  return rim_warnings(joint, {state});
+  return rim_warnings(joint, joint.numbers(), {state});
 }
 
 RimState low_peak() {
@@ -60,7 +60,7 @@ class Failures : public ContactJoint {
  protected:
   /// What is said of an end at an entry: a plane, or behind the planes a rim.
   [[nodiscard]] std::string message(Index entry) {
-    const JointModel joint = random_contact_joint(random_, {3, 2, false, 1});
+    const test::HandMade joint = random_contact_joint(random_, {3, 2, false, 1});
     LoadPath path{.n_increments = 4, .steps = {}, .failure = {}};
     path.failure = PathFailure{1, 0.5, 0.25, entry, 1e-3, {}, {}};
     path.failure->ending = text_of(Ending::no_progress);

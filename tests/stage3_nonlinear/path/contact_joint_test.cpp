@@ -22,7 +22,7 @@ namespace {
 TEST_F(ContactJoint, AThousandAreSolvedFromNothingAndHaveOneSolution) {
   Index most = 0;
   for (int i = 0; i < test::scenes(1000); ++i) {
-    const JointModel joint = random_contact_joint(random_, kind(i));
+    const test::HandMade joint = random_contact_joint(random_, kind(i));
     const JointEquations equations = make_equations(joint);
     const double scale = force_scale(equations, 1);
     const RootProblem problem = root_problem(equations, 1, scale);
@@ -45,7 +45,7 @@ TEST_F(ContactJoint, AThousandAreSolvedFromNothingAndHaveOneSolution) {
 TEST_F(ContactJoint, HaveAConvexFunction) {
   constexpr double step = 1e-7;
   for (int i = 0; i < 60; ++i) {
-    const JointModel joint = random_contact_joint(random_, kind(i));
+    const test::HandMade joint = random_contact_joint(random_, kind(i));
     const JointEquations equations = make_equations(joint);
     const RootProblem problem = root_problem(equations, 1, 1);
     const Index n = equations.n_unknowns();
@@ -65,7 +65,7 @@ TEST_F(ContactJoint, HaveAConvexFunction) {
 
 TEST_F(ContactJoint, PathsAreFollowedAndUnloadedToWhereTheyBegan) {
   for (int i = 0; i < 60; ++i) {
-    const JointModel joint = random_contact_joint(random_, kind(i));
+    const test::HandMade joint = random_contact_joint(random_, kind(i));
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {0.5, 1, -1, 0.5, 0}, {});
     ASSERT_FALSE(path.failure) << "joint " << i;
@@ -85,10 +85,10 @@ TEST_F(ContactJoint, AreFollowedWhereLoadsVanishAndNothingTouches) {
   for (int i = 0; i < test::scenes(80); ++i) {
     ContactKind its = kind(i);
     its.gaps = decades(random_, 0.1, 100), its.mu = i % 4 == 0 ? 0.3 : 0;
-    JointModel joint = random_contact_joint(random_, its);
+    test::HandMade joint = random_contact_joint(random_, its);
     if (i % 2 == 0)
       for (auto& fastener : joint.fasteners)
-        for (auto& hole : fastener.holes) hole.gap = std::abs(hole.gap);
+        for (auto& hole : fastener.holes) joint.gap[joint.at(hole)] = std::abs(joint.gap[joint.at(hole)]);
     const JointEquations equations = make_equations(joint);
     const auto [path, increments] =
         follow_with_results(joint, equations, {1e-6, 0.3, 1, 1.2e-16, -1, 1e-3}, {}, {.tolerance = 1e-10});
@@ -148,9 +148,9 @@ TEST_F(ContactJoint, OfLooseFastenersTakeFewStepsWithFriction) {
   for (int i = 0; i < 100; ++i) {
     ContactKind its = kind(i);
     its.mu = 0.2;
-    JointModel joint = random_contact_joint(random_, its);
+    test::HandMade joint = random_contact_joint(random_, its);
     for (auto& fastener : joint.fasteners)
-      for (auto& hole : fastener.holes) hole.gap = std::abs(hole.gap);
+      for (auto& hole : fastener.holes) joint.gap[joint.at(hole)] = std::abs(joint.gap[joint.at(hole)]);
     const LoadPath path = follow(make_equations(joint), {1}, {{}, {.method = Method::damped_newton}});
     ASSERT_FALSE(path.failure) << "joint " << i;
     steps.push_back(path.steps[0].iterations);
@@ -166,9 +166,8 @@ TEST_F(ContactJoint, HaveTheLimitLoadThatRigidMotionsTell) {
   for (int i = 0; i < test::scenes(60); ++i) {
     ContactKind its = kind(i);
     its.floating = true, its.gaps = 0.01, its.mu = i % 5 == 0 ? 0.2 : 0;
-    JointModel joint = random_contact_joint(random_, its);
-    for (auto& plane : joint.planes)
-      plane.law = test::bilinear_law(decades(random_, 100, 10000), decades(random_, 0.1, 10), 0);
+    test::HandMade joint = random_contact_joint(random_, its);
+    for (auto& law : joint.law) law = test::bilinear_law(decades(random_, 100, 10000), decades(random_, 0.1, 10), 0);
     const JointEquations equations = make_equations(joint);
     const auto limit = limit_load(equations, 1);
     ASSERT_TRUE(limit) << "joint " << i;

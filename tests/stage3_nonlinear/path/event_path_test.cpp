@@ -29,8 +29,8 @@ class GapAtTheSecondFastener : public testing::TestWithParam<double> {};
 TEST_P(GapAtTheSecondFastener, IncrementIsAtTheLoadOfTheClosedForm) {
   constexpr double K = 2000, f = 1e-3, g = 0.06, contact_load = g / (1 / K + f);
   auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(K));
-  joint.planes[1].law = test::power_law(300, GetParam());
-  joint.planes[1].clearance = g;
+  joint.law[1] = test::power_law(300, GetParam());
+  joint.clearance[1] = g;
   const LoadPath path = follow_events(make_equations(joint), {});
   ASSERT_FALSE(path.failure);
   ASSERT_EQ(path.steps.size(), 2U);
@@ -46,12 +46,12 @@ TEST_P(GapAtTheSecondFastener, IncrementIsAtTheLoadOfTheClosedForm) {
 INSTANTIATE_TEST_SUITE_P(OfExponents, GapAtTheSecondFastener, testing::Values(1.0, 0.9, 0.5, 0.3));
 
 /// Three equal strands from ground to load, each with a gap, beside a spring that holds the loaded end.
-JointModel strands(const std::shared_ptr<const Law>& law, const std::array<double, 3>& gaps) {
+test::HandMade strands(const std::shared_ptr<const Law>& law, const std::array<double, 3>& gaps) {
   constexpr double k = 1000, hold = 200;
   auto joint = test::joint_of({test::spring_plate(3, 1, {{0, 3, k}, {1, 3, k}, {2, 3, k}, {3, ground, hold}}),
                                test::spring_plate(3, 0, {{0, ground, k}, {1, ground, k}, {2, ground, k}}), 300},
                               law);
-  for (Index j = 0; j < 3; ++j) joint.planes[j].clearance = gaps[j];
+  for (Index j = 0; j < 3; ++j) joint.clearance[j] = gaps[j];
   return joint;
 }
 
@@ -113,7 +113,7 @@ TEST(Events, CornersOfFourStagesAreNamed) {
                  "k_yield": 100})")));
   auto lap = test::Lap{test::spring_plate(1, 1, {{0, 1, 1000}}), test::spring_plate(1, 0, {{0, ground, 1000}}), 100};
   auto joint = test::joint_of(lap, law);
-  joint.planes[0].clearance = 0.01;
+  joint.clearance[0] = 0.01;
   const LoadPath path = follow_events(make_equations(joint), {});
   // One fastener carries it all: corners at its forces; it slips and bears at the same load.
   ASSERT_EQ(path.steps.size(), 3U);

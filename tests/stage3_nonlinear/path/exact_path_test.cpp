@@ -28,7 +28,7 @@ double residual(const JointEquations& equations, const ExactPath& path, double l
 TEST(ExactPath, CornerIsTheContactOfTheClosedForm) {
   constexpr double K = 2000, f = 1e-3, g = 0.06;
   auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(K));
-  joint.planes[1].clearance = g;
+  joint.clearance[1] = g;
   const JointEquations equations = make_equations(joint);
   for (const double sign : {1.0, -1.0}) {
     const ExactPath path = exact_path(equations, sign);
@@ -47,7 +47,7 @@ TEST(ExactPath, EqualGapsOfASymmetricJointCloseTogether) {
   auto joint = test::joint_of({test::spring_plate(3, 1, {{0, 3, k}, {1, 3, k}, {2, 3, k}}),
                                test::spring_plate(3, 0, {{0, ground, k}, {1, ground, k}, {2, ground, k}}), 300},
                               test::linear_law(K));
-  for (auto& plane : joint.planes) plane.clearance = gap;
+  joint.clearance.assign(joint.n_planes(), gap);
   // Plate a has no other hold than its fasteners: it flies through its gaps without load.
   const ExactPath path = exact_path(make_equations(joint), 1);
   ASSERT_EQ(path.pieces.size(), 1U);
@@ -60,7 +60,7 @@ TEST(ExactPath, EqualGapsOfASymmetricJointCloseTogether) {
   constexpr double hold = 200;
   joint.plates[0] =
       make_plate("a", "a.h5", test::spring_plate(3, 1, {{0, 3, k}, {1, 3, k}, {2, 3, k}, {3, ground, hold}}), 8);
-  joint.plates[0].external_force[0] = 300;
+  joint.force[{0, 0}] = 300;
   const ExactPath held = exact_path(make_equations(joint), 1);
   ASSERT_EQ(held.pieces.size(), 2U) << "three corners at one load factor";
   EXPECT_NEAR(300 * held.pieces[0].end, hold * gap, 1e-12 * 300);
@@ -75,7 +75,7 @@ TEST(ExactPath, PlasticFastenersMoveTheirLoadToTheNeighbour) {
   auto joint = test::joint_of({test::spring_plate(2, 1, {{0, 2, rigid}, {1, 2, rigid}}),
                                test::spring_plate(2, 0, {{0, ground, rigid}, {1, ground, rigid}}), 100},
                               test::linear_law(K));
-  joint.planes[0].law = plastic;
+  joint.law[0] = plastic;
   const JointEquations equations = make_equations(joint);
   const ExactPath path = exact_path(equations, 1);
   ASSERT_EQ(path.pieces.size(), 2U);
@@ -106,7 +106,7 @@ TEST(ExactPath, IsTheSameInAnyUnitOfForce) {
                        read_law(input::Value(input::parse(
                            "law", fmt::format(R"({{"type": "bilinear", "k": {}, "F_yield": {}, "k_yield": {}}})",
                                               2000 * unit, 30 * unit, 50 * unit)))));
-    joint.planes[1].clearance = 0.01;
+    joint.clearance[1] = 0.01;
     const JointEquations equations = make_equations(joint);
     const ExactPath path = exact_path(equations, 1);
     EXPECT_EQ(path.pieces.size(), 4U) << unit;
@@ -170,14 +170,13 @@ TEST(ExactPath, OfStacksEqualsWhatTheSolversFind) {
     test::add_friction(lap.b, random);
     auto joint = test::joint_of(lap, test::linear_law(1));
     joint.plates.push_back(make_plate("c", "c.h5", lap.a, 8));
-    joint.plates[2].external_force[0] = std::uniform_real_distribution<double>(-1000, 1000)(random);
-    joint.fasteners.clear();
-    joint.planes.clear();
+    joint.force[{2, 0}] = std::uniform_real_distribution<double>(-1000, 1000)(random);
+    joint.remove_fasteners();
     for (int j = 0; j < n; ++j) {
       const Index at = j;
-      test::add_fastener(joint, {{0, j}, {1, j}, {2, j}}, laws.planes[at].law);
-      joint.planes[2 * at].clearance = laws.planes[at].clearance;
-      joint.planes[2 * at + 1].law = laws.planes[n - 1 - j].law;
+      test::add_fastener(joint, {{0, j}, {1, j}, {2, j}}, laws.law[at]);
+      joint.clearance[2 * at] = laws.clearance[at];
+      joint.law[2 * at + 1] = laws.law[n - 1 - j];
       test::set_friction(joint, at, 0.2);
     }
     const JointEquations equations = make_equations(joint);

@@ -196,9 +196,9 @@ TEST(LargeJoint, OfMoreThanAHundredNonlinearFastenersBalances) {
   const auto plastic_law = test::bilinear_law(1000, 20, 0);
   const auto cubic = test::cubic_law({0.1, 0.2, 0.3}, {100.0, 180.0, 280.0});
   for (Index j = 0; j < std::ssize(joint.planes); ++j) {
-    if (j % 3 == 1) joint.planes[j].law = plastic_law;
-    if (j % 3 == 2) joint.planes[j].law = cubic;
-    joint.planes[j].clearance = j % 5 == 0 ? 0.01 : 0;
+    if (j % 3 == 1) joint.law[j] = plastic_law;
+    if (j % 3 == 2) joint.law[j] = cubic;
+    joint.clearance[j] = j % 5 == 0 ? 0.01 : 0;
   }
   const JointEquations equations = make_equations(joint);
   const LoadPath path = follow(equations, {0.25, 1, -1, 0.25}, {});

@@ -24,9 +24,9 @@ class GapAtTheSecondFastener : public testing::Test {
   static constexpr double K = 2000, f = 1e-3, g = 0.06, contact_load = g / (1 / K + f);  // 40
   static JointEquations equations(const std::shared_ptr<const Law>& second) {
     auto joint = test::joint_of(test::two_fastener_lap(), test::linear_law(K));
-    joint.plates[0].external_force[0] = contact_load;
-    joint.planes[1].law = second;
-    joint.planes[1].clearance = g;
+    joint.force[{0, 0}] = contact_load;
+    joint.law[1] = second;
+    joint.clearance[1] = g;
     return make_equations(joint);
   }
 };
@@ -159,7 +159,7 @@ TEST(LoadPath, OneSidedFastenersDoNotPull) {
 
 TEST(LoadPath, LoadThatReachesNoFastenerGivesNoForce) {
   auto joint = test::joint_of(test::two_fastener_lap(), test::power_law(100, 0.5));
-  joint.plates[0].external_force[0] = 0;
+  joint.force[{0, 0}] = 0;
   const LoadPath path = follow(make_equations(joint), {1, 2}, {});
   ASSERT_FALSE(path.failure);
   EXPECT_EQ(path.steps[1].F.norm(), 0);
@@ -231,9 +231,10 @@ class FloatingInItsGaps : public testing::Test {
   static test::Lap doubler() {
     return {test::chain(2, 1, 2000, {{1, 2, 1000}, {0, ground, 1000}}), test::chain(2, 0, 1000, {}), 1};
   }
-  static JointModel joint(const test::Lap& lap, double gap, bool one_sided = false) {
+  static test::HandMade joint(const test::Lap& lap, double gap, bool one_sided = false) {
     auto model = test::joint_of(lap, test::linear_law(500));
-    for (auto& plane : model.planes) plane.clearance = gap, plane.one_sided = one_sided;
+    model.clearance.assign(model.n_planes(), gap);
+    for (auto& plane : model.planes) plane.one_sided = one_sided;
     return model;
   }
 };

@@ -22,7 +22,8 @@ namespace {
 TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
   int events = 0;
   for (int i = 0; i < test::scenes(24); ++i) {
-    const JointModel joint = random_contact_joint(random_, {1 + i % 4, 1 + i % 2, false, decades(random_, 0.01, 1)});
+    const test::HandMade joint =
+        random_contact_joint(random_, {1 + i % 4, 1 + i % 2, false, decades(random_, 0.01, 1)});
     const JointEquations equations = make_equations(joint);
     const ContactCorners corners(equations);
     const LoadPath path = follow_events(equations, test::tight);
@@ -64,7 +65,7 @@ TEST_F(ContactJoint, HaveAnIncrementAtEveryEvent) {
 
 /// What rims do between increments is told at the next, and undone on the way back.
 TEST_F(ContactJoint, TellWhatTheirRimsHaveDoneByAnIncrement) {
-  const JointModel joint = random_contact_joint(random_, {3, 2, false, 1});
+  const test::HandMade joint = random_contact_joint(random_, {3, 2, false, 1});
   const JointEquations equations = make_equations(joint);
   const ContactCorners corners(equations);
   const LoadPath path = follow(equations, {0.2, 0.4, 0.6, 0.8, 1, 0.2}, {});

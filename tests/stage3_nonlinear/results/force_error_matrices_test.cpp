@@ -51,7 +51,7 @@ struct Errors {
 };
 
 /// The joint with a's degrees 1 .. 8, or, exactly, with what they tend to.
-stage3::JointModel joint_of(const Errors& errors, bool exact) {
+test::HandMade joint_of(const Errors& errors, bool exact) {
   test::Lap lap = lap_with_traction();
   auto& a = lap.a;
   const Eigen::Index first = exact ? 8 : 0, last = exact ? 8 : 7;
@@ -70,7 +70,7 @@ stage3::JointModel joint_of(const Errors& errors, bool exact) {
     at_all(*matrix, MatrixXd::Zero((*matrix)[0].rows(), (*matrix)[0].cols()));
   auto joint = test::joint_of(lap, test::linear_law(400));
   joint.plates[0].tractions = {"T"};
-  joint.plates[0].traction_force = VectorXd::Constant(1, 50);
+  joint.traction[{0, 0}] = 50;
   for (Eigen::Index j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
   return joint;
 }
@@ -79,9 +79,9 @@ stage3::JointModel joint_of(const Errors& errors, bool exact) {
 VectorXd bars_over_errors(const Errors& errors) {
   const stage3::PathOptions tight{{}, {.tolerance = 1e-14, .max_iterations = 200}};
   const auto joint = joint_of(errors, false);
-  const auto equations = stage3::make_equations(joint);
+  const auto equations = make_equations(joint);
   const auto path = stage3::follow(equations, {1}, tight);
-  const auto exact = stage3::follow(stage3::make_equations(joint_of(errors, true)), {1}, tight);
+  const auto exact = stage3::follow(make_equations(joint_of(errors, true)), {1}, tight);
   const auto bars =
       stage3::ForceErrors(joint, equations)
           .at(test::point_of(equations, path.steps.at(0)), stage3::joint_state(joint, equations, path.steps[0]));

@@ -36,7 +36,7 @@ struct Solution {
 };
 
 /// Errors of the forces of the first increment, if they are known.
-std::optional<VectorXd> errors_of(const stage3::JointModel& joint, const stage3::JointEquations& equations,
+std::optional<VectorXd> errors_of(const test::HandMade& joint, const stage3::JointEquations& equations,
                                   const stage3::LoadPath& path) {
   const stage3::ForceErrors errors(joint, equations);
   if (!errors.are_known()) return std::nullopt;
@@ -46,8 +46,8 @@ std::optional<VectorXd> errors_of(const stage3::JointModel& joint, const stage3:
 
 Solution solve(const test::Lap& lap, double displacement = pull) {
   auto joint = test::joint_of(lap, test::linear_law(k_law));
-  joint.plates[0].external_displacement[0] = displacement;
-  const auto equations = stage3::make_equations(joint);
+  joint.displacement[{0, 0}] = displacement;
+  const auto equations = make_equations(joint);
   const auto path = stage3::follow(equations, {1}, {});
   return {path.steps.at(0).F[0], errors_of(joint, equations, path)};
 }
@@ -70,7 +70,7 @@ TEST(ForceError, IsNoneUnderAGivenForceThatOneFastenerCarries) {
   add_degree_below(lap.a, 1.02);
   add_degree_below(lap.b, 1.05);
   auto joint = test::joint_of(lap, test::linear_law(k_law));
-  const auto equations = stage3::make_equations(joint);
+  const auto equations = make_equations(joint);
   const auto path = stage3::follow(equations, {1}, {});
   const auto error = errors_of(joint, equations, path);
   ASSERT_TRUE(error);
@@ -108,10 +108,10 @@ TEST(ForceError, CoversTheChangeOfRandomJoints) {
       plate.degrees.T = {plate.T, plate.T};
       plate.degrees.C.assign(2, MatrixXd::Zero(plate.T.cols(), plate.T.cols()));
     }
-    const auto equations = stage3::make_equations(joint);
+    const auto equations = make_equations(joint);
     const stage3::PathOptions tight{{}, {.tolerance = 1e-13}};
     const auto path = stage3::follow(equations, {1}, tight);
-    const auto other = stage3::follow(stage3::make_equations(stiffer), {1}, tight);
+    const auto other = stage3::follow(make_equations(stiffer), {1}, tight);
     ASSERT_EQ(path.steps.size() + other.steps.size(), 2U) << trial;
     const auto error = errors_of(joint, equations, path);
     ASSERT_TRUE(error);

@@ -12,7 +12,7 @@ namespace {
 const std::vector<double> factors{0.2, 0.5, 1, -0.7};
 
 /// Errors, stiffnesses, sensitivities and the check of stability share the tangent of each increment.
-void expect_one_tangent_each(const JointModel& joint) {
+void expect_one_tangent_each(const test::HandMade& joint) {
   const JointEquations equations = make_equations(joint);
   const Index before = SolvedPoint::n_factorised();
   const auto [path, all] =

@@ -16,7 +16,7 @@ using Eigen::Index;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-std::vector<JointState> states_of(const JointModel& joint, const JointEquations& equations, const LoadPath& path) {
+std::vector<JointState> states_of(const test::HandMade& joint, const JointEquations& equations, const LoadPath& path) {
   std::vector<JointState> states;
   for (const auto& step : path.steps) states.push_back(joint_state(joint, equations, step));
   return states;

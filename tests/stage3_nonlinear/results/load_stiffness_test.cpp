@@ -26,7 +26,7 @@ TEST(LoadStiffness, OfALinearJointIsItsSecant) {
 }
 
 /// dP / du at plate a's external by joints solved a little below and above, with this change of the load factor.
-double difference(const JointModel& joint, const JointEquations& equations, double change) {
+double difference(const test::HandMade& joint, const JointEquations& equations, double change) {
   const LoadPath path = follow(equations, {1, 1 - change, 1 + change}, {{}, {.tolerance = 1e-13}});
   const PlateState below = joint_state(joint, equations, path.steps.at(1)).plates[0];
   const PlateState above = joint_state(joint, equations, path.steps.at(2)).plates[0];
@@ -39,8 +39,8 @@ TEST(LoadStiffness, OfRandomJointsIsThatOfDifferences) {
   for (int i = 0; i < 80; ++i) {
     auto joint = test::random_joint(random, {.friction = i % 2 == 0, .floating = i % 4 < 2});
     if (i % 3 == 0) {
-      joint.plates[0].external_force[0] = 0;
-      joint.plates[0].external_displacement[0] = 0.1;
+      joint.force[{0, 0}] = 0;
+      joint.displacement[{0, 0}] = 0.1;
     }
     const JointEquations equations = make_equations(joint);
     const double coarse = difference(joint, equations, 2e-4), fine = difference(joint, equations, 1e-4);
@@ -56,7 +56,7 @@ TEST(LoadStiffness, OfRandomJointsIsThatOfDifferences) {
 /// A yielded law that stays level: no more force, whatever the displacement.
 TEST(LoadStiffness, AtALimitLoadIsZero) {
   auto joint = test::joint_of(test::two_fastener_lap(), test::bilinear_law(1000, 10, 0));
-  joint.plates[0].external_force[0] = 20;
+  joint.force[{0, 0}] = 20;
   const JointEquations equations = make_equations(joint);
   const LoadPath path = follow(equations, {1}, {});
   ASSERT_FALSE(path.failure);

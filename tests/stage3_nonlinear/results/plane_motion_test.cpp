@@ -22,7 +22,7 @@ using Eigen::VectorXd;
 const std::vector<std::string> xy{"x", "y"};
 
 /// The joint in a frame in which every vector (u, v) of a disc is Q (u, v).
-JointModel turned(JointModel joint, const Matrix2d& Q) {
+test::HandMade turned(test::HandMade joint, const Matrix2d& Q) {
   for (auto& plate : joint.plates) {
     MatrixXd all = MatrixXd::Zero(plate.n_discs(), plate.n_discs());
     for (Index i = 0; i < plate.n_discs(); i += 2) all.block<2, 2>(i, i) = Q;
@@ -48,11 +48,9 @@ class Objectivity : public testing::TestWithParam<LawCase> {};
 TEST_P(Objectivity, ForcesTurnWithTheJoint) {
   std::mt19937 random(21);
   for (int i = 0; i < 6; ++i) {
-    JointModel joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 2);
-    for (auto& plane : joint.planes) {
-      plane.law = GetParam().law;
-      plane.clearance = GetParam().clearance;
-    }
+    test::HandMade joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 2);
+    joint.law.assign(joint.n_planes(), GetParam().law);
+    joint.clearance.assign(joint.n_planes(), GetParam().clearance);
     const PathStep step = test::solved(joint);
     ASSERT_GT(magnitudes(step.F, 2).maxCoeff(), 0.1);
     for (const double angle : {0.3, 1.0, std::numbers::pi / 2, 2.7, 4.4}) {
@@ -79,7 +77,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
   // Linear planes are two springs each: (S + B K B') u = loads, and F = K B' u, per direction.
   std::mt19937 random(22);
   for (int i = 0; i < 30; ++i) {
-    const JointModel joint = test::random_stack(random, 2 + i % 4, 1 + i % 3, 2);
+    const test::HandMade joint = test::random_stack(random, 2 + i % 4, 1 + i % 3, 2);
     const auto [A, load] = test::loose_plates(joint);
     const PathStep step = test::solved(joint);
     const VectorXd u = test::displacements_of(joint, step.delta);
@@ -88,7 +86,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
       const ShearPlane& plane = joint.planes[j];
       const HoleModel &a = joint.first_hole(plane), &b = joint.second_hole(plane);
       const Index first = joint.offset(a.plate) + a.disc, second = joint.offset(b.plate) + b.disc;
-      const double K = test::stiffness_of(*plane.law);
+      const double K = test::stiffness_of(*joint.law[j]);
       const Vector2d F = K * (u.segment<2>(first) - u.segment<2>(second));
       balance.segment<2>(first) += F;
       balance.segment<2>(second) -= F;
@@ -99,7 +97,7 @@ TEST(PlaneMotion, OfStacksIsThatOfTheDisplacementMethod) {
 }
 
 /// Both plates of one disc; the first is pulled, the second held by k in all directions.
-JointModel single_lap(double k, const Vector2d& P) {
+test::HandMade single_lap(double k, const Vector2d& P) {
   auto joint = test::joint_of({test::disc_plate(Matrix2d::Zero(), xy), test::disc_plate(k * Matrix2d::Identity(), xy)});
   test::load_discs(joint, 0, P);
   test::add_fastener(joint, {{0, 0}, {1, 0}}, test::power_law(100, 0.5));
@@ -112,7 +110,7 @@ TEST(PlaneMotion, ClearanceIsACircle) {
   for (double angle = 0; angle < 6.28; angle += 0.41) {
     const Vector2d e(std::cos(angle), std::sin(angle));
     auto joint = single_lap(k, P * e);
-    joint.planes[0].clearance = gap;
+    joint.clearance[0] = gap;
     const PathStep step = test::solved(joint);
     EXPECT_LT((step.F - P * e).norm(), 1e-10 * P);
     EXPECT_LT((step.delta - (gap + P * P / 1e4) * e).norm(), 1e-11);
@@ -124,7 +122,7 @@ TEST(PlaneMotion, WithoutForcesAcrossIsThatOfDiscsAlongX) {
   // Between x and y the plates have no coupling, and nothing pulls along y.
   std::mt19937 random(23);
   for (int i = 0; i < 10; ++i) {
-    JointModel along = test::random_stack(random, 3, 3, 1);
+    test::HandMade along = test::random_stack(random, 3, 3, 1);
     std::vector<formats::PlateMatrices> plates;
     for (const auto& plate : along.plates) {
       const MatrixXd across = 100 * test::random_stiffness(random, 3);
@@ -133,7 +131,7 @@ TEST(PlaneMotion, WithoutForcesAcrossIsThatOfDiscsAlongX) {
         for (Index c = 0; c < 3; ++c) S.block<2, 2>(2 * r, 2 * c) = Vector2d(plate.S(r, c), across(r, c)).asDiagonal();
       plates.push_back(test::disc_plate(S, xy));
     }
-    JointModel plane = test::joint_of(plates);
+    test::HandMade plane = test::joint_of(plates);
     plane.fasteners = along.fasteners;
     plane.planes = along.planes;
     for (auto& fastener : plane.fasteners)
@@ -143,11 +141,10 @@ TEST(PlaneMotion, WithoutForcesAcrossIsThatOfDiscsAlongX) {
       for (Index hole = 0; hole < 3; ++hole) load[2 * hole] = -along.plates[p].T(hole, 0);
       test::load_discs(plane, p, load);
     }
-    for (JointModel* joint : {&along, &plane})
-      for (auto& each : joint->planes) {
-        each.law = test::power_law(40, 0.6);
-        each.clearance = 0.02;
-      }
+    for (test::HandMade* joint : {&along, &plane}) {
+      joint->law.assign(joint->n_planes(), test::power_law(40, 0.6));
+      joint->clearance.assign(joint->n_planes(), 0.02);
+    }
     const VectorXd F = test::solved(along).F;
     const MatrixXd vectors = test::solved(plane).F.reshaped(2, F.size());
     EXPECT_LT((vectors.row(0).transpose() - F).norm(), 1e-9 * F.norm());
@@ -157,7 +154,7 @@ TEST(PlaneMotion, WithoutForcesAcrossIsThatOfDiscsAlongX) {
 
 TEST(PlaneMotion, SumsOfForcesAreKeptByAxis) {
   const Vector2d P(3, -5);
-  const JointModel joint = single_lap(300, P);
+  const test::HandMade joint = single_lap(300, P);
   const JointState state = test::state_of(joint, test::solved(joint));
   EXPECT_LT((state.plates[0].by_fasteners + P).norm(), 1e-11);
   EXPECT_LT((state.plates[1].by_fasteners - P).norm(), 1e-11);
@@ -168,12 +165,12 @@ TEST(PlaneMotion, SumsOfForcesAreKeptByAxis) {
 
 /// Friction mu in every hole of a fastener: of each side and direction the case of a real sheet, whose own disc takes
 /// most of its resultant, the others some.
-void rub(JointModel& joint, std::mt19937& random, double mu) {
+void rub(test::HandMade& joint, std::mt19937& random, double mu) {
   std::uniform_real_distribution<double> number(-0.1, 0.1);
   for (auto& fastener : joint.fasteners)
     for (auto& hole : fastener.holes) {
       PlateModel& plate = joint.plates[hole.plate];
-      hole.mu = mu;
+      joint.set_mu(hole, mu);
       hole.friction.resize(2);
       for (Index d = 0; d < 2; ++d)
         for (const Side side : {plus_side, minus_side}) {
@@ -191,10 +188,10 @@ TEST(PlaneMotion, RandomStacksConverge) {
   std::mt19937 random(25);
   std::uniform_real_distribution<double> number(0, 1);
   for (int i = 0; i < 200; ++i) {
-    JointModel joint = test::random_stack(random, 2 + i % 4, 1 + i % 5, 2);
-    for (auto& plane : joint.planes) {
-      plane.law = test::power_law(std::exp(2 + 5 * number(random)), 0.4 + 0.6 * number(random));
-      plane.clearance = number(random) < 0.5 ? 0.1 * number(random) : 0;
+    test::HandMade joint = test::random_stack(random, 2 + i % 4, 1 + i % 5, 2);
+    for (Index j = 0; j < joint.n_planes(); ++j) {
+      joint.law[j] = test::power_law(std::exp(2 + 5 * number(random)), 0.4 + 0.6 * number(random));
+      joint.clearance[j] = number(random) < 0.5 ? 0.1 * number(random) : 0;
     }
     if (i % 2 == 1) rub(joint, random, 0.4 * number(random));
     const LoadPath path = follow(make_equations(joint), {0.3, 1, -0.5}, {});
@@ -203,7 +200,7 @@ TEST(PlaneMotion, RandomStacksConverge) {
 }
 
 /// A plate of one disc with friction cases +x, -x, +y, -y of these columns and constants.
-void add_friction(JointModel& joint, Index plate, const MatrixXd& R, double mu) {
+void add_friction(test::HandMade& joint, Index plate, const MatrixXd& R, double mu) {
   constexpr double c = 0.01;
   PlateModel& model = joint.plates[plate];
   model.R = R;
@@ -212,7 +209,7 @@ void add_friction(JointModel& joint, Index plate, const MatrixXd& R, double mu) 
   model.friction_hole.assign(4, model.holes[0]);
   model.friction_bearing = bearing_sides({"+x", "-x", "+y", "-y"});
   HoleModel& hole = joint.fasteners[0].holes[plate];
-  hole.mu = mu;
+  joint.set_mu(hole, mu);
   hole.friction.resize(2);
   for (Index direction = 0; direction < 2; ++direction)
     for (const Side side : {plus_side, minus_side}) {

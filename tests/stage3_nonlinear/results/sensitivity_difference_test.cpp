@@ -103,29 +103,29 @@ class Differences {
   VectorXd c_;
 };
 
-PlateModel& plate_of(NamedJoint& joint, const std::string& external) {
+/// The first external or traction of the plate of one.
+test::HandMade::At first_of(const NamedJoint& joint, const std::string& external) {
   const auto is_it = [&](const PlateModel& plate) { return external.starts_with(plate.name + ":"); };
-  return *std::find_if(joint.model.plates.begin(), joint.model.plates.end(), is_it);
+  return {std::ranges::find_if(joint.model.plates, is_it) - joint.model.plates.begin(), 0};
 }
 
-HoleModel& hole_of(JointModel& joint, const std::string& name) {
+double& mu_of(test::HandMade& joint, const std::string& name) {
   for (auto& fastener : joint.fasteners)
     for (auto& hole : fastener.holes)
-      if (joint.name(hole) == name) return hole;
+      if (joint.name(hole) == name) return joint.mu[joint.at(hole)];
   throw std::logic_error(name);
 }
 
 std::vector<Number> Differences::numbers() const {
   constexpr double small = 0.02;  // so that the error of differences is seen
-  const JointNumbers names = joint_numbers(joint_.model);
+  const JointNumbers names = joint_numbers(joint_.model, joint_.model.numbers());
   const test::Sensitivity by = test::sensitivity_at(names, test::point_of(equations_, path_.steps[0]));
   const double length = path_.steps[0].delta.cwiseAbs().maxCoeff();
   std::vector<Number> all{{"load factor", small, [](NamedJoint& j, double h) { j.load_factor += h; }, by.load_factor}};
   for (Index i = 0; i < std::ssize(joint_.model.planes); ++i) {
-    const double clearance = joint_.model.planes[i].clearance;
+    const double clearance = joint_.model.clearance[i];
     all.push_back({"clearance", small * (clearance > 0 ? clearance : length),
-                   [i](NamedJoint& j, double h) { j.model.planes[i].clearance += h; }, by.clearance.col(i),
-                   clearance == 0});
+                   [i](NamedJoint& j, double h) { j.model.clearance[i] += h; }, by.clearance.col(i), clearance == 0});
   }
   for (Index i = 0; i < by.law.cols(); ++i) {
     const auto& [law, parameter] = names.law[i];
@@ -137,24 +137,23 @@ std::vector<Number> Differences::numbers() const {
   }
   for (Index i = 0; i < by.mu.cols(); ++i) {
     NamedJoint copy(joint_);
-    const double mu = hole_of(copy.model, names.friction[i]).mu;
+    const double mu = mu_of(copy.model, names.friction[i]);
     all.push_back({"mu " + names.friction[i], small * mu,
-                   [name = names.friction[i]](NamedJoint& j, double h) { hole_of(j.model, name).mu += h; },
-                   by.mu.col(i)});
+                   [name = names.friction[i]](NamedJoint& j, double h) { mu_of(j.model, name) += h; }, by.mu.col(i)});
   }
   for (Index i = 0; i < by.force.cols(); ++i) {
     const std::string name = names.force[i];
     const bool traction = name.ends_with(":T");
     all.push_back({name, small * force_scale(),
                    [name, traction](NamedJoint& j, double h) {
-                     (traction ? plate_of(j, name).traction_force : plate_of(j, name).external_force)[0] += h;
+                     (traction ? j.model.traction : j.model.force)[first_of(j, name)] += h;
                    },
                    by.force.col(i)});
   }
   for (Index i = 0; i < by.displacement.cols(); ++i) {
     const std::string name = names.displacement[i];
     all.push_back({name, small * length,
-                   [name](NamedJoint& j, double h) { *plate_of(j, name).external_displacement[0] += h; },
+                   [name](NamedJoint& j, double h) { j.model.displacement[first_of(j, name)] += h; },
                    by.displacement.col(i)});
   }
   return all;

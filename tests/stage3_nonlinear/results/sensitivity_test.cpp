@@ -27,9 +27,9 @@ struct Solved {
   std::vector<test::Sensitivity> by;  ///< one per step
 };
 
-Solved solved(const JointModel& joint, const std::vector<double>& load_factors) {
+Solved solved(const test::HandMade& joint, const std::vector<double>& load_factors) {
   const JointEquations equations = make_equations(joint);
-  Solved result{follow(equations, load_factors, test::tight), joint_numbers(joint), {}};
+  Solved result{follow(equations, load_factors, test::tight), joint_numbers(joint, joint.numbers()), {}};
   for (const auto& step : result.path.steps)
     result.by.push_back(test::sensitivity_at(result.numbers, test::point_of(equations, step)));
   return result;
@@ -40,9 +40,9 @@ Solved solved(const JointModel& joint, const std::vector<double>& load_factors) 
 class TwoFastenerLap : public testing::Test {
  protected:
   static constexpr double K = 2048, f = 1e-3, g = 0.0625, P = 100;
-  static JointModel joint(double gap = g) {
+  static test::HandMade joint(double gap = g) {
     auto model = test::joint_of(test::two_fastener_lap(), test::linear_law(K));
-    model.planes[1].clearance = gap;
+    model.clearance[1] = gap;
     return model;
   }
   static constexpr double contact = g / (1 / K + f) / P;  ///< load factor
@@ -75,9 +75,9 @@ TEST_F(TwoFastenerLap, HasItsClosedForm) {
 
 TEST_F(TwoFastenerLap, AtFirstContactIsOfTheSideThatBears) {
   // Exact in binary, so that the state is at the corner to the last bit.
-  const JointModel model = joint();
+  const test::HandMade model = joint();
   const JointEquations equations = make_equations(model);
-  const JointNumbers numbers = joint_numbers(model);
+  const JointNumbers numbers = joint_numbers(model, model.numbers());
   const PathStep at = at_contact(equations);
   const double k = equations.contacts[1].stiffness;
   ASSERT_EQ(contact_state(equations, Vector2d(k, k * g)).F[1], 0);
@@ -89,14 +89,15 @@ TEST_F(TwoFastenerLap, AtFirstContactIsOfTheSideThatBears) {
 
 TEST_F(TwoFastenerLap, SaysTheSameWithPowerAndCubicLawsAtFirstContact) {
   // A power law is rigid there: F_2 grows as if its fastener had no flexibility, g = P* (1/K + f) - F_2 (1/K + 2 f).
-  JointModel model = joint();
+  test::HandMade model = joint();
   for (const auto& [law, flexibility] : std::vector<std::pair<std::shared_ptr<const Law>, double>>{
            {test::power_law(300, 0.5), 0.0}, {test::cubic_law({1.0, 2.0, 3.0}, {64.0, 128.0, 192.0}), 1 / 64.0}}) {
-    model.planes[1].law = law;
+    model.law[1] = law;
     model.planes[1].law_name = "other";
     const JointEquations equations = make_equations(model);
     const PathStep at = at_contact(equations);
-    const test::Sensitivity by = test::sensitivity_at(joint_numbers(model), test::point_of(equations, at));
+    const test::Sensitivity by =
+        test::sensitivity_at(joint_numbers(model, model.numbers()), test::point_of(equations, at));
     EXPECT_NEAR(by.clearance(1, 1) * (1 / K + 2 * f + flexibility), -1, 1e-12);
     EXPECT_NEAR(by.load_factor[1] * (1 / K + 2 * f + flexibility), P * (1 / K + f), 1e-9);
     EXPECT_TRUE(by.law.allFinite());
@@ -133,16 +134,10 @@ TEST(Sensitivity, ByTheLoadFactorIsBecauseOfTheLoads) {
     if (a.path.failure || a.path.steps[0].check.mechanism) continue;
     VectorXd sum = VectorXd::Zero(joint.model.n_planes());
     Index force = 0, displacement = 0;
-    for (const auto& plate : joint.model.plates) {
-      for (Index e = 0; e < std::ssize(plate.externals); ++e) {
-        if (const auto& given = plate.external_displacement[e]) {
-          sum += *given * a.by[0].displacement.col(displacement++);
-        } else {
-          sum += plate.external_force[e] * a.by[0].force.col(force++);
-        }
-      }
-      for (const double f : plate.traction_force) sum += f * a.by[0].force.col(force++);
-    }
+    const Parameters numbers = joint.model.numbers();
+    for (Index i_load = 0; i_load < numbers.load.size(); ++i_load)
+      sum += numbers.load[i_load] *
+             (numbers.held.displaced[i_load] ? a.by[0].displacement.col(displacement++) : a.by[0].force.col(force++));
     const VectorXd by = joint.load_factor * a.by[0].load_factor;
     EXPECT_LT(largest(sum - by), 1e-9 * largest(by)) << "joint " << i;
   }
@@ -164,8 +159,7 @@ TEST(Sensitivity, FollowsTheUnits) {
     ++joints;
     const test::Sensitivity& by = a.by[0];
     VectorXd sum = joint.load_factor * by.load_factor;
-    for (Index j = 0; j < std::ssize(joint.model.planes); ++j)
-      sum += joint.model.planes[j].clearance * by.clearance.col(j);
+    for (Index j = 0; j < std::ssize(joint.model.planes); ++j) sum += joint.model.clearance[j] * by.clearance.col(j);
     for (Index l = 0; l < std::ssize(a.numbers.law); ++l) {
       const auto& [law, number] = a.numbers.law[l];
       sum += (number.length + number.force) * joint.laws.at(law).number(number.name) * by.law.col(l);
@@ -194,7 +188,7 @@ TEST(Sensitivity, WithoutLoadAmountsGrowInAnyDirection) {
   std::mt19937 random(75);
   auto joint = test::named_joint(random, 6);
   for (auto& [name, law] : joint.laws) law = {"linear", {{"k", 1000}}};
-  for (auto& plane : joint.model.planes) plane.clearance = 0;
+  joint.model.clearance.assign(joint.model.n_planes(), 0);
   static_cast<void>(joint.equations());
   const Solved a = solved(joint.model, {0, 1});
   EXPECT_LT(largest(a.by[0].load_factor - magnitudes(a.path.steps[1].F, 2)), 1e-10 * largest(a.path.steps[1].F));
@@ -203,7 +197,7 @@ TEST(Sensitivity, WithoutLoadAmountsGrowInAnyDirection) {
 /// A doubler b that its gaps leave free, on a lap of a and c: load_path_test.cpp.
 class FreeDoubler : public testing::Test {
  protected:
-  static JointModel joint(bool doubler) {
+  static test::HandMade joint(bool doubler) {
     const test::Lap lap{test::chain(2, 1, 2000, {{1, 2, 1000}, {0, ground, 500}}),
                         test::chain(2, 0, 1000, {{0, ground, 1000}}), 100};
     auto model = test::joint_of(lap, test::power_law(300, 0.8));
@@ -211,7 +205,7 @@ class FreeDoubler : public testing::Test {
     model.plates.push_back(make_plate("d", "d.h5", test::chain(2, 1, 1000, {{1, 2, 700}}), 8));
     for (Index j = 0; j < 2; ++j) {
       test::add_fastener(model, {{0, j}, {2, j}}, test::linear_law(500));
-      model.planes.back().clearance = 10;
+      model.clearance.back() = 10;
       model.planes.back().law_name = "loose";
     }
     return model;
@@ -245,11 +239,11 @@ TEST(Sensitivity, AtALimitPointIsInfinite) {
   ASSERT_LT(on.dF, 0);
   const test::Lap lap{test::spring_plate(1, 1, {{0, ground, -2 * on.dF}, {0, 1, 1e3}}),
                       test::spring_plate(1, 0, {{0, ground, -2 * on.dF}}), 4};
-  const JointModel joint = test::joint_of(lap, law);
+  const test::HandMade joint = test::joint_of(lap, law);
   const JointEquations equations = make_equations(joint);
   ASSERT_NEAR(equations.system->S_ud(0, 0), -on.dF, 1e-12) << "two equal springs in series";
   const SolvedPoint point(equations, 1, VectorXd::Constant(1, equations.contacts[0].stiffness * delta));
-  const test::Sensitivity by = test::sensitivity_at(joint_numbers(joint), point);
+  const test::Sensitivity by = test::sensitivity_at(joint_numbers(joint, joint.numbers()), point);
   EXPECT_THAT(by.load_factor, ElementsAre(infinity));
   EXPECT_EQ(by.law(0, 0), infinity);
 }

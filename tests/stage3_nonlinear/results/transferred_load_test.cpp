@@ -23,8 +23,8 @@ using testing::HasSubstr;
 constexpr double cosine = 2 / std::numbers::pi;
 
 /// One bolt, whose friction is mu_a and mu_b, between a, pulled by P, and b, on a spring to the ground.
-JointModel one_bolt(double P, double mu_a, double mu_b, bool law_includes_friction,
-                    const std::shared_ptr<const Law>& law) {
+test::HandMade one_bolt(double P, double mu_a, double mu_b, bool law_includes_friction,
+                        const std::shared_ptr<const Law>& law) {
   std::mt19937 random(61);
   test::Lap lap{test::spring_plate(1, 1, {{0, 1, 900}}), test::spring_plate(1, 0, {{0, test::ground, 400}}), P};
   for (auto* plate : {&lap.a, &lap.b}) test::add_friction(*plate, random);
@@ -34,7 +34,7 @@ JointModel one_bolt(double P, double mu_a, double mu_b, bool law_includes_fricti
   FastenerModel& bolt = joint.fasteners[0];
   bolt.law_includes_friction = law_includes_friction;
   for (const auto& [hole, mu] : {std::pair{&bolt.holes[0], mu_a}, std::pair{&bolt.holes[1], mu_b}}) {
-    hole->mu = mu;
+    joint.set_mu(*hole, mu);
     if (mu == 0) hole->friction.clear();
   }
   return joint;
@@ -88,7 +88,7 @@ struct Rubbing {
 };
 
 /// Gives each hole of a stack friction of its own; returns it by fastener and hole.
-std::vector<std::vector<Rubbing>> rub(JointModel& joint, std::mt19937& random) {
+std::vector<std::vector<Rubbing>> rub(test::HandMade& joint, std::mt19937& random) {
   std::uniform_real_distribution<double> number(0, 1);
   std::vector<std::vector<Rubbing>> all;
   for (auto& fastener : joint.fasteners) {
@@ -96,7 +96,7 @@ std::vector<std::vector<Rubbing>> rub(JointModel& joint, std::mt19937& random) {
     fastener.law_includes_friction = number(random) < 0.5;
     for (auto& hole : fastener.holes) {
       Rubbing& rubbing = holes.emplace_back(Rubbing{number(random) < 0.3 ? 0 : 0.5 * number(random), {}});
-      hole.mu = rubbing.mu;
+      joint.set_mu(hole, rubbing.mu);
       for (Index d = 0; d < joint.n_directions(); ++d) {
         auto& sides = rubbing.load.emplace_back();
         for (const Side side : {plus_side, minus_side}) {
@@ -105,7 +105,7 @@ std::vector<std::vector<Rubbing>> rub(JointModel& joint, std::mt19937& random) {
               VectorXd::NullaryExpr(joint.plates[hole.plate].n_unknowns(), [&] { return sign * 0.1 * number(random); });
           sides[side][hole.disc + d] += sign * 0.3;
         }
-        if (hole.mu == 0) continue;
+        if (rubbing.mu == 0) continue;
         hole.friction.push_back({});
         for (const Side side : {plus_side, minus_side})
           hole.friction.back()[side] = test::add_case(joint.plates[hole.plate], hole, d, side, sides[side], cosine);
@@ -118,7 +118,7 @@ std::vector<std::vector<Rubbing>> rub(JointModel& joint, std::mt19937& random) {
 /// All displacements by the displacement method, nothing condensed, for linear laws: F = K delta; a plane transfers
 /// Q = F, or F (1 + the holes' mean share); a hole takes the difference B of its planes' Q and bears on
 /// b = B / (1 + share); S u + mu |b| load = b + P. The signs of B are tried until they are those that come out.
-VectorXd displacements(const JointModel& joint, const std::vector<std::vector<Rubbing>>& friction) {
+VectorXd displacements(const test::HandMade& joint, const std::vector<std::vector<Rubbing>>& friction) {
   const Index N = joint.n_unknowns(), a = joint.n_directions();
   VectorXd P(N);
   MatrixXd S = MatrixXd::Zero(N, N);
@@ -130,11 +130,12 @@ VectorXd displacements(const JointModel& joint, const std::vector<std::vector<Ru
   VectorXd u = VectorXd::Zero(N), B = VectorXd::Zero(N);
   for (int tries = 0; tries < 50; ++tries) {
     MatrixXd transfer = MatrixXd::Zero(N, N);  // B = transfer u
-    for (const ShearPlane& plane : joint.planes) {
+    for (Index j = 0; j < joint.n_planes(); ++j) {
+      const ShearPlane& plane = joint.planes[j];
       const auto& holes = friction[plane.fastener];
       double share = 0;
       for (const auto& hole : holes) share += cosine * hole.mu / static_cast<double>(holes.size());
-      const Branch law = plane.law->at(1, 1, 0);
+      const Branch law = joint.law[j]->at(1, 1, 0);
       const double K = law.F / law.delta * (joint.fasteners[plane.fastener].law_includes_friction ? 1 : 1 + share);
       const Index first = joint.offset(joint.first_hole(plane).plate) + joint.first_hole(plane).disc;
       const Index second = joint.offset(joint.second_hole(plane).plate) + joint.second_hole(plane).disc;
@@ -173,7 +174,7 @@ TEST(TransferredLoad, OfAnyStackIsThatOfTheDisplacementMethod) {
   double largest = 0;
   for (int i = 0; i < 120; ++i) {
     const Index a = 1 + i % 2;
-    JointModel joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, static_cast<int>(a));
+    test::HandMade joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, static_cast<int>(a));
     const auto friction = rub(joint, random);
     const VectorXd expected = displacements(joint, friction);
     const PathStep step = test::solved(joint);
@@ -193,8 +194,8 @@ TEST(TransferredLoad, OfAnyStackIsThatOfTheDisplacementMethod) {
 TEST(TransferredLoad, OfCurvedLawsLeavesEveryFastenerInBalance) {
   std::mt19937 random(63);
   for (int i = 0; i < 40; ++i) {
-    JointModel joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2);
-    for (auto& plane : joint.planes) plane.law = test::power_law(60, 0.6, 0.02);
+    test::HandMade joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1 + i % 2);
+    joint.law.assign(joint.n_planes(), test::power_law(60, 0.6, 0.02));
     (void)rub(joint, random);
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {0.4, 1, -1}, {.initial = {}, .solver = {.tolerance = 1e-12}});
@@ -210,11 +211,9 @@ TEST(TransferredLoad, OfCurvedLawsLeavesEveryFastenerInBalance) {
 TEST(TransferredLoad, OfTheExactPathIsThatOfTheSolvers) {
   std::mt19937 random(64);
   for (int i = 0; i < 40; ++i) {
-    JointModel joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1);
-    for (auto& plane : joint.planes) {
-      plane.law = test::power_law(60, 1);
-      plane.clearance = 0.01;
-    }
+    test::HandMade joint = test::random_stack(random, 2 + i % 3, 1 + i % 4, 1);
+    joint.law.assign(joint.n_planes(), test::power_law(60, 1));
+    joint.clearance.assign(joint.n_planes(), 0.01);
     (void)rub(joint, random);
     const JointEquations equations = make_equations(joint);
     const LoadPath path = follow(equations, {0.4, 1, -1}, {});
@@ -226,7 +225,7 @@ TEST(TransferredLoad, OfTheExactPathIsThatOfTheSolvers) {
 
 TEST(TransferredLoad, SeesAFastenerOutOfBalance) {
   // A resultant that is not the one that the joint was solved with.
-  JointModel joint = one_bolt(1000, 0.1, 0.3, false, test::linear_law(300));
+  test::HandMade joint = one_bolt(1000, 0.1, 0.3, false, test::linear_law(300));
   const PathStep step = test::solved(joint);
   joint.plates[1].friction_resultant *= 1.5;
   EXPECT_GT(test::state_of(joint, step).fasteners_out_of_balance, 0.05);
