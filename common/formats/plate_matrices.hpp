@@ -46,11 +46,8 @@ struct CrackRows {
 /// Highest degree of matrices, which may come from other sources than stage 2.
 inline constexpr int highest_degree = 99;
 
-/// The condensed linear model of one plate for every degree p (schemas/plate-matrices.md).
-///
-/// Forces are those of the surroundings on the plate:
-///   (P, F) = S (D_e, D) + R Lambda + T f.
-struct PlateMatrices : UnitCases {
+/// What is known of a plate beside its condensed matrices.
+struct PlateProperties : UnitCases {
   std::string plate_digest{};  ///< digest of the PLATE.h5 that these were extracted from; empty if it has none
   /// Directions, "x" or "y", along which the plate has no support, so that the forces on it are in balance; empty if
   /// not given.
@@ -63,6 +60,17 @@ struct PlateMatrices : UnitCases {
   /// (h), (q) resultants along + the other axis of a unit friction case, length^2, and of a unit total force on each
   /// traction boundary, dimensionless; an empty vector means zeros
   Eigen::VectorXd friction_resultant_across, traction_resultant_across;
+  Eigen::VectorXd
+      traction_unit_force;  ///< (q) force per unit peak of the cosine pressure in a hole, length^2; 0 for edges
+  PlateStresses stresses;
+  CrackRows cracks{};
+};
+
+/// The condensed linear model of one plate for every degree p (schemas/plate-matrices.md).
+///
+/// Forces are those of the surroundings on the plate:
+///   (P, F) = S (D_e, D) + R Lambda + T f.
+struct PlateMatrices : PlateProperties {
   std::vector<Eigen::MatrixXd> S_ee, S_ed, S_dd;  ///< n_p x (e,e), (e,m), (m,m), force / length
   std::vector<Eigen::MatrixXd> R_ef, R_df;        ///< n_p x (e,h), (m,h), length^2
   std::vector<Eigen::MatrixXd> T_d, T_e;          ///< n_p x (m,q), (e,q), dimensionless
@@ -70,12 +78,8 @@ struct PlateMatrices : UnitCases {
   /// n_p x (k, n_cases) PlateCases::W of the loaded waves: their integrals in each unit case. The transposed columns of
   /// externals and discs are the forces on these by each loaded wave.
   std::vector<StressRows> W;
-  Eigen::VectorXd
-      traction_unit_force;  ///< (q) force per unit peak of the cosine pressure in a hole, length^2; 0 for edges
   /// Estimated absolute error at the highest p; infinite for a single p.
   Eigen::MatrixXd S_ee_error, S_ed_error, S_dd_error;
-  PlateStresses stresses;
-  CrackRows cracks{};
 };
 
 /// Returns the digest of the file. Throws FileError; an existing file at `path` is then kept.

@@ -23,7 +23,7 @@ std::pair<MatrixXd, MatrixXd> unit_loads(const JointModel& joint, const std::vec
   MatrixXd loads = MatrixXd::Zero(joint.n_unknowns(), std::ssize(cases)), given = loads;
   for (Index i = 0; i < std::ssize(cases); ++i) {
     const PlateModel& plate = joint.plates[cases[i].plate];
-    const Index first = joint.offset(cases[i].plate), external = plate.n_discs() + cases[i].at;
+    const Index first = joint.offset(cases[i].plate), external = plate.n_disc_unknowns() + cases[i].at;
     auto load = loads.col(i).segment(first, plate.n_unknowns());
     if (cases[i].is_traction) {
       load = -plate.T.col(cases[i].at);

@@ -67,7 +67,7 @@ SparseMatrix free_unknowns(const JointModel& joint, const Held& held) {
       leader[joint.offset(i) + unknown] = -1;
   }
   const auto unknown = [&](const std::pair<Index, Index>& external) {
-    return joint.offset(external.first) + joint.plates[external.first].n_discs() + external.second;
+    return joint.offset(external.first) + joint.plates[external.first].n_disc_unknowns() + external.second;
   };
   const auto loads = loads_of(joint);
   for (std::size_t i = 0; i < loads.size(); ++i)

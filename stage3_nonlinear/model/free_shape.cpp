@@ -35,7 +35,7 @@ double fixed_place(const CaseScene& its, const PlateModel& plate, int axis) {
 /// Sets the free displacements of boundaries under tractions.
 void expand_tractions(const PlateModel& plate, const Eigen::Matrix2d& strain, const Eigen::Vector2d& fixed,
                       FreeShape& shape) {
-  for (Index i = 0; i < std::ssize(plate.tractions); ++i) {
+  for (Index i = 0; i < plate.n_tractions(); ++i) {
     const int axis = plate.traction_axis[i];
     if (!plate.is_moment(i))
       shape.traction[i] = strain(axis, axis) * (plate.places.traction.row(i).mean() - fixed[axis]);
@@ -63,11 +63,11 @@ void expand(const CaseScene& its, const PlateModel& plate, double temperature, F
     const int axis = plate.external_axis[i];
     shape.De[i] += strain(axis, axis) * (plate.places.external.row(i).mean() - fixed[axis]);
     const auto displaces = [&](const LoadScene& load) {
-      return load.is_displacement && load.external.plate == plate.name && load.external.name == plate.externals[i];
+      return load.is_displacement && load.external.plate == plate.name && load.external.name == plate.external_id[i];
     };
     if (strain(0, 1) != 0 && std::ranges::any_of(its.loads, displaces))
       fail(its, plate,
-           fmt::format("\"{}\" has a given displacement, and this sheet expands in shear too", plate.externals[i]),
+           fmt::format("\"{}\" has a given displacement, and this sheet expands in shear too", plate.external_id[i]),
            "a force on it, or a sheet whose axes are x and y");
   }
 }
@@ -75,8 +75,8 @@ void expand(const CaseScene& its, const PlateModel& plate, double temperature, F
 }  // namespace
 
 FreeShape undisplaced(const PlateModel& plate) {
-  return {VectorXd::Zero(plate.n_discs()), VectorXd::Zero(plate.n_externals()),
-          VectorXd::Zero(std::ssize(plate.tractions))};
+  return {VectorXd::Zero(plate.n_disc_unknowns()), VectorXd::Zero(plate.n_externals()),
+          VectorXd::Zero(plate.n_tractions())};
 }
 
 std::vector<FreeShape> free_shapes(const JointModel& joint, const JointScene& scene, const CaseScene& its) {

@@ -94,7 +94,7 @@ void check_directions(const JointModel& model, const FastenerScene& scene, const
 
 /// The friction case of a hole for the side that bears along an axis.
 FrictionCase friction_case(const PlateModel& plate, const std::string& hole, double mu, int axis, Side side) {
-  const rim::SignedAxis bearing{static_cast<rim::Axis>(axis), side == plus_side ? 1 : -1};
+  const std::string bearing = name_of(rim::SignedAxis{static_cast<rim::Axis>(axis), side == plus_side ? 1 : -1});
   for (Index i = 0; i < std::ssize(plate.friction_unit_force); ++i) {
     if (plate.friction_hole[i] != hole || plate.friction_bearing[i] != bearing) continue;
     const double c = plate.friction_unit_force[i];
@@ -102,13 +102,13 @@ FrictionCase friction_case(const PlateModel& plate, const std::string& hole, dou
       throw InputError(fmt::format(
           "{}:friction/unit_force: hole \"{}\" has {} on its side {}: no rim there can bear, so friction {} has no "
           "meaning; allowed: a value > 0, a law with \"one_sided\" that never bears there, or friction 0",
-          plate.file, hole, c, name_of(bearing), mu));
+          plate.file, hole, c, bearing, mu));
     return {i, c, std::abs(plate.friction_resultant[i])};
   }
   throw InputError(
       fmt::format("{}:friction/hole: has no friction case for hole \"{}\" bearing {}, but its fastener has friction "
                   "{}; run stage 2 again, or set the friction to 0",
-                  plate.file, hole, name_of(bearing), mu));
+                  plate.file, hole, bearing, mu));
 }
 
 /// Sides of a fastener's hole on which its planes can bear: F > 0 acts on the second plate along +, on the first along
@@ -126,12 +126,12 @@ std::array<bool, 2> bearing_sides(const JointScene& scene, const FastenerScene& 
 /// Refuses a half hole whose disc may move along the normal of its line of symmetry: by symmetry the disc of the whole
 /// hole stays on that line, but bearing on half a rim would move it off.
 void check_rim_all_around(const PlateModel& plate, const std::string& hole) {
-  for (Index i = 0; i < std::ssize(plate.friction_hole); ++i)
+  for (Index i = 0; i < plate.n_friction_cases(); ++i)
     if (plate.friction_hole[i] == hole && !(plate.friction_unit_force[i] > 0) && !plate.is_in_contact(hole))
       throw InputError(fmt::format(
           "{}:friction/unit_force: hole \"{}\" has no rim on its side {}, but its disc moves along x and y, off its "
           "line of symmetry too; allowed: whole holes, or \"disc_directions\" along that line alone",
-          plate.file, hole, names_of(plate.friction_bearing)[i]));
+          plate.file, hole, plate.friction_bearing[i]));
 }
 
 HoleModel make_hole(const JointModel& model, const JointScene& scene, const FastenerScene& fastener, Index at) {

@@ -18,7 +18,7 @@ std::vector<Load> loads_of(const JointModel& joint) {
   for (Index i = 0; i < std::ssize(joint.plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     for (Index at = 0; at < plate.n_externals(); ++at) loads.push_back({i, at, false});
-    for (Index at = 0; at < std::ssize(plate.tractions); ++at)
+    for (Index at = 0; at < plate.n_tractions(); ++at)
       if (!plate.is_other_side(at)) loads.push_back({i, at, true});
   }
   return loads;
@@ -45,8 +45,8 @@ namespace {
 void check_side(const PlateModel& plate, Index traction, const LoadScene& load, const std::vector<double>& factors) {
   for (const double factor : factors) {
     bool has_side = load.value * factor == 0;
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      has_side = has_side || (plate.tractions[i] == plate.tractions[traction] &&
+    for (Index i = 0; i < plate.n_tractions(); ++i)
+      has_side = has_side || (plate.traction_id[i] == plate.traction_id[traction] &&
                               is_active(plate.bearing_sign(i), factor * load.value));
     if (!has_side)
       refuse(load.external.where,
@@ -77,7 +77,7 @@ void tie(const JointModel& joint, const LoadScene& load, Held& held) {
   for (const auto& name : names) {
     const Index at = index_of(joint.plates, name.plate, &PlateModel::name);
     const PlateModel& plate = joint.plates[at];
-    const Index external = index_of(plate.externals, name.name);
+    const Index external = index_of(plate.external_id, name.name);
     if (external == plate.n_externals())
       refuse(name.where, fmt::format("\"{}:{}\" is no rigid external", name.plate, name.name),
              "externals of kind \"rigid\" in a tie");
@@ -93,14 +93,14 @@ void set_load(const JointModel& joint, const LoadScene& load, const std::vector<
   const Reference& name = load.external;
   const Index at_plate = index_of(joint.plates, name.plate, &PlateModel::name);
   const PlateModel& plate = joint.plates[at_plate];
-  const Index rigid = index_of(plate.externals, name.name), traction = index_of(plate.tractions, name.name);
+  const Index rigid = index_of(plate.external_id, name.name), traction = index_of(plate.traction_id, name.name);
   const bool is_rigid = rigid < plate.n_externals();
   if (is_rigid && load.is_moment)
     refuse(name.where, fmt::format("\"{}\" moves along an axis and takes no moment", name.name),
            "\"force\" or \"displacement\", or an external of kind \"moment\"");
-  if (!is_rigid && traction == std::ssize(plate.tractions)) {
-    auto known = plate.externals;
-    std::ranges::unique_copy(plate.tractions, std::back_inserter(known));
+  if (!is_rigid && traction == plate.n_tractions()) {
+    auto known = plate.external_id;
+    std::ranges::unique_copy(plate.traction_id, std::back_inserter(known));
     refuse(name.where, fmt::format("external \"{}\" does not exist in {}", name.name, plate.file),
            known.empty() ? "none: this plate has no external boundary" : fmt::format("{}", fmt::join(known, ", ")));
   }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "stage3_nonlinear/model/plate_model.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,8 +12,6 @@
 #include "common/count.hpp"
 #include "common/errors.hpp"
 #include "common/matrices/decompositions.hpp"
-#include "stage3_nonlinear/model/contact_rims.hpp"
-#include "stage3_nonlinear/model/joint_model.hpp"
 
 namespace fastjoint::stage3 {
 namespace {
@@ -246,11 +246,11 @@ void free_rims(const std::string& file, const formats::PlateMatrices& a, Index l
 /// Adds rows and columns for the displacements of discs that the file does not have, since symmetry fixes them. They
 /// are uncoupled from the others and have a stiffness of their own but no force, so that they stay zero.
 void add_fixed_discs(const PlateModel& plate, PlateDegrees& degrees) {
-  const Index n_file = std::ssize(plate.discs), more = plate.n_discs() - n_file;
+  const Index n_file = std::ssize(plate.discs), more = plate.n_disc_unknowns() - n_file;
   if (more == 0) return;
   const Index n = degrees.S.back().rows() + more;
   std::vector<Index> place(plate.discs);
-  for (Index i = plate.n_discs(); i < n; ++i) place.push_back(i);
+  for (Index i = plate.n_disc_unknowns(); i < n; ++i) place.push_back(i);
   for (MatrixXd& S : degrees.S) {
     MatrixXd all = S.diagonal().head(n_file).maxCoeff() * MatrixXd::Identity(n, n);
     for (const Index i : place) all(i, i) = 0;
@@ -290,21 +290,9 @@ std::string materials_in(const std::string& input) {
 
 }  // namespace
 
-std::vector<BearingSide> bearing_sides(const std::vector<std::string>& names) {
-  std::vector<BearingSide> sides;
-  sides.reserve(names.size());
-  for (const auto& name : names) {
-    const bool known = name.size() == 2 && (name[0] == '+' || name[0] == '-') && (name[1] == 'x' || name[1] == 'y');
-    sides.push_back(known ? BearingSide(rim::signed_axis_named(name)) : std::nullopt);
-  }
-  return sides;
-}
-
-std::vector<std::string> names_of(const std::vector<BearingSide>& sides) {
-  std::vector<std::string> names;
-  names.reserve(sides.size());
-  for (const auto& side : sides) names.push_back(side ? name_of(*side) : "");
-  return names;
+std::optional<rim::SignedAxis> bearing_side(const std::string& name) {
+  const bool known = name.size() == 2 && (name[0] == '+' || name[0] == '-') && (name[1] == 'x' || name[1] == 'y');
+  return known ? std::optional(rim::signed_axis_named(name)) : std::nullopt;
 }
 
 std::vector<int> joint_axes(std::span<const std::string> files, std::span<const formats::PlateMatrices> all) {
@@ -335,13 +323,9 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.name = name;
   plate.file = file;
   plate.materials = materials_in(a.header.input);
-  plate.matrices_digest = a.header.digest;
-  plate.plate_digest = a.plate_digest;
   plate.axes = axes.empty() ? joint_axes({&file, 1}, {&a, 1}) : axes;
   place_discs(file, a, plate);
   check_contact(file, a, plate);
-  plate.externals = a.external_id;
-  plate.tractions = a.traction_id;
   check_symmetric(file, "S_dd", a.S_dd[level]);
   check_symmetric(file, "S_ee", a.S_ee[level]);
   plate.short_waves = short_waves_of(a);
@@ -351,32 +335,16 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
   plate.R = plate.degrees.R.back();
   plate.T = plate.degrees.T.back();
   check_not_negative(file, a, joined(a.S_dd[level], a.S_ed[level], a.S_ee[level]), plate.S);
-  plate.friction_hole = a.friction_hole;
-  plate.friction_bearing = bearing_sides(a.friction_bearing);
-  plate.friction_unit_force = a.friction_unit_force;
-  plate.friction_resultant = a.friction_resultant;
-  plate.friction_resultant_across = a.friction_resultant_across;
-  plate.traction_resultant_across = a.traction_resultant_across;
   plate.external_axis = axes_of(file, "external/direction", a.external_direction);
-  plate.traction_bearing = bearing_sides(a.traction_bearing);
-  plate.traction_arm = a.traction_arm;
   plate.traction_axis = traction_axes(file, a);
-  plate.places = a.places;
-  plate.expansion = a.expansion;
   plate.unsupported_axes = axes_of(file, "unsupported", a.unsupported);
   plate.S_error = joined(a.S_dd_error, a.S_ed_error, a.S_ee_error);
-  plate.contact = a.contact;
-  plate.waves = a.waves;
-  plate.file_unit_cases = a.n_cases();
-  plate.n_loaded_waves = a.n_loaded_waves();
-  plate.traction_hole = a.traction_hole;
-  plate.traction_unit_force = a.traction_unit_force;
   if (plate.S_error.rows() != plate.S.rows()) plate.S_error.resizeLike(plate.S);
   if (level + 1 < a.p.size() || plate.S.rows() > a.n_discs() + a.n_externals())
     plate.S_error.setConstant(std::numeric_limits<double>::infinity());
-  plate.stresses = std::move(a.stresses);
-  plate.cracks = std::move(a.cracks);
-  plate.border = std::move(a.border);
+  formats::PlateProperties& properties = a;  // without the matrices by degree
+  static_cast<formats::PlateProperties&>(plate) = std::move(properties);
+  plate.header.input.clear();
   for (auto* rows : {&plate.cracks.K_I, &plate.cracks.K_II})
     if (!rows->empty()) *rows = {std::move((*rows)[level])};
   if (const int at = index_of(plate.stresses.p, p); at < count_of(plate.stresses.p)) {
@@ -384,7 +352,7 @@ PlateModel make_plate(const std::string& name, const std::string& file, formats:
     plate.spring_waves = spring_waves(plate.waves);
     for (Index before = 0; before <= at; ++before) {
       const auto& others = plate.stresses.other_waves[at - before];
-      MatrixXd& rows = plate.wave_rows.emplace_back(a.n_waves(), a.n_cases());
+      MatrixXd& rows = plate.wave_rows.emplace_back(plate.n_waves(), plate.n_cases());
       rows << a.W[level - before], others;
     }
   }

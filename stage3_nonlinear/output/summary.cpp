@@ -110,8 +110,8 @@ std::string memory_lines(const JointModel& joint, const PathStep& step) {
 /// Arm of a moment, "plate:external"; 0 of other boundaries.
 double arm_of(const JointModel& joint, const std::string& name) {
   for (const auto& plate : joint.plates)
-    for (Index i = 0; i < std::ssize(plate.tractions); ++i)
-      if (plate.is_moment(i) && plate.name + ":" + plate.tractions[i] == name) return plate.traction_arm[i];
+    for (Index i = 0; i < plate.n_tractions(); ++i)
+      if (plate.is_moment(i) && plate.name + ":" + plate.traction_id[i] == name) return plate.traction_arm[i];
   return 0;
 }
 

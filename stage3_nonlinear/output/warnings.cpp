@@ -47,7 +47,7 @@ std::string motion_text(const JointModel& joint, const VectorXd& motion) {
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
     for (Index d = 0; d < joint.n_directions(); ++d) {
       double largest = 0;
-      for (Index disc = d; disc < joint.plates[i].n_discs(); disc += joint.n_directions())
+      for (Index disc = d; disc < joint.plates[i].n_disc_unknowns(); disc += joint.n_directions())
         if (const double u = motion[joint.offset(i) + disc]; std::abs(u) > std::abs(largest)) largest = u;
       if (std::abs(largest) > moves)
         parts.push_back(
@@ -147,7 +147,7 @@ void warn_of_oblique_bearing(const JointModel& joint, const JointEquations& equa
                  "externals \"{0}\" and \"{1}\" press hole \"{2}:{3}\" along x and y at once, each on its own half of "
                  "the rim: a pin presses where the load points, and its peak hoop stress is higher, by a third at 45 "
                  "degrees; let a fastener in contact bring the load, or draw the sheet with the load along an axis",
-                 plate.tractions[loads[k].at], plate.tractions[loads[i].at], plate.name,
+                 plate.traction_id[loads[k].at], plate.traction_id[loads[i].at], plate.name,
                  plate.traction_hole[loads[i].at]);
     }
 }

@@ -41,7 +41,7 @@ void add_loads(const JointModel& joint, const std::vector<bool>& displaced, Join
     const Load& load = loads[i];
     const PlateModel& plate = joint.plates[load.plate];
     (displaced[i] ? numbers.displacement : numbers.force)
-        .push_back(plate.name + ":" + (load.is_traction ? plate.tractions : plate.externals)[load.at]);
+        .push_back(plate.name + ":" + (load.is_traction ? plate.traction_id : plate.external_id)[load.at]);
   }
   Index displacement = numbers.first_gap() - std::ssize(numbers.displacement);
   Index force = displacement - std::ssize(numbers.force);

@@ -23,7 +23,7 @@ VectorXd alternating(const VectorXd& a, const VectorXd& b) {
 /// Displacements of a plate's discs and externals, the forces on them, and their resultants.
 std::vector<PlateGroup> displacement_quantities(const PlateModel& plate) {
   using columns::force, columns::length;
-  const Index e = plate.n_externals(), q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
+  const Index e = plate.n_externals(), q = plate.n_tractions(), h = plate.n_friction_cases();
   Index n_added = 0, n_w = 0;
   for (Index i = 0; i < std::ssize(plate.contact); ++i) {
     const rim::Harmonics of_field = formats::waves_of_field(plate.contact[i], plate.waves[i]);
@@ -141,25 +141,23 @@ formats::PlateHistory things_of(const PlateModel& plate) {
   formats::PlateHistory a;
   a.name = plate.name;
   a.materials = plate.materials;
-  a.matrices_digest = plate.matrices_digest;
+  a.matrices_digest = plate.header.digest;
   a.plate_digest = plate.plate_digest;
-  for (const Index i : plate.discs) {
-    a.disc_hole.push_back(plate.hole_of(i));
-    a.disc_direction.emplace_back(rim::axis_names[plate.axis_of(i)]);
-  }
-  a.external_id = plate.externals;
-  a.traction_id = plate.tractions;
-  a.traction_bearing = names_of(plate.traction_bearing);
-  a.traction_bearing.resize(plate.tractions.size());
+  a.disc_hole = plate.disc_hole;
+  a.disc_direction = plate.disc_direction;
+  a.external_id = plate.external_id;
+  a.traction_id = plate.traction_id;
+  a.traction_bearing = plate.traction_bearing;
+  a.traction_bearing.resize(plate.traction_id.size());
   a.traction_arm = plate.traction_arm;
-  a.traction_arm.resize(plate.tractions.size());
+  a.traction_arm.resize(plate.traction_id.size());
   a.contact = plate.contact;
   for (Index i = 0; i < std::ssize(plate.contact); ++i) {
     a.waves.push_back(plate.waves[i]);
     a.waves.back().waves = formats::waves_of_field(plate.contact[i], plate.waves[i]);
   }
   a.friction_hole = plate.friction_hole;
-  a.friction_bearing = names_of(plate.friction_bearing);
+  a.friction_bearing = plate.friction_bearing;
   a.border = plate.border;
   a.tips = {plate.cracks.tip, plate.cracks.at, plate.cracks.length};
   if (plate.stress_level) a.holes = holes_of(plate.stresses);

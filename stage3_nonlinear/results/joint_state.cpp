@@ -38,10 +38,11 @@ VectorXd forces_on_discs(const JointModel& joint, const JointEquations& equation
 /// Sets the friction forces on the discs of a plate from the peak stresses of its cases. At rims of contact the forces
 /// on the discs include friction, which is subtracted from the bearing forces.
 void set_friction(const PlateModel& plate, PlateState& state) {
-  for (Index i = 0; i < std::ssize(plate.friction_hole); ++i) {
+  for (Index i = 0; i < plate.n_friction_cases(); ++i) {
     const auto hole = std::ranges::find(plate.holes, plate.friction_hole[i]);
-    if (!plate.friction_bearing[i]) continue;
-    const auto [along, sign] = *plate.friction_bearing[i];
+    const auto side = bearing_side(plate.friction_bearing[i]);
+    if (!side) continue;
+    const auto [along, sign] = *side;
     const int axis = rim::coordinate(along);
     const auto at = std::ranges::find(plate.axes, axis);
     if (state.Lambda[i] == 0 || hole == plate.holes.end() || at == plate.axes.end()) continue;
@@ -53,7 +54,7 @@ void set_friction(const PlateModel& plate, PlateState& state) {
   for (const auto& rim : plate.contact) {
     const rim::Harmonics& carried = plate.waves[&rim - plate.contact.data()].waves;
     const VectorXd shear = rim.area * state.Lambda.segment(plate.first_shear(rim), carried.n_shears());
-    for (Index disc = 0; disc < plate.n_discs(); ++disc) {
+    for (Index disc = 0; disc < plate.n_disc_unknowns(); ++disc) {
       if (plate.hole_of(disc) != rim.hole) continue;
       state.friction[disc] = carried.drag(plate.axis_of(disc)).dot(shear);
       state.bearing[disc] -= state.friction[disc];
@@ -63,7 +64,7 @@ void set_friction(const PlateModel& plate, PlateState& state) {
 
 /// Coefficients of the unit cases of a plate's file.
 VectorXd unit_case_coefficients(const PlateModel& plate, const PlateState& state) {
-  const Index h = std::ssize(plate.friction_hole);
+  const Index h = plate.n_friction_cases();
   const VectorXd D = state.D(plate.discs);
   VectorXd coefficients(state.De.size() + D.size() + state.waves.size() + h + state.traction.size());
   coefficients << state.De, D, state.waves, state.Lambda.head(h), state.traction;
@@ -86,7 +87,7 @@ LoadedDiscs loaded_discs(const PlateModel& plate, const PlateState& state) {
 /// @param worst_row Maximum of its value and the largest imbalance of a row of the plate, force.
 void balance_plate(const PlateModel& plate, const std::vector<bool>& is_held, const VectorXd& rim_F,
                    const VectorXd& on_discs, double scale, PlateState& state, double& worst_row) {
-  const Index m = plate.n_discs(), k = rim_F.size();
+  const Index m = plate.n_disc_unknowns(), k = rim_F.size();
   VectorXd u(plate.n_unknowns());
   u << state.D, state.De, state.moments;
   VectorXd required = plate.S * u + plate.T * state.traction;
@@ -169,12 +170,12 @@ std::vector<PlateState> plate_loads(const JointModel& joint, const CondensedSyst
   for (Index i = 0; i < std::ssize(plates); ++i) {
     const PlateModel& plate = joint.plates[i];
     const VectorXd u = D.segment(joint.offset(i), plate.n_unknowns());
-    plates[i].D = u.head(plate.n_discs());
-    plates[i].De = u.segment(plate.n_discs(), plate.n_externals());
+    plates[i].D = u.head(plate.n_disc_unknowns());
+    plates[i].De = u.segment(plate.n_disc_unknowns(), plate.n_externals());
     plates[i].moments = u.tail(plate.n_unknowns() - plate.first_moment());
     plates[i].Lambda = VectorXd::Zero(plate.R.cols());
     plates[i].Pe = VectorXd::Zero(plate.n_externals());
-    plates[i].traction = VectorXd::Zero(std::ssize(plate.tractions));
+    plates[i].traction = VectorXd::Zero(plate.n_tractions());
   }
   for (Index i = 0; i < load.size(); ++i) {
     const LoadCase& its = system.cases[i];
@@ -241,7 +242,7 @@ JointState joint_state(const JointModel& joint, const JointEquations& equations,
     PlateState& its = state.plates[i];
     const Index k = its.moments.size();
     balance_plate(plate, is_held[i], step.rim_F.segment(first_moment, k),
-                  on_discs.segment(joint.offset(i), plate.n_discs()), step.scale, its, state.out_of_balance);
+                  on_discs.segment(joint.offset(i), plate.n_disc_unknowns()), step.scale, its, state.out_of_balance);
     first_moment += k;
     // The matrices alone do not show the axes: a sheet with statically determinate supports has no stiffness either.
     for (const int axis : plate.unsupported_axes)

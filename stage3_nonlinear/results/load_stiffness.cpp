@@ -32,10 +32,10 @@ std::vector<LoadStiffness> tangent_stiffness(const JointModel& joint, const Solv
     const auto& [load, at_plate, at, is_traction, is_displacement, sign] = system.cases[i];
     if (rates[i] == 0) continue;
     const PlateModel& plate = joint.plates[at_plate];
-    const Index first = joint.offset(at_plate), row = plate.n_discs() + at;
+    const Index first = joint.offset(at_plate), row = plate.n_disc_unknowns() + at;
     const VectorXd u = D.segment(first, plate.n_unknowns());
-    const VectorXd f = traction_rates(system, rates, at_plate, std::ssize(plate.tractions));
-    const std::string& name = (is_traction ? plate.tractions : plate.externals)[at];
+    const VectorXd f = traction_rates(system, rates, at_plate, plate.n_tractions());
+    const std::string& name = (is_traction ? plate.traction_id : plate.external_id)[at];
     const double reaction = is_traction ? 0 : plate.S.row(row).dot(u) + plate.T.row(row).dot(f) + friction[first + row];
     const double force = is_displacement ? reaction : rates[i];
     const double moved = is_traction ? traction_displacements(plate, u, f)[at] : u[row];

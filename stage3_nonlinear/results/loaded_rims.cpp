@@ -35,16 +35,16 @@ struct KnownLoads {
 
 KnownLoads known_loads(const PlateModel& plate, const std::string& hole, const VectorXd& coefficients) {
   KnownLoads loads;
-  const Index q = std::ssize(plate.tractions), h = std::ssize(plate.friction_hole);
+  const Index q = plate.n_tractions(), h = plate.n_friction_cases();
   for (Index i = 0; i < h; ++i) {
     const double peak = coefficients[coefficients.size() - q - h + i];
-    if (const auto& side = plate.friction_bearing[i]; side && plate.friction_hole[i] == hole && peak != 0)
+    if (const auto side = bearing_side(plate.friction_bearing[i]); side && plate.friction_hole[i] == hole && peak != 0)
       loads.frictions.push_back({angle_of(*side), peak});
   }
   for (Index i = 0; i < std::ssize(plate.traction_hole); ++i) {
     const double force = coefficients[coefficients.size() - q + i];  // along + on both sides
     if (plate.traction_hole[i] != hole || force == 0) continue;
-    const rim::SignedAxis side = plate.traction_bearing[i].value();
+    const rim::SignedAxis side = bearing_side(plate.traction_bearing[i]).value();
     loads.pressures.push_back({angle_of(side), side.sign * force / plate.traction_unit_force[i]});
   }
   return loads;

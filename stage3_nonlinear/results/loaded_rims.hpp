@@ -74,7 +74,7 @@ struct ContactLoad {
 [[nodiscard]] VectorXd wave_coefficients(const ContactLoad& load, const ShortWaves& rim, double modulus);
 
 /// Rims of a plate in the order of PlateModel::waves; none for rims without a closed form.
-/// @param coefficients  Of the file's unit cases, (file_unit_cases).
+/// @param coefficients  Of the file's unit cases, (n_cases).
 /// @param contacts One for each rim of contact.
 [[nodiscard]] std::vector<std::optional<LoadedRim>> loaded_rims(const PlateModel& plate, const VectorXd& coefficients,
                                                                 const std::vector<ContactLoad>& contacts);

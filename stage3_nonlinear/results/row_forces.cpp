@@ -41,7 +41,7 @@ PlacedForces forces_along(const PlateModel& plate, int axis, const PlateState& s
   for (Index i = 0; i < plate.n_externals(); ++i)
     if (plate.external_axis[i] == axis)
       forces.push_back({plate.places.external(i, 0), plate.places.external(i, 1), state.Pe[i]});
-  for (Index i = 0; i < std::ssize(plate.tractions); ++i)
+  for (Index i = 0; i < plate.n_tractions(); ++i)
     if (plate.traction_axis[i] == axis && !plate.is_moment(i))
       forces.push_back({plate.places.traction(i, 0), plate.places.traction(i, 1), state.traction[i]});
   for (const auto& force : forces) result.largest = std::max(result.largest, std::abs(force.value));

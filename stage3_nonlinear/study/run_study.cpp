@@ -96,7 +96,7 @@ formats::StudyOrigin origin_of(const Study& study, const JointModel& joint, std:
     origin.file.push_back(name), origin.digest.push_back(digest);
   };
   add("polynomial degree", std::to_string(joint.p));
-  for (const auto& plate : joint.plates) add(fmt::format("matrices of plate {}", plate.name), plate.matrices_digest);
+  for (const auto& plate : joint.plates) add(fmt::format("matrices of plate {}", plate.name), plate.header.digest);
   for (const auto& [name, law] : study.joint.laws)
     if (const auto file = law.law->file(); !file.empty()) add(fmt::format("file of law {}", name), h5::digest(file));
   for (const auto& variable : study.scene.variables)

@@ -82,12 +82,11 @@ PlateModel random_body(std::mt19937& random, const ContactKind& kind, bool float
     auto& carried = body.waves.emplace_back(formats::WaveRim{rim.hole, pressures, rim.radius, rim.area, rim.modulus});
     if (kind.short_waves) carried.compliance = random_sheet(random);
     body.short_waves.push_back(std::make_shared<const ShortWaves>(short_waves(rim, carried)));
-    body.n_loaded_waves += carried.size();
   }
   body.on_springs.assign(body.holes.size(), true);
   for (Index d = 0; d < a; ++d) body.axes.push_back(static_cast<int>(d));
   for (Index i = 0; i < m; ++i) body.discs.push_back(i);
-  body.externals = {"P"};
+  body.external_id = {"P"};
   body.external_axis = {0};
   body.S = G.transpose() * P * G;
   body.R = MatrixXd::Zero(body.S.rows(), kind.n_holes * pressures.n_shears());

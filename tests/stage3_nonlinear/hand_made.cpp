@@ -198,8 +198,8 @@ stage3::FrictionCase add_case(stage3::PlateModel& plate, const stage3::HoleModel
   plate.R.conservativeResize(plate.n_unknowns(), column + 1);
   plate.R.col(column) = load;
   plate.friction_hole.push_back(plate.hole_of(hole.disc));
-  plate.friction_bearing.emplace_back(
-      rim::SignedAxis{static_cast<rim::Axis>(plate.axes[d]), side == stage3::plus_side ? 1 : -1});
+  plate.friction_bearing.push_back(
+      name_of(rim::SignedAxis{static_cast<rim::Axis>(plate.axes[d]), side == stage3::plus_side ? 1 : -1}));
   for (auto* list : {&plate.friction_unit_force, &plate.friction_resultant}) list->conservativeResize(column + 1);
   plate.friction_unit_force[column] = 1;
   plate.friction_resultant[column] = side == stage3::plus_side ? resultant : -resultant;

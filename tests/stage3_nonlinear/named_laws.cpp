@@ -53,10 +53,10 @@ PlateModel random_plate(std::mt19937& random, const std::string& name, Index n_h
   plate.name = name;
   plate.axes = std::move(axes);
   for (Index i = 0; i < n_holes; ++i) plate.holes.push_back(std::to_string(i + 1));
-  plate.externals = {"P"};
+  plate.external_id = {"P"};
   plate.external_axis = plate.traction_axis = {0};
-  plate.tractions = {"T"};
-  const Index n = plate.n_discs() + 1;
+  plate.traction_id = {"T"};
+  const Index n = plate.n_disc_unknowns() + 1;
   plate.S = uniform(random, 300, 3000) * random_stiffness(random, static_cast<int>(n));
   plate.R = MatrixXd::Zero(n, 0);
   plate.T = MatrixXd::NullaryExpr(n, 1, [&] { return uniform(random, -0.5, 0.5); });

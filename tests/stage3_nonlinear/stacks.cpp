@@ -39,7 +39,7 @@ HandMade joint_of(const std::vector<formats::PlateMatrices>& plates) {
 
 void load_discs(HandMade& joint, Index plate, const VectorXd& forces) {
   joint.plates[plate].T = -forces;
-  joint.plates[plate].tractions = {"T"};
+  joint.plates[plate].traction_id = {"T"};
   joint.traction[{plate, 0}] = 1;
   joint.plates[plate].traction_axis = {joint.axes[0]};
 }
@@ -54,7 +54,7 @@ HandMade random_stack(std::mt19937& random, int n_plates, int n_holes, int n_dir
     plates.push_back(disc_plate(100 * random_stiffness(random, n_holes * n_directions), directions));
   auto joint = joint_of(plates);
   for (Index i = 0; i < std::ssize(joint.plates); ++i)
-    load_discs(joint, i, VectorXd::NullaryExpr(joint.plates[i].n_discs(), [&] { return 10 * number(random); }));
+    load_discs(joint, i, VectorXd::NullaryExpr(joint.plates[i].n_disc_unknowns(), [&] { return 10 * number(random); }));
   std::vector<Index> order(joint.plates.size());
   std::iota(order.begin(), order.end(), 0U);
   for (int hole = 0; hole < n_holes; ++hole) {
@@ -72,7 +72,7 @@ LoosePlates loose_plates(const HandMade& joint) {
   const Index n = joint.n_unknowns();
   LoosePlates result{MatrixXd::Zero(n, n), VectorXd(n)};
   for (Index plate = 0; plate < std::ssize(joint.plates); ++plate) {
-    const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
+    const Index at = joint.offset(plate), m = joint.plates[plate].n_disc_unknowns();
     result.S.block(at, at, m, m) = joint.plates[plate].S;
     result.load.segment(at, m) = -joint.plates[plate].T;
   }

@@ -136,7 +136,7 @@ TEST(CondensedSystem, TractionActsThroughItsHoldingForces) {
       {plate_of(test::random_stiffness(random, 3), 2, 1), plate_of(test::random_stiffness(random, 2), 2, 0), 0},
       test::linear_law(2));
   joint.plates[0].T = Eigen::Vector3d(-0.2, -0.3, -0.4);
-  joint.plates[0].tractions = {"T"};
+  joint.plates[0].traction_id = {"T"};
   joint.traction[{0, 0}] = 50;
   joint.plates[0].traction_axis = {0};
   const JointEquations with_traction = make_equations(joint);

@@ -200,7 +200,7 @@ TEST(Stack, FrictionOfAMiddlePlateIsThatOfTheNetBearingForce) {
       plate.friction_unit_force = rubbing.friction_unit_force;
       plate.friction_resultant = rubbing.friction_resultant;
       plate.friction_hole = rubbing.friction_hole;
-      plate.friction_bearing = bearing_sides(rubbing.friction_bearing);
+      plate.friction_bearing = rubbing.friction_bearing;
     }
     test::set_friction(joint, 0, 0.3);
     const auto expected = by_hand(joint, k, P, K);

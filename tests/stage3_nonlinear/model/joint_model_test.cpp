@@ -227,7 +227,7 @@ TEST(JointModel, HoldsDiscsInDirectionsThatTheyDoNotHave) {
   const auto lap = test::two_fastener_lap();
   const PlateModel alone = make_plate("a", "a.h5", lap.a, 8), both = make_plate("a", "a.h5", lap.a, 8, {0, 1});
   EXPECT_EQ(both.discs, (std::vector<Index>{0, 2}));
-  EXPECT_EQ(both.n_discs(), 4);
+  EXPECT_EQ(both.n_disc_unknowns(), 4);
   std::vector<Index> own{0, 2};
   for (Index i = 4; i < both.n_unknowns(); ++i) own.push_back(i);
   EXPECT_EQ(MatrixXd(both.S(own, own)), alone.S);

@@ -19,7 +19,7 @@ namespace {
 /// The same plate with its external, which a force loads, among what is eliminated: a traction on a boundary that moves
 /// as one.
 PlateModel under_traction(PlateModel plate) {
-  const Index e = plate.n_discs(), n = plate.n_unknowns();
+  const Index e = plate.n_disc_unknowns(), n = plate.n_unknowns();
   std::vector<Index> rest;
   for (Index i = 0; i < n; ++i)
     if (i != e) rest.push_back(i);
@@ -30,7 +30,7 @@ PlateModel under_traction(PlateModel plate) {
   plate.R = MatrixXd::Zero(n - 1, 0);
   plate.degrees = {plate.degrees.p, {plate.S}, {plate.T}, {MatrixXd::Constant(1, 1, 1 / S_ee)}, {plate.R}};
   plate.S_error = MatrixXd::Zero(n - 1, n - 1);
-  plate.tractions = std::exchange(plate.externals, {});
+  plate.traction_id = std::exchange(plate.external_id, {});
   plate.traction_axis = std::exchange(plate.external_axis, {});
   return plate;
 }

@@ -69,7 +69,7 @@ test::HandMade joint_of(const Errors& errors, bool exact) {
   for (auto* matrix : {&a.S_ed, &a.S_ee, &a.R_ef, &a.T_e})
     at_all(*matrix, MatrixXd::Zero((*matrix)[0].rows(), (*matrix)[0].cols()));
   auto joint = test::joint_of(lap, test::linear_law(400));
-  joint.plates[0].tractions = {"T"};
+  joint.plates[0].traction_id = {"T"};
   joint.traction[{0, 0}] = 50;
   for (Eigen::Index j = 0; j < 3; ++j) test::set_friction(joint, j, 0.3);
   return joint;

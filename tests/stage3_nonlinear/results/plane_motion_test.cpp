@@ -24,8 +24,8 @@ const std::vector<std::string> xy{"x", "y"};
 /// The joint in a frame in which every vector (u, v) of a disc is Q (u, v).
 test::HandMade turned(test::HandMade joint, const Matrix2d& Q) {
   for (auto& plate : joint.plates) {
-    MatrixXd all = MatrixXd::Zero(plate.n_discs(), plate.n_discs());
-    for (Index i = 0; i < plate.n_discs(); i += 2) all.block<2, 2>(i, i) = Q;
+    MatrixXd all = MatrixXd::Zero(plate.n_disc_unknowns(), plate.n_disc_unknowns());
+    for (Index i = 0; i < plate.n_disc_unknowns(); i += 2) all.block<2, 2>(i, i) = Q;
     plate.S = all * plate.S * all.transpose();
     plate.T = all * plate.T;
   }
@@ -176,7 +176,7 @@ void rub(test::HandMade& joint, std::mt19937& random, double mu) {
         for (const Side side : {plus_side, minus_side}) {
           constexpr double resultant = 2 / std::numbers::pi;
           VectorXd load = VectorXd::Zero(plate.n_unknowns());
-          for (Index i = 0; i < plate.n_discs(); ++i) load[i] = resultant * number(random);
+          for (Index i = 0; i < plate.n_disc_unknowns(); ++i) load[i] = resultant * number(random);
           load[hole.disc + d] -= (side == plus_side ? 0.7 : -0.7) * resultant;
           hole.friction[d][side] = test::add_case(plate, hole, d, side, load, resultant);
         }
@@ -207,7 +207,7 @@ void add_friction(test::HandMade& joint, Index plate, const MatrixXd& R, double 
   model.friction_unit_force = VectorXd::Constant(4, c);
   model.friction_resultant = Eigen::Vector4d(1, -1, 1, -1) * 2 / std::numbers::pi * c;
   model.friction_hole.assign(4, model.holes[0]);
-  model.friction_bearing = bearing_sides({"+x", "-x", "+y", "-y"});
+  model.friction_bearing = {"+x", "-x", "+y", "-y"};
   HoleModel& hole = joint.fasteners[0].holes[plate];
   joint.set_mu(hole, mu);
   hole.friction.resize(2);

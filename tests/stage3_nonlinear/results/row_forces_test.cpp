@@ -25,9 +25,9 @@ struct Sheet {
     plate.places.external = Eigen::RowVector2d(50, 50);
     plate.places.traction = Eigen::RowVector2d(50, 50);
     plate.places.support = Eigen::Matrix2d::Zero();
-    plate.externals = {"P"};
+    plate.external_id = {"P"};
     plate.external_axis = {0};
-    plate.tractions = {"M"};
+    plate.traction_id = {"M"};
     plate.traction_axis = {0};
     plate.traction_arm = {5};
     state.Pe = VectorXd::Constant(1, 100);

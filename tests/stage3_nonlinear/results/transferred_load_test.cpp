@@ -123,7 +123,7 @@ VectorXd displacements(const test::HandMade& joint, const std::vector<std::vecto
   VectorXd P(N);
   MatrixXd S = MatrixXd::Zero(N, N);
   for (Index plate = 0; plate < std::ssize(joint.plates); ++plate) {
-    const Index at = joint.offset(plate), m = joint.plates[plate].n_discs();
+    const Index at = joint.offset(plate), m = joint.plates[plate].n_disc_unknowns();
     S.block(at, at, m, m) = joint.plates[plate].S;
     P.segment(at, m) = -joint.plates[plate].T;
   }
@@ -181,7 +181,7 @@ TEST(TransferredLoad, OfAnyStackIsThatOfTheDisplacementMethod) {
     const JointState state = test::state_of(joint, step);
     VectorXd D(joint.n_unknowns());
     for (Index plate = 0; plate < std::ssize(joint.plates); ++plate)
-      D.segment(joint.offset(plate), joint.plates[plate].n_discs()) = state.plates[plate].D;
+      D.segment(joint.offset(plate), joint.plates[plate].n_disc_unknowns()) = state.plates[plate].D;
     EXPECT_LT((D - expected).norm(), 1e-10 * expected.norm()) << "joint " << i;
     EXPECT_LT(state.out_of_balance, 1e-10) << "joint " << i;
     EXPECT_LT(state.fasteners_out_of_balance, 1e-10) << "joint " << i;
